@@ -69,7 +69,7 @@ BitmapBuffer g { file="C:\jobs\g.png"; load_file=1; }
 fn surroundings_of_one_colour_leave_pictures_and_skies_alone() {
     let text = "SettingsEnvironment e { bg_tex=sky::color; gi_tex=AColor(0, 0, 0, 1); gi_color=Color(1, 0, 0); }\nTexSky sky {}\n";
     let mut scene = Document::parse(text.as_bytes()).unwrap();
-    hypersim_quality(&mut scene);
+    hypersim_surroundings(&mut scene);
     assert_eq!(raw(&scene, "e", "bg_tex"), Some("sky::color"));
     assert_eq!((raw(&scene, "e", "bg_color"), raw(&scene, "e", "gi_color")), (Some("Color(4, 4, 4)"), Some("Color(4, 4, 4)")));
     // What the scene does not state is a constant of V-Ray's.

@@ -97,10 +97,12 @@ pub enum Edit {
         /// Also V-Ray's denoiser
         #[arg(long)]
         denoiser: bool,
-        /// Also Hypersim's settings of sampling, indirect light and surroundings
+        /// Also Hypersim's surroundings: of one colour, where no picture or sky makes them
         #[arg(long)]
-        hypersim_quality: bool,
+        hypersim_surroundings: bool,
     },
+    /// Hypersim's settings of sampling and indirect light, as `jobs` writes them
+    Quality(Copy),
     /// The camera and trajectory of a dataset; a camera that is no plain pinhole by a texture of its rays
     Camera {
         #[command(flatten)]
@@ -224,6 +226,9 @@ pub struct JobArgs {
     pub nodes: PathBuf,
     #[command(flatten)]
     pub wish: WishArgs,
+    /// Keep the scene's own settings of sampling and indirect light [default: Hypersim's]
+    #[arg(long)]
+    pub keep_quality: bool,
 }
 
 /// `vray collect`

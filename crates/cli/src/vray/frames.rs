@@ -55,6 +55,7 @@ pub fn jobs(args: &JobArgs, quiet: bool) -> Result<Verdict, Problem> {
         wish: args.wish.wish(),
         folder_when_rendering: args.folder.clone(),
         nodes: args.nodes.clone(),
+        keep_quality: args.keep_quality,
     };
     let job = {
         let progress = Progress::new(quiet);
@@ -64,6 +65,7 @@ pub fn jobs(args: &JobArgs, quiet: bool) -> Result<Verdict, Problem> {
     for camera in &job.cameras {
         say(&format!("{:8} {} frames in {} steps", camera.camera, camera.frames.len(), camera.steps.len()));
     }
+    say(&format!("quality  {}", if args.keep_quality { "the scene's own" } else { "Hypersim's; --keep-quality keeps the scene's own" }));
     say(&format!("files    {} that the scenes need, listed in job.json", job.assets.len()));
     say(&format!("render   copy {} to {} and run the script there", args.output.display(), job.folder));
     let (dataset, file) = (quoted(args.dataset.display()), quoted(args.output.join("job.json").display()));

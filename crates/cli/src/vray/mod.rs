@@ -13,8 +13,8 @@ use enfilade_pipeline::vray::{Asset, inline_scene, read_scene, scene_assets};
 use enfilade_vrscene::Document;
 use enfilade_vrscene::edit::{
     EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser, add_geometry_channels, add_include,
-    file_references, hypersim_quality, linear_output, make_pass, normalize, reduce_quality, reduce_size, remove_kinds, replace_paths,
-    save_gi_caches, set_entity_ids,
+    file_references, hypersim_quality, hypersim_surroundings, linear_output, make_pass, normalize, reduce_quality, reduce_size,
+    remove_kinds, replace_paths, save_gi_caches, set_entity_ids,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub fn vray(args: &VrayArgs, quiet: bool) -> Result<Verdict, Problem> {
             let strangers = entities.iter().filter(|entity| !entity.light && entity.object.is_none()).count();
             Ok(format!("{} nodes, of which {strangers} are no object of the mesh, and {lights} lights numbered", entities.len() - lights))
         }),
-        Edit::Layers { copy, denoiser, hypersim_quality: quality } => edited(copy, |scene| {
+        Edit::Layers { copy, denoiser, hypersim_surroundings: surroundings } => edited(copy, |scene| {
             enfilade_vrscene::edit::prepare_for_layers(scene);
             remove_kinds(scene, &IMAGE_FILTERS);
             add_geometry_channels(scene);
@@ -68,10 +68,14 @@ pub fn vray(args: &VrayArgs, quiet: bool) -> Result<Verdict, Problem> {
             if *denoiser {
                 add_denoiser(scene);
             }
-            if *quality {
-                hypersim_quality(scene);
+            if *surroundings {
+                hypersim_surroundings(scene);
             }
             Ok("render elements added".into())
+        }),
+        Edit::Quality(copy) => edited(copy, |scene| {
+            hypersim_quality(scene);
+            Ok("Hypersim's quality".into())
         }),
         Edit::Camera { copy, dataset, scene: name, camera, wish, lens, lens_when_rendering } => edited(copy, |scene| {
             let place = lens.as_deref().map(|file| (file, lens_when_rendering.as_deref()));

@@ -28,12 +28,20 @@ fn a_scene_goes_through_the_toolkits_steps() {
         "node_id,node_name,object_id,object_name\n1,chair@node_1,1,chair\n2,gone@node_2,-1,_NULL_OBJECT\n"
     );
     assert!(fs::read_to_string(d.join("strings.csv")).unwrap().contains("1,<root>.scene_name,a chair"));
-    step("layers", &["--denoiser", "--hypersim-quality"]);
+    step("layers", &["--denoiser", "--hypersim-surroundings"]);
+    step("quality", &[]);
     step("pass", &["--pass", "final", "--light-cache", "/mnt/a.vrlmap", "--irradiance-map", "/mnt/a.vrmap"]);
     step("reduce", &["--size"]);
     step("linear", &[]);
     let done = fs::read_to_string(d.join("same.vrscene")).unwrap();
-    for expected in ["#include \"/mnt/a/mats.vrscene\"", "photometric_scale=0.002094395;", "VRayRawTotalLighting", "img_width=256;"] {
+    for expected in [
+        "#include \"/mnt/a/mats.vrscene\"",
+        "photometric_scale=0.002094395;",
+        "VRayRawTotalLighting",
+        "progressive_threshold=0.001;",
+        "bg_color=Color(4, 4, 4);",
+        "img_width=256;",
+    ] {
         assert!(done.contains(expected), "no {expected} in\n{done}");
     }
     assert!(!done.contains("FilterArea") && !done.contains("filter=aa"), "{done}");

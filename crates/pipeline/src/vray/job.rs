@@ -3,13 +3,14 @@
 //! ```text
 //! FOLDER/job.json                                  everything below for programs: steps, frames, files that the scenes need
 //! FOLDER/render.sh or render.bat                   the steps in order, for one machine
-//! FOLDER/vrscenes/scene_CAMERA_{geometry,pre,final}.vrscene
+//! FOLDER/vrscenes/scene_CAMERA_{geometry,pre,final}.vrscene; no `pre` where indirect light is not kept in files
 //! FOLDER/shared/scene_CAMERA/                      lens distortion here; indirect light of every frame and of all, when rendered
 //! FOLDER/images/scene_CAMERA_{geometry,pre,final}/ V-Ray's images, when rendered
 //! FOLDER/metadata_nodes.csv                        what the numbers in the images are
 //! ```
 //!
-//! The names are Hypersim's. Paths within the scenes and commands are those of the machine that renders, where the folder is copied to.
+//! The names are Hypersim's, and so are sampling and indirect light, unless the scene's own are kept. Paths within the scenes and
+//! commands are those of the machine that renders, where the folder is copied to.
 
 use super::camera::{CameraWish, check_described, filmed_camera};
 use super::files::{damaged, scene_assets};
@@ -19,8 +20,10 @@ use super::steps::{Place, steps};
 use crate::error::Error;
 use enfilade_dataset::{Dataset, check_name, write_bytes, write_json};
 use enfilade_scene::{Cx, Warning};
-use enfilade_vrscene::Document;
-use enfilade_vrscene::edit::{GiCaches, LensTexture, Pass, make_pass, meters_per_asset_unit, set_camera};
+use enfilade_vrscene::edit::{
+    GiCaches, GiFiles, LensTexture, Pass, gi_files, hypersim_quality, make_pass, meters_per_asset_unit, set_camera,
+};
+use enfilade_vrscene::{Document, SceneTextError};
 use std::path::{Path, PathBuf};
 
 /// Names of a job's files.
@@ -40,6 +43,21 @@ pub struct JobConfig {
     pub folder_when_rendering: String,
     /// Table of the scene's nodes, as `metadata_nodes.csv`.
     pub nodes: PathBuf,
+    /// Keeps the scene's own settings of sampling and indirect light; otherwise it gets Hypersim's ([`hypersim_quality`]), so that the
+    /// pictures of all scenes are of one quality.
+    pub keep_quality: bool,
+}
+
+/// What the cameras of a job have in common.
+struct Common<'a> {
+    scene: &'a Document,
+    /// What the scene keeps of indirect light.
+    gi: GiFiles,
+    meters_per_unit: f64,
+    dataset: &'a Dataset,
+    config: &'a JobConfig,
+    there: &'a Place,
+    folder: &'a Path,
 }
 
 /// Writes a job into `folder`, for the scene in the file `path`, which has render elements and numbered nodes.
@@ -60,10 +78,10 @@ pub fn write_job(scene: &Document, path: &Path, dataset: &Dataset, config: &JobC
         Error::usage(message, "write it with the scene: enfilade vray entities --nodes FILE")
     })?;
     let (assets, unseen_includes) = scene_assets(scene, path)?;
-    for include in &unseen_includes {
-        let message = format!("the included file {include:?} is not on this machine; what it needs is not listed, and no edit reached it");
-        cx.warn(Warning { place: path.display().to_string(), message });
-    }
+    warn_of_includes(scene, path, &unseen_includes, cx);
+    let scene = with_quality(scene.clone(), config.keep_quality);
+    let gi = gi_of(&scene).map_err(|error| damaged(path, &error))?;
+    let common = Common { scene: &scene, gi, meters_per_unit, dataset, config, there: &there, folder };
     let mut job = Job {
         format: FORMAT.into(),
         scene: config.scene.clone(),
@@ -76,7 +94,7 @@ pub fn write_job(scene: &Document, path: &Path, dataset: &Dataset, config: &JobC
     };
     for (done, name) in names.iter().enumerate() {
         cx.progress("cameras", done as u64, names.len() as u64);
-        job.cameras.push(write_camera(scene, dataset, config, name, meters_per_unit, &there, folder, cx)?);
+        job.cameras.push(write_camera(&common, name, cx)?);
     }
     put(folder, NODES, &nodes)?;
     put(folder, there.script(), script::write(&job, there.platform).as_bytes())?;
@@ -96,16 +114,36 @@ fn check_layers(scene: &Document, path: &Path) -> Result<(), Error> {
     Err(Error::usage(format!("{}: the scene has no {}", path.display(), missing.join(", ")), hint))
 }
 
-fn write_camera(
-    scene: &Document,
-    dataset: &Dataset,
-    config: &JobConfig,
-    name: &str,
-    meters_per_unit: f64,
-    there: &Place,
-    folder: &Path,
-    cx: &dyn Cx,
-) -> Result<JobCamera, Error> {
+/// Included files stay as they are, which matters where they have settings.
+fn warn_of_includes(scene: &Document, path: &Path, unseen: &[String], cx: &dyn Cx) {
+    let warn = |message: String| cx.warn(Warning { place: path.display().to_string(), message });
+    for include in unseen {
+        warn(format!("the included file {include:?} is not on this machine; what it needs is not listed, and no edit reached it"));
+    }
+    let seen = scene.includes().filter(|include| unseen.iter().all(|path| path.as_bytes() != include.path())).count();
+    if seen > 0 {
+        warn(format!("{seen} included files stay as they are, and so do settings and cameras in them; to edit all: enfilade vray inline"));
+    }
+}
+
+/// The scene with its own quality, or with Hypersim's.
+fn with_quality(mut scene: Document, keep_quality: bool) -> Document {
+    if !keep_quality {
+        hypersim_quality(&mut scene);
+    }
+    scene
+}
+
+/// What a scene keeps of indirect light; everything where only an included file can say it.
+fn gi_of(scene: &Document) -> Result<GiFiles, SceneTextError> {
+    match (scene.of_kind("SettingsGI").next(), scene.includes().next()) {
+        (None, Some(_)) => Ok(GiFiles { light_cache: true, irradiance_map: true }),
+        _ => gi_files(scene),
+    }
+}
+
+fn write_camera(common: &Common, name: &str, cx: &dyn Cx) -> Result<JobCamera, Error> {
+    let &Common { scene, gi, meters_per_unit, dataset, config, there, folder } = common;
     check_described(dataset, &config.scene, name, &config.wish)?;
     let mut filmed = filmed_camera(dataset, &config.scene, name, meters_per_unit, &config.wish)?;
     for what in &filmed.left_out {
@@ -123,7 +161,10 @@ fn write_camera(
         light_cache: there.path(&format!("{shared}/_hypersim_light_cache{between}.vrlmap")),
         irradiance_map: there.path(&format!("{shared}/_hypersim_irradiance_map{between}.vrmap")),
     };
-    let passes = [(Pass::Geometry, "geometry", caches("")), (Pass::Pre, "pre", caches(".%04d")), (Pass::Final, "final", caches(""))];
+    let mut passes = vec![(Pass::Geometry, "geometry", caches("")), (Pass::Final, "final", caches(""))];
+    if gi.light_cache || gi.irradiance_map {
+        passes.push((Pass::Pre, "pre", caches(".%04d")));
+    }
     for (pass, called, caches) in passes {
         let mut of_pass = of_camera.clone();
         make_pass(&mut of_pass, pass, &caches);
@@ -142,7 +183,7 @@ fn write_camera(
         rays: config.wish.rays.clone(),
         geometry: format!("images/scene_{name}_geometry"),
         beauty: format!("images/scene_{name}_final"),
-        steps: steps(name, &shared, &frames, there),
+        steps: steps(name, &shared, &frames, gi, there),
         frames,
     })
 }
@@ -150,4 +191,87 @@ fn write_camera(
 /// Writes a file of the job.
 fn put(folder: &Path, inside: &str, bytes: &[u8]) -> Result<(), Error> {
     Ok(write_bytes(&folder.join(inside), bytes)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vray::testing::dataset_of;
+    use enfilade_scene::{Camera, Intrinsics, Quiet};
+    use enfilade_vrscene::edit::{add_color_channels, add_geometry_channels};
+
+    /// Settings of a scene in use: brute force, a coarse sampler, a dark window, and blur of both kinds.
+    const SETTINGS: &str = "SettingsImageSampler is { type=1; dmc_threshold=0.3; }\n\
+        SettingsGI gi { on=1; primary_engine=2; secondary_engine=3; }\n\
+        SettingsEnvironment env { gi_color=Color(0.5, 0.5, 0.5); }\n\
+        SettingsMotionBlur mb { on=1; duration=0.5; }\nSettingsCameraDof dof { on=1; aperture=5; }\n";
+
+    /// The scenes of the job's passes, by name, and its steps.
+    fn job(settings: &str, keep_quality: bool) -> (impl Fn(&str) -> Option<String>, Vec<String>) {
+        let folder = tempfile::tempdir().unwrap();
+        let camera = Camera::from(Intrinsics::from_fov_x(64, 48, 1.0));
+        let dataset = dataset_of(&folder.path().join("data"), &camera);
+        std::fs::write(folder.path().join("nodes.csv"), "node_id,node_name,object_id,object_name\n").unwrap();
+        let mut scene = Document::parse(settings.as_bytes()).unwrap();
+        add_geometry_channels(&mut scene);
+        add_color_channels(&mut scene);
+        let config = JobConfig {
+            scene: "room".into(),
+            cameras: Vec::new(),
+            wish: CameraWish::default(),
+            folder_when_rendering: "/mnt/job".into(),
+            nodes: folder.path().join("nodes.csv"),
+            keep_quality,
+        };
+        let to = folder.path().join("job");
+        let job = write_job(&scene, Path::new("room.vrscene"), &dataset, &config, &to, &Quiet).unwrap();
+        let steps = job.cameras[0].steps.iter().map(|step| step.step.clone()).collect();
+        let pass = move |pass: &str| {
+            let _kept = &folder;
+            std::fs::read_to_string(to.join(format!("vrscenes/scene_cam_00_{pass}.vrscene"))).ok()
+        };
+        (pass, steps)
+    }
+
+    #[test]
+    fn scenes_have_hypersims_quality_and_their_own_light() {
+        let (pass, steps) = job(SETTINGS, false);
+        let last = pass("final").unwrap();
+        for set in ["type=3; dmc_threshold=0.3;\n  min_shade_rate=6;", "on=1; primary_engine=0; secondary_engine=3;", "subdivs_mult=0;"] {
+            assert!(last.contains(set), "no {set} in\n{last}");
+        }
+        assert!(last.contains("SettingsEnvironment env { gi_color=Color(0.5, 0.5, 0.5); }"), "{last}");
+        assert_eq!(steps, ["geometry", "pre", "merge light cache", "merge irradiance map", "final", "convert", "convert"]);
+        // One sample per pixel where a pass is not for the eye.
+        assert!(pass("geometry").unwrap().contains("type=0;") && pass("pre").unwrap().contains("type=0;"));
+    }
+
+    #[test]
+    fn a_kept_quality_is_the_scenes_and_merges_what_its_engines_make() {
+        let (pass, steps) = job(SETTINGS, true);
+        let last = pass("final").unwrap();
+        let kept = &SETTINGS[..SETTINGS.find("SettingsMotionBlur").unwrap()];
+        assert!(last.starts_with(kept), "{last}");
+        assert!(!last.contains("progressive_") && !last.contains("SettingsDMCSampler"), "{last}");
+        assert_eq!(steps, ["geometry", "pre", "merge light cache", "final", "convert", "convert"]);
+        let (pass, steps) = job("SettingsGI gi { on=0; }\n", true);
+        assert_eq!(steps, ["geometry", "final", "convert", "convert"]);
+        assert!(pass("pre").is_none() && pass("final").is_some());
+        // The engines of an included file are unknown.
+        let (_, steps) = job("#include \"settings.vrscene\"\n", true);
+        assert_eq!(steps.len(), 7);
+    }
+
+    #[test]
+    fn no_pass_has_motion_blur_or_depth_of_field() {
+        for keep_quality in [false, true] {
+            let (pass, _) = job(SETTINGS, keep_quality);
+            for name in ["geometry", "pre", "final"] {
+                let scene = pass(name).unwrap();
+                for off in ["SettingsMotionBlur mb { on=0; duration=0.5; }", "SettingsCameraDof dof { on=0; aperture=5; }"] {
+                    assert!(scene.contains(off), "no {off} in {name}:\n{scene}");
+                }
+            }
+        }
+    }
 }

@@ -6,7 +6,7 @@
 use super::job_file::JobStep;
 use crate::error::Error;
 use enfilade_dataset::print_number_ranges;
-use enfilade_vrscene::edit::Platform;
+use enfilade_vrscene::edit::{GiFiles, Platform};
 
 /// The folder on the machine that renders.
 pub(super) struct Place {
@@ -55,8 +55,8 @@ const MAX_COMMAND: usize = 7000;
 /// `"-load" ""` and blanks.
 const LOAD_LENGTH: usize = 12;
 
-/// What is to be done for a camera.
-pub(super) fn steps(name: &str, shared: &str, frames: &[u32], there: &Place) -> Vec<JobStep> {
+/// What is to be done for a camera, whose scene makes the files `gi` of indirect light; without any, `pre` has nothing to do.
+pub(super) fn steps(name: &str, shared: &str, frames: &[u32], gi: GiFiles, there: &Place) -> Vec<JobStep> {
     let images = |pass: &str| format!("images/scene_{name}_{pass}");
     let render = |pass: &str, extension: &str| JobStep {
         step: pass.into(),
@@ -77,8 +77,13 @@ pub(super) fn steps(name: &str, shared: &str, frames: &[u32], there: &Place) -> 
         frames: None,
     };
     let cache = |file: &str| there.path(&format!("{shared}/_hypersim_{file}"));
-    let mut steps = vec![render("geometry", "vrimg"), render("pre", "jpg")];
-    for (what, file, extension) in [("light cache", "light_cache", "vrlmap"), ("irradiance map", "irradiance_map", "vrmap")] {
+    let mut steps = vec![render("geometry", "vrimg")];
+    let files =
+        [(gi.light_cache, "light cache", "light_cache", "vrlmap"), (gi.irradiance_map, "irradiance map", "irradiance_map", "vrmap")];
+    if files.iter().any(|(made, ..)| *made) {
+        steps.push(render("pre", "jpg"));
+    }
+    for (_, what, file, extension) in files.into_iter().filter(|(made, ..)| *made) {
         let of_frame = |frame: &u32| format!("{}.{frame:04}.{extension}", cache(file));
         let merged = format!("{}.{extension}", cache(file));
         steps.extend(merge(&format!("merge {what}"), &frames.iter().map(of_frame).collect::<Vec<_>>(), &merged));
@@ -114,10 +119,12 @@ fn merge(step: &str, files: &[String], merged: &str) -> Vec<JobStep> {
 mod tests {
     use super::*;
 
+    const BOTH: GiFiles = GiFiles { light_cache: true, irradiance_map: true };
+
     #[test]
     fn frames_are_runs_as_v_ray_takes_them() {
         let there = Place::new("/mnt/job").unwrap();
-        let list = |frames: &[u32]| steps("cam_00", "shared", frames, &there)[0].frames.clone().unwrap();
+        let list = |frames: &[u32]| steps("cam_00", "shared", frames, BOTH, &there)[0].frames.clone().unwrap();
         assert_eq!(list(&[0, 1, 2, 5, 7, 8]), "-frames=0-2;5;7-8");
         assert_eq!(list(&[4]), "-frames=4");
     }
@@ -138,14 +145,14 @@ mod tests {
     #[test]
     fn every_step_comes_after_what_it_needs() {
         let there = Place::new("/mnt/job").unwrap();
-        let steps = steps("cam_00", "shared/scene_cam_00", &[0, 3], &there);
+        let steps = steps("cam_00", "shared/scene_cam_00", &[0, 3], BOTH, &there);
         let names: Vec<&str> = steps.iter().map(|step| step.step.as_str()).collect();
         assert_eq!(names, ["geometry", "pre", "merge light cache", "merge irradiance map", "final", "convert", "convert"]);
         let cache = |frame: &str| format!("/mnt/job/shared/scene_cam_00/_hypersim_light_cache{frame}.vrlmap");
         let (a, b, all) = (cache(".0000"), cache(".0003"), cache(""));
         assert_eq!(steps[2].command, ["imapviewer", "-incremental", "-load", &a, "-load", &b, "-save", &all, "-nodisplay"]);
         let many: Vec<u32> = (0..250).collect();
-        let long = super::steps("cam_00", "shared/scene_cam_00", &many, &there);
+        let long = super::steps("cam_00", "shared/scene_cam_00", &many, BOTH, &there);
         let loads: Vec<&Vec<String>> = long.iter().filter(|step| step.step == "merge light cache").map(|step| &step.command).collect();
         assert!(loads.len() > 2 && loads.iter().all(|command| command.join("\" \"").len() < 8000));
         assert_eq!(loads.iter().flat_map(|c| c.iter()).filter(|a| a.contains("light_cache.0")).count(), 250);
@@ -156,5 +163,17 @@ mod tests {
         assert_eq!(steps[4].frames.as_deref(), Some("-frames=0;3"));
         assert_eq!(steps[4].command[2], "-imgFile=/mnt/job/images/scene_cam_00_final/frame.vrimg");
         assert_eq!(steps[6].command[1], "/mnt/job/images/scene_cam_00_final/frame.*.vrimg");
+    }
+
+    #[test]
+    fn light_that_is_not_kept_in_files_is_not_merged() {
+        let there = Place::new("/mnt/job").unwrap();
+        let names = |light_cache, irradiance_map| {
+            let steps = steps("cam_00", "shared", &[0], GiFiles { light_cache, irradiance_map }, &there);
+            steps.into_iter().map(|step| step.step).collect::<Vec<_>>()
+        };
+        assert_eq!(names(true, false), ["geometry", "pre", "merge light cache", "final", "convert", "convert"]);
+        assert_eq!(names(false, true), ["geometry", "pre", "merge irradiance map", "final", "convert", "convert"]);
+        assert_eq!(names(false, false), ["geometry", "final", "convert", "convert"]);
     }
 }

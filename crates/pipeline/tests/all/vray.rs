@@ -84,6 +84,7 @@ fn prepare() -> Prepared {
         wish: CameraWish::default(),
         folder_when_rendering: "/mnt/job".into(),
         nodes: at("nodes.csv"),
+        keep_quality: false,
     };
     let data = Dataset::open(at("data")).unwrap();
     let bare = write_job(&scene, &at("room.vrscene"), &data, &of, &at("job"), &Quiet).unwrap_err().to_string();

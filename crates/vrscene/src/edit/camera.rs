@@ -39,8 +39,8 @@ pub struct LensTexture {
     pub size: [u32; 2],
 }
 
-/// The scene as this camera sees it, frame by frame: a pinhole in focus and at rest, with square pixels. Of another camera the keyframes
-/// go, and so do its shifts, which would move the picture although the field of view is stated.
+/// The scene as this camera sees it, frame by frame: a pinhole with square pixels, without depth of field and motion blur. Of another
+/// camera the keyframes go, and so do its shifts, which would move the picture although the field of view is stated.
 ///
 /// # Panics
 /// When there is no keyframe.
@@ -53,7 +53,6 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         &[("transform", transforms(&path.keyframes)), ("fov", fov.clone()), ("orthographic", Value::Int(0))],
     );
     set_on_settings(scene, "SettingsCamera", &[("type", Value::Int(0)), ("fov", fov.clone())]);
-    set_on_settings(scene, "SettingsCameraDof", &[("on", Value::Int(0))]);
     let last = path.keyframes.last().map_or(0, |key| key.frame);
     let frames = (0..=last).map(|frame| i32::try_from(frame).unwrap_or(i32::MAX)).collect();
     set_on_settings(
@@ -79,23 +78,35 @@ pub fn set_camera(scene: &mut Document, path: &CameraPath) {
         ("horizontal_shift", Value::Int(0)),
         ("horizontal_offset", Value::Int(0)),
         ("vertical_offset", Value::Int(0)),
-        ("use_dof", Value::Int(0)),
-        ("use_moblur", Value::Int(0)),
-        ("blades_enable", Value::Int(0)),
         // A texture bends the rays, or nothing does.
         ("distortion_type", Value::Int(if path.lens.is_some() { 3 } else { 0 })),
         ("distortion", Value::Int(0)),
     ];
     // Remove the lens of an earlier camera.
     scene.items.retain(|item| !matches!(item, Item::Plugin(plugin) if plugin.name().starts_with(LENS.as_bytes())));
-    let Some(lens) = &path.lens else {
+    if let Some(lens) = &path.lens {
+        physical.push(("lens_file", text("")));
+        physical.push(("distortion_tex", Value::Name(format!("{LENS}_texture").into_bytes())));
+        set_on_settings(scene, "CameraPhysical", &physical);
+        add_lens(scene, lens);
+    } else {
         scene.of_kind_mut("CameraPhysical").filter(|camera| refers_to_lens(camera)).for_each(|camera| _ = camera.remove("distortion_tex"));
-        return set_where_present(scene, "CameraPhysical", &physical);
-    };
-    physical.push(("lens_file", text("")));
-    physical.push(("distortion_tex", Value::Name(format!("{LENS}_texture").into_bytes())));
-    add_lens(scene, lens);
-    set_on_settings(scene, "CameraPhysical", &physical);
+        set_where_present(scene, "CameraPhysical", &physical);
+    }
+    turn_off_blur(scene);
+}
+
+/// Turns off depth of field and motion blur wherever V-Ray has them: for plain cameras in settings of their own, for physical ones in
+/// the camera. All are off by default, so nothing is added to a scene that has none of these plugins.
+fn turn_off_blur(scene: &mut Document) {
+    let off = Value::Int(0);
+    set_where_present(scene, "SettingsCameraDof", &[("on", off.clone())]);
+    set_where_present(scene, "SettingsMotionBlur", &[("on", off.clone())]);
+    let physical = [("use_dof", off.clone()), ("use_moblur", off.clone()), ("blades_enable", off.clone())];
+    set_where_present(scene, "CameraPhysical", &physical);
+    // Older versions of V-Ray do not know it.
+    let rolling = "rolling_shutter_mode";
+    scene.of_kind_mut("CameraPhysical").filter(|camera| camera.parameter(rolling).is_some()).for_each(|camera| camera.set(rolling, &off));
 }
 
 const LENS: &str = "HYPERSIM_camera_lens_distortion";

@@ -30,9 +30,9 @@ pub use channels::{COLOR_CHANNELS, ColorChannel, add_color_channels, add_denoise
 pub use entities::{Entity, EntityOptions, set_entity_ids};
 pub use includes::{IncludeError, add_include, inline_includes};
 pub use normalize::{Normalization, meters_per_asset_unit, normalize};
-pub use passes::{GiCaches, Pass, linear_output, make_pass, reduce_quality, reduce_size, save_gi_caches};
+pub use passes::{GiCaches, GiFiles, Pass, gi_files, linear_output, make_pass, reduce_quality, reduce_size, save_gi_caches};
 pub use paths::{FileReference, Platform, file_references, replace_paths};
-pub use quality::hypersim_quality;
+pub use quality::{hypersim_quality, hypersim_surroundings};
 pub use removal::{IMAGE_FILTERS, Removed, remove_kinds};
 pub use strings::{NodeString, node_strings};
 

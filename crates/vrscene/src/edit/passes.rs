@@ -2,7 +2,7 @@
 
 use super::normalize::linear_frame_buffer;
 use super::{remove_kinds, set_on_settings, text};
-use crate::{Document, Value};
+use crate::{Document, SceneTextError, Value};
 
 /// Which of the three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,37 @@ pub struct GiCaches {
     pub light_cache: String,
     /// Light that has been reflected once.
     pub irradiance_map: String,
+}
+
+/// Which files of indirect light a scene makes when it is rendered with [`Pass::Pre`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GiFiles {
+    /// A light cache.
+    pub light_cache: bool,
+    /// An irradiance map.
+    pub irradiance_map: bool,
+}
+
+/// Which files of indirect light a scene makes: those of its engines, and none where indirect light is off, as it is by
+/// default. Of keyframes the first counts.
+///
+/// # Errors
+/// When a setting cannot be read.
+pub fn gi_files(scene: &Document) -> Result<GiFiles, SceneTextError> {
+    const IRRADIANCE_MAP: i64 = 0;
+    const BRUTE_FORCE: i64 = 2;
+    const LIGHT_CACHE: i64 = 3;
+    let Some(gi) = scene.of_kind("SettingsGI").last() else { return Ok(GiFiles { light_cache: false, irradiance_map: false }) };
+    let number = |name: &str, default: i64| {
+        let first = gi.get(name)?.and_then(|value| match value {
+            Value::Animated(keys) => keys.first().and_then(|(_, value)| value.number()),
+            value => value.number(),
+        });
+        Ok::<i64, SceneTextError>(first.map_or(default, |number| number as i64))
+    };
+    let on = number("on", 0)? != 0;
+    let (primary, secondary) = (number("primary_engine", IRRADIANCE_MAP)?, number("secondary_engine", BRUTE_FORCE)?);
+    Ok(GiFiles { light_cache: on && [primary, secondary].contains(&LIGHT_CACHE), irradiance_map: on && primary == IRRADIANCE_MAP })
 }
 
 /// Makes the scene of one pass from that of all: what the pass does not need is removed.

@@ -1,6 +1,6 @@
-//! Hypersim's settings of the final image: sampling, indirect light, and the light of the surroundings.
+//! Hypersim's settings of the final image: sampling and indirect light, the same for all scenes; and the light of the surroundings.
 
-use super::{set_on_settings, set_where_present};
+use super::set_on_settings;
 use crate::{Document, Value};
 
 /// Radiance of the surroundings in Hypersim's scenes: arbitrary, and white after tone mapping.
@@ -9,8 +9,8 @@ const SURROUNDINGS: f32 = 4.0;
 /// What rays see that leave the scene: in the picture, for indirect light, in mirrors, through glass, and from matte objects.
 const SURROUNDINGS_OF: [&str; 5] = ["bg", "gi", "reflect", "refract", "secondary_matte"];
 
-/// Hypersim's settings of the image: progressive sampling to a noise of 0.001 for 300 minutes at most, an irradiance map and a light
-/// cache for indirect light, and surroundings of one plain colour where no texture, such as a picture or a sky, makes them.
+/// Hypersim's settings of the image in place of the scene's: progressive sampling to a noise of 0.001 for 300 minutes at most, and an
+/// irradiance map and a light cache for indirect light. No light of the scene changes.
 pub fn hypersim_quality(scene: &mut Document) {
     set_on_settings(
         scene,
@@ -24,7 +24,7 @@ pub fn hypersim_quality(scene: &mut Document) {
             ("progressive_maxTime", Value::Float(300.0)),
         ],
     );
-    set_where_present(scene, "SettingsDMCSampler", &[("subdivs_mult", Value::Float(0.0))]);
+    set_on_settings(scene, "SettingsDMCSampler", &[("subdivs_mult", Value::Float(0.0))]);
     set_on_settings(scene, "SettingsGI", &[("on", Value::Int(1)), ("primary_engine", Value::Int(0)), ("secondary_engine", Value::Int(3))]);
     set_on_settings(scene, "SettingsLightCache", &[("subdivs", Value::Int(1500))]);
     set_on_settings(
@@ -32,6 +32,10 @@ pub fn hypersim_quality(scene: &mut Document) {
         "SettingsIrradianceMap",
         &[("min_rate", Value::Int(-3)), ("max_rate", Value::Int(-1)), ("subdivs", Value::Int(50)), ("multipass", Value::Int(1))],
     );
+}
+
+/// Hypersim's surroundings: of one plain colour, which lights the scene, where no texture, such as a picture or a sky, makes them.
+pub fn hypersim_surroundings(scene: &mut Document) {
     let (color, texture) = (Value::Color([SURROUNDINGS; 3]), Value::AColor([SURROUNDINGS, SURROUNDINGS, SURROUNDINGS, 1.0]));
     let colors = SURROUNDINGS_OF.map(|of| format!("{of}_color"));
     set_on_settings(scene, "SettingsEnvironment", &colors.each_ref().map(|name| (name.as_str(), color.clone())));
