@@ -35,7 +35,7 @@ class FarmError(Exception):
 
 
 class Farm:
-    """The program, the configuration of a small dataset, and what one machine makes of it."""
+    """The program, the configuration of a small dataset, what one machine makes of it, and what the nodes' program adds."""
 
     def __init__(self, program, config, folder):
         self.program, self.config, self.folder = program, config, folder
@@ -46,7 +46,7 @@ class Farm:
         self.run("farm", "plan", str(self.config), "-o", str(self.planned), *DIVISION)
         begun = time.monotonic()
         self.run("run", str(self.config), "-o", str(self.whole))
-        self.reference = tree(self.whole)
+        self.reference = {**tree(self.whole), **added_by_nodes(self.whole)}
         return time.monotonic() - begun
 
     def run(self, *words, code=0, env=None, cwd=None):
@@ -69,7 +69,7 @@ class Farm:
         return path
 
     def judge(self, job, out, env=None, collect=True):
-        """Collects the dataset unless the engine has, and holds it against that of one machine; what is known of the job."""
+        """Collects the dataset unless the engine has, and holds it against that of one machine with what nodes add; what is known of the job."""
         status = json.loads(self.run("farm", "status", str(job), "--json", env=env))
         if collect:
             self.run("farm", "collect", str(job), "-o", str(out), env=env)
@@ -87,11 +87,22 @@ def tree(folder):
     return hashes
 
 
+def added_by_nodes(folder):
+    """Hashes of what `after_frame` of the configuration leaves of each frame of a dataset, by path: the checksum of its color."""
+    hashes = {}
+    for color in sorted(folder.glob("scenes/*/images/scene_*_final_hdf5/frame.*.color.hdf5")):
+        scene, frame = color.relative_to(folder).parts[1], color.name.split(".")[1]
+        camera = color.parent.name.removeprefix("scene_").removesuffix("_final_hdf5")
+        checksum = subprocess.run(["cksum"], input=color.read_bytes(), capture_output=True, check=True).stdout
+        hashes[f"scenes/{scene}/_detail/{camera}/after_frame/frame.{frame}/color.cksum"] = hashlib.sha256(checksum).hexdigest()
+    return hashes
+
+
 def compare(expected, found):
     """Fails with the names of files in which two trees differ."""
     differing = [name for name in sorted({*expected, *found}) if expected.get(name) != found.get(name)]
     if differing:
-        raise FarmError(f"{len(differing)} of {len(expected)} files differ from those of one machine, first {differing[0]}")
+        raise FarmError(f"{len(differing)} of {len(expected)} files differ from what they must be, first {differing[0]}")
 
 
 def audit(job):

@@ -17,7 +17,7 @@ from slurm import Cluster, signal_to
 
 # A job of this size takes seconds on an idle machine; this is for busy ones.
 PATIENCE = 420
-# Machines at the dollars per vCPU-hour that half of Hypersim's rendering was paid at or below.
+# Machines at the dollars per vCPU-hour that half of Hypersim's rendering was paid at or below, and its licence by the minute.
 PRICE = Path(__file__).resolve().parents[1] / "cluster" / "machines.csv"
 
 
@@ -159,6 +159,13 @@ def restart_controller(trial):
     (trial.folder / "go").touch()
 
 
+def nothing_kept(trial, found):
+    """Two programs failed, and what was kept of their frames is used up."""
+    counts(transient=2, restarts=2)(trial, found)
+    expect(not list((trial.job / "kept").rglob("*.*")), "nothing in the job's folder kept/")
+    expect(" for licence" in trial.farm.run("farm", "status", str(trial.job), "--price", str(PRICE)), "a sum for the licence")
+
+
 def small_disk(trial):
     trial.disks.mkdir()
     mount(trial.disks / "n1", "200k")
@@ -232,6 +239,7 @@ fi
 FAULTS = [
     Fault("none", "nothing"),
     Fault("transient failure", "two tasks end with 75 the first time", 'first && [[ $task = [14] ]] && exit 75', after=counts(restarts=2)),
+    Fault("program after a frame", "the program that nodes run after every frame ends with 75 in two tasks the first time", 'first && [[ $task = [14] ]] && export AFTER_FRAME_FAILS=75', after=nothing_kept),
     Fault("preemption", "SIGTERM by `scancel --batch` within a frame", during=preempt, after=counts(transient=1, restarts=1)),
     Fault("permanent failure", "an object of one scene is damaged; then mended, and submitted again", before=spoil, during=spoil_and_mend, after=counts(permanent=3)),
     Fault("crash", "a worker gets SIGSEGV within a frame", SEGFAULT, after=counts(open=1, restarts=1)),

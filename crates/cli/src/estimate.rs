@@ -1,7 +1,7 @@
 //! `run --estimate`: what a run would take, as a table.
 
 use crate::outcome::{Verdict, say};
-use crate::price::{dollars, prices};
+use crate::price::{dollars, prices, told_price};
 use crate::{outcome::Problem, progress::Progress, summary};
 use enfilade_pipeline::{Config, Expected, Forecast};
 use enfilade_show::stats::Price;
@@ -45,13 +45,13 @@ fn row(name: &str, width: usize, forecast: &Forecast) -> String {
 
 fn paid(forecast: &Forecast, price: &Price) -> String {
     let hours = &forecast.vcpu_hours;
-    let sum = |hours: f64| dollars(hours * price.dollars_per_vcpu_hour);
+    let sum = told(hours, |hours| dollars(price.dollars(hours)));
     let vcpu_hours = told(hours, |hours| format!("{hours:.3}"));
-    format!("{vcpu_hours} vCPU-hours, {} dollars at {} ({})", told(hours, sum), price.dollars_per_vcpu_hour, price.name)
+    format!("{vcpu_hours} vCPU-hours, {}", told_price(price, &sum, hours.mean))
 }
 
 /// What is expected, and the interval.
-fn told(expected: &Expected, words: impl Fn(f64) -> String) -> String {
+pub fn told(expected: &Expected, words: impl Fn(f64) -> String) -> String {
     let [low, high] = expected.interval();
     format!("{} ({} to {})", words(expected.mean), words(low), words(high))
 }

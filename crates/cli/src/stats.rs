@@ -2,7 +2,7 @@
 
 use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
-use crate::price::{dollars, prices};
+use crate::price::{paid, prices};
 use crate::progress::Progress;
 use enfilade_pipeline::write_statistics;
 use enfilade_show::stats::StatsConfig;
@@ -24,11 +24,8 @@ pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
     };
     say(&format!("{} images, {} outliers", written.images, written.outliers));
     if let Some(cost) = written.cost {
-        let prices = config
-            .prices
-            .iter()
-            .map(|price| format!("{} dollars at {} ({})", dollars(cost.dollars(price)), price.dollars_per_vcpu_hour, price.name));
-        say(&format!("{:.3} vCPU-hours: {}", cost.vcpu_hours, prices.collect::<Vec<_>>().join(", ")));
+        let prices = config.prices.iter().map(|price| paid(price, cost.vcpu_hours));
+        say(&format!("{:.3} vCPU-hours: {}", cost.vcpu_hours, prices.collect::<Vec<_>>().join("; ")));
     }
     say(&format!("see  {}", written.page.display()));
     Ok(Verdict::Done)

@@ -1,6 +1,6 @@
 //! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
 
-use crate::atomic::{create_parent, remove_if_there, rename, temporary};
+use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Packing, Storage, write_view};
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
@@ -353,11 +353,12 @@ impl Dataset {
         commit().inspect_err(|_| self.remove_aside(scene, camera, number, layers))
     }
 
-    /// Removes a frame with all its layers and records, in the order in which it ceases to count.
+    /// Removes a frame with all its layers and records, in the order in which it ceases to count, and what a user's program has made of it.
     fn remove_frame(&self, scene: &str, camera: &str, number: u32) -> Result<(), DatasetError> {
         remove_if_there(&self.layout().frame_record(scene, camera, number))?;
         remove_if_there(&self.layout().label_record(scene, camera, number))?;
         LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))?;
+        remove_folder(&self.layout().after_frame(scene, camera, number))?;
         // What versions up to 0.1 wrote beside rendered layers.
         remove_if_there(&self.layout().records_dir(scene, camera).join(format!("frame.{number:04}.denoised.json")))?;
         let folder = self.layout().layer_dir(scene, camera, Pass::Final);

@@ -3,7 +3,8 @@
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
 //! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
-//! with the commit records and, for cameras that are more than a pinhole, `camera.json` and its arrays.
+//! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
+//! `camera.json` and its arrays.
 
 use crate::DatasetError;
 use enfilade_frame::{Layer, Pass};
@@ -289,6 +290,16 @@ impl Layout {
     /// The amodal masks of a frame.
     pub fn amodal_masks(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.amodal_masks_dir(scene, camera).join(format!("frame.{frame:04}.json"))
+    }
+
+    /// What the user's program has made of a camera's frames on the nodes of a farm.
+    pub fn after_frame_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("after_frame")
+    }
+
+    /// What it has made of a frame: a folder of whatever files it has left.
+    pub fn after_frame(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.after_frame_dir(scene, camera).join(format!("frame.{frame:04}"))
     }
 
     /// Geometry, objects and labels of the scene.

@@ -9,6 +9,7 @@
 //!
 //! World coordinates are right-handed, z up, and one asset unit is one metre.
 
+mod after_frame_files;
 mod annotation_files;
 mod atomic;
 mod box_files;

@@ -5,19 +5,30 @@ use enfilade_dataset::write_bytes;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// Packs `files`, paths relative to `folder`.
-pub(crate) fn pack(folder: &Path, files: &[PathBuf]) -> Result<Vec<u8>, FarmError> {
-    let mut archive = tar::Builder::new(Vec::new());
-    for path in files {
+/// A file by its path within the dataset's folder, and its content.
+pub(crate) type PackedFile = (PathBuf, Vec<u8>);
+
+/// Reads `files`, paths relative to `folder`.
+pub(crate) fn read(folder: &Path, files: &[PathBuf]) -> Result<Vec<PackedFile>, FarmError> {
+    let read = |path: &PathBuf| {
         let full = folder.join(path);
         let bytes = std::fs::read(&full).map_err(|source| FarmError::io("read", &full, source))?;
+        Ok((path.clone(), bytes))
+    };
+    files.iter().map(read).collect()
+}
+
+/// Packs files in the order in which they are to be written.
+pub(crate) fn pack(files: &[PackedFile]) -> Result<Vec<u8>, FarmError> {
+    let mut archive = tar::Builder::new(Vec::new());
+    for (path, bytes) in files {
         let mut header = tar::Header::new_ustar();
         header.set_size(bytes.len() as u64);
         header.set_mode(0o644);
         header.set_mtime(0);
-        archive.append_data(&mut header, path, bytes.as_slice()).map_err(|source| FarmError::io("pack", &full, source))?;
+        archive.append_data(&mut header, path, bytes.as_slice()).map_err(|source| FarmError::io("pack", path, source))?;
     }
-    archive.into_inner().map_err(|source| FarmError::io("pack", folder, source))
+    archive.into_inner().map_err(|source| FarmError::io("pack", Path::new("a frame"), source))
 }
 
 /// Unpacks the files of a frame into `folder`, each aside first, in the order of the archive; `place` names the archive in errors.
@@ -25,6 +36,12 @@ pub(crate) fn pack(folder: &Path, files: &[PathBuf]) -> Result<Vec<u8>, FarmErro
 /// # Errors
 /// When it is no archive of files within the folder, or they cannot be written.
 pub fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError> {
+    unpacked(bytes, place)?.iter().try_for_each(|(path, content)| Ok(write_bytes(&folder.join(path), content)?))
+}
+
+/// The files that an archive holds; `place` names it in errors.
+pub(crate) fn unpacked(bytes: &[u8], place: &str) -> Result<Vec<PackedFile>, FarmError> {
+    let mut files = Vec::new();
     let damaged = |problem: String| FarmError::Damaged { place: place.into(), problem };
     let mut archive = tar::Archive::new(bytes);
     for entry in archive.entries().map_err(|error| damaged(error.to_string()))? {
@@ -35,9 +52,9 @@ pub fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError>
         }
         let mut content = Vec::new();
         entry.read_to_end(&mut content).map_err(|error| damaged(error.to_string()))?;
-        write_bytes(&folder.join(path), &content)?;
+        files.push((path, content));
     }
-    Ok(())
+    Ok(files)
 }
 
 #[cfg(test)]
@@ -50,7 +67,7 @@ mod tests {
         let files = [PathBuf::from("a/one.txt"), PathBuf::from("b")];
         let archives = folders.each_ref().map(|folder| {
             files.iter().for_each(|file| write_bytes(&folder.path().join(file), file.to_string_lossy().as_bytes()).unwrap());
-            pack(folder.path(), &files).unwrap()
+            pack(&read(folder.path(), &files).unwrap()).unwrap()
         });
         assert_eq!(archives[0], archives[1]);
         let out = tempfile::tempdir().unwrap();

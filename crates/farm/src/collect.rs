@@ -5,8 +5,8 @@ use crate::commit::read_marker;
 use crate::object_names::object_name;
 use crate::work::{damaged_object, missing_by_task};
 use crate::{FarmError, FrameKey, Job, Marker, Ranges, print_ranges};
-use enfilade_dataset::{Dataset, FrameTime, quoted, write_bytes};
-use enfilade_pipeline::{Reporter, Summary, finish, gather};
+use enfilade_dataset::{Dataset, quoted, write_bytes};
+use enfilade_pipeline::{Event, Reporter, Stage, Summary, finish, gather};
 use std::path::Path;
 
 /// Brings every frame into the folder `out`, checks it against its marker, and makes the rest of the dataset. What is there already
@@ -30,23 +30,22 @@ pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary
     let taken = gather(out, &job.plan.id)?;
     fetch_files(job, out)?;
     let dataset = Dataset::create(out)?;
+    let (mut done, total) = (0, tasks.iter().map(|task| task.part.frames.len() as u64).sum());
     for (number, task) in (0..).zip(tasks) {
         let part = &task.part;
         for &frame in &part.frames {
+            reporter.on(&part.scene, Stage::Render, Event::Progress { what: "frames that come from the job", done, total });
+            done += 1;
             let key = FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
             let marker = read_marker(&job.store, &key)?.ok_or_else(|| damaged(job, &key.marker(), "is gone", number))?;
             if dataset.frame_record(&key.scene, &key.camera, frame).ok().flatten().is_none() {
                 fetch_frame(job, &marker, out)?;
-                dataset.append_time(&key.scene, &key.camera, frame, time(&marker))?;
+                dataset.append_time(&key.scene, &key.camera, frame, marker.time())?;
             }
         }
     }
     drop(taken);
     Ok(finish(out, reporter)?)
-}
-
-fn time(marker: &Marker) -> FrameTime {
-    FrameTime { wall_s: marker.wall_s, cpu_s: marker.cpu_s, peak_memory_bytes: marker.peak_memory_bytes, threads: marker.threads }
 }
 
 fn fetch_frame(job: &Job, marker: &Marker, out: &Path) -> Result<(), FarmError> {

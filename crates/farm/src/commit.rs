@@ -49,9 +49,14 @@ impl FrameKey {
         format!("{}/{:04}.json", Self::done_folder(&self.scene, &self.camera), self.frame)
     }
 
-    /// Where another worker finds what was kept of the frame.
+    /// Where another worker finds what was kept of the frame in the making.
     pub(crate) fn kept(&self) -> String {
         format!("{KEPT}/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
+    }
+
+    /// Where it finds the frame that was finished, but for what the user's program was to add: a marker, and the files that it names.
+    pub(crate) fn kept_finished(&self) -> [String; 2] {
+        ["json", "tar"].map(|end| format!("{KEPT}/{}/{}/{:04}.{end}", self.scene, self.camera, self.frame))
     }
 
     /// What the names of its payloads begin with, whoever made them.
@@ -76,6 +81,13 @@ pub struct Attempt {
 }
 
 impl Attempt {
+    /// This process on this machine; Slurm's name for the machine wins over its own.
+    pub fn here() -> Self {
+        let variable = |name: &str| std::env::var(name).ok();
+        let host = variable("SLURMD_NODENAME").or_else(|| std::fs::read_to_string("/proc/sys/kernel/hostname").ok());
+        Self::new(host.as_deref().map_or("node", str::trim), variable)
+    }
+
     /// This process, on machine `host`, started by whatever `environment` tells.
     pub fn new(host: &str, environment: impl Fn(&str) -> Option<String>) -> Self {
         let mut unique = [0; 6];
@@ -118,6 +130,9 @@ pub struct Marker {
     pub peak_memory_bytes: Option<u64>,
     /// Threads at work.
     pub threads: Option<u32>,
+    /// Elapsed seconds of the user's program, where one was run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_frame_wall_s: Option<f64>,
 }
 
 /// How a commit ended.
@@ -195,6 +210,7 @@ mod tests {
             cpu_s: 2.0,
             peak_memory_bytes: None,
             threads: Some(2),
+            after_frame_wall_s: None,
         }
     }
 

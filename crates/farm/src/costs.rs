@@ -9,7 +9,7 @@ use crate::object_names::DONE;
 use crate::status::attempts;
 use crate::work::{AttemptRecord, Ended};
 use crate::{FarmError, Feasible, Job, Marker};
-use enfilade_show::stats::Price;
+use enfilade_show::stats::{Price, tells_sizes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,9 +17,10 @@ use std::fmt::Write;
 const HOUR_S: f64 = 3600.0;
 const GIB: f64 = 1_073_741_824.0;
 
-/// The columns of [`Costs::table`]: those of Hypersim's tasks where there are any, and what says where an attempt ran.
+/// The columns of [`Costs::table`]: those of Hypersim's tasks where there are any, and what says where an attempt ran. What Hypersim paid for
+/// V-Ray is what is paid beside the machine.
 const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_instance,time_instance_seconds,time_vcpu_seconds,\
-    time_vcpu_seconds_in_frames,cost_cloud_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,min_feasible_instance_type,\
+    time_vcpu_seconds_in_frames,cost_cloud_dollars,cost_vray_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,min_feasible_instance_type,\
     frames_committed,frames_lost\n";
 
 /// One attempt at one task.
@@ -29,6 +30,8 @@ pub struct AttemptCost {
     pub record: AttemptRecord,
     /// vCPU-seconds of its frames that count.
     pub in_frames_vcpu_s: f64,
+    /// vCPU-seconds of the user's program on these frames.
+    pub after_frame_vcpu_s: f64,
 }
 
 impl AttemptCost {
@@ -47,6 +50,8 @@ pub struct Costs {
     pub vcpu_s: f64,
     /// vCPU-seconds of the frames that count.
     pub in_frames_vcpu_s: f64,
+    /// vCPU-seconds of the user's program on these frames, busy or idle.
+    pub after_frame_vcpu_s: f64,
     /// Processor seconds of these frames.
     pub frames_cpu_s: f64,
     /// Processor seconds that the plan expected of the same frames.
@@ -62,6 +67,34 @@ pub struct Costs {
     pub peak_memory_bytes: Option<u64>,
     /// Records of attempts that cannot be read and do not count, each with what is wrong.
     pub unreadable: Vec<String>,
+}
+
+/// What a job has cost at some prices, as one value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Statement<'a> {
+    /// Attempts, and sums of vCPU-seconds and processor seconds.
+    #[serde(flatten)]
+    pub costs: &'a Costs,
+    /// What is paid.
+    pub vcpu_hours: f64,
+    /// Share of it that was used, 0 to 1.
+    pub utilization: f64,
+    /// In the order of the prices.
+    pub prices: Vec<Priced>,
+    /// Where the attempts could have run, where the prices tell sizes of machines.
+    pub machines: Option<Feasible>,
+}
+
+/// What all attempts cost at a price.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Priced {
+    /// Its name and rates.
+    #[serde(flatten)]
+    pub price: Price,
+    /// All rates together.
+    pub dollars: f64,
+    /// By rate, where there is more than one.
+    pub dollars_by_rate: BTreeMap<String, f64>,
 }
 
 /// What the job has cost until now. Every marker and every record of an attempt is read.
@@ -85,31 +118,36 @@ struct InFrames {
     wall_s: f64,
     cpu_s: f64,
     vcpu_s: f64,
+    after_frame_vcpu_s: f64,
 }
 
 fn sum(markers: &[Marker], records: Vec<AttemptRecord>) -> Costs {
     let mut frames: BTreeMap<(&str, u32), InFrames> = BTreeMap::new();
     for marker in markers {
         let of_attempt = frames.entry((&marker.attempt, marker.task)).or_default();
-        of_attempt.wall_s += marker.wall_s;
+        let (threads, after_frame_wall_s) = (f64::from(marker.threads.unwrap_or(1)), marker.after_frame_wall_s.unwrap_or(0.0));
+        of_attempt.wall_s += marker.wall_s + after_frame_wall_s;
         of_attempt.cpu_s += marker.cpu_s;
-        of_attempt.vcpu_s += marker.wall_s * f64::from(marker.threads.unwrap_or(1));
+        of_attempt.vcpu_s += marker.wall_s * threads;
+        of_attempt.after_frame_vcpu_s += after_frame_wall_s * threads;
     }
     let mut costs = Costs { frames_cpu_s: markers.iter().map(|marker| marker.cpu_s).sum(), ..Costs::default() };
     costs.in_frames_vcpu_s = frames.values().map(|of_attempt| of_attempt.vcpu_s).sum();
+    costs.after_frame_vcpu_s = frames.values().map(|of_attempt| of_attempt.after_frame_vcpu_s).sum();
     let mut tasks: BTreeMap<u32, u32> = BTreeMap::new();
     for mut record in records {
         let in_frames = frames.get(&(record.attempt.id.as_str(), record.task)).copied().unwrap_or_default();
         if record.ended.is_none() {
             (record.wall_s, record.cpu_s) = (in_frames.wall_s, in_frames.cpu_s);
         }
-        let in_frames_vcpu_s = in_frames.vcpu_s;
-        let attempt = AttemptCost { record, in_frames_vcpu_s };
-        let paid = attempt.vcpu_s().max(in_frames_vcpu_s);
+        let InFrames { vcpu_s: in_frames_vcpu_s, after_frame_vcpu_s, .. } = in_frames;
+        let attempt = AttemptCost { record, in_frames_vcpu_s, after_frame_vcpu_s };
+        let came_to_something = in_frames_vcpu_s + after_frame_vcpu_s;
+        let paid = attempt.vcpu_s().max(came_to_something);
         costs.vcpu_s += paid;
         costs.cpu_s += attempt.record.cpu_s;
         if attempt.record.ended != Some(Ended::Done) || attempt.record.lost > 0 {
-            costs.wasted_vcpu_s += paid - in_frames_vcpu_s;
+            costs.wasted_vcpu_s += paid - came_to_something;
         }
         costs.peak_memory_bytes = costs.peak_memory_bytes.max(attempt.record.peak_memory_bytes);
         *tasks.entry(attempt.record.task).or_default() += 1;
@@ -130,9 +168,25 @@ impl Costs {
         self.attempts.iter().map(|attempt| attempt.record.different).sum()
     }
 
-    /// Dollars at a price per vCPU-hour.
-    pub fn dollars(&self, dollars_per_vcpu_hour: f64) -> f64 {
-        self.vcpu_hours() * dollars_per_vcpu_hour
+    /// Dollars at a price, all its rates together.
+    pub fn dollars(&self, price: &Price) -> f64 {
+        price.dollars(self.vcpu_hours())
+    }
+
+    /// With what follows from it, at some prices.
+    pub fn statement(&self, prices: &[Price]) -> Statement<'_> {
+        let priced = |price: &Price| Priced {
+            dollars: self.dollars(price),
+            dollars_by_rate: price.parts(self.vcpu_hours()).into_iter().map(|(rate, dollars)| (rate.to_string(), dollars)).collect(),
+            price: price.clone(),
+        };
+        Statement {
+            costs: self,
+            vcpu_hours: self.vcpu_hours(),
+            utilization: self.utilization(),
+            prices: prices.iter().map(priced).collect(),
+            machines: tells_sizes(prices).then(|| self.feasible(prices)),
+        }
     }
 
     /// What is paid: vCPU-hours of all attempts.
@@ -158,7 +212,8 @@ fn row(attempt: &AttemptCost, job_name: &str, prices: &[Price]) -> String {
     let (record, vcpu_s) = (&attempt.record, attempt.vcpu_s());
     let engine: Vec<String> = record.attempt.engine.iter().map(|(name, value)| format!("{name}={value}")).collect();
     let ended = record.ended.map_or("open", Ended::word);
-    let dollars_per_vcpu_hour = prices.first().map_or(0.0, |price| price.dollars_per_vcpu_hour);
+    let vcpu_hours = vcpu_s / HOUR_S;
+    let dollars = prices.first().map_or([0.0; 2], |price| [price.machine_dollars(vcpu_hours), price.licence_dollars(vcpu_hours)]);
     let machine = machine_of(record, prices).map_or("", |price| &price.name);
     let memory = record.peak_memory_bytes.map_or(String::new(), |bytes| format!("{:.3}", bytes as f64 / GIB));
     let mut row = format!(
@@ -171,10 +226,11 @@ fn row(attempt: &AttemptCost, job_name: &str, prices: &[Price]) -> String {
     );
     let _ = writeln!(
         row,
-        "{:.3},{vcpu_s:.3},{:.3},{:.6},{:.3},{vcpu_s:.3},{:.4},{memory},{machine},{},{}",
+        "{:.3},{vcpu_s:.3},{:.3},{:.6},{:.6},{:.3},{vcpu_s:.3},{:.4},{memory},{machine},{},{}",
         record.wall_s,
         attempt.in_frames_vcpu_s,
-        vcpu_s / HOUR_S * dollars_per_vcpu_hour,
+        dollars[0],
+        dollars[1],
         record.cpu_s,
         share(record.cpu_s, vcpu_s),
         record.committed,
@@ -191,7 +247,7 @@ fn share(part: f64, whole: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{Attempt, FrameKey};
-    use enfilade_show::stats::Machine;
+    use enfilade_show::stats::{Machine, Per, Rate};
 
     fn marker(attempt: &str, task: u32, frame: u32) -> Marker {
         let key = FrameKey { scene: "room".into(), camera: "cam_00".into(), frame };
@@ -209,6 +265,7 @@ mod tests {
             cpu_s: 18.0,
             peak_memory_bytes: None,
             threads: Some(2),
+            after_frame_wall_s: None,
         }
     }
 
@@ -247,22 +304,39 @@ mod tests {
         // All of b, nothing of c that is known, and what d had beyond its frame.
         assert_eq!((costs.wasted_vcpu_s, costs.retries), (10.0 + 8.0, 2));
         assert_eq!((costs.frames_cpu_s, costs.peak_memory_bytes), (54.0, Some(1 << 30)));
-        assert!((costs.dollars(3600.0) - 82.0).abs() < 1e-9 && (costs.utilization() - 64.5 / 82.0).abs() < 1e-12);
+        assert!((costs.dollars(&Price::new("a", 3600.0)) - 82.0).abs() < 1e-9 && (costs.utilization() - 64.5 / 82.0).abs() < 1e-12);
         // Rows sum to the totals.
         assert_eq!(costs.attempts.iter().map(AttemptCost::vcpu_s).sum::<f64>(), costs.vcpu_s);
         assert_eq!((costs.attempts[2].record.wall_s, costs.attempts[2].record.cpu_s), (10.0, 18.0));
     }
 
     #[test]
+    fn the_users_program_is_told_apart_and_a_statement_has_every_rate() {
+        let marker = Marker { after_frame_wall_s: Some(5.0), ..marker("a", 0, 0) };
+        let costs = sum(
+            &[marker.clone(), Marker { attempt: "b".into(), task: 1, ..marker }],
+            vec![record("a", 0, 18.0, Some(Ended::Transient), 0), record("b", 1, 0.0, None, 0)],
+        );
+        // 36 vCPU-seconds, of which 20 + 10 came to something; and those 30 of the attempt that was killed.
+        assert_eq!((costs.vcpu_s, costs.in_frames_vcpu_s, costs.after_frame_vcpu_s, costs.wasted_vcpu_s), (66.0, 40.0, 20.0, 6.0));
+        let licences = vec![Rate { name: "licence".into(), dollars: 30.0, per: Per::CoreMinute }];
+        let told = serde_json::to_value(costs.statement(&[Price { licences, ..Price::new("two", 3600.0) }])).unwrap();
+        assert_eq!((told["vcpu_s"].as_f64(), told["prices"][0]["dollars"].as_f64()), (Some(66.0), Some(99.0)));
+        assert_eq!(told["prices"][0]["dollars_by_rate"], serde_json::json!({ "machine": 66.0, "licence": 33.0 }));
+        assert!(told["machines"].is_null() && told["attempts"].as_array().unwrap().len() == 2);
+    }
+
+    #[test]
     fn rows_have_the_columns_of_the_header() {
         let costs = sum(&[marker("a", 0, 0)], vec![record("a", 0, 12.0, Some(Ended::Done), 0)]);
         let machine = Some(Machine { vcpus: 2, memory_gib: 2.0 });
-        let prices = [Price { name: "two".into(), dollars_per_vcpu_hour: 0.036, machine }];
+        let licences = vec![Rate { name: "licence".into(), dollars: 0.000_15, per: Per::CoreMinute }];
+        let prices = [Price { machine, licences, ..Price::new("two", 0.036) }];
         let row = row(&costs.attempts[0], "room@scene_cam_00_final", &prices);
         assert_eq!(row.split(',').count(), HEADER.split(',').count());
         assert_eq!(
             row,
-            "room@scene_cam_00_final,0,a,n1,SLURM_JOB_ID=7,done,2,12.000,24.000,20.000,0.000240,18.000,24.000,0.7500,1.000,two,0,0\n"
+            "room@scene_cam_00_final,0,a,n1,SLURM_JOB_ID=7,done,2,12.000,24.000,20.000,0.000240,0.000060,18.000,24.000,0.7500,1.000,two,0,0\n"
         );
     }
 }

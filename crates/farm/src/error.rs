@@ -45,6 +45,20 @@ pub enum FarmError {
         /// The system's answer.
         source: std::io::Error,
     },
+    /// The program that the user has asked to run after every frame.
+    #[error(
+        "after_frame: {program:?} {problem}\n({place} is kept without it, and is not rendered again: do its task again when the program is mended)"
+    )]
+    Program {
+        /// Its name.
+        program: String,
+        /// The frame.
+        place: String,
+        /// How it failed, with its last words.
+        problem: String,
+        /// True when another try may help.
+        is_transient: bool,
+    },
     /// What is asked for cannot be done as asked.
     #[error("{0}")]
     Request(String),
@@ -96,6 +110,7 @@ impl FarmError {
             Self::Store { .. } | Self::Io { .. } | Self::Dataset(DatasetError::Io { .. }) => true,
             Self::Pipeline(enfilade_pipeline::Error::Stage(error)) => is_of_the_system(error.as_ref()),
             Self::Pipeline(error) => matches!(error, enfilade_pipeline::Error::Io { .. } | enfilade_pipeline::Error::Interrupted { .. }),
+            Self::Program { is_transient, .. } => *is_transient,
             Self::Place { .. } | Self::Unreliable { .. } | Self::Request(_) | Self::Damaged { .. } | Self::Dataset(_) => false,
         }
     }

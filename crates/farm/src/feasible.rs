@@ -39,7 +39,7 @@ pub(crate) fn machine_of<'a>(record: &AttemptRecord, prices: &'a [Price]) -> Opt
 pub(crate) fn feasible<'a>(records: impl Iterator<Item = &'a AttemptRecord> + Clone, prices: &[Price]) -> Feasible {
     let told = records.clone().filter_map(|record| Some((record, record.peak_memory_bytes?)));
     let mut found = Feasible { unknown: records.filter(|record| record.peak_memory_bytes.is_none()).count() as u32, ..Feasible::default() };
-    let paid = |price: &Price, record: &AttemptRecord| price.machine_dollars(record.wall_s).unwrap_or(0.0);
+    let paid = |price: &Price, record: &AttemptRecord| price.whole_machine_dollars(record.wall_s).unwrap_or(0.0);
     for (record, peak_bytes) in told.clone() {
         found.threads = found.threads.max(record.threads);
         found.peak_memory_bytes = found.peak_memory_bytes.max(peak_bytes);
@@ -84,7 +84,7 @@ mod tests {
     }
 
     fn offer(name: &str, dollars_per_vcpu_hour: f64, vcpus: u32, memory_gib: f64) -> Price {
-        Price { name: name.into(), dollars_per_vcpu_hour, machine: Some(Machine { vcpus, memory_gib }) }
+        Price { machine: Some(Machine { vcpus, memory_gib }), ..Price::new(name, dollars_per_vcpu_hour) }
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! What there is to do: made once, on one machine, from the configuration of a dataset.
 
 use crate::object_names::{PLAN, object_name};
+use crate::program::is_here;
 use crate::{Attempt, Created, FarmError, Store};
 use enfilade_dataset::{WORKDIR, quoted};
-use enfilade_pipeline::{Config, Expected, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
+use enfilade_pipeline::{Config, Expected, FarmConfig, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
+use enfilade_show::stats::Price;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -24,6 +26,23 @@ pub struct PlanOptions {
 impl Default for PlanOptions {
     fn default() -> Self {
         Self { minutes: 15.0, cpus: 8 }
+    }
+}
+
+impl PlanOptions {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// When one cannot be.
+    pub fn check(&self) -> Result<(), FarmError> {
+        let refuse = |problem: String| Err(FarmError::Request(problem));
+        match *self {
+            Self { minutes, .. } if !(minutes > 0.0 && minutes.is_finite()) => {
+                refuse(format!("a task cannot take {minutes} minutes; expected a time above 0, such as 15"))
+            }
+            Self { cpus: 0, .. } => refuse("workers have 0 threads; expected 1 or more, such as 8".into()),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -48,6 +67,50 @@ pub struct Plan {
     pub cpus: u32,
     /// Minutes that tasks were sized for; `None` in plans of before this was kept.
     pub minutes: Option<f64>,
+    /// What workers do besides.
+    #[serde(default, skip_serializing_if = "FarmConfig::is_default")]
+    pub farm: FarmConfig,
+}
+
+/// What a plan comes to, as one value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlanStatement {
+    /// Number of tasks.
+    pub tasks: usize,
+    /// Number of frames.
+    pub frames: u64,
+    /// Number of scenes.
+    pub scenes: usize,
+    /// vCPU-hours that rendering and finishing all frames will take; of the user's program nothing is known.
+    pub vcpu_hours: Expected,
+    /// In the order of the prices.
+    pub prices: Vec<PricedPlan>,
+}
+
+/// What all frames will cost at a price.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PricedPlan {
+    /// Its name and rates.
+    #[serde(flatten)]
+    pub price: Price,
+    /// All rates together.
+    pub dollars: Expected,
+}
+
+impl Plan {
+    /// What it comes to, at some prices.
+    pub fn statement(&self, prices: &[Price]) -> PlanStatement {
+        let cpu_s = self.scenes.iter().fold(Expected::default(), |sum, scene| sum + scene.cpu_s);
+        let per_cpu_s = |factor: &dyn Fn(f64) -> f64| Expected { mean: factor(cpu_s.mean), deviation: factor(cpu_s.deviation) };
+        let priced = |price: &Price| PricedPlan { price: price.clone(), dollars: per_cpu_s(&|cpu_s| price.dollars(cpu_s / 3600.0)) };
+        PlanStatement {
+            tasks: self.tasks.len(),
+            frames: self.tasks.iter().map(|task| task.part.frames.len() as u64).sum(),
+            scenes: self.scenes.len(),
+            vcpu_hours: per_cpu_s(&|cpu_s| cpu_s / 3600.0),
+            prices: prices.iter().map(priced).collect(),
+        }
+    }
 }
 
 /// A file that workers need, which lies in the store under the name of its content.
@@ -138,19 +201,17 @@ fn program() -> String {
     format!("enfilade {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Plans the dataset `config` into `store`, with `scratch`, an empty folder, to work in. The same plan a second time changes nothing.
+/// Plans the dataset `config` into `store`, in a temporary folder. The same plan a second time changes nothing. Gives no job where a scene
+/// fails before rendering, which the summary tells.
 ///
 /// # Errors
-/// When a scene fails before rendering, the store does not do what commits rest on, or it holds another job or one otherwise divided.
-pub fn plan(
-    config: &Config,
-    store: Store,
-    scratch: &Path,
-    options: &PlanOptions,
-    reporter: &dyn Reporter,
-) -> Result<(Summary, Option<Job>), FarmError> {
-    let out = scratch.join("dataset");
-    let (summary, prepared) = prepare(config, &out, None, reporter)?;
+/// When an option cannot be, the store does not do what commits rest on, or it holds another job or one otherwise divided.
+pub fn plan(config: &Config, store: Store, options: &PlanOptions, reporter: &dyn Reporter) -> Result<(Summary, Option<Job>), FarmError> {
+    options.check()?;
+    let scratch = tempfile::tempdir().map_err(|source| FarmError::io("make a temporary folder in", &std::env::temp_dir(), source))?;
+    let out = scratch.path().join("dataset");
+    let (mut summary, prepared) = prepare(config, &out, None, reporter)?;
+    summary.warnings.extend(not_here(&config.farm));
     if !summary.ok() {
         return Ok((summary, None));
     }
@@ -169,6 +230,7 @@ pub fn plan(
         scenes,
         cpus: options.cpus,
         minutes: Some(options.minutes),
+        farm: config.farm.clone(),
     };
     plan.id = identity(config, &prepared, &plan);
     if let Some(there) = there {
@@ -185,6 +247,13 @@ pub fn plan(
         return Job::open(store).map(|job| (summary, Some(job)));
     }
     Ok((summary, Some(Job { store, plan })))
+}
+
+/// A line about a program that this machine does not have: nodes may have it all the same.
+fn not_here(farm: &FarmConfig) -> Option<String> {
+    let program = farm.after_frame.first()?;
+    let is_here = is_here(program, std::env::var_os("PATH").as_deref());
+    (!is_here).then(|| format!("[farm] after_frame: this machine has no program {program:?}; every node must have it"))
 }
 
 /// Refuses to divide a job anew, since workers and engines know its tasks by their numbers. It goes by the options: times are measured
@@ -295,6 +364,7 @@ mod tests {
             tasks: tasks(&scene(10, 100.0), &PlanOptions::default()),
             cpus: 8,
             minutes,
+            farm: FarmConfig::default(),
         };
         let again = |minutes, cpus| refuse_other_division(&old(Some(15.0)), &PlanOptions { minutes, cpus }, "/shared/job");
         again(15.0, 8).unwrap();
@@ -304,6 +374,36 @@ mod tests {
         // What an older plan does not tell is not held against it.
         refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 8 }, "/shared/job").unwrap();
         assert!(refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 4 }, "/shared/job").is_err());
+    }
+
+    #[test]
+    fn a_plan_is_told_with_what_it_will_cost() {
+        let expected = |mean, deviation| Expected { mean, deviation };
+        let planned = PlannedScene {
+            name: "room".into(),
+            files: BTreeMap::new(),
+            frames: 102,
+            cpu_s: expected(7200.0, 720.0),
+            memory_bytes: Expected::default(),
+            disk_bytes: Expected::default(),
+        };
+        let plan = Plan {
+            format: FORMAT,
+            program: program(),
+            id: String::new(),
+            dataset: "rooms".into(),
+            files: BTreeMap::new(),
+            scenes: vec![planned],
+            tasks: tasks(&scene(100, 7200.0), &PlanOptions::default()),
+            cpus: 8,
+            minutes: None,
+            farm: FarmConfig::default(),
+        };
+        let told = plan.statement(&[Price::new("spot", 0.5)]);
+        assert_eq!((told.frames, told.scenes, told.vcpu_hours), (102, 1, expected(2.0, 0.2)));
+        assert_eq!(told.prices[0].dollars, expected(1.0, 0.1));
+        assert!(PlanOptions { minutes: 0.0, cpus: 1 }.check().is_err() && PlanOptions { minutes: f64::NAN, cpus: 1 }.check().is_err());
+        assert!(PlanOptions { minutes: 1.0, cpus: 0 }.check().is_err() && PlanOptions::default().check().is_ok());
     }
 
     #[test]

@@ -1,22 +1,16 @@
 //! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
-use crate::bundle::pack;
-use crate::commit::{Commit, commit, is_whole, read_marker};
+use crate::commit::{Commit, is_whole};
+use crate::hand_in::{Finished, hand_in};
 use crate::object_names::{ATTEMPTS, DONE, FRAMES, object_name};
-use crate::{Attempt, FarmError, FrameKey, Job, Marker, Ranges, Task};
+use crate::{Attempt, FarmError, FrameKey, Job, Ranges, Task};
 use enfilade_dataset::write_bytes;
 use enfilade_pipeline::{FinishedFrame, Part, Reporter, Stopwatch, kept_frame, render_part};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
-
-/// How long a finished frame is held for a store that does not take it: a server that is started again is back by then.
-const PATIENCE: Duration = Duration::from_secs(600);
-/// Between two tries to hand it in.
-const PAUSE: Duration = Duration::from_secs(5);
+use std::sync::{Mutex, PoisonError};
 
 /// The tasks of one worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,6 +32,11 @@ impl Assignment {
             }
         }
     }
+}
+
+/// The folder of this machine that workers use unless another is named.
+pub fn default_scratch() -> PathBuf {
+    std::env::temp_dir().join("enfilade-farm")
 }
 
 /// How a worker works.
@@ -137,7 +136,7 @@ fn do_task(job: &Job, number: u32, work: &Work, reporter: &dyn Reporter) -> Resu
     put_record(job, &name, &record)?;
     let tally = Mutex::new(Tally::default());
     let result = make(job, number, &missing, work, &tally, reporter);
-    let tally = tally.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let tally = tally.into_inner().unwrap_or_else(PoisonError::into_inner);
     (record.committed, record.lost, record.different, record.broken) = (tally.committed, tally.lost, tally.different, tally.broken);
     let time = time.of_frame();
     (record.wall_s, record.cpu_s, record.peak_memory_bytes) = (time.wall_s, time.cpu_s, time.peak_memory_bytes);
@@ -206,11 +205,11 @@ struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, commit: Commit, broken: &[&'static str]) {
+    fn count(&mut self, commit: Commit, broken: &[String]) {
         match commit {
             Commit::Won => {
                 self.committed += 1;
-                broken.iter().for_each(|law| *self.broken.entry((*law).to_string()).or_default() += 1);
+                broken.iter().for_each(|law| *self.broken.entry(law.clone()).or_default() += 1);
             }
             Commit::Lost { same } => {
                 self.lost += 1;
@@ -230,39 +229,48 @@ fn make(
     reporter: &dyn Reporter,
 ) -> Result<(), FarmError> {
     let planned = &job.task(number)?.part;
-    let part = Part { frames: missing.clone(), ..planned.clone() };
+    let key = |frame: u32| FrameKey { scene: planned.scene.clone(), camera: planned.camera.clone(), frame };
 
-    // Fetch what the scene needs, and what earlier attempts kept of the frames
+    // Fetch what the scene needs
     let io = |source| FarmError::io("make a folder in", work.scratch, source);
     std::fs::create_dir_all(work.scratch).map_err(io)?;
     let folder = tempfile::Builder::new().prefix("work-").tempdir_in(work.scratch).map_err(io)?;
     let out = folder.path();
-    for (path, file) in job.files_of(&part.scene) {
+    for (path, file) in job.files_of(&planned.scene) {
         let cached = fetch(job, work, &file.blake3)?;
         place(&cached, &out.join(path))?;
     }
-    let key = |frame: u32| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame };
+
+    // Frames that lack nothing but the user's program, and what earlier attempts kept of others
+    let hand_in = |frame: &Finished| {
+        let commit = hand_in(job, out, number, frame, work)?;
+        tally.lock().unwrap_or_else(PoisonError::into_inner).count(commit, &frame.broken);
+        Ok(())
+    };
+    let mut part = Part { frames: missing.clone(), ..planned.clone() };
     for &frame in missing {
-        if let Some(bytes) = job.store.get(&key(frame).kept())? {
+        if !job.plan.farm.after_frame.is_empty()
+            && let Some(finished) = Finished::kept(job, out, &key(frame))?
+        {
+            hand_in(&finished)?;
+            part.frames.remove(&frame);
+        } else if let Some(bytes) = job.store.get(&key(frame).kept())? {
             write_bytes(&kept_frame(out, &part.scene, &part.camera, frame)?, &bytes)?;
         }
+    }
+    if part.frames.is_empty() {
+        return Ok(());
     }
 
     // Render; the first frame that cannot be handed in ends the work
     let failure = Mutex::new(None);
     let finished = |frame: &FinishedFrame| {
-        let result = hand_in(job, out, &key(frame.frame), number, frame, work);
-        match result {
-            Ok(commit) => {
-                tally.lock().unwrap_or_else(std::sync::PoisonError::into_inner).count(commit, &frame.broken);
-                Ok(())
-            }
-            Err(error) => {
-                let told = enfilade_pipeline::Error::Stage(error.to_string().into());
-                *failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(error);
-                Err(told)
-            }
-        }
+        let handed_in = Finished::read(out, key(frame.frame), frame).and_then(|frame| hand_in(&frame));
+        handed_in.map_err(|error| {
+            let told = enfilade_pipeline::Error::Stage(error.to_string().into());
+            *failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+            told
+        })
     };
     let result = render_part(out, &part, work.stop, &finished, reporter);
 
@@ -271,56 +279,10 @@ fn make(
         let bytes = std::fs::read(kept).map_err(|source| FarmError::io("read", kept, source))?;
         job.store.put(&key(*frame).kept(), bytes)?;
     }
-    match failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
+    match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         None => Ok(result?),
     }
-}
-
-/// Does `act`, and again after a `pause` while it fails for no lasting reason, up to [`PATIENCE`] or until `stop`.
-fn patiently<T>(stop: &AtomicBool, pause: Duration, mut act: impl FnMut() -> Result<T, FarmError>) -> Result<T, FarmError> {
-    let begun = Instant::now();
-    loop {
-        let result = act();
-        let again = result.as_ref().is_err_and(FarmError::is_transient) && begun.elapsed() < PATIENCE;
-        if !again || stop.load(Ordering::Relaxed) {
-            return result;
-        }
-        std::thread::sleep(pause);
-    }
-}
-
-/// Commits a frame, and frees its place on this machine.
-fn hand_in(job: &Job, out: &Path, key: &FrameKey, task: u32, frame: &FinishedFrame, work: &Work) -> Result<Commit, FarmError> {
-    let payload = pack(out, &frame.files)?;
-    let marker = Marker {
-        key: key.clone(),
-        payload: String::new(),
-        bytes: 0,
-        blake3: String::new(),
-        attempt: work.attempt.id.clone(),
-        task,
-        broken: frame.broken.iter().map(ToString::to_string).collect(),
-        wall_s: frame.time.wall_s,
-        cpu_s: frame.time.cpu_s,
-        peak_memory_bytes: frame.time.peak_memory_bytes,
-        threads: frame.time.threads,
-    };
-    let done = patiently(work.stop, PAUSE, || {
-        // Somebody else may have been first while this frame was in the making: then nothing has to travel.
-        let done = match read_marker(&job.store, key)? {
-            Some(there) if there.attempt == marker.attempt => Commit::Won,
-            Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },
-            None => commit(&job.store, payload.clone(), marker.clone())?,
-        };
-        job.store.remove(&key.kept())?;
-        Ok(done)
-    })?;
-    for path in &frame.files {
-        let path = out.join(path);
-        std::fs::remove_file(&path).map_err(|source| FarmError::io("remove", &path, source))?;
-    }
-    Ok(done)
 }
 
 /// A content of the store in this machine's cache.
@@ -360,26 +322,6 @@ fn place(cached: &Path, path: &Path) -> Result<(), FarmError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_finished_frame_outlasts_a_store_that_is_away_for_a_while() {
-        let tries = |answers: &[Option<FarmError>], stop: bool| {
-            let mut tried = 0;
-            let result = patiently(&AtomicBool::new(stop), Duration::ZERO, || {
-                tried += 1;
-                match &answers[tried - 1] {
-                    Some(FarmError::Io { action, path, source }) => Err(FarmError::io(action, path, source.kind().into())),
-                    Some(error) => Err(FarmError::Request(error.to_string())),
-                    None => Ok(()),
-                }
-            });
-            (tried, result.is_ok())
-        };
-        let away = || Some(FarmError::io("write", Path::new("job/done"), std::io::ErrorKind::StaleNetworkFileHandle.into()));
-        assert_eq!(tries(&[away(), away(), None], false), (3, true));
-        assert_eq!(tries(&[away(), None], true), (1, false), "who asks it to end is heard");
-        assert_eq!(tries(&[Some(FarmError::Request("no such task".into())), None], false), (1, false));
-    }
 
     #[test]
     fn shards_hold_every_task_once() {

@@ -25,8 +25,8 @@ mod workdir;
 #[doc(hidden)]
 pub use assets::read_library;
 pub use config::{
-    CameraChoice, CameraConfig, CameraModel, Config, EnvironmentChoice, FileSource, LabelSource, LensConfig, Overrides, Quality,
-    RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
+    CameraChoice, CameraConfig, CameraModel, Config, EnvironmentChoice, FarmConfig, FileSource, LabelSource, LensConfig, Overrides,
+    Placeholder, Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
 pub use enfilade_dataset::{ColorKind, WORKDIR};
 pub use enfilade_home::light::Moment;

@@ -50,6 +50,7 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     session.check_denoisers(&scenes)?;
     let mut summary = session.run(&scenes, &stages, false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
+    summary.warnings.extend(config.farm.not_run_here());
     Ok(summary)
 }
 

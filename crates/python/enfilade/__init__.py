@@ -8,9 +8,11 @@
     for batch in frames.loader(batch_size=4, shuffle=True):
         ...
 
-`Dataset` opens enfilade's datasets and Hypersim's release alike, `NyuV2` that dataset's published file. The other functions are the verbs of the command line.
+`Dataset` opens enfilade's datasets and Hypersim's release alike, `NyuV2` that dataset's published file. The other functions are the verbs of the command line;
+those of `enfilade farm`, which makes a dataset on many machines, are in `enfilade.farm`.
 """
 
+from . import farm
 from ._native import (
     FORMATS,
     LAYERS,
@@ -63,6 +65,7 @@ __all__ = [
     "__version__",
     "compare_meshes",
     "export",
+    "farm",
     "home",
     "import_scene",
     "judge_shapes",

@@ -6,6 +6,8 @@ from typing import Any, Literal, TypedDict, final
 
 import numpy
 
+from . import farm as farm
+
 __version__: str
 
 Path = str | PathLike[str]

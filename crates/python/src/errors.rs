@@ -2,6 +2,7 @@
 
 use enfilade_dataset::DatasetError;
 use enfilade_export::ExportError;
+use enfilade_farm::FarmError;
 use enfilade_loader::LoaderError;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
@@ -59,5 +60,20 @@ impl IntoPy for enfilade_pipeline::Error {
         let hint = self.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
         let message = format!("{}{hint}", self.explain());
         if self.is_usage() { PyValueError::new_err(message) } else { PyRuntimeError::new_err(message) }
+    }
+}
+
+impl IntoPy for FarmError {
+    fn into_py(self) -> PyErr {
+        let hint = self.hint().map(|hint| format!("; {hint}")).unwrap_or_default();
+        let message = format!("{self}{hint}");
+        match self {
+            Self::Dataset(error) => error.into_py(),
+            Self::Pipeline(error) => error.into_py(),
+            Self::Place { .. } | Self::Request(_) => PyValueError::new_err(message),
+            Self::Store { .. } | Self::Unreliable { .. } | Self::Io { .. } => PyOSError::new_err(message),
+            Self::Damaged { .. } => DamagedFileError::new_err(message),
+            Self::Program { .. } => PyRuntimeError::new_err(message),
+        }
     }
 }

@@ -17,6 +17,11 @@ const INTERVAL: Duration = Duration::from_millis(100);
 pub struct Interrupt(AtomicBool);
 
 impl Interrupt {
+    /// Rises with the interruption: for work that is ended by a flag, in good order.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
+
     fn check(&self) {
         if self.0.load(Ordering::Relaxed) {
             resume_unwind(Box::new("interrupted"));

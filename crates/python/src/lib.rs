@@ -1,7 +1,7 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
 //! This crate only converts: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
-//! shapes from `enfilade-shapes`. Arrays are handed over without a copy, and the interpreter is released while anything is read,
+//! shapes from `enfilade-shapes`, jobs of many machines from `enfilade-farm`. Arrays are handed over without a copy, and the interpreter is released while anything is read,
 //! decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
 mod arguments;
@@ -9,6 +9,7 @@ mod arrays;
 mod config;
 mod dataset;
 mod errors;
+mod farm;
 mod interrupt;
 mod json;
 mod loader;
@@ -56,7 +57,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     ] {
         module.add_function(function)?;
     }
-    Ok(())
+    farm::add_module(module)
 }
 
 /// What each format of `export` is, by name.

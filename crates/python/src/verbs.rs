@@ -158,7 +158,7 @@ pub fn export<'py>(
 }
 
 /// The summary as a dictionary; a StageError if a scene failed.
-fn conclude<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyAny>> {
+pub fn conclude<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyAny>> {
     let scenes = summary.scenes.iter().map(|scene| -> Value {
         let stages = scene.stages.iter().map(|stage| {
             json!({ "stage": stage.stage.name(), "up_to_date": stage.up_to_date, "summary": stage.summary, "warnings": stage.warnings, "wall_s": stage.wall_s })

@@ -1,6 +1,7 @@
 """The verbs are those of the command line, and the types that are announced are those that are there."""
 
 import ast
+import inspect
 import os
 import shutil
 import signal
@@ -170,11 +171,22 @@ class Announced(unittest.TestCase):
         stubs = {node.name: node for node in body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
         values = {node.target.id for node in body if isinstance(node, ast.AnnAssign)}
         dictionaries = {"Layer", "MeshComparison", "ShapeObject", "ShapeDetection", "JudgedShape"}
-        self.assertEqual(set(enfilade.__all__), (set(stubs) - dictionaries) | values)
+        modules = {alias.name for node in body if isinstance(node, ast.ImportFrom) and node.level for alias in node.names}
+        self.assertEqual(set(enfilade.__all__), (set(stubs) - dictionaries) | values | modules)
         for name in ("Dataset", "Loader", "LoaderIterator", "Config"):
             announced = {node.name for node in stubs[name].body if isinstance(node, ast.FunctionDef)}
             there = {key for key in vars(getattr(enfilade, name)) if not key.startswith("__")}
             self.assertEqual({key for key in announced if not key.startswith("__")}, there, name)
+
+    def test_stubs_of_the_farm_have_its_functions_and_their_arguments(self):
+        body = ast.parse(Path(enfilade.farm.__file__).with_suffix(".pyi").read_text()).body
+        stubs = {node.name: node.args for node in body if isinstance(node, ast.FunctionDef)}
+        self.assertEqual(set(enfilade.farm.__all__), set(stubs))
+        for name, arguments in stubs.items():
+            there = inspect.signature(getattr(enfilade.farm, name)).parameters.values()
+            self.assertEqual([a.arg for a in arguments.args], [p.name for p in there if p.kind is p.POSITIONAL_OR_KEYWORD], name)
+            self.assertEqual([a.arg for a in arguments.kwonlyargs], [p.name for p in there if p.kind is p.KEYWORD_ONLY], name)
+            self.assertTrue(getattr(enfilade.farm, name).__doc__, name)
 
     def test_everything_has_a_doc_string(self):
         for name in enfilade.__all__:

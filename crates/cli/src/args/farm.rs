@@ -51,6 +51,10 @@ pub struct FarmPlanArgs {
     /// Threads of a worker
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     pub cpus: u32,
+    /// Also what it will cost: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
+    /// Hypersim's median]
+    #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
+    pub price: Option<String>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub make: MakeFlags,
@@ -83,7 +87,7 @@ pub struct FarmStatusArgs {
     /// Print it as JSON
     #[arg(long)]
     pub json: bool,
-    /// Also what it has cost until now, at dollars per vCPU-hour or a CSV table of them with names, as in `stats`
+    /// Also what it has cost until now: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true, conflicts_with_all = ["missing", "json"])]
     pub price: Option<String>,
     /// Write a table with a row per attempt: machine, the engine's numbers, times, memory, costs
@@ -99,7 +103,7 @@ pub struct FarmCollectArgs {
     /// The dataset's folder
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Dollars per vCPU-hour, or a CSV table of them with names, as in `stats`
+    /// Dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
     pub price: Option<String>,
 }

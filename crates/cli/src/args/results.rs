@@ -95,7 +95,7 @@ pub struct StatsArgs {
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
     pub scene: Option<String>,
-    /// Dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    /// Dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
     pub price: Option<String>,
     /// Draw the charts over the histograms of this folder: statistics of another dataset, or Hypersim's

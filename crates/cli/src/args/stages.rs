@@ -32,7 +32,8 @@ pub struct RunArgs {
     /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and no finished frame changes
     #[arg(long)]
     pub estimate: bool,
-    /// With --estimate: dollars per vCPU-hour, or a CSV table of them with names [default: 0.0165, Hypersim's median]
+    /// With --estimate: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
+    /// Hypersim's median]
     #[arg(long, value_name = "X|CSV", requires = "estimate", allow_negative_numbers = true)]
     pub price: Option<String>,
 }

@@ -1,7 +1,7 @@
 //! What a job has cost, for `farm status` and `farm collect`.
 
 use crate::outcome::{Problem, say};
-use crate::price::dollars;
+use crate::price::{dollars, paid};
 use enfilade_farm::{Costs, Feasible, Job, costs};
 use enfilade_show::stats::{Price, memory_gib, tells_sizes};
 use std::path::Path;
@@ -12,12 +12,7 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<Co
     let costs = costs(job)?;
     lines(&costs).iter().for_each(|line| say(line));
     for price in prices {
-        say(&format!(
-            "  {} dollars at {} per vCPU-hour ({})",
-            dollars(costs.dollars(price.dollars_per_vcpu_hour)),
-            price.dollars_per_vcpu_hour,
-            price.name
-        ));
+        say(&format!("  {}", paid(price, costs.vcpu_hours())));
     }
     if tells_sizes(prices) {
         machines(&costs.feasible(prices), costs.attempts.len()).iter().for_each(|line| say(line));
@@ -35,8 +30,12 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<Co
 
 fn lines(costs: &Costs) -> Vec<String> {
     let share = |part: f64| if costs.vcpu_s > 0.0 { 100.0 * part / costs.vcpu_s } else { 0.0 };
+    let after_frame = match costs.after_frame_vcpu_s {
+        spent if spent > 0.0 => format!(" {:.1} % into the program that is run after them,", share(spent)),
+        _ => String::new(),
+    };
     let mut lines = vec![format!(
-        "{:.4} vCPU-hours paid, of which {:.1} % were used; {:.1} % went into frames that count, {:.1} % into attempts that failed or came second",
+        "{:.4} vCPU-hours paid, of which {:.1} % were used; {:.1} % went into frames that count,{after_frame} {:.1} % into attempts that failed or came second",
         costs.vcpu_hours(),
         100.0 * costs.utilization(),
         share(costs.in_frames_vcpu_s),
@@ -90,6 +89,8 @@ mod tests {
             lines(&costs)[0],
             "2.0000 vCPU-hours paid, of which 75.0 % were used; 90.0 % went into frames that count, 5.0 % into attempts that failed or came second"
         );
+        let costs = Costs { after_frame_vcpu_s: 720.0, ..costs };
+        assert!(lines(&costs)[0].contains("frames that count, 10.0 % into the program that is run after them, 5.0 % into attempts"));
         assert_eq!(lines(&Costs::default()).len(), 2);
     }
 

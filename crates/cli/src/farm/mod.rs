@@ -1,16 +1,20 @@
 //! `farm`: one dataset on many machines.
 
 mod costs;
-mod submit;
 
-use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmVerb, FarmWorkArgs};
+use crate::args::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
+use crate::estimate::told;
 use crate::outcome::{Problem, Verdict, say, warn};
-use crate::price::prices;
+use crate::price::{dollars, paid, prices, told_price};
 use crate::progress::Progress;
 use crate::summary;
 use crate::verbs::configuration;
 use enfilade_dataset::quoted;
-use enfilade_farm::{Assignment, Attempt, Ended, FarmError, Job, PlanOptions, Store, Work, parse_ranges, print_ranges, stop_on_signals};
+use enfilade_farm::{
+    Assignment, Attempt, Ended, Engine, FarmError, Job, Plan, PlanOptions, PricedPlan, Store, SubmitOptions, Submitted, Work,
+    default_scratch, how_to_submit, parse_ranges, print_ranges, stop_on_signals,
+};
+use enfilade_show::stats::Price;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -21,7 +25,7 @@ pub fn farm(args: &FarmArgs, quiet: bool) -> Result<Verdict, Problem> {
         FarmVerb::Work(args) => work(args, quiet),
         FarmVerb::Status(args) => status(args),
         FarmVerb::Collect(args) => collect(args, quiet),
-        FarmVerb::Submit(args) => submit::submit(&open(&args.job)?, args),
+        FarmVerb::Submit(args) => submit(args),
     }
 }
 
@@ -39,34 +43,42 @@ fn open(job: &str) -> Result<Job, FarmError> {
 }
 
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let prices = prices(args.price.as_deref())?;
     let config = configuration(args.config.as_deref(), &args.make)?;
-    if !(args.minutes > 0.0 && args.minutes.is_finite()) {
-        return Err(Problem::new(format!("--minutes is {}; expected a time above 0", args.minutes), "as in --minutes 15"));
-    }
-    let store = Store::begin(&args.output, enfilade_farm::environment())?;
-    let scratch = tempfile::tempdir().map_err(|error| Problem::new(format!("cannot make a temporary folder: {error}"), "set TMPDIR"))?;
     let options = PlanOptions { minutes: args.minutes, cpus: args.cpus };
+    options.check()?;
+    let store = Store::begin(&args.output, enfilade_farm::environment())?;
     let (result, job) = {
         let progress = Progress::new(quiet);
-        enfilade_farm::plan(&config, store, scratch.path(), &options, &progress)?
+        enfilade_farm::plan(&config, store, &options, &progress)?
     };
     let Some(job) = job else {
         summary::print_table(&result);
         return Ok(Verdict::Failed);
     };
-    let plan = &job.plan;
-    let frames: usize = plan.tasks.iter().map(|task| task.part.frames.len()).sum();
-    let cpu_s: f64 = plan.tasks.iter().map(|task| task.cpu_s).sum();
-    let scenes = plan.scenes.len();
-    say(&format!("{} tasks of {frames} frames in {scenes} scenes: {:.2} vCPU-hours expected", plan.tasks.len(), cpu_s / 3600.0));
-    for nodes in [1, 10, 100] {
-        let tasks_at_once = nodes.min(plan.tasks.len().max(1)) as f64;
-        let wall_s = cpu_s / (f64::from(plan.cpus) * tasks_at_once);
-        say(&format!("  on {nodes:3} workers of {} threads about {:.1} minutes", plan.cpus, wall_s / 60.0));
-    }
+    summary::print_warnings(&result);
+    say_plan(&job.plan, &prices);
     let place = job.store.url();
     say(&format!("The job is in {place}. Start workers: enfilade farm submit {} --engine slurm", quoted(place)));
     Ok(Verdict::Done)
+}
+
+/// Says how the work was divided, and what it will take and cost.
+fn say_plan(plan: &Plan, prices: &[Price]) {
+    let told_plan = plan.statement(prices);
+    let (tasks, hours) = (told_plan.tasks, told_plan.vcpu_hours.mean);
+    say(&format!("{tasks} tasks of {} frames in {} scenes: {hours:.2} vCPU-hours expected", told_plan.frames, told_plan.scenes));
+    for nodes in [1, 10, 100] {
+        let tasks_at_once = nodes.min(tasks.max(1)) as f64;
+        let wall_minutes = 60.0 * hours / (f64::from(plan.cpus) * tasks_at_once);
+        say(&format!("  on {nodes:3} workers of {} threads about {wall_minutes:.1} minutes", plan.cpus));
+    }
+    for PricedPlan { price, dollars: sum } in &told_plan.prices {
+        say(&format!("  {}", told_price(price, &told(sum, dollars), hours)));
+    }
+    if let Some(program) = plan.farm.after_frame.first() {
+        say(&format!("  and what {program:?} takes after every frame, which is not known"));
+    }
 }
 
 fn work(args: &FarmWorkArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -76,10 +88,7 @@ fn work(args: &FarmWorkArgs, quiet: bool) -> Result<Verdict, Problem> {
         (None, Some(text)) => parse_shard(text)?,
         (None, None) => return Err(Problem::new("no tasks are named", "give --task 0-3 or --shard 0/4")),
     };
-    let environment = |name: &str| std::env::var(name).ok();
-    let host = environment("SLURMD_NODENAME").or_else(|| std::fs::read_to_string("/proc/sys/kernel/hostname").ok());
-    let attempt = Attempt::new(host.as_deref().map_or("node", str::trim), environment);
-    let scratch = args.scratch.clone().unwrap_or_else(|| std::env::temp_dir().join("enfilade-farm"));
+    let (attempt, scratch) = (Attempt::here(), args.scratch.clone().unwrap_or_else(default_scratch));
     let done = open(&args.job).and_then(|job| {
         let progress = Progress::new(quiet);
         let records = enfilade_farm::work(&job, &assignment, &Work { scratch: &scratch, attempt: &attempt, stop: &stop }, &progress)?;
@@ -143,7 +152,10 @@ fn status(args: &FarmStatusArgs) -> Result<Verdict, Problem> {
     }
     warn_of(&status.unreadable);
     if args.price.is_some() || args.attempts.is_some() {
-        costs::say_costs(&job, &prices(args.price.as_deref())?, args.attempts.as_deref())?;
+        let prices = prices(args.price.as_deref())?;
+        costs::say_costs(&job, &prices, args.attempts.as_deref())?;
+        let left = prices.iter().filter(|_| !status.is_complete());
+        left.for_each(|price| say(&format!("About {}, for what is left", paid(price, status.left_cpu_s / 3600.0))));
     }
     Ok(Verdict::of(status.is_complete()))
 }
@@ -175,6 +187,40 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
     warn_of(&costs.unreadable);
     say_faults(costs.different(), &BTreeMap::new());
     Ok(Verdict::of(result.ok()))
+}
+
+/// `farm submit`: files for engines.
+fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
+    let named = |option: &Option<String>, flag: &str| {
+        option.clone().ok_or_else(|| Problem::new(format!("{flag} is not given"), "see enfilade farm submit --help"))
+    };
+    let engine = match args.engine {
+        EngineArg::Slurm => Engine::Slurm { collect: args.collect.clone(), dry_run: args.dry_run },
+        EngineArg::Kubernetes => Engine::Kubernetes { image: named(&args.image, "--image")? },
+        EngineArg::AwsBatch => {
+            Engine::AwsBatch { queue: named(&args.queue, "--queue")?, definition: named(&args.definition, "--definition")? }
+        }
+        EngineArg::Openjd => Engine::Openjd,
+    };
+    // Nodes of Slurm see the same folders.
+    let here = || std::env::current_exe().ok().filter(|_| args.engine == EngineArg::Slurm).map(|path| path.display().to_string());
+    let options = SubmitOptions {
+        program: args.program.clone().or_else(here),
+        at_once: args.at_once,
+        memory_mib: args.memory,
+        minutes: args.minutes,
+        array_limit: Some(args.array_limit),
+    };
+    let mut tell = |done: Submitted| match done {
+        Submitted::File(path) => say(&path.display().to_string()),
+        Submitted::Job(number) => say(&format!("submitted as job {number}")),
+    };
+    if !enfilade_farm::submit(&open(&args.job)?, &engine, &options, &args.output, &mut tell)? {
+        say(&format!("nothing is missing; collect the dataset: enfilade farm collect {} -o OUT", quoted(&args.job)));
+    } else if let Some(advice) = how_to_submit(&engine) {
+        say(advice);
+    }
+    Ok(Verdict::Done)
 }
 
 #[cfg(test)]

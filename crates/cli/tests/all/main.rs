@@ -4,6 +4,8 @@ mod bad_input;
 mod common;
 mod denoise;
 mod farm;
+#[cfg(unix)]
+mod farm_program;
 mod hypersim;
 mod ingest;
 mod rendering;

@@ -140,7 +140,7 @@ fn a_run_is_forecast_before_it_and_counted_after_it() {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     let text = succeed(d, &["run", "dataset.toml", "-o", "out", "--estimate", "--price", "0.05"]);
-    assert!(text.contains("processor time") && text.contains("vCPU-hours") && text.contains("0.05 (given)"), "{text}");
+    assert!(text.contains("processor time") && text.contains("vCPU-hours") && text.contains("0.05 per vCPU-hour (given)"), "{text}");
     assert!(!d.join("out/scenes/room/images").exists() && !d.join("out/.enfilade/room/pilot").exists());
     assert!(d.join("out/scenes/room/_detail/cam_00/camera_keyframe_positions.hdf5").is_file());
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
@@ -154,6 +154,17 @@ fn a_run_is_forecast_before_it_and_counted_after_it() {
     assert!(text.contains("3 images") && text.contains("dollars at 0.05"), "{text}");
     assert!(page("costs.json").is_file() && page("metadata_rendering_jobs.csv").is_file());
     assert_eq!(fs::read(page("statistics.json")).unwrap(), numbers);
+    // A licence beside the machine, as Hypersim's, goes into Hypersim's column.
+    let text = succeed(d, &["stats", "out", "--price", "16.5,licence=0.15/core-minute"]);
+    assert!(text.contains("dollars at 16.5 per vCPU-hour and 0.15 per core-minute for licence (given): "), "{text}");
+    let jobs = fs::read_to_string(page("metadata_rendering_jobs.csv")).unwrap();
+    let cells = |line: usize| jobs.lines().nth(line).unwrap().split(',').collect::<Vec<_>>();
+    let dollars = |name: &str| cells(1)[cells(0).iter().position(|cell| *cell == name).unwrap()].parse::<f64>().unwrap();
+    assert!(dollars("cost_vray_dollars") > 0.0 && dollars("cost_vray_dollars") < dollars("cost_cloud_dollars"), "{jobs}");
+    let html = fs::read_to_string(page("statistics.html")).unwrap();
+    assert!(html.contains("of these, machine") && html.contains("of these, licence"));
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out", "--estimate", "--price", "0.0165,licence=0.009"]);
+    assert!(text.contains("per vCPU-hour and 0.009 per vCPU-hour for licence (given): "), "{text}");
     fail(d, &["stats", "out", "--price", "cheap"], 2, &["is no number", "--price 0.04"]);
     fail(d, &["stats", "out", "--compare", "dataset.toml"], 1, &["dataset.toml"]);
 }

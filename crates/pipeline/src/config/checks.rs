@@ -74,6 +74,7 @@ impl Config {
         if self.scenes.is_empty() {
             return Err(Error::usage("the configuration has no scenes", "add at least one; that of the demo has one"));
         }
+        self.farm.validate().map_err(|wrong| Error::usage(format!("in `farm`: {}", wrong.message), wrong.help))?;
         let mut names = HashSet::new();
         for scene in &self.scenes {
             if !names.insert(scene.name.as_str()) {

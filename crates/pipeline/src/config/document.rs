@@ -2,6 +2,7 @@
 
 use super::camera::CameraConfig;
 use super::choices::Quality;
+use super::farm::FarmKeys;
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::settings::{CameraChoice, EnvironmentChoice};
 use enfilade_import::UpAxis;
@@ -29,6 +30,8 @@ pub(super) struct Document {
     pub carve: CarvePatch,
     #[serde(default)]
     pub gate: GatePatch,
+    #[serde(default)]
+    pub farm: FarmKeys,
     #[serde(default)]
     pub scene: Vec<SceneKeys>,
 }

@@ -9,6 +9,7 @@ mod choices;
 pub mod demo;
 mod document;
 mod expand;
+mod farm;
 mod locate;
 mod patch;
 mod resolve;
@@ -26,6 +27,7 @@ use std::path::Path;
 
 pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
 pub use choices::{Overrides, Quality, RenderChoices};
+pub use farm::{FarmConfig, Placeholder};
 pub(crate) use locate::closest;
 pub use select::select;
 pub use settings::{CameraChoice, Config, EnvironmentChoice, FileSource, LabelSource, SceneConfig, Source};

@@ -8,6 +8,7 @@ use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_nam
 use super::choices::{Overrides, Quality};
 use super::document::{Document, Level, SceneKeys};
 use super::expand::expand;
+use super::farm::FarmConfig;
 use super::locate::{Source as Text, in_words};
 use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
@@ -56,7 +57,7 @@ pub(super) fn resolve(
         scenes.push(resolver.scene(keys)?);
     }
     resolver.check_homes(&scenes)?;
-    Ok(Config { base: Default::default(), carried: Default::default(), name, scenes })
+    Ok(Config { base: Default::default(), carried: Default::default(), name, scenes, farm: resolver.farm()? })
 }
 
 fn default_name(file: &Path) -> String {
@@ -123,6 +124,19 @@ impl Resolver<'_> {
             self.check_grid(&scene, camera)?;
         }
         Ok(scene)
+    }
+
+    fn farm(&self) -> Result<FarmConfig, ConfigError> {
+        let keys = &self.document.farm;
+        let (program, limit) = (keys.after_frame.as_ref(), keys.after_frame_timeout_s.as_ref());
+        let mut farm = FarmConfig::default();
+        farm.after_frame = program.map_or(farm.after_frame, |words| words.get_ref().clone());
+        farm.after_frame_timeout_s = limit.map_or(farm.after_frame_timeout_s, |seconds| *seconds.get_ref());
+        farm.validate().map_err(|wrong| {
+            let place = if wrong.key == "after_frame" { program.map(Spanned::span) } else { limit.map(Spanned::span) };
+            ConfigError { help: Some(wrong.help), ..self.source.error(place, wrong.message) }
+        })?;
+        Ok(farm)
     }
 
     /// Lays the keys of one level over those below, whose quality is `below`. Of paths it checks the environment variables.

@@ -5,6 +5,7 @@
 
 use super::camera::CameraConfig;
 use super::expand::expand;
+use super::farm::FarmConfig;
 use super::select::select;
 use crate::error::Error;
 use enfilade_dataset::ColorKind;
@@ -33,6 +34,9 @@ pub struct Config {
     pub name: String,
     /// In the order of the file; names are unique.
     pub scenes: Vec<SceneConfig>,
+    /// What nodes of a farm do besides. It changes no other file of the dataset.
+    #[serde(default, skip_serializing_if = "FarmConfig::is_default")]
+    pub farm: FarmConfig,
 }
 
 /// One scene of it.

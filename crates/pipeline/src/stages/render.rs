@@ -5,7 +5,7 @@ use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, came
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, ColorKind, FrameInfo, Recipe, StoppedBy, counted};
+use enfilade_dataset::{CameraRecord, ColorKind, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
@@ -260,6 +260,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         layout.layer_dir(name, camera, Pass::Geometry),
         layout.preview_dir(name, camera, Pass::Final),
         layout.preview_dir(name, camera, Pass::Geometry),
+        layout.after_frame_dir(name, camera),
     ];
     // Records first: a frame without one does not count.
     for folder in folders {
@@ -267,7 +268,12 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         for entry in entries {
             let path = entry.map_err(Error::io("read", &folder))?.path();
             let number = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_prefix("frame.")).and_then(|n| n.split('.').next());
-            if number.is_some_and(|n| !keep.contains(n)) {
+            if number.is_none_or(|n| keep.contains(n)) {
+                continue;
+            }
+            if path.is_dir() {
+                remove_folder(&path)?;
+            } else {
                 std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
             }
         }

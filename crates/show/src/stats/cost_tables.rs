@@ -1,6 +1,7 @@
 //! Costs from the times of a dataset, and as the tables of Hypersim's toolkit: one row per trajectory and one per frame.
 
-use super::costs::{Cost, CostReport, FrameCost, Price};
+use super::Price;
+use super::costs::{Cost, CostReport, FrameCost};
 use super::gather::NamedImage;
 use super::machines::smallest_feasible;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes};
@@ -41,7 +42,7 @@ pub fn costs(dataset: &Dataset, images: &[NamedImage], prices: &[Price]) -> Resu
 /// # Errors
 /// When a file cannot be written.
 pub fn write_tables(folder: &Path, report: &CostReport) -> Result<(), DatasetError> {
-    let free = Price { name: String::new(), dollars_per_vcpu_hour: 0.0, machine: None };
+    let free = Price::new("", 0.0);
     let price = report.prices.first().unwrap_or(&free);
     let mut jobs: BTreeMap<String, Vec<&Cost>> = BTreeMap::new();
     let mut tasks = TASKS_HEADER.to_string();
@@ -63,11 +64,13 @@ fn memory(cost: &Cost) -> String {
     cost.peak_memory_gib.map_or(String::new(), |gib| format!("{gib:.3}"))
 }
 
-/// Seconds on the wall clock and of all vCPUs, dollars, clocks and the share that was used.
+/// Seconds on the wall clock and of all vCPUs, dollars of the machine and of licences (Hypersim's was V-Ray's), clocks and the share that
+/// was used.
 fn shared_cells(cost: &Cost, price: &Price) -> String {
     let vcpu_s = HOUR_S * cost.vcpu_hours;
-    let dollars = cost.dollars(price);
-    format!("{:.3},{vcpu_s:.3},{dollars:.6},0,{:.3},{vcpu_s:.3},{:.4}", cost.wall_s, cost.cpu_s, cost.utilization())
+    let machine = price.machine_dollars(cost.vcpu_hours);
+    let licences = if price.licences.is_empty() { "0".into() } else { format!("{:.6}", price.licence_dollars(cost.vcpu_hours)) };
+    format!("{:.3},{vcpu_s:.3},{machine:.6},{licences},{:.3},{vcpu_s:.3},{:.4}", cost.wall_s, cost.cpu_s, cost.utilization())
 }
 
 fn job_row(name: &str, cost: &Cost, price: &Price, prices: &[Price]) -> String {
@@ -87,7 +90,7 @@ fn task_row(frame: &FrameCost, price: &Price) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::Machine;
+    use crate::stats::{Machine, Per, Rate};
 
     #[test]
     fn a_trajectory_is_a_job_and_its_frames_are_tasks() {
@@ -102,7 +105,7 @@ mod tests {
         };
         let frames: Vec<_> = (0..2).map(|frame| (("room".to_string(), "cam_00".to_string(), frame), cost)).collect();
         let machine = |vcpus| Some(Machine { vcpus, memory_gib: 4.0 });
-        let price = |name: &str, dollars_per_vcpu_hour, vcpus| Price { name: name.into(), dollars_per_vcpu_hour, machine: machine(vcpus) };
+        let price = |name: &str, dollars_per_vcpu_hour, vcpus| Price { machine: machine(vcpus), ..Price::new(name, dollars_per_vcpu_hour) };
         let prices = [price("spot", 0.9, 16), price("four", 1.0, 4), price("two", 1.0, 2)];
         let report = CostReport::new(&frames, &prices);
         write_tables(folder.path(), &report).unwrap();
@@ -116,6 +119,11 @@ mod tests {
             tasks.lines().nth(2).unwrap(),
             "room@scene_cam_00_final,1,10.000,40.000,0.010000,0,30.000,40.000,0.7500,2.000,64.000,True"
         );
+        // As Hypersim's, of which half the dollars here go to the machine.
+        let licences = vec![Rate { name: "licence".into(), dollars: 0.015, per: Per::CoreMinute }];
+        write_tables(folder.path(), &CostReport::new(&frames, &[Price { licences, ..Price::new("licensed", 0.9) }])).unwrap();
+        assert!(read(JOBS).lines().nth(1).unwrap().starts_with("room@scene_cam_00_final,,4,20.000,80.000,0.020000,0.020000,60.000,"));
+        assert!(read(TASKS).lines().nth(1).unwrap().starts_with("room@scene_cam_00_final,0,10.000,40.000,0.010000,0.010000,30.000,"));
         for table in [&jobs, &tasks] {
             assert!(table.lines().all(|line| line.split(',').count() == table.lines().next().unwrap().split(',').count()));
         }

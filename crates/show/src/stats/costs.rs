@@ -1,8 +1,9 @@
 //! What frames cost: processor hours and dollars at given prices.
 //!
 //! A vCPU-hour is what a cloud bills: an hour of one thread of a machine, busy or idle. A frame takes its time on the wall clock
-//! times the threads at work. Hypersim paid 0.0161 to 0.0484 dollars for one, half of them 0.0165 or less.
+//! times the threads at work.
 
+use super::Price;
 use enfilade_dataset::FrameTime;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -11,34 +12,6 @@ use std::collections::BTreeMap;
 const HOUR_S: f64 = 3600.0;
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
-
-/// The size of a machine that can be had at a price.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Machine {
-    /// Threads; 1 or more.
-    pub vcpus: u32,
-    /// Above 0.
-    pub memory_gib: f64,
-}
-
-/// Dollars per vCPU-hour, with the name of what is paid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Price {
-    /// Such as "spot".
-    pub name: String,
-    /// 0 or more.
-    pub dollars_per_vcpu_hour: f64,
-    /// The machine that is paid, where its size is told.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub machine: Option<Machine>,
-}
-
-impl Default for Price {
-    /// What half of Hypersim's rendering was paid at or below.
-    fn default() -> Self {
-        Self { name: "Hypersim's median".into(), dollars_per_vcpu_hour: 0.0165, machine: None }
-    }
-}
 
 /// What one frame, or many together, took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -93,9 +66,9 @@ impl Cost {
         if self.vcpu_hours > 0.0 { self.cpu_s / HOUR_S / self.vcpu_hours } else { 0.0 }
     }
 
-    /// Dollars at a price.
+    /// Dollars at a price, all its rates together.
     pub fn dollars(&self, price: &Price) -> f64 {
-        self.vcpu_hours * price.dollars_per_vcpu_hour
+        price.dollars(self.vcpu_hours)
     }
 }
 
@@ -124,6 +97,9 @@ pub struct CostReport {
     pub total: Cost,
     /// Dollars of all frames by name of the price.
     pub dollars: BTreeMap<String, f64>,
+    /// The same by rate, of prices with more than one.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub dollars_by_rate: BTreeMap<String, BTreeMap<String, f64>>,
     /// By scene.
     pub scenes: BTreeMap<String, Cost>,
     /// Frame by frame.
@@ -157,7 +133,12 @@ impl CostReport {
             cost: *cost,
             dollars: dollars(cost),
         };
+        let by_rate = prices.iter().map(|price| {
+            let parts = price.parts(total.vcpu_hours).into_iter().map(|(rate, dollars)| (rate.to_string(), dollars));
+            (price.name.clone(), parts.collect::<BTreeMap<_, _>>())
+        });
         Self {
+            dollars_by_rate: by_rate.filter(|(_, parts)| !parts.is_empty()).collect(),
             prices: prices.to_vec(),
             total,
             dollars: dollars(&total),
@@ -170,6 +151,7 @@ impl CostReport {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::{Per, Rate};
 
     fn time(wall_s: f64, cpu_s: f64, threads: Option<u32>) -> FrameTime {
         FrameTime { wall_s, cpu_s, peak_memory_bytes: Some(1 << 30), threads }
@@ -179,7 +161,7 @@ mod tests {
     fn threads_that_wait_are_paid_for() {
         let cost = Cost::of(&time(1800.0, 5400.0, Some(4)), Some(64.0));
         assert_eq!((cost.vcpu_hours, cost.utilization(), cost.peak_memory_gib), (2.0, 0.75, Some(1.0)));
-        assert_eq!(cost.dollars(&Price { name: "spot".into(), dollars_per_vcpu_hour: 0.05, machine: None }), 0.1);
+        assert_eq!(cost.dollars(&Price::new("spot", 0.05)), 0.1);
         assert_eq!(Cost::of(&time(1800.0, 5400.0, None), None).vcpu_hours, 1.5);
     }
 
@@ -191,7 +173,13 @@ mod tests {
             (key("hall", 1), Cost::of(&time(1800.0, 3600.0, Some(2)), Some(64.0))),
             (key("room", 0), Cost::of(&time(900.0, 900.0, Some(2)), None)),
         ];
-        let report = CostReport::new(&frames, &[Price { name: "a".into(), dollars_per_vcpu_hour: 2.0, machine: None }]);
+        let licences = vec![Rate { name: "licence".into(), dollars: 0.05, per: Per::CoreMinute }];
+        let report = CostReport::new(&frames, &[Price::new("a", 2.0), Price { licences, ..Price::new("b", 2.0) }]);
+        assert_eq!((report.dollars["b"], report.frames[1].dollars["b"]), (3.5 * 5.0, 5.0));
+        assert_eq!(
+            report.dollars_by_rate,
+            BTreeMap::from([("b".into(), BTreeMap::from([("machine".into(), 7.0), ("licence".into(), 10.5)]))])
+        );
         assert_eq!((report.total.frames, report.total.vcpu_hours, report.dollars["a"]), (3, 3.5, 7.0));
         assert_eq!((report.scenes["hall"].vcpu_hours, report.scenes["room"].vcpu_hours), (3.0, 0.5));
         assert_eq!((report.total.samples_per_pixel, report.frames[1].dollars["a"]), (Some(48.0), 2.0));

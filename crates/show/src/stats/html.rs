@@ -129,7 +129,8 @@ fn costs_section(costs: &CostReport, plots: &[Plot]) -> Markup {
                     th { "scene" }
                     @for name in ["frames", "wall (s)", "processor (s)", "per frame (s)", "used (%)", "samples per pixel", "memory (GiB)", "vCPU-hours"] { th class="number" { (name) } }
                     @for price in &costs.prices {
-                        th class="number" { "dollars, " (price.name) " (" (number(price.dollars_per_vcpu_hour)) " per vCPU-hour)" }
+                        th class="number" { "dollars, " (price.name) " (" (price.rates()) ")" }
+                        @for (rate, _) in price.parts(0.0) { th class="number" { "of these, " (rate) } }
                     }
                 } }
                 tbody {
@@ -144,7 +145,10 @@ fn costs_section(costs: &CostReport, plots: &[Plot]) -> Markup {
                             td class="number" { (cost.samples_per_pixel.map_or("-".into(), number)) }
                             td class="number" { (cost.peak_memory_gib.map_or("-".into(), number)) }
                             td class="number" { (number(cost.vcpu_hours)) }
-                            @for price in &costs.prices { td class="number" { (number(cost.dollars(price))) } }
+                            @for price in &costs.prices {
+                                td class="number" { (number(cost.dollars(price))) }
+                                @for (_, dollars) in price.parts(cost.vcpu_hours) { td class="number" { (number(dollars)) } }
+                            }
                         }
                     }
                 }

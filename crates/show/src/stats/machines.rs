@@ -9,21 +9,12 @@ use super::{Machine, Price};
 const GIB: f64 = 1_073_741_824.0;
 /// Memory that a machine's system keeps for itself, GiB; `farm submit` asks engines for as much beside the program's own.
 const SYSTEM_GIB: f64 = 0.5;
-const HOUR_S: f64 = 3600.0;
-
-impl Price {
-    /// Dollars of the whole machine for some seconds; `None` where its size is not told.
-    pub fn machine_dollars(&self, wall_s: f64) -> Option<f64> {
-        let machine = self.machine?;
-        Some(wall_s / HOUR_S * f64::from(machine.vcpus) * self.dollars_per_vcpu_hour)
-    }
-}
 
 /// The smallest machine with room for `threads` and for a process of `peak_bytes`; `None` when none is as large, or no size is told.
 pub fn smallest_feasible(prices: &[Price], threads: u32, peak_bytes: u64) -> Option<&Price> {
     let fits = |machine: &Machine| machine.vcpus >= threads && machine.memory_gib >= memory_gib(peak_bytes);
     let sized = prices.iter().filter_map(|price| Some((price.machine.filter(fits)?, price)));
-    let order = |(machine, price): &(Machine, &Price)| (machine.vcpus, machine.memory_gib, price.dollars_per_vcpu_hour);
+    let order = |(machine, price): &(Machine, &Price)| (machine.vcpus, machine.memory_gib, price.all_per_vcpu_hour());
     sized.min_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal)).map(|(_, price)| price)
 }
 
@@ -42,7 +33,7 @@ mod tests {
     use super::*;
 
     fn offer(name: &str, dollars_per_vcpu_hour: f64, vcpus: u32, memory_gib: f64) -> Price {
-        Price { name: name.into(), dollars_per_vcpu_hour, machine: Some(Machine { vcpus, memory_gib }) }
+        Price { machine: Some(Machine { vcpus, memory_gib }), ..Price::new(name, dollars_per_vcpu_hour) }
     }
 
     #[test]
@@ -53,7 +44,7 @@ mod tests {
             offer("small spot", 0.02, 2, 4.0),
             offer("lean", 0.04, 4, 8.0),
             offer("rich", 0.06, 4, 32.0),
-            Price { name: "of no size".into(), dollars_per_vcpu_hour: 0.001, machine: None },
+            Price::new("of no size", 0.001),
         ];
         let gib = |gib: f64| (gib * GIB) as u64;
         let smallest = |threads, peak| smallest_feasible(&table, threads, peak).map(|price| price.name.as_str());
@@ -65,6 +56,5 @@ mod tests {
         assert_eq!((smallest(9, 0), smallest(1, gib(64.0))), (None, None));
         assert_eq!(smallest_feasible(&table[5..], 1, 0), None);
         assert!(tells_sizes(&table) && !tells_sizes(&table[5..]));
-        assert!((table[3].machine_dollars(1800.0).unwrap() - 0.08).abs() < 1e-12, "half an hour of four vCPUs");
     }
 }

@@ -24,11 +24,13 @@ mod maps;
 mod measure;
 mod outlier;
 mod plots;
+mod price;
 mod report;
 mod toolkit;
 
-pub use costs::{Cost, CostReport, Machine, Price};
+pub use costs::{Cost, CostReport};
 pub use machines::{memory_gib, smallest_feasible, tells_sizes};
+pub use price::{Machine, Per, Price, PriceError, Rate, read_prices};
 
 use crate::drawing::{paint, svg};
 use crate::picture::png;

@@ -1,0 +1,34 @@
+"""The types of the module `enfilade.farm`. What each function does is in its doc string: `help(enfilade.farm.plan)`."""
+
+from collections.abc import Sequence
+from os import PathLike
+from typing import Any, Literal
+
+from . import Config
+
+Path = str | PathLike[str]
+Price = float | Path
+
+def plan(job: Path, config: Config | None = None, *, minutes: float = 15.0, cpus: int = 8, price: Price | None = None) -> dict[str, Any]: ...
+def submit(
+    job: Path,
+    engine: Literal["slurm", "kubernetes", "aws-batch", "openjd"],
+    *,
+    output: Path = ".",
+    program: str | None = None,
+    collect: Path | None = None,
+    dry_run: bool = False,
+    image: str | None = None,
+    queue: str | None = None,
+    definition: str | None = None,
+    at_once: int | None = None,
+    memory_mib: int | None = None,
+    minutes: int | None = None,
+    array_limit: int = 1000,
+) -> dict[str, list[str]]: ...
+def work(
+    job: Path, tasks: int | str | Sequence[int] | None = None, *, shard: tuple[int, int] | None = None, scratch: Path | None = None
+) -> list[dict[str, Any]]: ...
+def status(job: Path) -> dict[str, Any]: ...
+def collect(job: Path, output: Path) -> dict[str, Any]: ...
+def statistics(job: Path, *, price: Price | None = None, table: Path | None = None) -> dict[str, Any]: ...
