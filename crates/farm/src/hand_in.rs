@@ -3,7 +3,6 @@
 use crate::bundle::{PackedFile, pack, read, unpacked};
 use crate::commit::{Commit, commit, read_marker, read_marker_at};
 use crate::program::{self, Failure};
-use crate::work::Work;
 use crate::{FarmError, FrameKey, Job, Marker};
 use enfilade_dataset::{Dataset, FrameTime, remove_if_there, write_bytes};
 use enfilade_pipeline::{FarmConfig, FinishedFrame, Placeholder};
@@ -91,10 +90,12 @@ impl Marker {
 }
 
 /// Runs the user's program on a frame of task `task`, commits it with what that has left, and frees its place in the worker's folder `out`.
-pub(crate) fn hand_in(job: &Job, out: &Path, task: u32, frame: &Finished, work: &Work) -> Result<Commit, FarmError> {
-    let (dataset, farm, key, attempt) = (Dataset::create(out)?, &job.plan.farm, &frame.key, &work.attempt.id);
+///
+/// `attempt` is the name of the worker's attempt; `stop` ends the program, and waiting for a store.
+pub(crate) fn hand_in(job: &Job, out: &Path, task: u32, frame: &Finished, attempt: &str, stop: &AtomicBool) -> Result<Commit, FarmError> {
+    let (dataset, farm, key) = (Dataset::create(out)?, &job.plan.farm, &frame.key);
     let begun = Instant::now();
-    let added = run_program(farm, &dataset, key, work.stop).inspect_err(|_| {
+    let added = run_program(farm, &dataset, key, stop).inspect_err(|_| {
         // The program's failure is what must be told; without what is kept the frame is rendered again.
         let _ = frame.keep(job, task, attempt);
     })?;
@@ -102,7 +103,7 @@ pub(crate) fn hand_in(job: &Job, out: &Path, task: u32, frame: &Finished, work: 
     let marker = Marker { after_frame_wall_s, ..frame.marker(task, attempt) };
     // The record of the frame comes last: a frame that has one is whole.
     let payload = pack(&[added.as_slice(), &frame.files].concat())?;
-    let done = patiently(work.stop, PAUSE, || {
+    let done = patiently(stop, PAUSE, || {
         // Somebody else may have been first while this frame was in the making: then nothing has to travel.
         let done = match read_marker(&job.store, key)? {
             Some(there) if there.attempt == marker.attempt => Commit::Won,

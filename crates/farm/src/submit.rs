@@ -48,6 +48,20 @@ pub struct SubmitOptions {
     pub array_limit: Option<u32>,
 }
 
+impl SubmitOptions {
+    /// What is chosen, over what the forecast says.
+    fn lay_over(&self, forecast: Submission) -> Submission {
+        Submission {
+            program: self.program.clone().unwrap_or(forecast.program),
+            at_once: self.at_once,
+            memory_mib: self.memory_mib.unwrap_or(forecast.memory_mib),
+            minutes: self.minutes.unwrap_or(forecast.minutes),
+            array_limit: self.array_limit.unwrap_or(forecast.array_limit),
+            ..forecast
+        }
+    }
+}
+
 /// Something that was done.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -84,13 +98,7 @@ pub fn submit(
     if missing.is_empty() {
         return Ok(false);
     }
-    let mut submission = Submission::of(job, missing);
-    let SubmitOptions { program, at_once, memory_mib, minutes, array_limit } = options;
-    submission.program = program.clone().unwrap_or(submission.program);
-    submission.at_once = *at_once;
-    submission.memory_mib = memory_mib.unwrap_or(submission.memory_mib);
-    submission.minutes = minutes.unwrap_or(submission.minutes);
-    submission.array_limit = array_limit.unwrap_or(submission.array_limit);
+    let submission = options.lay_over(Submission::of(job, missing));
     std::fs::create_dir_all(folder).map_err(|source| FarmError::io("make the folder", folder, source))?;
     let mut file = |name: String, text: &str| -> Result<PathBuf, FarmError> {
         let path = folder.join(name);

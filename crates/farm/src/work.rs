@@ -243,7 +243,7 @@ fn make(
 
     // Frames that lack nothing but the user's program, and what earlier attempts kept of others
     let hand_in = |frame: &Finished| {
-        let commit = hand_in(job, out, number, frame, work)?;
+        let commit = hand_in(job, out, number, frame, &work.attempt.id, work.stop)?;
         tally.lock().unwrap_or_else(PoisonError::into_inner).count(commit, &frame.broken);
         Ok(())
     };
