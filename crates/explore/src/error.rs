@@ -62,19 +62,6 @@ pub enum ExploreError {
         /// Memory allowed.
         limit_mib: u64,
     },
-    /// A start position with nothing around it.
-    #[error(
-        "start camera {index} at {position} is outside: {percent:.0} % of the directions around it meet no surface; place it inside the \
-         building, or check the scene's units and up axis"
-    )]
-    StartOutside {
-        /// Index into the starts.
-        index: usize,
-        /// The position.
-        position: DVec3,
-        /// Share of rays that hit nothing, percent.
-        percent: f64,
-    },
     /// A start position inside a wall or another solid thing.
     #[error(
         "start camera {index} at {position} is inside a wall or an object: half of the directions around it end within {median_m:.2} m; \

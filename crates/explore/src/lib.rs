@@ -72,13 +72,13 @@ mod surroundings;
 mod view;
 mod view_stats;
 
-pub use carve::{CarveConfig, carve};
+pub use carve::{CarveConfig, carve, is_indoors};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use plan::{
     CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
-    PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, WalkConfig, follow, parse_keyframes, plan,
-    plan_accepted,
+    PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, WalkBox, WalkBoxes, WalkConfig,
+    follow, parse_keyframes, plan, plan_accepted,
 };
 pub use preset::Preset;
 pub use saliency::Saliency;

@@ -51,6 +51,10 @@ pub struct CarveReport {
     pub outside_voxels: u64,
     /// Where free space leads out of the building, the largest first.
     pub leaks: Vec<Leak>,
+    /// True where leaks were looked for, or no ray left the domain, so that there can be none. A preset that keeps what is outside does not
+    /// look, and in an open place there is no outside.
+    #[serde(default)]
+    pub sought_leaks: bool,
     /// What became of each start camera, in their order.
     pub starts: Vec<StartReport>,
 }
@@ -64,6 +68,9 @@ pub struct StartReport {
     pub used: Option<DVec3>,
     /// Why it was skipped.
     pub problem: Option<String>,
+    /// True where hardly a direction around it meets a surface.
+    #[serde(default)]
+    pub is_open: bool,
 }
 
 /// A place where free space leads out of the building.

@@ -27,7 +27,7 @@ pub struct CarveConfig {
     pub rays: u32,
     /// Positions to carve from for each start camera: its own, then random free ones.
     pub iterations: u32,
-    /// Free voxels outside the building stay free. ([`Preset::Hypersim`] keeps them in any case.)
+    /// Free voxels outside the building stay free. (The other presets keep them in any case.)
     pub keep_outside: bool,
     /// Seed of the random positions. The published programs use 0.
     pub seed: u64,

@@ -20,6 +20,7 @@ use inside::{Enclosure, Inside};
 use rays::Rays;
 
 pub use config::CarveConfig;
+pub use start::is_indoors;
 
 /// When a larger share of the rays than this leaves the domain, there is a warning.
 const ESCAPE_WARNING: f64 = 0.01;
@@ -34,7 +35,8 @@ const ESCAPE_WARNING: f64 = 0.01;
 /// Where rays leave the domain, free voxels are judged to be inside the building or outside: by the surfaces around them, and by whether
 /// they can be reached from the start cameras without going outside. Those outside become unknown again, unless `keep_outside` is set.
 ///
-/// A start that is outside or inside a wall is skipped with a warning as long as another one serves.
+/// A start that is inside a wall is skipped with a warning as long as another one serves. One around which nearly nothing is, such as a
+/// sofa under a sky, is carved from with a warning: free is then what it sees of the whole cube.
 ///
 /// [`Preset`] lists what the preset of Hypersim does differently.
 ///
@@ -62,11 +64,11 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
         // The start's own position, or one nearby when it lies in an occupied voxel; a start in a bad place is skipped.
         let mut position = match scene.verify(index, asked) {
             Ok(used) => {
-                report.starts.push(StartReport { asked, used: Some(used), problem: None });
+                report.starts.push(StartReport { asked, used: Some(used), problem: None, is_open: scene.stands_open[index] });
                 used
             }
             Err(problem) => {
-                report.starts.push(StartReport { asked, used: None, problem: Some(problem.to_string()) });
+                report.starts.push(StartReport { asked, used: None, problem: Some(problem.to_string()), is_open: false });
                 first_problem.get_or_insert(problem);
                 continue;
             }
@@ -87,7 +89,8 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
 
     // Where rays left the domain, tell inside from outside.
     report.escaped_share = scene.escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
-    if scene.escaped > 0 && config.preset == Preset::Default {
+    report.sought_leaks = scene.escaped == 0;
+    if scene.escaped > 0 && config.preset == Preset::Default && !scene.stands_open.contains(&true) {
         scene.find_outside(config.keep_outside, &mut report, cx);
     }
 
@@ -113,6 +116,10 @@ struct Carving<'a> {
     leaps: Leaps,
     enclosure: Enclosure<'a>,
     random: Random,
+    /// Random positions are enclosed ones where rays have left the domain, if any is soon found.
+    prefers_enclosed: bool,
+    /// By start, whether nearly nothing is around it.
+    stands_open: Vec<bool>,
     /// Rays that left the domain so far.
     escaped: usize,
 }
@@ -126,9 +133,10 @@ enum Random {
 impl<'a> Carving<'a> {
     fn new(world: &'a WorldMesh, bvh: &'a Bvh, starts: &[DVec3], config: &CarveConfig) -> Result<Self, ExploreError> {
         let (min, max) = cube(starts, config)?;
+        let stands_open: Vec<bool> = starts.iter().map(|start| config.preset != Preset::Hypersim && start::is_open(bvh, *start)).collect();
         let (grid, random) = match config.preset {
-            Preset::Default => {
-                let (min, max) = cut_to_scene(min, max, world, starts, config);
+            Preset::Default | Preset::Paper => {
+                let (min, max) = if stands_open.contains(&true) { (min, max) } else { cut_to_scene(min, max, world, starts, config) };
                 let grid = VoxelGrid::new(min, max, config.voxel_m)?;
                 grid.occupy(&world.corners);
                 (grid, Random::Default(Rng::new(config.seed)))
@@ -137,7 +145,8 @@ impl<'a> Carving<'a> {
         };
         grid.check_memory()?;
         let enclosure = Enclosure::new(bvh, config.extent_m);
-        Ok(Self { world, bvh, rays: Rays::new(config.rays as usize), grid, leaps: Leaps::default(), enclosure, random, escaped: 0 })
+        let (rays, prefers_enclosed) = (Rays::new(config.rays as usize), config.preset == Preset::Default);
+        Ok(Self { world, bvh, rays, grid, leaps: Leaps::default(), enclosure, random, prefers_enclosed, stands_open, escaped: 0 })
     }
 
     fn verify(&self, index: usize, asked: DVec3) -> Result<DVec3, ExploreError> {
@@ -157,12 +166,12 @@ impl<'a> Carving<'a> {
         grid.check_memory()
     }
 
-    /// A random free position; when rays have left the domain, one that is enclosed, if any is soon found.
+    /// A random free position.
     fn next_position(&mut self) -> Option<DVec3> {
         const TRIES: usize = 100;
         match &mut self.random {
             Random::Hypersim(rng) => hypersim::random_free(&self.grid, rng),
-            Random::Default(rng) if self.escaped == 0 => self.grid.random_free(rng),
+            Random::Default(rng) if self.escaped == 0 || !self.prefers_enclosed => self.grid.random_free(rng),
             Random::Default(rng) => {
                 let first = self.grid.random_free(rng)?;
                 let more = (0..TRIES).filter_map(|_| self.grid.random_free(rng));
@@ -185,6 +194,7 @@ impl<'a> Carving<'a> {
                 self.grid.forget(cube, voxels);
             }
         });
+        report.sought_leaks = true;
     }
 }
 
@@ -232,7 +242,15 @@ fn warn(report: &CarveReport, config: &CarveConfig, cx: &dyn Cx) {
             cx.warn(Warning { place: format!("start camera {index}"), message });
         }
     }
-    if report.escaped_share > ESCAPE_WARNING {
+    for (index, start) in report.starts.iter().enumerate().filter(|(_, start)| start.is_open) {
+        let message = format!(
+            "stands in the open, at {:.2}: hardly a direction around it meets a surface. What it sees within {} m is taken for free space",
+            start.asked,
+            0.5 * config.extent_m
+        );
+        cx.warn(Warning { place: format!("start camera {index}"), message });
+    }
+    if report.escaped_share > ESCAPE_WARNING && !report.starts.iter().any(|start| start.is_open) {
         let percent = 100.0 * report.escaped_share;
         let left = format!("{percent:.1} % of the rays left the scene: it is open or a wall has a gap");
         let places: Vec<String> = report.leaks.iter().map(|leak| format!("{:.1} ({:.1} m2)", leak.position, leak.area_m2)).collect();

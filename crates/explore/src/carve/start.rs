@@ -14,8 +14,12 @@ const RAYS: usize = 2048;
 /// The original pools 50 of its 262,144 rays, a cone of 1.6 degrees; this one holds eight or so of 2048.
 const POOL_RAD: f64 = 0.09;
 
-/// A start is outside when this share of all directions meets no surface.
-const OUTSIDE_SHARE: f64 = 0.9;
+/// A start stands in the open when this share of all directions meets no surface, ...
+const OPEN_SHARE: f64 = 0.9;
+
+/// ... or, for the question whether it is in a building, this share of the level ones: before a house it is at least half.
+const OPEN_LEVEL_SHARE: f64 = 2.0 / 3.0;
+const LEVEL: usize = 72;
 
 /// A start is in a solid thing when half of all directions end within this many metres, ...
 const TIGHT_M: f64 = 0.25;
@@ -28,7 +32,6 @@ const BEHIND_SHARE: f64 = 0.9;
 struct Surroundings {
     directions: Vec<DVec3>,
     distances_m: Vec<f64>,
-    miss_share: f64,
     behind_share: f64,
 }
 
@@ -48,7 +51,6 @@ impl Surroundings {
             .collect();
         let share = |n: usize| n as f64 / RAYS as f64;
         Self {
-            miss_share: share(hits.iter().filter(|(t, _)| t.is_infinite()).count()),
             behind_share: share(hits.iter().filter(|(_, behind)| *behind).count()),
             distances_m: hits.into_iter().map(|(t, _)| t).collect(),
             directions,
@@ -73,19 +75,36 @@ impl Surroundings {
     }
 }
 
+/// Whether nearly nothing is around a point.
+pub(super) fn is_open(bvh: &Bvh, p: DVec3) -> bool {
+    let misses = (0..RAYS).into_par_iter().with_min_len(128).filter(|k| misses(bvh, p, warp::fibonacci_sphere(*k, RAYS))).count();
+    misses as f64 >= OPEN_SHARE * RAYS as f64
+}
+
+/// Whether a point is in a building rather than in front of one or above it: few of the directions around it, and of the level ones,
+/// meet no surface.
+pub fn is_indoors(bvh: &Bvh, p: DVec3) -> bool {
+    let level = |k: &usize| {
+        let (sin, cos) = (std::f64::consts::TAU * (*k as f64 + 0.5) / LEVEL as f64).sin_cos();
+        misses(bvh, p, DVec3::new(cos, sin, 0.0))
+    };
+    !is_open(bvh, p) && ((0..LEVEL).filter(level).count() as f64) < OPEN_LEVEL_SHARE * LEVEL as f64
+}
+
+fn misses(bvh: &Bvh, p: DVec3, direction: DVec3) -> bool {
+    bvh.closest(&Ray::new(p.as_vec3(), direction.as_vec3())).is_none()
+}
+
 /// The position to carve from for start camera `index` at `start`: itself, or when its voxel is occupied the first voxel that is not,
 /// along the direction with the widest open view.
 ///
 /// # Errors
-/// [`ExploreError::StartOutside`] and [`ExploreError::StartInWall`].
+/// [`ExploreError::StartInWall`].
 pub(super) fn verify(world: &WorldMesh, bvh: &Bvh, grid: &VoxelGrid, index: usize, start: DVec3) -> Result<DVec3, ExploreError> {
     let voxel_m = grid.voxel_m();
     let mut around = Surroundings::look(world, bvh, start);
     let in_wall =
         |around: &Surroundings| ExploreError::StartInWall { index, position: start, median_m: around.median_m(), clear_m: 2.0 * voxel_m };
-    if around.miss_share >= OUTSIDE_SHARE {
-        return Err(ExploreError::StartOutside { index, position: start, percent: 100.0 * around.miss_share });
-    }
     let mut position = start;
     if grid.state(start) == Voxel::Occupied {
         position = first_open(grid, start, &around.ways_out()).ok_or_else(|| in_wall(&around))?;

@@ -223,7 +223,6 @@ fn bad_starts_are_named() {
     assert_eq!(run(&[]).unwrap_err(), ExploreError::NoStarts);
     assert!(matches!(run(&[DVec3::new(-0.21, 1.5, 1.4)]).unwrap_err(), ExploreError::StartInWall { index: 0, .. }));
     assert!(matches!(run(&[DVec3::new(-0.35, 1.5, 1.4)]).unwrap_err(), ExploreError::StartInWall { index: 0, .. }));
-    assert!(matches!(run(&[DVec3::new(20.0, 1.5, 1.4)]).unwrap_err(), ExploreError::StartOutside { index: 0, .. }));
     assert!(matches!(run(&[inside, DVec3::new(99.0, 1.5, 1.4)]).unwrap_err(), ExploreError::ExtentTooSmall { .. }));
     assert!(matches!(run(&[DVec3::NAN]).unwrap_err(), ExploreError::StartNotFinite { index: 0, .. }));
     let skipped = run(&[DVec3::new(-0.21, 1.5, 1.4), inside]).unwrap().report.starts;
@@ -238,4 +237,38 @@ fn bad_configurations_are_named() {
     assert!(run(CarveConfig { voxel_m: 0.0, ..quick() }).starts_with("voxel_m = 0: expected"));
     assert!(run(CarveConfig { iterations: 0, ..quick() }).starts_with("iterations = 0: expected"));
     assert!(run(CarveConfig { voxel_m: 1e-5, ..quick() }).contains("raise voxel_m"));
+}
+
+#[test]
+fn an_open_place_is_carved_within_the_cube_with_a_warning() {
+    // A block under a sky, and a camera four metres from it.
+    let block = Room::from_corners(cuboid(DVec3::ZERO, DVec3::new(2.0, 1.0, 1.0), false));
+    let (start, heard) = (DVec3::new(1.0, -4.0, 1.2), Heard::default());
+    let config = CarveConfig { extent_m: 12.0, ..quick() };
+    let space = carve(&block.world, &block.bvh, &[start], &config, &heard).unwrap();
+    assert!(space.report.starts[0].is_open && !space.report.sought_leaks && space.report.outside_voxels == 0);
+    assert!((space.free_max - space.free_min).min_element() > 11.5, "{} {}", space.free_min, space.free_max);
+    assert_eq!(space.tree.state(DVec3::new(1.0, 0.5, 0.5)), enfilade_geometry::Voxel::Unknown, "inside of the block");
+    let warnings = heard.lines();
+    assert!(warnings.len() == 1 && warnings[0].contains("stands in the open"), "{warnings:?}");
+    assert!(!crate::is_indoors(&block.bvh, start));
+    // A room is none, and there it is known that nothing leaks.
+    let room = Room::new(DVec3::ZERO, DVec3::new(4.0, 3.0, 2.5));
+    let inside = DVec3::new(2.0, 1.5, 1.4);
+    let space = carve(&room.world, &room.bvh, &[inside], &quick(), &Quiet).unwrap();
+    assert!(!space.report.starts[0].is_open && space.report.sought_leaks && crate::is_indoors(&room.bvh, inside));
+}
+
+#[test]
+fn the_papers_preset_keeps_what_it_sees_outside_and_frees_the_same_voxels_of_a_closed_room() {
+    let closed = Room::new(DVec3::ZERO, DVec3::new(4.0, 3.0, 2.5));
+    let run = |room: &Room, preset| {
+        let config = CarveConfig { preset, ..quick() };
+        carve(&room.world, &room.bvh, &[DVec3::new(2.0, 1.5, 1.4)], &config, &Quiet).unwrap()
+    };
+    assert!(run(&closed, Preset::Paper).tree == run(&closed, Preset::Default).tree);
+    let mut open = crate::testroom::furnished_room();
+    open.remove_ceiling();
+    let (paper, default) = (run(&open, Preset::Paper).report, run(&open, Preset::Default).report);
+    assert!(paper.outside_voxels == 0 && !paper.sought_leaks && default.sought_leaks, "{paper:?}");
 }

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanConfig {
-    /// Whose walk: this crate's, with all its rules, or that of Hypersim's program, which is a walk always.
+    /// Whose rules: this crate's, or those of Hypersim's paper or program, which know walks alone.
     pub preset: Preset,
     /// What kind of trajectory.
     #[serde(skip_serializing_if = "is_default")]
@@ -307,7 +307,12 @@ impl PlanConfig {
         let found = format!("alpha {alpha}, beta {beta}, weight {weight}");
         require(saliency_ok, "saliency", found, "exponents from 0 to 16 and a weight from 0 to 1000")?;
         let walks = self.preset == Preset::Default || matches!(self.mode, Mode::Walk(_));
-        require(walks, "preset", format!("hypersim with mode {}", self.mode.name()), "mode walk, the only one that it has")?;
+        require(
+            walks,
+            "mode",
+            format!("{} with preset {}", self.mode.name(), self.preset.name()),
+            "walk, the only one that the preset has",
+        )?;
         self.mode.validate()
     }
 

@@ -1,5 +1,6 @@
-//! The first pose of a trajectory: the start camera's, fixed where it breaks a rule.
+//! The first pose of a trajectory: the start camera's, moved or turned only where it cannot be.
 
+use super::Mode;
 use super::rules::{Rules, pitch_rad};
 use crate::ExploreError;
 use crate::view::TestImage;
@@ -9,11 +10,69 @@ use enfilade_scene::{Cx, Pose, StartCamera, Warning};
 /// A start camera may be moved this far, and where a height above the floor is asked for, as far up or down as that takes.
 const MOVE_M: f64 = 1.0;
 
-/// Pose 0 of the trajectory that begins at `start`.
+/// A start camera in a voxel that a surface touches is in free space if it sees a free voxel this near, in voxels: carving moves it no
+/// farther.
+const OUT_OF_VOXEL: f64 = 8.0;
+
+/// The nearest target of a start camera, in voxels.
+const NEAREST_TARGET_VOXELS: f64 = 0.25;
+
+/// Directions and rolls that differ by less, as a share and in radians, are the same.
+const SAME_DIRECTION: f64 = 1e-6;
+
+/// Pose 0 of the trajectory that begins at `start`: its own, if that may be, and else the nearest one that may.
+pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
+    if may_be_kept(rules, start) { kept(rules, start, image, cx) } else { mended(rules, start, image, cx) }
+}
+
+/// Whether frame 0 is the start camera's pose: it stands in free space, and nothing is asked for that it does not have. A video needs room
+/// to move, so it begins where there is some.
+fn may_be_kept(rules: &Rules, start: &StartCamera) -> bool {
+    let (position, axes) = (start.position, start.world_from_camera);
+    let sees_free = |p: &DVec3| rules.is_free(*p) && rules.sees(position, *p);
+    let is_free =
+        || rules.is_free(position) || (rules.is_occupied(position) && around(position, out_of_voxel_m(rules)).any(|p| sees_free(&p)));
+    let ahead = -axes.z_axis;
+    let is_tilted =
+        (rules.tilted(ahead) - ahead).length() > SAME_DIRECTION || (rules.config.level && roll_rad(start).abs() > SAME_DIRECTION);
+    !matches!(rules.config.mode, Mode::Video(_)) && !is_tilted && rules.is_at_height(position) && is_free()
+}
+
+/// The start camera's pose. Its target lies on the optical axis, as far as free space reaches before the first surface. When there is no
+/// such point, the one nearest to the image centre stands in, from which the targets of a walk go on.
+fn kept(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
+    let (position, axes) = (start.position, start.world_from_camera);
+    let pose = |look_at| Pose { frame: 0, position, look_at, world_from_camera: axes };
+    let nearest_m = NEAREST_TARGET_VOXELS * rules.space.tree.resolution_m();
+    if let Some(look_at) = rules.farthest(position, -axes.z_axis, nearest_m) {
+        return Ok(pose(look_at));
+    }
+    let beside = || image.center_first().into_iter().find_map(|d| rules.target(position, axes * d));
+    let look_at = beside().or_else(|| rules.target(position, longest_view(rules, position)));
+    let look_at = look_at.ok_or_else(|| nothing_to_look_at(rules, start, position))?;
+    let angle = (look_at - position).angle_between(-axes.z_axis).to_degrees();
+    let message = format!("has no free space along its view; its look-at point lies {angle:.0} degrees beside that");
+    cx.warn(Warning { place: format!("camera {:?}", start.name), message });
+    Ok(pose(look_at))
+}
+
+fn roll_rad(start: &StartCamera) -> f64 {
+    start.world_from_camera.x_axis.z.atan2(start.world_from_camera.y_axis.z)
+}
+
+fn out_of_voxel_m(rules: &Rules) -> f64 {
+    OUT_OF_VOXEL * rules.space.tree.resolution_m()
+}
+
+fn nothing_to_look_at(rules: &Rules, start: &StartCamera, position: DVec3) -> ExploreError {
+    ExploreError::NothingToLookAt { name: start.name.clone(), position, distance_m: rules.config.min_look_distance_m }
+}
+
+/// The pose near a start camera that keeps the rules, with a warning of what was changed.
 ///
 /// The target lies on the optical axis, as far as free space reaches before the first surface. When there is no such point, the view
 /// turns to the one nearest to the image centre that has a target, and when the image has none, to the longest level view.
-pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
+fn mended(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
     let warn = |message: String| cx.warn(Warning { place: format!("camera {:?}", start.name), message });
     let position = clear_position(rules, start)?;
     if position != start.position {
@@ -27,15 +86,15 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
 
     let axes = start.world_from_camera;
     let limit = rules.roll_limit_rad();
-    let roll = axes.x_axis.z.atan2(axes.y_axis.z);
-    if roll.abs() > limit + 1e-6 {
+    let roll = roll_rad(start);
+    if roll.abs() > limit + SAME_DIRECTION {
         warn(format!("rolls by {:.1} degrees; frame 0 is brought within {}", roll.to_degrees(), limit.to_degrees()));
     }
     let roll = roll.clamp(-limit, limit);
 
     let ahead = -axes.z_axis;
     let tilted = rules.tilted(ahead);
-    if (tilted - ahead).length() > 1e-6 {
+    if (tilted - ahead).length() > SAME_DIRECTION {
         let [found, low, high] = [pitch_rad(ahead), rules.pitch_limits_rad()[0], rules.pitch_limits_rad()[1]].map(f64::to_degrees);
         warn(format!("looks {found:.1} degrees above the horizon; frame 0 is brought within {low} and {high}"));
     }
@@ -50,15 +109,12 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
         warn(format!("has no free space along its view{beside}, or looks straight up or down; its view is turned by {angle:.0} degrees"));
         return Ok(pose);
     }
-    let distance_m = rules.config.min_look_distance_m;
-    Err(ExploreError::NothingToLookAt { name: start.name.clone(), position, distance_m })
+    Err(nothing_to_look_at(rules, start, position))
 }
 
 /// The start's position, or the nearest one found that is allowed and not behind a surface; where a height above the floor is asked
 /// for, each one tried is brought to it.
 fn clear_position(rules: &Rules, start: &StartCamera) -> Result<DVec3, ExploreError> {
-    const SHELLS: usize = 40;
-    const DIRECTIONS: usize = 200;
     let home = start.position;
     if rules.is_position(home) {
         return Ok(home);
@@ -68,9 +124,8 @@ fn clear_position(rules: &Rules, start: &StartCamera) -> Result<DVec3, ExploreEr
         let floor = p.z - rules.height_m(p)?;
         Some(DVec3::new(p.x, p.y, p.z.clamp(floor + min, floor + max)))
     };
-    let shell = |s: usize| (0..DIRECTIONS).map(move |k| home + warp::fibonacci_sphere(k, DIRECTIONS) * (MOVE_M * s as f64 / SHELLS as f64));
     let allowed = |p: &DVec3| rules.is_position(*p) && rules.sees(home, *p);
-    let mut tried = std::iter::once(home).chain((1..=SHELLS).flat_map(shell)).filter_map(at_height);
+    let mut tried = std::iter::once(home).chain(around(home, MOVE_M)).filter_map(at_height);
     tried.find(allowed).ok_or_else(|| ExploreError::StartBlocked {
         name: start.name.clone(),
         position: home,
@@ -78,6 +133,15 @@ fn clear_position(rules: &Rules, start: &StartCamera) -> Result<DVec3, ExploreEr
         clearance_m: rules.config.clearance_m,
         height_m: rules.config.camera_height_m,
     })
+}
+
+/// Points on shells around another, the nearest first.
+fn around(p: DVec3, radius_m: f64) -> impl Iterator<Item = DVec3> {
+    const SHELLS: usize = 40;
+    const DIRECTIONS: usize = 200;
+    let shell =
+        move |s: usize| (0..DIRECTIONS).map(move |k| p + warp::fibonacci_sphere(k, DIRECTIONS) * (radius_m * s as f64 / SHELLS as f64));
+    (1..=SHELLS).flat_map(shell)
 }
 
 /// The level direction with the longest way to a surface.

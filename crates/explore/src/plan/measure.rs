@@ -1,13 +1,13 @@
 //! Measures a finished trajectory: fills the report, and warns of frames that break a rule.
 
-use super::Mode;
 use super::patches::patches;
 use super::planner::{Draft, Planner};
-use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, Planned, RelaxedFrame};
+use super::report::{Fault, FrameRow, FrameValues, PlanReport, PlanStatistics, Planned, PlannedStart, RelaxedFrame, WalkBox, WalkBoxes};
 use super::rules::{pitch_rad, turned_rad};
+use super::{Mode, PlanConfig};
 use crate::{Preset, ViewStats};
 use enfilade_geometry::Surfaces;
-use enfilade_scene::{Pose, Trajectory};
+use enfilade_scene::{Pose, StartCamera, Trajectory};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -19,6 +19,9 @@ const BARE_SHARE: f64 = 0.9;
 
 /// Limits of angles are taken to be kept to within this, degrees.
 const ROUNDING_DEG: f64 = 1e-6;
+
+/// A look-at point on the axis lies in its direction to within this.
+const ON_AXIS: f64 = 1e-9;
 
 /// Frames named in a warning; of the others it says that there are more.
 const FRAMES_NAMED: usize = 12;
@@ -45,10 +48,14 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         warn_of_faults(planner, &relaxed, poses.len());
     }
     let (seen_area_share, seen_part_share) = seen(planner, &poses);
+    let start = planner.start.map(|start| planned_start(start, &poses[0]));
     let report = PlanReport {
         trajectory: planner.name.to_string(),
         mode: planner.config.mode.name().to_string(),
+        preset: planner.config.preset,
         roll_limit_deg: roll_limit_deg(planner),
+        walk: boxes(planner.config),
+        start,
         seen_area_share,
         seen_part_share,
         statistics: PlanStatistics::of(&per_frame),
@@ -63,8 +70,36 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
 
 /// The limit that poses are held to, if they are.
 fn roll_limit_deg(planner: &Planner) -> Option<f64> {
-    let is_held = planner.config.preset == Preset::Default && !matches!(planner.config.mode, Mode::Keyframes(_));
+    let is_held = planner.config.preset != Preset::Hypersim && !matches!(planner.config.mode, Mode::Keyframes(_));
     is_held.then(|| planner.rules.roll_limit_rad().to_degrees())
+}
+
+/// The boxes that a walk keeps to.
+fn boxes(config: &PlanConfig) -> Option<WalkBoxes> {
+    let free = WalkBox { step_m: config.step_m, height_range_m: Some(config.height_range_m) };
+    match (&config.mode, config.camera_height_m.filter(|_| config.preset == Preset::Default)) {
+        (Mode::Walk(_), None) => Some(WalkBoxes { position: free.clone(), target: free }),
+        // The camera's height is above the floor, and its target goes with it.
+        (Mode::Walk(_), Some([min, max])) => {
+            let [x, y, z] = config.step_m;
+            let position = WalkBox { step_m: [x, y, z.max(max - min)], height_range_m: None };
+            let target = if config.level { position.clone() } else { WalkBox { step_m: config.step_m, height_range_m: None } };
+            Some(WalkBoxes { position, target })
+        }
+        _ => None,
+    }
+}
+
+/// What became of the start camera in the pose of frame 0.
+fn planned_start(start: &StartCamera, first: &Pose) -> PlannedStart {
+    let ahead = (first.look_at - first.position).try_normalize();
+    PlannedStart {
+        name: start.name.clone(),
+        position: start.position,
+        world_from_camera: start.world_from_camera,
+        is_kept: first.position == start.position && first.world_from_camera == start.world_from_camera,
+        looks_along_axis: ahead.is_some_and(|ahead| (ahead + first.world_from_camera.z_axis).abs().max_element() < ON_AXIS),
+    }
 }
 
 /// The values of one frame, and its faults.
@@ -88,7 +123,10 @@ fn measure(planner: &Planner, surfaces: &Surfaces, pose: &Pose, view: &ViewStats
         overlap: before.and_then(|before| glancer.overlap(&glance, before)),
     };
     let mut faults = gates.faults(pose, &glance, view, before);
-    faults.extend(broken_rules(planner, pose, &row));
+    let is_given = before.is_none() && planner.start.is_some_and(|start| planned_start(start, pose).is_kept);
+    if !is_given {
+        faults.extend(broken_rules(planner, pose, &row));
+    }
     (row, faults)
 }
 

@@ -9,6 +9,7 @@ mod headings;
 mod hypersim;
 mod keyframes;
 mod measure;
+mod paper;
 mod patches;
 mod places;
 mod planner;
@@ -33,7 +34,8 @@ use rules::Rules;
 pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, StillsConfig, VideoConfig, WalkConfig};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{
-    CoverageReport, Fault, FrameValues, PartCoverage, PlanReport, PlanStatistics, Planned, RejectedCounts, RelaxedFrame, Spread,
+    CoverageReport, Fault, FrameValues, PartCoverage, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame,
+    Spread, WalkBox, WalkBoxes,
 };
 
 /// Finds trajectory `trajectory_index` (`cam_00`, `cam_01`, …), which begins at `start`, by the configured [`Mode`].
@@ -43,8 +45,9 @@ pub use report::{
 /// within their limits; a second camera of a stereo rig has room too. Views with a [`Fault`] are taken only when nothing better is
 /// found, with a warning, and stand in the report.
 ///
-/// A start camera that breaks a rule is fixed with a warning: moved to the nearest position that is clear, its roll and pitch
-/// brought within the limits, its view turned when there is nothing before it.
+/// The first pose is the start camera's, exactly, if that stands in free space: clearance, roll and gates are for poses that are chosen.
+/// Only where it stands elsewhere, or a height, a pitch or level views are asked for that it does not have, is it moved or turned, with a
+/// warning. A video moves from its first frame on, so it begins at the nearest place with room for that.
 ///
 /// # Errors
 /// A configuration out of its domain, a start camera with no clear position near it or nothing to look at, or a mode that finds no
@@ -63,7 +66,7 @@ pub fn plan(
 
 /// As [`plan`], for a trajectory of any `name`, whose random numbers `trajectory_index` chooses, and with a last word by the caller: a
 /// view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any thread, and
-/// never about the first pose; the preset of Hypersim does not ask.
+/// never about the first pose; the other presets do not ask.
 ///
 /// # Errors
 /// As [`plan`].
@@ -83,7 +86,7 @@ pub fn plan_accepted(
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
-    let planner = Planner { accepts, ..Planner::new(&rules, &gates, world, name, cx) };
+    let planner = Planner { accepts, start: Some(start), ..Planner::new(&rules, &gates, world, name, cx) };
 
     // Hypersim's program, step by step.
     if config.preset == Preset::Hypersim {
@@ -98,6 +101,7 @@ pub fn plan_accepted(
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
     let first = first::pose(&rules, start, &planner.image, cx)?;
     let draft = match &config.mode {
+        Mode::Walk(_) if config.preset == Preset::Paper => paper::walk(&planner, first, &rng),
         Mode::Walk(_) => walk::walk(&planner, first, &rng),
         Mode::Video(video) => video::video(&planner, first, video, &rng),
         Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),

@@ -7,7 +7,7 @@ use super::rules::Rules;
 use crate::ViewStats;
 use crate::view::{Sight, TestImage};
 use enfilade_math::{Distribution1, Rng};
-use enfilade_scene::{Cx, Intrinsics, Pose, WorldMesh};
+use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, WorldMesh};
 use rayon::prelude::*;
 
 /// Scores above this are scaled down together.
@@ -21,6 +21,8 @@ pub(super) struct Planner<'a> {
     pub config: &'a PlanConfig,
     pub image: TestImage,
     pub name: &'a str,
+    /// The camera that the trajectory begins with; none for poses made by hand.
+    pub start: Option<&'a StartCamera>,
     /// The caller's last word.
     pub accepts: &'a (dyn Fn(&Pose) -> bool + Sync),
     pub cx: &'a dyn Cx,
@@ -40,7 +42,7 @@ impl<'a> Planner<'a> {
     pub fn new(rules: &'a Rules<'a>, gates: &'a Gates<'a>, world: &'a WorldMesh, name: &'a str, cx: &'a dyn Cx) -> Self {
         let config = rules.config;
         let image = TestImage::new(&Intrinsics::from_fov_x(config.test_width, config.test_height, config.fov_x_rad));
-        Self { rules, gates, world, config, image, name, accepts: &|_| true, cx }
+        Self { rules, gates, world, config, image, name, start: None, accepts: &|_| true, cx }
     }
 
     /// What each pose shows.

@@ -1,5 +1,7 @@
 //! What a trajectory came to: one value per frame for pictures and later tools, and what they come to together.
 
+use crate::Preset;
+use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{PartId, Trajectory};
 use serde::{Deserialize, Serialize};
 
@@ -19,9 +21,18 @@ pub struct PlanReport {
     pub trajectory: String,
     /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
     pub mode: String,
+    /// Whose rules it follows.
+    #[serde(default)]
+    pub preset: Preset,
     /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and for poses made by
-    /// hand.
+    /// hand. The start camera keeps its own.
     pub roll_limit_deg: Option<f64>,
+    /// The boxes that a walk keeps to; none for other modes.
+    #[serde(default)]
+    pub walk: Option<WalkBoxes>,
+    /// The camera that it begins with; none for poses made by hand.
+    #[serde(default)]
+    pub start: Option<PlannedStart>,
     /// Share of the area of all surfaces of the scene that some frame sees.
     pub seen_area_share: f64,
     /// Share of the parts of the scene of which some frame sees something.
@@ -38,6 +49,39 @@ pub struct PlanReport {
     pub coverage: Option<CoverageReport>,
     /// Values of every frame.
     pub per_frame: FrameValues,
+}
+
+/// The camera that a trajectory begins with, and what became of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlannedStart {
+    /// Its name.
+    pub name: String,
+    /// Where it stands, metres.
+    pub position: DVec3,
+    /// Its orientation, camera to world.
+    pub world_from_camera: DMat3,
+    /// True where frame 0 is this pose, exactly; false where it was moved or turned.
+    pub is_kept: bool,
+    /// True where the look-at point of frame 0 lies on its axis; false where nothing there is free and one beside it stands in.
+    pub looks_along_axis: bool,
+}
+
+/// The boxes in which the next pose of a walk lies: equations 2 and 3 of Hypersim's supplement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WalkBoxes {
+    /// Of the camera's position.
+    pub position: WalkBox,
+    /// Of its target.
+    pub target: WalkBox,
+}
+
+/// One of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WalkBox {
+    /// How far from the last one at most, along x, y and z, metres.
+    pub step_m: [f64; 3],
+    /// How far above or below that of frame 0 at most, metres; none where it goes up and down with the floor.
+    pub height_range_m: Option<f64>,
 }
 
 /// Values of every frame, in the order of the trajectory; all vectors have one entry per frame.

@@ -14,6 +14,9 @@ const SIGHT_MARGIN: f64 = 0.01;
 /// Views closer to the vertical than this (sine of the angle) have no meaningful roll and are not taken.
 pub(super) const MIN_SLANT: f64 = 0.1;
 
+/// Views closer than this have no roll at all in double precision.
+const VERTICAL: f64 = 1e-6;
+
 /// Limits of angles and heights are kept to within this, so that rounding breaks none.
 const ROUNDING: f64 = 1e-9;
 
@@ -51,6 +54,11 @@ impl<'a> Rules<'a> {
     /// In a free voxel.
     pub fn is_free(&self, p: DVec3) -> bool {
         self.space.tree.state(p) == Voxel::Free
+    }
+
+    /// In a voxel that a surface touches.
+    pub fn is_occupied(&self, p: DVec3) -> bool {
+        self.space.tree.state(p) == Voxel::Occupied
     }
 
     /// In a free voxel, with no occupied voxel within the clearance.
@@ -165,13 +173,16 @@ impl<'a> Rules<'a> {
 
     /// The farthest point along a direction that is in free space and well before the first surface.
     pub fn target(&self, position: DVec3, direction: DVec3) -> Option<DVec3> {
-        if direction.truncate().length() < MIN_SLANT {
-            return None;
-        }
+        let steep = direction.truncate().length() < MIN_SLANT;
+        (!steep).then(|| self.farthest(position, direction, self.config.min_look_distance_m))?
+    }
+
+    /// As [`Rules::target`], of directions however steep, at least `nearest_m` away.
+    pub fn farthest(&self, position: DVec3, direction: DVec3, nearest_m: f64) -> Option<DVec3> {
         let voxel_m = self.space.tree.resolution_m();
         let reach = self.distance_m(position, direction).min(self.exit_m(position, direction)) - TARGET_MARGIN_VOXELS * voxel_m;
         let mut distance = reach;
-        while distance >= self.config.min_look_distance_m {
+        while distance >= nearest_m {
             let p = position + distance * direction;
             if self.is_free(p) && self.sees(position, p) {
                 return Some(p);
@@ -203,7 +214,13 @@ pub(super) fn turned_rad(from: &Pose, to: &Pose) -> f64 {
 /// The pose that looks from `position` to `look_at` with exactly this roll; `None` when the view is nearly vertical.
 pub(super) fn posed(frame: u32, position: DVec3, look_at: DVec3, roll_rad: f64) -> Option<Pose> {
     let z = (position - look_at).try_normalize()?;
-    if z.truncate().length() < MIN_SLANT {
+    (z.truncate().length() >= MIN_SLANT).then(|| rolled(frame, position, look_at, roll_rad))?
+}
+
+/// As [`posed`], however steep the view is; `None` when it is vertical.
+pub(super) fn rolled(frame: u32, position: DVec3, look_at: DVec3, roll_rad: f64) -> Option<Pose> {
+    let z = (position - look_at).try_normalize()?;
+    if z.truncate().length() < VERTICAL {
         return None;
     }
     let level_x = DVec3::Z.cross(z).normalize();

@@ -1,5 +1,6 @@
 //! Hypersim's random walk: every step draws poses near the last one and chooses among them in proportion to what they show.
 
+use super::PlanConfig;
 use super::planner::{Draft, Planner};
 use super::report::{Fault, RejectedCounts};
 use super::rules::posed;
@@ -46,12 +47,12 @@ impl Step<'_> {
         for (sampling, scale) in ATTEMPTS {
             // Random points around the last pose where the camera may be, and where its target may be.
             queries = planner.config.queries.saturating_mul(sampling);
-            let mut positions = self.points(first.position, last.position, scale, queries, &mut rng);
+            let mut positions = points(planner.config, first.position, last.position, scale, queries, &mut rng);
             if planner.config.camera_height_m.is_some() {
                 positions = positions.into_iter().filter_map(|p| self.at_height(p, scale, &mut rng)).collect();
             }
             let positions = rules.positions_seen_from(last.position, positions);
-            let targets = self.points(self.first_target(), last.look_at, scale, queries, &mut rng);
+            let targets = points(planner.config, self.first_target(), last.look_at, scale, queries, &mut rng);
             let targets = rules.targets_seen_from(last.look_at, targets);
             (look_from, look_at) = (positions.len(), targets.len());
 
@@ -84,15 +85,6 @@ impl Step<'_> {
         self.first.look_at + risen_m * DVec3::Z
     }
 
-    /// Points uniform in the box around `last`, within the heights allowed around `first`, or as near to them as the box is.
-    fn points(&self, first: DVec3, last: DVec3, scale: f64, n: u32, rng: &mut Rng) -> Vec<DVec3> {
-        let config = self.planner.config;
-        let half = scale * DVec3::from(config.step_m);
-        let (mut low, mut high) = (last - half, last + half);
-        [low.z, high.z] = [first.z - config.height_range_m, first.z + config.height_range_m].map(|z| z.clamp(low.z, high.z));
-        (0..n).map(|_| low + (high - low) * DVec3::new(rng.next_f64(), rng.next_f64(), rng.next_f64())).collect()
-    }
-
     /// The point above or below `p` at a height uniform in the range asked for, no further up or down than a step.
     fn at_height(&self, p: DVec3, scale: f64, rng: &mut Rng) -> Option<DVec3> {
         let config = self.planner.config;
@@ -105,10 +97,9 @@ impl Step<'_> {
         (moved.abs() <= limit).then(|| from + moved * DVec3::Z)
     }
 
-    /// Poses from random pairs of a position and a target that it sees. All of one step share one roll.
+    /// Poses from random pairs of a position and a target that it sees, each with a roll of its own.
     fn pair(&self, positions: &[DVec3], targets: &[DVec3], frame: u32, rng: &mut Rng) -> Vec<Pose> {
         let rules = self.planner.rules;
-        let roll_rad = rules.draw_roll_rad(rng);
         let wanted = self.planner.config.candidates as usize;
         let mut poses = Vec::with_capacity(wanted);
         if positions.is_empty() || targets.is_empty() {
@@ -116,14 +107,25 @@ impl Step<'_> {
         }
         for _ in 0..wanted * DRAWS_PER_CANDIDATE {
             let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
-            let Some(look_at) = rules.sight(position, look_at) else { continue };
-            poses.extend(posed(frame, position, look_at, roll_rad).filter(|pose| rules.has_room_beside(pose)));
+            let Some(target) = rules.sight(position, look_at) else { continue };
+            if target != look_at && !rules.sees(self.last.look_at, target) {
+                continue; // brought level with the camera, it is hidden from the last one
+            }
+            poses.extend(posed(frame, position, target, rules.draw_roll_rad(rng)).filter(|pose| rules.has_room_beside(pose)));
             if poses.len() == wanted {
                 break;
             }
         }
         poses
     }
+}
+
+/// Points uniform in the box around `last`, within the heights allowed around `first`, or as near to them as the box is.
+pub(super) fn points(config: &PlanConfig, first: DVec3, last: DVec3, scale: f64, n: u32, rng: &mut Rng) -> Vec<DVec3> {
+    let half = scale * DVec3::from(config.step_m);
+    let (mut low, mut high) = (last - half, last + half);
+    [low.z, high.z] = [first.z - config.height_range_m, first.z + config.height_range_m].map(|z| z.clamp(low.z, high.z));
+    (0..n).map(|_| low + (high - low) * DVec3::new(rng.next_f64(), rng.next_f64(), rng.next_f64())).collect()
 }
 
 fn worst_fault(planner: &Planner, pose: &Pose, view: &ViewStats, before: &Pose) -> Option<Fault> {

@@ -200,12 +200,12 @@ fn neighbouring_views_share_as_much_as_asked_for() {
     let room = furnished_room();
     let space = carved(&room);
     let mean = |overlap: [f64; 2]| {
-        let config = PlanConfig { overlap: Some(overlap), ..quick() };
+        let config = PlanConfig { overlap: Some(overlap), candidates: 60, frames: 100, ..quick() };
         let report = plan(&room.world, &room.bvh, &space, &start(), 0, &config, &Quiet).unwrap().report;
         let relaxed = report.relaxed.iter().filter(|r| r.fault == Fault::Overlap).count();
         let within = report.per_frame.overlap.iter().flatten().filter(|v| **v >= overlap[0] && **v <= overlap[1]).count();
-        assert_eq!((within + relaxed, report.per_frame.overlap[0]), (29, None));
-        assert!(relaxed <= 3 && report.rejected.overlap > 0, "{relaxed} relaxed");
+        assert_eq!((within + relaxed, report.per_frame.overlap[0]), (99, None));
+        assert!(relaxed <= 14 && report.rejected.overlap > 0, "{relaxed} of 99 relaxed");
         report.statistics.overlap.mean
     };
     let (little, much) = (mean([0.1, 0.4]), mean([0.6, 0.95]));

@@ -1,0 +1,67 @@
+//! Hypersim's random walk as the supplement of its paper states it, and nothing else.
+//!
+//! A pose is a position p and a target t. The next one is drawn from the set of those whose p lies in the box around the last p and in that
+//! around the first (equation 2), whose t does so around the last and the first t (equation 3), with p and t in free space, p seen from the
+//! last p, t from the last t, and a roll of at most 5 degrees; in proportion to how salient the view is (equation 1 of the paper).
+
+use super::planner::{Draft, Planner};
+use super::report::RejectedCounts;
+use super::rules::rolled;
+use super::walk::points;
+use crate::{ExploreError, ViewStats};
+use enfilade_math::{DVec3, Distribution1, Rng};
+use enfilade_scene::Pose;
+
+/// How often points of one step are drawn before the set counts as empty: it is sampled by rejection, and may be small.
+const ROUNDS: u32 = 32;
+
+/// A walk from `first`.
+pub(super) fn walk(planner: &Planner, first: Pose, rng: &Rng) -> Result<Draft, ExploreError> {
+    let frames = planner.config.frames as usize;
+    let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
+    for frame in 1..frames {
+        planner.progress(frame, frames);
+        let last = draft.poses[frame - 1];
+        let (pose, view) = step(planner, &first, &last, frame as u32, rng.fork(frame as u64))?;
+        draft.poses.push(pose);
+        draft.views.push(view);
+    }
+    planner.progress(frames, frames);
+    Ok(Draft { rejected: RejectedCounts::default(), ..draft })
+}
+
+/// The pose after `last`, and what it shows.
+fn step(planner: &Planner, first: &Pose, last: &Pose, frame: u32, mut rng: Rng) -> Result<(Pose, ViewStats), ExploreError> {
+    let (rules, config) = (planner.rules, planner.config);
+    let (mut positions, mut targets): (Vec<DVec3>, Vec<DVec3>) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        // Points of both boxes that are free and seen from the last ones.
+        let near = |first, last, rng: &mut Rng| rules.targets_seen_from(last, points(config, first, last, 1.0, config.queries, rng));
+        positions.extend(near(first.position, last.position, &mut rng));
+        targets.extend(near(first.look_at, last.look_at, &mut rng));
+        if positions.is_empty() || targets.is_empty() {
+            continue;
+        }
+
+        // Candidates uniform in the set, and a choice in proportion to their saliency.
+        let pair = |_| {
+            let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
+            rolled(frame, position, look_at, rules.draw_roll_rad(&mut rng)).filter(|pose| rules.has_room_beside(pose))
+        };
+        let candidates: Vec<Pose> = (0..config.candidates).filter_map(pair).collect();
+        let views = planner.views(&candidates);
+        let weights: Vec<f32> = views.iter().map(|view| planner.score(view) as f32).collect();
+        if let Some(distribution) = Distribution1::new(&weights) {
+            let chosen = distribution.sample(rng.next_f32()).0;
+            return Ok((candidates[chosen], views[chosen]));
+        }
+    }
+    Err(ExploreError::Stuck {
+        trajectory: planner.name.to_string(),
+        frame,
+        position: last.position,
+        queries: config.queries.saturating_mul(ROUNDS),
+        look_from: positions.len(),
+        look_at: targets.len(),
+    })
+}
