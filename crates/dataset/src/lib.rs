@@ -28,6 +28,7 @@ pub mod hdf5;
 mod instance_files;
 mod label_files;
 mod layout;
+mod loader_camera;
 mod manifest;
 mod mesh_files;
 pub mod mesh_names;
@@ -60,6 +61,7 @@ pub use hdf5::{Array, Element, Elements, Number, Volume, VolumeArray, Window, im
 pub use instance_files::{AmodalMask, AmodalMasks, InstanceView, PixelArea};
 pub use label_files::{LabelColors, instance_colors, semantic_colors};
 pub use layout::{Layout, WORKDIR, check_name};
+pub use loader_camera::{LOADER_FOCAL_PX, LOADER_SIZE, loader_depth, loader_problem};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
 pub use number_ranges::{number_runs, parse_number_ranges, print_number_ranges};
 pub use object_files::{MeshFiles, MeshGeometry};

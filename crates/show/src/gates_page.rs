@@ -1,7 +1,8 @@
 //! The page that lists which views were rejected and why.
 
 use crate::page::{contents, figure, page};
-use enfilade_verify::view_gates::{GateAction, GateConfig, VIEW_GATES, ViewGate, ViewMeasures};
+use enfilade_dataset::ViewVerdict;
+use enfilade_verify::view_gates::{GateConfig, VIEW_GATES, ViewGate, ViewMeasures};
 use maud::{Markup, html};
 
 /// A view as it was judged.
@@ -15,6 +16,8 @@ pub struct Judged {
     pub measures: ViewMeasures,
     /// The worst fault.
     pub fault: Option<ViewGate>,
+    /// What became of it: a view with a fault is rejected or reported.
+    pub verdict: ViewVerdict,
     /// The picture of a view with a fault, relative to the page.
     pub thumbnail: Option<String>,
 }
@@ -30,15 +33,16 @@ impl Judged {
 
 /// The page of a scene, with views in the order of cameras and frames.
 pub fn gates_page(scene: &str, config: &GateConfig, views: &[Judged]) -> String {
-    let faulty = views.iter().filter(|view| view.fault.is_some()).count();
-    let verb = match config.action {
-        GateAction::Reject => "rejected",
-        GateAction::Report => "reported, but rendered all the same",
-    };
+    let with = |verdict| views.iter().filter(|view| view.verdict == verdict).count();
+    let (rejected, reported) = (with(ViewVerdict::Rejected), with(ViewVerdict::Reported));
+    let faulty = rejected + reported;
     let mut cameras: Vec<&str> = views.iter().filter(|view| view.fault.is_some()).map(|view| view.camera.as_str()).collect();
     cameras.dedup();
     let body = html! {
-        p.verdict.good[faulty == 0].warn[faulty > 0] { (faulty) " of " (views.len()) " views " (verb) }
+        p.verdict.good[faulty == 0].warn[faulty > 0] {
+            (rejected) " of " (views.len()) " views rejected"
+            @if reported > 0 { ", " (reported) " reported, but rendered all the same" }
+        }
         (table(config, views))
         @if cameras.len() > 1 { (contents(cameras.iter().copied())) }
         @for camera in cameras {
@@ -46,7 +50,7 @@ pub fn gates_page(scene: &str, config: &GateConfig, views: &[Judged]) -> String 
             div class="grid small" {
                 @for view in views.iter().filter(|view| view.camera == camera) {
                     @if let (Some(reason), Some(file)) = (view.reason(config), &view.thumbnail) {
-                        (figure(file, None, &format!("frame {:04} — {reason}", view.frame)))
+                        (figure(file, None, &caption(view, &reason)))
                     }
                 }
             }
@@ -58,6 +62,11 @@ pub fn gates_page(scene: &str, config: &GateConfig, views: &[Judged]) -> String 
         code { "cam_XX/metadata_view_gates.csv" } "."
     };
     page(&format!("{scene}: gates of views"), &about, &body)
+}
+
+fn caption(view: &Judged, reason: &str) -> String {
+    let rendered = if view.verdict == ViewVerdict::Reported { " (rendered)" } else { "" };
+    format!("frame {:04} — {reason}{rendered}", view.frame)
 }
 
 fn table(config: &GateConfig, views: &[Judged]) -> Markup {
@@ -100,12 +109,19 @@ mod tests {
             frame,
             measures,
             fault,
+            verdict: match frame {
+                0 => ViewVerdict::Passed,
+                3 => ViewVerdict::Reported,
+                _ => ViewVerdict::Rejected,
+            },
             thumbnail: fault.map(|_| format!("cam_00/rejected/frame.{frame:04}.jpg")),
         };
-        let html = gates_page("hall & room", &GateConfig::default(), &[view(0, None), view(7, Some(ViewGate::Blocked))]);
+        let views = [view(0, None), view(3, Some(ViewGate::Blocked)), view(7, Some(ViewGate::Blocked))];
+        let html = gates_page("hall & room", &GateConfig::default(), &views);
         for part in [
             "hall &amp; room: gates of views",
-            "1 of 2 views rejected",
+            "1 of 3 views rejected, 1 reported, but rendered all the same",
+            "frame 0003 — blocked: 0.930 (at most 0.5) (rendered)",
             "frame 0007 — blocked: 0.930 (at most 0.5)",
             "src=\"cam_00/rejected/frame.0007.jpg\"",
         ] {

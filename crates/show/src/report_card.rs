@@ -38,6 +38,7 @@ pub fn report_page(dataset: &Dataset, report: &VerifyReport) -> String {
     let body = html! {
         p.verdict .(verdict(report.passed)) { (capital(&report.verdict())) "." }
         p.verdict .(if report.rejected().next().is_some() { "warn" } else { "good" }) { (capital(&report.gate_verdict())) "." }
+        @for note in &report.notes { p { (capital(note)) "." } }
         (contents(sections.iter().copied()))
         @if !failed.is_empty() {
             h2 id="failures" { "Laws that fail" }

@@ -166,6 +166,21 @@ fn instance_views(pose: &Pose) -> Option<InstanceView> {
     Some(InstanceView { frame: pose.frame, instance: 1, semantic: 19, visible, full, inside_pixels })
 }
 
+/// What the plan of a walk that begins at `first` says of itself.
+fn plan_report(first: &Pose) -> serde_json::Value {
+    let bounds = serde_json::json!({ "step_m": [1.5, 1.5, 0.25], "height_range_m": 0.25 });
+    let (position, world_from_camera) = (first.position, first.world_from_camera);
+    serde_json::json!({
+        "trajectory": "cam_00",
+        "mode": "walk",
+        "roll_limit_deg": 5.0,
+        "walk": { "position": bounds, "target": bounds },
+        "start": {
+            "name": "start", "position": position, "world_from_camera": world_from_camera, "is_kept": true, "looks_along_axis": true,
+        },
+    })
+}
+
 /// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, split, free space and manifest.
 pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
@@ -178,10 +193,10 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     let second = Pose { frame: 1, position: first.position + DVec3::X * 0.1, look_at: first.look_at + DVec3::X * 0.1, ..first };
     let trajectory = enfilade_scene::Trajectory { name: "cam_00".into(), poses: vec![first, second] };
     dataset.write_trajectory("room", &trajectory, &intrinsics().into(), None).unwrap();
-    enfilade_dataset::write_bytes(&dataset.layout().plan_report("room", "cam_00"), b"{}").unwrap();
+    enfilade_dataset::write_json(&dataset.layout().plan_report("room", "cam_00"), &plan_report(&first)).unwrap();
     let mut tree = OccupancyTree::new(0.1);
     for pose in &trajectory.poses {
-        tree.set(tree.key(pose.position).unwrap(), Voxel::Free);
+        [pose.position, pose.look_at].into_iter().for_each(|p| tree.set(tree.key(p).unwrap(), Voxel::Free));
         let whole = frame(pose);
         let part_of = |passes: &[Pass]| {
             let mut part = Frame::new(whole.width, whole.height);

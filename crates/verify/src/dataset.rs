@@ -8,11 +8,15 @@ use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
+use super::walk::{self, Walls};
 use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
-use enfilade_dataset::{BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide};
+use enfilade_dataset::{
+    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide, loader_problem,
+};
+use enfilade_explore::WalkBoxes;
 use enfilade_frame::LAYERS;
-use enfilade_geometry::Voxel;
+use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -35,6 +39,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
         whole::check_manifest(&mut card, dataset, manifest, scene);
     }
     let facts = SceneFacts::read(dataset, scene, &mut card);
+    facts.check_walks(dataset, &mut card);
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let done = AtomicU64::new(0);
     let check = |&(filmed, index): &(&Filmed, usize)| {
@@ -53,7 +58,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
-    VerifyReport::new(&card, 1, values, pairs, excused)
+    VerifyReport::new(&card, 1, values, pairs, excused).with_notes(facts.notes())
 }
 
 /// Checks the laws about single frames as they are finished, on a machine that has only these.
@@ -164,22 +169,43 @@ impl SceneFacts {
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
         for filmed in &self.filmed {
-            let Filmed { trajectory, stored, frames, camera, stereo, rules, .. } = filmed;
+            let Filmed { trajectory, stored, frames, camera, rules, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(stored, rules, &place));
-            let is_second = stereo.as_ref().is_some_and(|stereo| stereo.side == StereoSide::Right);
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
             for pose in trajectory.poses.iter().filter(|pose| !rejected.contains_key(&pose.frame)) {
                 self.check_record(dataset, &trajectory.name, camera.as_ref(), pose, card);
-                if let Some(tree) = tree.as_ref().filter(|_| rules.stands_free(pose.frame, is_second)) {
+                if let Some(tree) = &tree {
                     let state = tree.state(pose.position);
                     let at = || format!("{place}/frame.{:04}: {:.3} m is {state:?}", pose.frame, pose.position);
-                    card.observe(Law::FreeCamera, if state == Voxel::Free { 0.0 } else { 1.0 }, at);
+                    card.observe(Law::FreeCamera, if rules.may_stand_in(state, pose.frame) { 0.0 } else { 1.0 }, at);
                 }
             }
+        }
+    }
+
+    /// What users of this program's data should know; Hypersim's own are as its loaders expect them.
+    fn notes(&self) -> Vec<String> {
+        let cameras = self.filmed.iter().filter(|_| !self.released).filter_map(|filmed| filmed.camera.as_ref());
+        cameras.filter_map(loader_problem).collect()
+    }
+
+    /// The laws of walks, for which the scene's mesh is needed.
+    fn check_walks(&self, dataset: &Dataset, card: &mut Card) {
+        let walks = self.filmed.iter().filter(|filmed| !filmed.rules.is_second);
+        let walks: Vec<(&Filmed, &WalkBoxes)> = walks.filter_map(|filmed| Some((filmed, filmed.rules.walk.as_ref()?))).collect();
+        if walks.is_empty() {
+            return;
+        }
+        // What of these cannot be read is on the card already.
+        let walls = dataset.mesh_files(&self.name).read().ok().and_then(|mesh| Walls::new(&mesh));
+        let tree = dataset.read_free_space(&self.name).ok().and_then(|(bytes, ..)| OccupancyTree::from_bt(&bytes).ok());
+        for (filmed, boxes) in walks {
+            let place = format!("{}/{}", self.name, filmed.trajectory.name);
+            card.merge(walk::check(&filmed.trajectory, boxes, walls.as_ref(), tree.as_ref(), &place));
         }
     }
 
@@ -294,8 +320,9 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
         let stereo = dataset.read_stereo(scene, &name).ok().flatten();
         // The plan of a rig is that of its left camera.
-        let planned = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right).map_or(&name, |stereo| &stereo.partner);
-        let rules = PlanRules::of(&dataset.layout().plan_report(scene, planned));
+        let second = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
+        let planned = dataset.layout().plan_report(scene, second.map_or(&name, |stereo| &stereo.partner));
+        let rules = PlanRules { is_second: second.is_some(), ..PlanRules::of(&planned) };
         filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, rules });
     }
     filmed
@@ -307,7 +334,7 @@ mod tests {
     use enfilade_dataset::hdf5::{Storage, read_array, write_array};
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
     use enfilade_frame::{Layer, f16};
-    use enfilade_geometry::OccupancyTree;
+    use enfilade_geometry::Voxel;
     use enfilade_scene::Intrinsics;
     use enfilade_testroom as testroom;
 
@@ -433,7 +460,7 @@ mod tests {
             d.write_free_space("room", &tree.to_bt(), enfilade_math::DVec3::ZERO, enfilade_math::DVec3::ZERO).unwrap();
         };
         let (laws, text) = failures(wall);
-        assert_eq!(laws, [Law::FreeCamera]);
+        assert_eq!(laws, [Law::FreeTarget, Law::FreeCamera]);
         assert!(text.contains("room/cam_00/frame.0000: [0.300, -3.000, 1.500] m is Unknown"), "{text}");
         let recorded_elsewhere = |d: &Dataset| {
             let record = d.frame_record("room", "cam_00", 1).unwrap().unwrap();

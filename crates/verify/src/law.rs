@@ -24,6 +24,10 @@ pub enum Law {
     RightHanded,
     LookAt,
     Roll,
+    StartPose,
+    WalkBox,
+    WalkSight,
+    FreeTarget,
     RenderedPose,
     FreeCamera,
     SeesScene,
@@ -87,7 +91,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 56] = laws![
+pub const LAWS: [LawSpec; 60] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -109,6 +113,13 @@ pub const LAWS: [LawSpec; 56] = laws![
     LookAt 1e-6 "", "the look-at point lies on the viewing axis", "positions and orientations are not of one trajectory: plan again";
     Roll 1e-6 "degrees", "roll stays within the limit of the plan, where that has one (degrees beyond it)",
         "poses were edited after planning: plan again";
+    StartPose 1e-12 "", "frame 0 is the start camera's pose, where the plan kept it (largest entry of the difference)",
+        "poses were edited after planning, or the camera is another one: plan again";
+    WalkBox 1e-9 "m", "positions and targets of a walk lie in the boxes around the last and the first ones (metres beyond)",
+        "poses were edited after planning: plan again";
+    WalkSight 0.0 "poses", "each position of a walk is seen from the last one, and each target from the last target",
+        "poses were edited after planning, or the mesh is of another version of the scene: plan again";
+    FreeTarget 0.0 "poses", "targets of a walk lie in free voxels of octomap.bt", "poses were edited after planning, or the scene was carved again: plan again";
     RenderedPose 1e-9 "", "frames were rendered from the poses that are stored", "the trajectory was planned again after rendering: render again";
     FreeCamera 0.0 "poses", "cameras stand in free voxels of octomap.bt", "the camera is in a wall or outside: plan again";
     SeesScene 0.0 "frames", "some pixel of every frame sees the scene", "the camera looks into the void: plan again";

@@ -27,6 +27,7 @@ mod trajectory;
 mod two_views;
 mod view;
 pub mod view_gates;
+mod walk;
 mod whole;
 
 pub use card::Card;

@@ -26,6 +26,9 @@ pub struct VerifyReport {
     /// Laws that Hypersim's release is not held to, and known defects of it; empty for datasets of ours.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excused: Vec<Excused>,
+    /// What users of the data should know that is no fault; each once, whatever the number of scenes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// One entry per gate that was measured, in the order of [`GATES`].
     pub gates: Vec<GateResult>,
     /// One entry per frame, by scene, camera and number.
@@ -88,13 +91,14 @@ impl VerifyReport {
         let passed = !frame_values.is_empty() && laws.iter().all(|law| law.holds);
         let accepted = passed && gates.iter().all(|gate| gate.rejected == 0);
         let excused = worst_of(excused);
-        Self { passed, accepted, scenes, frames: frame_values.len(), laws, excused, gates, frame_values, pairs }
+        Self { passed, accepted, scenes, frames: frame_values.len(), laws, excused, notes: Vec::new(), gates, frame_values, pairs }
     }
 
     /// The report of several, and of what a card has about the dataset as a whole.
     pub(super) fn join(reports: Vec<Self>, mut card: Card) -> Self {
         let scenes = reports.iter().map(|report| report.scenes).sum();
         let (mut frame_values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
+        let mut notes = Vec::new();
         for report in reports {
             for law in report.laws {
                 card.enter(law.law, Finding { value: law.worst.unwrap_or(f64::INFINITY), place: law.place, checks: law.checks });
@@ -102,8 +106,17 @@ impl VerifyReport {
             frame_values.extend(report.frame_values);
             pairs.extend(report.pairs);
             excused.extend(report.excused);
+            notes.extend(report.notes);
         }
-        Self::new(&card, scenes, frame_values, pairs, excused)
+        Self::new(&card, scenes, frame_values, pairs, excused).with_notes(notes)
+    }
+
+    /// With what users should know, each once.
+    pub(super) fn with_notes(mut self, mut notes: Vec<String>) -> Self {
+        notes.sort();
+        notes.dedup();
+        self.notes = notes;
+        self
     }
 
     /// The laws that do not hold.
@@ -161,6 +174,9 @@ impl VerifyReport {
         }
         for gate in &self.gates {
             let _ = writeln!(text, "{}", gate.line());
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "note    {note}");
         }
         let excuses = self.excuses().map_or(String::new(), |line| line + "\n");
         text + &self.verdict() + "\n" + &excuses + &self.gate_verdict() + "\n"

@@ -2,6 +2,8 @@
 
 use super::card::Card;
 use super::law::Law;
+use enfilade_explore::{PlannedStart, WalkBoxes};
+use enfilade_geometry::Voxel;
 use enfilade_math::DMat3;
 use enfilade_scene::{Pose, Trajectory};
 use serde::Deserialize;
@@ -19,6 +21,15 @@ pub struct PlanRules {
     /// The greatest roll, degrees; `None` where it has no limit.
     #[serde(default = "usual")]
     pub roll_limit_deg: Option<f64>,
+    /// The boxes of a walk; `None` for other modes, and where the plan does not say.
+    #[serde(default)]
+    pub walk: Option<WalkBoxes>,
+    /// The camera that it begins with; `None` where the plan does not say.
+    #[serde(default)]
+    pub start: Option<PlannedStart>,
+    /// True for the second camera of a rig, which stands beside the one that was planned.
+    #[serde(skip)]
+    pub is_second: bool,
 }
 
 fn usual() -> Option<f64> {
@@ -31,15 +42,23 @@ impl PlanRules {
         std::fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
     }
 
-    /// Whether the camera of this frame stands in free space. Poses made by hand are kept wherever they stand, and so is the artist's
-    /// pose, with which Hypersim's preset begins; the preset looks for no room for the second camera of a rig.
-    pub(super) fn stands_free(&self, frame: u32, is_second: bool) -> bool {
-        self.mode != "keyframes" && (!self.is_preset() || frame > 0 && !is_second)
+    /// Whether the camera of this frame may stand in such a voxel: in a free one, and the artist's own in one that a surface touches, too,
+    /// which carving takes for free because of it. Poses made by hand are kept wherever they stand, and so is the artist's by Hypersim's
+    /// preset, which looks for no room for the second camera of a rig either.
+    pub(super) fn may_stand_in(&self, voxel: Voxel, frame: u32) -> bool {
+        let anywhere = self.mode == "keyframes" || (self.is_preset() && (self.is_second || frame == 0));
+        // Beside the artist's camera, the second one of a rig may stand in anything.
+        anywhere || voxel == Voxel::Free || (self.is_given(frame) && (self.is_second || voxel == Voxel::Occupied))
     }
 
-    /// Whether this frame looks at its look-at point, which the preset takes beside the axis where nothing on the artist's is free.
+    /// Whether this frame looks at its look-at point, which a walk takes beside the axis where nothing on the artist's is free.
     fn looks_at_target(&self, frame: u32) -> bool {
-        !self.is_preset() || frame > 0
+        !self.is_given(frame) || self.start.as_ref().is_some_and(|start| start.looks_along_axis)
+    }
+
+    /// Whether this frame is the artist's pose. Before plans said so, it was in Hypersim's preset.
+    fn is_given(&self, frame: u32) -> bool {
+        frame == 0 && self.start.as_ref().map_or(self.is_preset(), |start| start.is_kept)
     }
 
     /// Hypersim's preset alone walks without a limit of roll.
@@ -74,7 +93,11 @@ fn check_pose(card: &mut Card, pose: &Pose, rules: &PlanRules, at: impl Fn() -> 
         let ahead = (pose.look_at - pose.position).try_normalize();
         card.observe(Law::LookAt, ahead.map_or(f64::INFINITY, |ahead| (ahead + r.z_axis).abs().max_element()), &at);
     }
-    if let Some(limit) = rules.roll_limit_deg {
+    if let Some(start) = rules.start.as_ref().filter(|start| pose.frame == 0 && start.is_kept && !rules.is_second) {
+        let turned = (r - start.world_from_camera).to_cols_array().iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
+        card.observe(Law::StartPose, turned.max((pose.position - start.position).abs().max_element()), &at);
+    }
+    if let Some(limit) = rules.roll_limit_deg.filter(|_| !rules.is_given(pose.frame)) {
         card.observe(Law::Roll, (pose.roll_rad().abs().to_degrees() - limit).max(0.0), &at);
     }
 }
@@ -93,7 +116,7 @@ mod tests {
     }
 
     fn rules(mode: &str, roll_limit_deg: Option<f64>) -> PlanRules {
-        PlanRules { mode: mode.into(), roll_limit_deg }
+        PlanRules { mode: mode.into(), roll_limit_deg, ..PlanRules::default() }
     }
 
     fn failures_of(rules: &PlanRules, change: impl Fn(&mut Trajectory)) -> Vec<Law> {
@@ -133,6 +156,30 @@ mod tests {
             let beside = |frame: usize| failures_of(&rules, move |t| t.poses[frame].look_at.z += 0.01);
             assert_eq!((beside(0), beside(1)), (at_start, vec![Law::LookAt]), "{rules:?}");
         }
+    }
+
+    #[test]
+    fn the_start_camera_is_frame_0_whatever_its_roll_and_no_other_pose_is() {
+        let first = trajectory().poses[0];
+        let turn = DMat3::from_rotation_z(8f64.to_radians());
+        let start = |is_kept| PlannedStart {
+            name: "door".into(),
+            position: first.position,
+            world_from_camera: first.world_from_camera * turn,
+            is_kept,
+            looks_along_axis: true,
+        };
+        let rules = |is_kept| PlanRules { start: Some(start(is_kept)), ..rules("walk", Some(5.0)) };
+        let turned = |frame: usize| move |t: &mut Trajectory| t.poses[frame].world_from_camera *= turn;
+        assert_eq!(failures_of(&rules(true), turned(0)), []);
+        assert_eq!(failures_of(&rules(true), turned(1)), [Law::Roll, Law::StartPose]);
+        assert_eq!(failures_of(&rules(false), turned(0)), [Law::Roll]);
+        let moved = |t: &mut Trajectory| {
+            turned(0)(t);
+            let back = t.poses[0].world_from_camera.z_axis;
+            t.poses[0].position += 1e-6 * back;
+        };
+        assert_eq!(failures_of(&rules(true), moved), [Law::StartPose]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use enfilade_dataset::ViewVerdict;
+use enfilade_dataset::{ViewVerdict, loader_problem};
 use enfilade_frame::{LAYERS, Layer, Pass};
 use enfilade_scene::{Camera, Projection};
 use serde_json::{Value, json};
@@ -78,6 +78,7 @@ impl Viewer {
             "name": camera,
             "frame_time_s": self.dataset.read_frame_time(scene, camera).map_err(problem)?,
             "projection": self.projection(scene, camera)?,
+            "loader_problem": self.camera_model(scene, camera)?.filter(|_| !self.dataset.is_released(scene)).as_ref().and_then(loader_problem),
             "frames": frames,
             "tone": tone,
         }))

@@ -14,7 +14,7 @@ import { getJson } from "../shared/api.js";
 /** @typedef {{ verdict: "rejected" | "reported", fault: { gate: string, value: number, limit: number } | null, picture: string | null }} Gate */
 /** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, gate: Gate | null }} CameraFrame */
 /** @typedef {{ kind: string, linear: boolean, width: number, height: number, corner_rays: number[][] | null, fov_y_deg: number | null }} Projection */
-/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, frames: CameraFrame[], tone: [number, number, number][] }} Camera */
+/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, loader_problem: string | null, frames: CameraFrame[], tone: [number, number, number][] }} Camera */
 /** @typedef {{ instance: number, semantic: number, visible_pixels: number, visible_box: number[], full_box: number[], visibility: number, truncation: number }} InstanceView */
 /** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any }} FrameFacts */
 

@@ -28,6 +28,7 @@ export function framePanel(session, known) {
             ["Model", projection?.kind],
             ["Size", projection && `${projection.width} × ${projection.height} px`],
             ["Field of view", projection?.fov_y_deg && `${projection.fov_y_deg.toFixed(2)}° vertical`],
+            ["Hypersim's loaders", camera.loader_problem],
             ["Position", pose && `${vector(pose.position)} m`],
             ["Looks along", pose && vector([2, 5, 8].map((i) => -pose.orientation[i]))],
         ]),
