@@ -5,8 +5,9 @@ use super::choices::Quality;
 use super::farm::FarmKeys;
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::settings::{CameraChoice, EnvironmentChoice};
+use enfilade_explore::Preset;
 use enfilade_import::UpAxis;
-use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Unexpected, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
@@ -17,6 +18,7 @@ pub(super) struct Document {
     pub name: Option<Spanned<String>>,
     pub seed: Option<u64>,
     pub frames: Option<Spanned<u32>>,
+    pub preset: Option<Preset>,
     pub quality: Option<Quality>,
     pub labels: Option<Spanned<String>>,
     #[serde(default)]
@@ -59,9 +61,10 @@ pub(super) struct SceneKeys {
     pub labels: Option<Spanned<String>>,
     pub label_scene: Option<String>,
     #[serde(default)]
-    pub cameras: Vec<CameraKey>,
+    pub cameras: CamerasKey,
     pub seed: Option<u64>,
     pub frames: Option<Spanned<u32>>,
+    pub preset: Option<Preset>,
     pub quality: Option<Quality>,
     #[serde(default)]
     pub render: RenderPatch,
@@ -106,8 +109,42 @@ impl SceneKeys {
     }
 }
 
+/// `cameras`: which of the file's, or "found".
+#[derive(Default)]
+pub(super) struct CamerasKey {
+    pub chosen: Vec<CameraChoice>,
+    /// The file's do not count.
+    pub found: bool,
+}
+
+impl<'de> Deserialize<'de> for CamerasKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ListOrFound;
+        impl<'de> Visitor<'de> for ListOrFound {
+            type Value = CamerasKey;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a list of cameras, or \"found\" for places that are found in the scene, whatever cameras its file has")
+            }
+            fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<CamerasKey, E> {
+                match word {
+                    "found" => Ok(CamerasKey { chosen: Vec::new(), found: true }),
+                    other => Err(E::invalid_value(Unexpected::Str(other), &self)),
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<CamerasKey, A::Error> {
+                let mut chosen = Vec::new();
+                while let Some(CameraKey(camera)) = list.next_element()? {
+                    chosen.push(camera);
+                }
+                Ok(CamerasKey { chosen, found: false })
+            }
+        }
+        deserializer.deserialize_any(ListOrFound)
+    }
+}
+
 /// A camera's name, or a table with its place.
-pub(super) struct CameraKey(pub CameraChoice);
+struct CameraKey(CameraChoice);
 
 /// The table of a camera that is placed.
 #[derive(Deserialize)]

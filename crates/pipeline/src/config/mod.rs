@@ -12,6 +12,7 @@ mod expand;
 mod farm;
 mod locate;
 mod patch;
+mod presets;
 mod resolve;
 mod select;
 mod settings;

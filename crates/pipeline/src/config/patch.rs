@@ -1,7 +1,7 @@
 //! The sections of `dataset.toml` that say how stages work: every key is optional, and what is there replaces the value below.
 
 use enfilade_dataset::ColorKind;
-use enfilade_explore::{CarveConfig, Mode, PlanConfig, Preset, Saliency};
+use enfilade_explore::{CarveConfig, Mode, PlanConfig, Saliency};
 use enfilade_render::{Filter, RenderConfig};
 use enfilade_verify::view_gates::{GateAction, GateConfig};
 use serde::Deserialize;
@@ -68,7 +68,7 @@ section!(RenderPatch => RenderConfig {
     denoiser: String,
 });
 
-section!(CarvePatch => CarveConfig { preset: Preset, voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });
+section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });
 
 section!(GatePatch => GateConfig {
     action: GateAction,
@@ -86,7 +86,6 @@ section!(GatePatch => GateConfig {
 
 // The frames are a key of the level above; the test images have the field of view and the shape of the pictures.
 section!(PlanPatch => PlanConfig {
-    preset: Preset,
     mode: Mode,
     candidates: u32,
     queries: u32,

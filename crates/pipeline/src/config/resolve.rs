@@ -1,6 +1,6 @@
 //! From the keys of `dataset.toml` to settings: how the levels are laid over each other, and where a value stands that cannot be.
 //!
-//! From the weakest to the strongest: built-in defaults, the file's top level, the scene's own keys, the command line. On each
+//! From the weakest to the strongest: built-in defaults or those of a `preset`, the file's top level, the scene's own keys, the command line. On each
 //! level `quality` sets the samples (and for a reference what makes it one), and the keys of `render` win over it. What counts in the end is checked, `checks` has the ranges.
 
 use super::camera::CameraConfig;
@@ -10,6 +10,7 @@ use super::document::{Document, Level, SceneKeys};
 use super::expand::expand;
 use super::farm::FarmConfig;
 use super::locate::{Source as Text, in_words};
+use super::presets;
 use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
 use enfilade_dataset::{ColorKind, check_name, read_ray_grid};
@@ -93,7 +94,8 @@ impl Resolver<'_> {
             seed,
             source: self.scene_source(keys, seed)?,
             labels: self.labels(keys, &name)?,
-            cameras: keys.cameras.iter().map(|c| c.0.clone()).collect(),
+            cameras: keys.cameras.chosen.clone(),
+            finds_cameras: keys.cameras.found,
             size: SIZE,
             fov_x_deg: None,
             camera: camera.map_or_else(CameraConfig::default, |camera| camera.get_ref().clone()),
@@ -109,6 +111,8 @@ impl Resolver<'_> {
             name,
         };
         scene.render.samples = QUALITY.samples();
+        presets::lay_over(keys.preset.or(document.preset).unwrap_or_default(), &mut scene);
+        self.check_preset(keys)?;
 
         // The file over them, the scene's own keys over that, and the command line over all.
         self.lay_over(&mut scene, document.level(), QUALITY)?;
@@ -169,6 +173,17 @@ impl Resolver<'_> {
         carve.apply(&mut scene.carve);
         gate.apply(&mut scene.gate);
         Ok(())
+    }
+
+    /// Refuses keys that a preset beside them, or above them, makes meaningless.
+    fn check_preset(&self, keys: &SceneKeys) -> Result<(), ConfigError> {
+        let document = self.document;
+        let of_document = document.preset.and_then(|preset| Some((preset, presets::unused_key(preset, &document.level())?)));
+        let of_scene = keys.preset.or(document.preset).and_then(|preset| Some((preset, presets::unused_key(preset, &keys.level())?)));
+        let Some((preset, (key, place))) = of_document.or(of_scene) else { return Ok(()) };
+        let message = format!("preset {:?} has no rule for `{key}`", preset.name());
+        let help = "leave the key out, or the preset; docs/trajectories.md has the table of what each preset does";
+        Err(ConfigError { help: Some(help.into()), ..self.source.error(Some(place), message) })
     }
 
     fn lay_arguments_over(&self, scene: &mut SceneConfig, below: Quality) {

@@ -53,6 +53,9 @@ pub struct SceneConfig {
     pub labels: Option<LabelSource>,
     /// Cameras where trajectories begin, one trajectory each; empty means all of the file's, or found ones if it has none.
     pub cameras: Vec<CameraChoice>,
+    /// Trajectories begin at places that are found, whatever cameras the file has.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub finds_cameras: bool,
     /// Image width and height, pixels.
     pub size: [u32; 2],
     /// Horizontal field of view; `None` takes that of the scene's first used camera.
@@ -138,6 +141,11 @@ pub(super) const fn save_every_s() -> f64 {
     30.0
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 fn one() -> f32 {
     1.0
 }
@@ -208,7 +216,7 @@ impl SceneConfig {
     /// [`SceneConfig::seed_for`] exploring by a preset. Hypersim's programs are given the seed as it is, 0 unless told otherwise.
     pub fn exploring_seed(&self, purpose: &str, preset: Preset) -> u64 {
         match preset {
-            Preset::Default => self.seed_for(purpose),
+            Preset::Default | Preset::Paper => self.seed_for(purpose),
             Preset::Hypersim => self.seed,
         }
     }

@@ -3,12 +3,12 @@
 use super::*;
 use crate::error::ConfigError;
 use enfilade_dataset::ColorKind;
-use enfilade_explore::{Mode, VideoConfig};
+use enfilade_explore::{Mode, Preset, VideoConfig};
 use enfilade_home::light::Moment;
 use enfilade_home::{HomeConfig, RoomKind};
 use enfilade_import::UpAxis;
 use enfilade_render::RenderConfig;
-use enfilade_verify::view_gates::GateConfig;
+use enfilade_verify::view_gates::{GateAction, GateConfig};
 use std::path::PathBuf;
 
 fn variable(name: &str) -> Option<String> {
@@ -547,4 +547,42 @@ fn one_home_for_two_scenes_is_refused_unless_both_say_its_seed() {
     for allowed in [["{ seed = 4 }", "{ seed = 4 }"], ["{}", "{ clutter = 0 }"], ["{}", "{ seed = 1 }"]] {
         assert!(homes(&allowed, &Overrides::default()).is_ok(), "{allowed:?}");
     }
+}
+
+#[test]
+fn a_preset_is_one_word_for_rules_gates_and_camera_over_which_every_key_wins() {
+    let of = |preset: &str| config(&format!("preset = \"{preset}\"\n{SCENE}")).scenes.remove(0);
+    let (default, paper, hypersim) = (of("default"), of("paper"), of("hypersim"));
+    assert_eq!(default, config(SCENE).scenes.remove(0));
+    for (scene, preset) in [(&paper, Preset::Paper), (&hypersim, Preset::Hypersim)] {
+        assert_eq!((scene.carve.preset, scene.plan.preset, scene.gate.action), (preset, preset, GateAction::Report));
+        assert_eq!((scene.size, scene.fov_x_deg), ([1024, 768], Some(60.0)));
+    }
+    assert_eq!((paper.plan.clearance_m, hypersim.plan.clearance_m), (0.0, default.plan.clearance_m));
+    // A scene's own preset wins over the file's, and keys win wherever they stand.
+    let text = format!("preset = \"paper\"\n[render]\nsize = [64, 48]\n[gate]\naction = \"reject\"\n{SCENE}preset = \"hypersim\"\n");
+    let scene = config(&text).scenes.remove(0);
+    assert_eq!((scene.plan.preset, scene.size, scene.gate.action), (Preset::Hypersim, [64, 48], GateAction::Reject));
+    // A camera that says its field of view itself keeps it.
+    let tilted = config(&format!("preset = \"hypersim\"\n{SCENE}[scene.camera]\nmodel = \"equirectangular\"\n")).scenes.remove(0);
+    assert_eq!(tilted.fov_x_deg, None);
+}
+
+#[test]
+fn keys_of_rules_that_a_preset_does_not_have_are_refused_where_they_stand() {
+    let text = error(&format!("preset = \"paper\"\n{SCENE}[scene.plan]\nclearance_m = 0.4\n"));
+    assert!(text.contains("preset \"paper\" has no rule for `clearance_m`") && text.contains("dataset.toml:6"), "{text}");
+    let text = error(&format!("preset = \"hypersim\"\n[plan]\nroll_limit_deg = 3\n{SCENE}"));
+    assert!(text.contains("preset \"hypersim\" has no rule for `roll_limit_deg`"), "{text}");
+    // Keys for other scenes do not count.
+    config(&format!("[plan]\nclearance_m = 0.4\n{SCENE}preset = \"paper\"\n[[scene]]\nname = \"b\"\nfile = \"b.obj\"\n"));
+    assert!(error(&format!("preset = \"papr\"\n{SCENE}")).contains("papr"));
+}
+
+#[test]
+fn cameras_are_a_list_or_found() {
+    let scene = config(&format!("{SCENE}cameras = \"found\"\n")).scenes.remove(0);
+    assert!(scene.finds_cameras && scene.cameras.is_empty());
+    let text = error(&format!("{SCENE}cameras = \"door\"\n"));
+    assert!(text.contains("a list of cameras, or \"found\""), "{text}");
 }

@@ -1,14 +1,15 @@
 //! `carve`: the scene to its free space, beginning at the cameras where trajectories will begin.
 
+use super::job::World;
 use super::{Inputs, Job, Outcome, Record, Stage};
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{counted, write_json};
-use enfilade_explore::{CarveConfig, FreeSpace, StartReport, StartsConfig};
+use enfilade_dataset::{counted, counted_as, write_json};
+use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Preset, StartReport, StartsConfig};
 use enfilade_math::DVec3;
-use enfilade_scene::{Pose, Scene, StartCamera};
+use enfilade_scene::{Cx, Pose, Quiet, Scene, StartCamera, Warning};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -20,9 +21,12 @@ pub(super) const STARTS: &str = "starts.json";
 struct Start {
     #[serde(flatten)]
     camera: StartCamera,
-    /// True where it was skipped, because it stands in a wall or outside.
+    /// True where it was skipped, because it stands in a wall.
     #[serde(default)]
     is_skipped: bool,
+    /// True where hardly a direction around it meets a surface.
+    #[serde(default)]
+    is_open: bool,
 }
 
 /// All of them; there is at least one.
@@ -35,6 +39,11 @@ pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
     Ok(read_starts(job)?.into_iter().filter(|start| !start.is_skipped).map(|start| start.camera).collect())
 }
 
+/// Whether a trajectory begins in the open, where views are not to be held to what is true of rooms.
+pub(super) fn is_open_place(job: &Job) -> Result<bool, Error> {
+    Ok(read_starts(job)?.iter().any(|start| start.is_open))
+}
+
 fn read_starts(job: &Job) -> Result<Vec<Start>, Error> {
     let path = job.work_file(STARTS)?;
     let unreadable = || Error::scene(format!("{}: the list of start cameras cannot be read", path.display()), job.again(Stage::Carve));
@@ -42,7 +51,7 @@ fn read_starts(job: &Job) -> Result<Vec<Start>, Error> {
 }
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&(&job.scene.carve, &job.scene.cameras, exploring_seed(job)))
+    Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.finds_cameras, exploring_seed(job)))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -52,13 +61,11 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
     let world = job.load_world()?;
-    let starts = start_cameras(job, cx)?;
-    let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
-    let config = CarveConfig { seed: exploring_seed(job), ..job.scene.carve.clone() };
-    let space = enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx).map_err(Error::stage)?;
+    let (starts, space) = carved(job, &world, cx)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     let summary = summary(&space, starts.len());
-    let start = |(camera, report): (StartCamera, &StartReport)| Start { camera, is_skipped: report.used.is_none() };
+    let start =
+        |(camera, report): (StartCamera, &StartReport)| Start { camera, is_skipped: report.used.is_none(), is_open: report.is_open };
     let starts: Vec<Start> = starts.into_iter().zip(&space.report.starts).map(start).collect();
     write_json(&job.work_file(STARTS)?, &starts)?;
     let report = serde_json::to_value(&space.report).unwrap_or_default();
@@ -77,7 +84,8 @@ fn summary(space: &FreeSpace, cameras: usize) -> String {
     );
     let leaks = match report.leaks.first() {
         Some(leak) => format!("{}, the largest {:.1} m2 at {:.1}", counted(report.leaks.len(), "leak"), leak.area_m2, leak.position),
-        None => "no leaks".into(),
+        None if report.sought_leaks => "no leaks".into(),
+        None => "leaks were not looked for".into(),
     };
     format!("{seen}; {:.0} % of the domain unknown; {leaks}", 100.0 * report.unknown_share)
 }
@@ -93,20 +101,80 @@ pub(super) fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     Ok(octomap.into_iter().chain([job.work_file(STARTS)?]).collect())
 }
 
-/// The chosen cameras; without a choice the file's, and for a file without any, found ones.
-fn start_cameras(job: &Job, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
+/// The cameras where trajectories begin, and the space around them. The file's own cameras give way to found places where none of them is
+/// in a building or all stand in walls, unless they were chosen by name.
+fn carved(job: &Job, world: &World, cx: &StageCx) -> Result<(Vec<StartCamera>, FreeSpace), Error> {
+    let config = CarveConfig { seed: exploring_seed(job), ..job.scene.carve.clone() };
+    let carve = |starts: &[StartCamera]| {
+        let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
+        enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx)
+    };
     let scene = job.load_scene()?;
     if !job.scene.cameras.is_empty() {
-        return job.scene.cameras.iter().enumerate().map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect();
+        let choices = job.scene.cameras.iter().enumerate();
+        let starts: Vec<StartCamera> = choices.map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect::<Result<_, _>>()?;
+        let space = carve(&starts).map_err(Error::stage)?;
+        return Ok((starts, space));
     }
-    if !scene.cameras.is_empty() {
+    if job.scene.finds_cameras || scene.cameras.is_empty() {
+        let starts = found(job, world, cx)?;
+        let space = carve(&starts).map_err(Error::stage)?;
+        return Ok((starts, space));
+    }
+    let starts = indoors(job, &scene, world, cx)?;
+    match carve(&starts) {
+        Err(ExploreError::StartInWall { .. }) if scene.cameras.contains(&starts[0]) => {
+            let instead = found(job, world, cx)?;
+            warn_of_replacement(&scene, "every camera of the file stands in a wall or an object", &instead, cx);
+            let space = carve(&instead).map_err(Error::stage)?;
+            Ok((instead, space))
+        }
+        space => Ok((starts, space.map_err(Error::stage)?)),
+    }
+}
+
+/// Those of the file's cameras that stand in a building; where none does, found places, and without any the cameras after all: an open
+/// place. Hypersim's program takes all.
+fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
+    let is_inside = |camera: &StartCamera| !camera.position.is_finite() || enfilade_explore::is_indoors(&world.bvh, camera.position);
+    let (inside, outside): (Vec<StartCamera>, Vec<StartCamera>) = scene.cameras.iter().cloned().partition(is_inside);
+    if outside.is_empty() || job.scene.carve.preset == Preset::Hypersim {
         return Ok(scene.cameras.clone());
     }
-    let world = job.load_world()?;
-    let config = StartsConfig { max_spread_m: job.scene.carve.extent_m, ..StartsConfig::default() };
-    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &config, cx);
+    if !inside.is_empty() {
+        for camera in outside {
+            let message = format!("stands outside, and is left out; to begin there, choose it: cameras = [{:?}]", camera.name);
+            cx.warn(Warning { place: format!("camera {:?}", camera.name), message });
+        }
+        return Ok(inside);
+    }
+    let places = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), &Quiet);
+    if places.is_empty() {
+        return Ok(outside);
+    }
+    warn_of_replacement(scene, "no camera of the file stands in a building", &places, cx);
+    Ok(places)
+}
+
+/// Tells that found places stand in for the file's cameras, with which something is wrong.
+fn warn_of_replacement(scene: &Scene, wrong: &str, places: &[StartCamera], cx: &StageCx) {
+    let message = format!(
+        "{wrong}; trajectories begin at {} instead. To begin at one of the file's, choose it: cameras = [{:?}]",
+        counted_as(places.len(), "place that was found", "places that were found"),
+        scene.cameras[0].name
+    );
+    cx.warn(Warning { place: "start cameras".into(), message });
+}
+
+fn starts_config(job: &Job) -> StartsConfig {
+    StartsConfig { max_spread_m: job.scene.carve.extent_m, ..StartsConfig::default() }
+}
+
+/// Places to stand; there is at least one.
+fn found(job: &Job, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
+    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), cx);
     if found.is_empty() {
-        let message = "the scene has no camera, and no place was found where one could stand";
+        let message = "no place was found in the scene where a camera could stand";
         return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));
     }
     Ok(found)

@@ -4,12 +4,13 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
-use crate::workdir::Hash;
+use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, counted, remove_folder, remove_if_there, write_bytes};
+use enfilade_explore::PlanReport;
 use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
 use enfilade_show::gates_page::{Judged, gates_page};
 use enfilade_show::picture::jpeg;
-use enfilade_verify::view_gates::{GateAction, VIEW_GATES};
+use enfilade_verify::view_gates::{GateAction, GateConfig, VIEW_GATES};
 use std::path::PathBuf;
 
 /// Frames named in a warning; more are shown as `…`.
@@ -27,14 +28,18 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     forget(job)?;
-    let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &job.scene.gate);
+    let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &config(job)?);
+    if *config != job.scene.gate {
+        let message = "a start camera stands in the open, so no view is rejected for what is open around it or has no depth".into();
+        cx.warn(Warning { place: "gates".into(), message });
+    }
     let (scene, world) = (job.load_scene()?, job.load_world()?);
     let keeper = Gatekeeper::new(&scene, &world, &carve::standing(job)?, config)?;
     let filmed = job.filmed()?;
     let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
     for (camera, trajectory) in filmed.iter() {
-        let first = judged.len();
+        let (first, given) = (judged.len(), given_frame(job, &trajectory.name));
         for (index, pose) in trajectory.poses.iter().enumerate() {
             let view = CameraView::of_frame(camera, &trajectory.poses, index);
             let judgement = keeper.judge(&view);
@@ -49,18 +54,24 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
                 }
             };
             let (measures, fault) = (judgement.measures, judgement.fault);
-            judged.push(Judged { camera: trajectory.name.clone(), frame: pose.frame, measures, fault, thumbnail });
+            let verdict = match (fault, config.action) {
+                (None, _) => ViewVerdict::Passed,
+                (Some(_), GateAction::Reject) if Some(pose.frame) != given => ViewVerdict::Rejected,
+                (Some(_), _) => ViewVerdict::Reported,
+            };
+            judged.push(Judged { camera: trajectory.name.clone(), frame: pose.frame, measures, fault, verdict, thumbnail });
             cx.progress("views", judged.len() as u64, total as u64);
         }
-        write_verdicts(job, trajectory, &judged[first..])?;
+        write_verdicts(job, config, trajectory, &judged[first..])?;
         outputs.push(layout.view_gates(name, &trajectory.name));
-        warn(job, trajectory, &judged[first..], cx);
+        warn(trajectory, &judged[first..], cx);
     }
     let page = layout.gates_page(name);
     write_bytes(&page, gates_page(name, config, &judged))?;
     outputs.push(page);
     let faulty = judged.iter().filter(|view| view.fault.is_some()).count();
-    if config.action == GateAction::Reject && faulty == total && total > 0 {
+    let rejected = rejected(&judged);
+    if rejected == total && total > 0 {
         return Err(Error::scene(
             format!("all {} are rejected ({})", counted(total, "view"), tally(&judged)),
             format!(
@@ -69,12 +80,30 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             ),
         ));
     }
-    let summary = match (faulty, config.action) {
-        (0, _) => format!("all {} pass", counted(total, "view")),
-        (_, GateAction::Reject) => format!("{} of {} pass, rejected: {}", total - faulty, counted(total, "view"), tally(&judged)),
-        (_, GateAction::Report) => format!("{} of {} pass, reported: {}", total - faulty, counted(total, "view"), tally(&judged)),
+    let verb = if rejected > 0 { "rejected" } else { "reported" };
+    let summary = match faulty {
+        0 => format!("all {} pass", counted(total, "view")),
+        _ => format!("{} of {} pass, {verb}: {}", total - faulty, counted(total, "view"), tally(&judged)),
     };
     Ok(Outcome { summary, outputs, ..Outcome::default() })
+}
+
+/// The gates of a scene. In an open place no view is held to what is true of rooms: that there is something around it, and depth in nearly
+/// every pixel.
+pub(super) fn config(job: &Job) -> Result<GateConfig, Error> {
+    let gate = job.scene.gate.clone();
+    Ok(if carve::is_open_place(job)? { GateConfig { max_open_share: 1.0, max_invalid_share: 1.0, ..gate } } else { gate })
+}
+
+/// The frame of a trajectory that is a start camera's own pose, which is rendered whatever it shows.
+fn given_frame(job: &Job, trajectory: &str) -> Option<u32> {
+    let path = job.dataset.layout().plan_report(&job.scene.name, trajectory);
+    let report: PlanReport = read_json(&path)?;
+    report.start.filter(|start| start.is_kept).map(|_| 0)
+}
+
+fn rejected(views: &[Judged]) -> usize {
+    views.iter().filter(|view| view.verdict == ViewVerdict::Rejected).count()
 }
 
 /// The verdicts, as inputs of later stages.
@@ -95,18 +124,12 @@ pub(super) fn forget(job: &Job) -> Result<(), Error> {
     Ok(())
 }
 
-fn write_verdicts(job: &Job, trajectory: &Trajectory, views: &[Judged]) -> Result<(), Error> {
-    let config = &job.scene.gate;
+fn write_verdicts(job: &Job, config: &GateConfig, trajectory: &Trajectory, views: &[Judged]) -> Result<(), Error> {
     let row = |view: &Judged| {
-        let verdict = match (view.fault, config.action) {
-            (None, _) => ViewVerdict::Passed,
-            (Some(_), GateAction::Reject) => ViewVerdict::Rejected,
-            (Some(_), GateAction::Report) => ViewVerdict::Reported,
-        };
         let fault =
             view.fault.map(|gate| ViewFault { gate: gate.spec().name.into(), value: view.measures.value(gate), limit: config.limit(gate) });
         let measures = VIEW_GATES.iter().map(|spec| view.measures.value(spec.gate)).collect();
-        (JudgedView { frame: view.frame, verdict, fault }, measures)
+        (JudgedView { frame: view.frame, verdict: view.verdict, fault }, measures)
     };
     let rows: Vec<_> = views.iter().map(row).collect();
     let columns = VIEW_GATES.map(|spec| spec.column);
@@ -114,20 +137,22 @@ fn write_verdicts(job: &Job, trajectory: &Trajectory, views: &[Judged]) -> Resul
 }
 
 /// One warning for a trajectory that has views with a fault.
-fn warn(job: &Job, trajectory: &Trajectory, views: &[Judged], cx: &StageCx) {
+fn warn(trajectory: &Trajectory, views: &[Judged], cx: &StageCx) {
     let faulty: Vec<&Judged> = views.iter().filter(|view| view.fault.is_some()).collect();
     if faulty.is_empty() {
         return;
     }
     let named: Vec<String> = faulty.iter().take(FRAMES_NAMED).map(|view| view.frame.to_string()).collect();
     let more = if faulty.len() > FRAMES_NAMED { ", …" } else { "" };
-    let verb = match job.scene.gate.action {
-        GateAction::Reject => "rejected and not rendered",
-        GateAction::Report => "not worth rendering, but rendered",
+    let rejected = rejected(views);
+    let verb = match rejected {
+        0 => "not worth rendering, but rendered",
+        n if n == faulty.len() => "rejected and not rendered",
+        _ => "rejected and not rendered, but for that of the start camera",
     };
     let (n, all, why) = (faulty.len(), counted(views.len(), "view"), tally(views));
     let mut message = format!("{n} of {all} {verb}: {why} (frames {}{more})", named.join(", "));
-    if faulty.len() == views.len() {
+    if rejected == views.len() {
         message += "; none is left: place this camera elsewhere, or set other limits in [gate]";
     }
     cx.warn(Warning { place: trajectory.name.clone(), message });

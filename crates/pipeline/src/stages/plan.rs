@@ -165,28 +165,32 @@ fn free_space(job: &Job) -> Result<FreeSpace, Error> {
     Ok(FreeSpace { free_min, free_max, ..space })
 }
 
-/// The configuration with the seed, and test images like the pictures; Hypersim's program has its own.
-fn plan_config(job: &Job, camera: &Camera) -> PlanConfig {
-    let plan = job.scene.plan.clone();
+/// The configuration with the seed, and test images like the pictures; Hypersim's program has its own. In an open place most of a view
+/// may be sky.
+fn plan_config(job: &Job, camera: &Camera) -> Result<PlanConfig, Error> {
+    let mut plan = job.scene.plan.clone();
+    if plan.preset == Preset::Default && carve::is_open_place(job)? {
+        plan.max_void_share = plan.max_void_share.max(job.scene.gate.max_void_share);
+    }
     let seed = job.scene.exploring_seed("plan", plan.preset);
     if plan.preset == Preset::Hypersim {
-        return PlanConfig { seed, ..plan };
+        return Ok(PlanConfig { seed, ..plan });
     }
     let [width, height] = camera.size().map(u64::from);
     let limit = if camera.projection.is_linear() { std::f64::consts::PI } else { WIDEST_VIEW_RAD };
-    PlanConfig {
+    Ok(PlanConfig {
         seed,
         fov_x_rad: camera.projection.fov_x_rad(limit),
         test_height: (u64::from(plan.test_width) * height / width).max(1) as u32,
         stereo_baseline_m: job.scene.camera.stereo.map_or(0.0, |stereo| stereo.baseline_m),
         ..plan
-    }
+    })
 }
 
 /// One trajectory per start camera, or per file of poses made by hand. A camera from which none can begin is left out with a
 /// warning, as long as one remains.
 fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
-    let config = plan_config(job, camera);
+    let config = plan_config(job, camera)?;
     config.validate().map_err(Error::stage)?;
     let world = job.load_world()?;
     let space = free_space(job)?;
@@ -195,7 +199,8 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     }
     let scene = job.load_scene()?;
     let rejects = job.scene.gate.action == GateAction::Reject && config.preset == Preset::Default;
-    let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &carve::standing(job)?, &job.scene.gate)?) } else { None };
+    let gate = gate::config(job)?;
+    let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &carve::standing(job)?, &gate)?) } else { None };
     let accepts = |pose: &Pose| keeper.as_ref().is_none_or(|keeper| passes(job, keeper, camera, pose));
     let mut planned = Vec::new();
     let mut first_error = None;

@@ -40,15 +40,15 @@ impl Stage {
     pub(crate) const fn version(self) -> u32 {
         match self {
             Self::Import => 12,
-            Self::Carve => 4,
-            Self::Plan => 6,
-            Self::Gate => 1,
+            Self::Carve => 5,
+            Self::Plan => 7,
+            Self::Gate => 2,
             Self::Render => 14,
             Self::Denoise => 3,
             Self::Label => 2,
             Self::Boxes => 1,
             Self::Preview => 5,
-            Self::Verify => 5,
+            Self::Verify => 6,
         }
     }
 

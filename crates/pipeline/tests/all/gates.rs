@@ -124,7 +124,7 @@ fn planned_views_pass_because_planning_asks_the_same_gates() {
         (views[1..].iter().filter(|view| view.fault.is_some()).count(), views.len())
     };
     for (mode, limit) in [
-        ("{ kind = \"walk\" }", 0.5),
+        ("{ kind = \"walk\" }", 0.4),
         ("{ kind = \"stills\", min_distance_m = 0.4 }", 0.5),
         ("{ kind = \"coverage\", views = 2, poses = 150, samples = 1000 }", 0.4),
     ] {

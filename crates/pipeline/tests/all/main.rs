@@ -6,6 +6,8 @@ mod common;
 mod damage;
 mod demo;
 mod gates;
+mod places;
+mod presets;
 mod rooms;
 mod trajectories;
 mod vray;

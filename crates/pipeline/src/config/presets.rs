@@ -1,0 +1,56 @@
+//! `preset`: carving, planning, rendering and gates in one word.
+//!
+//! A preset takes the place of the built-in defaults, so every key of the file wins over it, wherever that stands. Only keys of `[plan]`
+//! for rules that the preset does not have are refused beside it: they would change nothing.
+
+use super::document::Level;
+use super::settings::SceneConfig;
+use enfilade_explore::Preset;
+use enfilade_verify::view_gates::GateAction;
+use std::ops::Range;
+
+/// The camera of Hypersim's pictures, whose focal length is 886.81 pixels: its loaders take that for granted.
+const SIZE: [u32; 2] = [1024, 768];
+const FOV_X_DEG: f64 = 60.0;
+
+/// Keys of `[plan]` for rules that are ours alone, ...
+const OURS: [&str; 11] = [
+    "camera_height_m",
+    "level",
+    "pitch_limits_deg",
+    "clearance_m",
+    "min_look_distance_m",
+    "overlap",
+    "max_void_share",
+    "max_back_face_share",
+    "min_depth_m",
+    "max_near_share",
+    "max_open_share",
+];
+
+/// ... and for what the published program has no choice of.
+const NOT_THE_PROGRAMS: [&str; 2] = ["roll_limit_deg", "saliency"];
+
+/// Lays the choices of a preset over the built-in defaults of a scene, whose camera is there already.
+pub(super) fn lay_over(preset: Preset, scene: &mut SceneConfig) {
+    (scene.carve.preset, scene.plan.preset) = (preset, preset);
+    if preset == Preset::Default {
+        return;
+    }
+    scene.size = SIZE;
+    scene.fov_x_deg = scene.camera.takes_field_of_view().then_some(FOV_X_DEG);
+    scene.gate.action = GateAction::Report;
+    if preset == Preset::Paper {
+        scene.plan.clearance_m = 0.0;
+    }
+}
+
+/// A key of `[plan]` that says something about a rule which the preset does not have, and where it stands.
+pub(super) fn unused_key(preset: Preset, level: &Level) -> Option<(&'static str, Range<usize>)> {
+    let unused: Vec<&'static str> = match preset {
+        Preset::Default => return None,
+        Preset::Paper => OURS.to_vec(),
+        Preset::Hypersim => [OURS.as_slice(), &NOT_THE_PROGRAMS].concat(),
+    };
+    unused.into_iter().find_map(|key| Some((key, level.plan.span(key)?)))
+}
