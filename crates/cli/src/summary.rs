@@ -1,7 +1,7 @@
 //! The last words of a run: a table of scenes, what failed and why, and where to look.
 
 use crate::outcome::{Problem, say};
-use enfilade_dataset::{Dataset, DatasetError, quoted};
+use enfilade_dataset::{Dataset, DatasetError, counted, quoted};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_pipeline::{SceneOutcome, Summary};
 use std::path::Path;
@@ -70,10 +70,10 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
     }
     let Some((scene, camera, frame)) = first else { return Ok(()) };
     let layers = LAYERS.iter().filter(|spec| dataset.has_layer(&scene, &camera, frame, spec.layer)).count();
-    let out = out.display();
+    let (out, frames) = (out.display(), counted(frames, "frame"));
     match summary.nothing_done() {
-        true => say(&format!("\nNothing to do: {out} is up to date, {frames} frames with {layers} layers each.\n")),
-        false => say(&format!("\nDone in {:.0} s: {out} holds {frames} frames with {layers} layers each.\n", summary.wall_s)),
+        true => say(&format!("\nNothing to do: {out} is up to date, {frames} with {layers} layers each.\n")),
+        false => say(&format!("\nDone in {:.0} s: {out} holds {frames} with {layers} layers each.\n", summary.wall_s)),
     }
     let overview = (sheets.len() > 1).then(|| layout.overview()).filter(|path| path.is_file());
     for (i, sheet) in overview.iter().chain(&sheets).take(2).enumerate() {

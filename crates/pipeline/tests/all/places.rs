@@ -44,7 +44,7 @@ fn made(folder: &Path, [name, scene]: [&str; 2], cameras: &str) -> (Dataset, Sum
     let config = Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap();
     let heard = Warnings::default();
     let summary = run(&config, &folder.join("out"), None, &heard).unwrap();
-    (Dataset::open(&folder.join("out")).unwrap(), summary, heard.0.into_inner().unwrap().join("\n"))
+    (Dataset::open(folder.join("out")).unwrap(), summary, heard.0.into_inner().unwrap().join("\n"))
 }
 
 /// A grey sky of 4 × 2 pixels.
