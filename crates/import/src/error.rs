@@ -1,6 +1,6 @@
 //! Why an import fails: one error for all formats, each case with file, place, what was found and what to do.
 
-use enfilade_scene::{PackageError, SceneError};
+use enfilade_scene::{GIT_LFS_POINTER, PackageError, SceneError};
 use std::path::{Path, PathBuf};
 
 /// Why a scene file could not be imported. Every message names the file, the place in it, what was found and what to do.
@@ -25,6 +25,12 @@ pub enum ImportError {
         source: std::io::Error,
         /// What to do.
         remedy: String,
+    },
+    /// The pointer that Git LFS leaves in the place of a file that it has not fetched.
+    #[error("{}: this is {GIT_LFS_POINTER}", file.display())]
+    GitLfs {
+        /// The file.
+        file: PathBuf,
     },
     /// A file whose content is not what its format calls for.
     #[error("{}: {place}: {problem}", file.display())]

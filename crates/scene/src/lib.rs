@@ -8,6 +8,7 @@ mod camera;
 mod contrast;
 mod cx;
 mod environment;
+mod git_lfs;
 mod labels;
 mod light;
 mod material;
@@ -27,6 +28,7 @@ pub use camera::{
 };
 pub use cx::{Cx, Heard, Quiet, Warning};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
+pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
 pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};

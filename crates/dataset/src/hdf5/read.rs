@@ -7,6 +7,7 @@ use super::volume::has_damaged_tree;
 use super::window::Window;
 use super::write::{datatype, os_error};
 use crate::DatasetError;
+use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
 use rust_hdf5::{DatatypeMessage, H5File, Hdf5Error};
 use std::fs::File;
 use std::io::Read;
@@ -124,6 +125,9 @@ fn check_length(path: &Path) -> Result<u64, DatasetError> {
     let length = file.metadata().map_err(at_path())?.len();
     let mut head = Vec::new();
     file.by_ref().take(64).read_to_end(&mut head).map_err(at_path())?;
+    if is_git_lfs_pointer(&head) {
+        return Err(DatasetError::hdf5(path, format!("it is {GIT_LFS_POINTER}")));
+    }
     if !head.starts_with(&SIGNATURE[..head.len().min(SIGNATURE.len())]) {
         return Err(DatasetError::hdf5(path, format!("it does not begin like an HDF5 file: {DAMAGED}")));
     }

@@ -5,7 +5,7 @@ use super::rules::posed;
 use super::spline::ThroughSpline;
 use crate::ExploreError;
 use enfilade_math::{DVec3, Ray};
-use enfilade_scene::Pose;
+use enfilade_scene::{GIT_LFS_POINTER, Pose, is_git_lfs_pointer};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 
@@ -80,6 +80,9 @@ struct FlatRow {
 /// assert!(parse_keyframes("down.json", above).unwrap_err().to_string().starts_with("down.json, pose 1: found a view from"));
 /// ```
 pub fn parse_keyframes(file: &str, text: &str) -> Result<Vec<Keyframe>, ExploreError> {
+    if is_git_lfs_pointer(text.as_bytes()) {
+        return Err(wrong(file, 1, GIT_LFS_POINTER.into(), "poses"));
+    }
     let rows = if file.to_lowercase().ends_with(".json") { json_rows(file, text)? } else { csv_rows(file, text)? };
     let mut keyframes: Vec<Keyframe> = Vec::with_capacity(rows.len());
     for (i, row) in rows.into_iter().enumerate() {

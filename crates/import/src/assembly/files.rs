@@ -4,6 +4,7 @@ use super::Assembly;
 use crate::ImportError;
 use crate::archive::Archive;
 use crate::images::{self, Use};
+use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
 use std::path::{Component, Path, PathBuf};
 
 /// Where a picture's bytes are.
@@ -88,6 +89,9 @@ impl Assembly<'_> {
         if self.archive.is_none() && !self.inputs.iter().any(|i| i == file) {
             self.inputs.push(file.to_path_buf());
         }
+        if is_git_lfs_pointer(&bytes) {
+            return Err(ImportError::GitLfs { file: file.to_path_buf() });
+        }
         Ok(bytes)
     }
 
@@ -118,6 +122,7 @@ impl Assembly<'_> {
             Source::File(path) => match self.read(path) {
                 Ok((file, bytes)) => images::decode(&self.picture_name(&file), &bytes, usage),
                 Err(ImportError::Read { source, .. }) => Err(format!("cannot be read ({source})")),
+                Err(ImportError::GitLfs { .. }) => Err(format!("is {GIT_LFS_POINTER}")),
                 Err(other) => return Err(other),
             },
             Source::Embedded(place, bytes) => images::decode(place, bytes, usage),

@@ -4,6 +4,7 @@ use crate::polygon;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Vec2, Vec3};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Marks a corner without a texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
@@ -93,7 +94,12 @@ impl ObjFile {
 
 impl Group {
     pub(super) fn corners_of(&self, face: usize) -> &[[u32; 3]] {
+        &self.corners[self.range_of(face)]
+    }
+
+    /// Where the corners of a face are.
+    pub(super) fn range_of(&self, face: usize) -> Range<usize> {
         let end = self.faces.get(face + 1).map_or(self.corners.len(), |f| f.first as usize);
-        &self.corners[self.faces[face].first as usize..end]
+        self.faces[face].first as usize..end
     }
 }

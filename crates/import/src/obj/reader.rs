@@ -26,6 +26,7 @@ impl ObjFile {
             material: None,
             smoothing: 0,
             current: None,
+            dangling: [Dangling::default(); 2],
         };
         let mut continued = String::new();
         for (number, line) in text::lines(&text).enumerate() {
@@ -40,33 +41,17 @@ impl ObjFile {
                 parser.line(&whole, number + 1)?;
             }
         }
-        parser.obj.check(file)?;
+        parser.check()?;
         Ok(parser.obj)
     }
+}
 
-    /// Checks every index of every face, which may come before the vertices that it refers to.
-    fn check(&self, file: &Path) -> Result<(), ImportError> {
-        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        let kinds = ["vertex", "texture coordinate", "normal"];
-        for group in &self.groups {
-            for (i, face) in group.faces.iter().enumerate() {
-                for corner in group.corners_of(i) {
-                    for k in 0..3 {
-                        if corner[k] != NONE && corner[k] as usize >= counts[k] {
-                            let problem = format!(
-                                "the face refers to {} {}, but there are only {}; export the file again",
-                                kinds[k],
-                                u64::from(corner[k]) + 1,
-                                counts[k]
-                            );
-                            return Err(ImportError::malformed(file, format!("line {}", face.line), problem));
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
+/// Corners that refer to texture coordinates or normals that the file lacks.
+#[derive(Clone, Copy, Default)]
+struct Dangling {
+    count: usize,
+    /// Line and index, as it is written, of the first of them.
+    first: Option<(usize, i64)>,
 }
 
 struct Parser<'p> {
@@ -78,6 +63,8 @@ struct Parser<'p> {
     material: Option<String>,
     smoothing: u32,
     current: Option<usize>,
+    /// Of texture coordinates and of normals.
+    dangling: [Dangling; 2],
 }
 
 impl Parser<'_> {
@@ -162,7 +149,7 @@ impl Parser<'_> {
     }
 
     /// One corner `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative indices count back from the last vertex so far.
-    fn corner(&self, word: &str, number: usize) -> Result<[u32; 3], ImportError> {
+    fn corner(&mut self, word: &str, number: usize) -> Result<[u32; 3], ImportError> {
         let counts = [self.obj.positions.len(), self.obj.uvs.len(), self.obj.normals.len()];
         let mut corner = [NONE; 3];
         let mut fields = word.split('/');
@@ -173,14 +160,69 @@ impl Parser<'_> {
             }
             let index: i64 =
                 field.parse().map_err(|_| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
-            let absolute = if index < 0 { counts[k] as i64 + index } else { index - 1 };
-            corner[k] = u32::try_from(absolute).ok().filter(|&i| i != NONE).ok_or_else(|| {
-                let problem =
-                    format!("the face refers to index {index}, but there are {} so far, counted from 1; export the file again", counts[k]);
-                self.error(number, problem)
-            })?;
+            let absolute = if index < 0 { (counts[k] as i64).saturating_add(index) } else { index - 1 };
+            match u32::try_from(absolute).ok().filter(|&i| i != NONE) {
+                Some(index) => corner[k] = index,
+                None if k > 0 => self.dangles(k, number, index),
+                None => {
+                    let problem = format!(
+                        "the face refers to index {index}, but there are {} so far, counted from 1; export the file again",
+                        counts[k]
+                    );
+                    return Err(self.error(number, problem));
+                }
+            }
         }
         Ok(corner)
+    }
+
+    /// Counts a corner whose index of kind `k`, 1 for texture coordinates and 2 for normals, leads to nothing.
+    fn dangles(&mut self, k: usize, line: usize, index: i64) {
+        let dangling = &mut self.dangling[k - 1];
+        dangling.count += 1;
+        // Faces are checked group by group, not line by line.
+        if dangling.first.is_none_or(|(first, _)| line < first) {
+            dangling.first = Some((line, index));
+        }
+    }
+
+    /// Checks every index of every face, which may come before the vertices that it refers to. Those of texture coordinates and normals
+    /// that the file lacks are taken out, with a note.
+    fn check(&mut self) -> Result<(), ImportError> {
+        let counts = [self.obj.positions.len(), self.obj.uvs.len(), self.obj.normals.len()];
+        let mut groups = std::mem::take(&mut self.obj.groups);
+        for group in &mut groups {
+            for i in 0..group.faces.len() {
+                let (line, range) = (group.faces[i].line, group.range_of(i));
+                for corner in &mut group.corners[range] {
+                    for k in 0..3 {
+                        if corner[k] == NONE || (corner[k] as usize) < counts[k] {
+                            continue;
+                        }
+                        let written = i64::from(corner[k]) + 1;
+                        if k == 0 {
+                            let problem =
+                                format!("the face refers to vertex {written}, but there are only {}; export the file again", counts[k]);
+                            return Err(self.error(line as usize, problem));
+                        }
+                        self.dangles(k, line as usize, written);
+                        corner[k] = NONE;
+                    }
+                }
+            }
+        }
+        self.obj.groups = groups;
+        for (k, kind) in [(1, "texture coordinates"), (2, "normals")] {
+            let Dangling { count, first } = self.dangling[k - 1];
+            let Some((line, index)) = first else { continue };
+            let problem = format!(
+                "{count} corners of faces refer to {kind} that are not there, first in line {line} (number {index} of {}); they are without, \
+                 so export the file again where that is seen",
+                counts[k]
+            );
+            self.note(&problem);
+        }
+        Ok(())
     }
 
     /// Up to three numbers, of which `required` must be there. Where `lenient`, what some writers print for "not a number" is one.
@@ -257,7 +299,21 @@ mod tests {
         assert!(message("v 0 0").contains("line 1: found 2 numbers"));
         assert!(message("v 0 nan 0").contains("line 1: the vertex \"0 nan 0\" is not finite"));
         assert!(message("v 0 0 0\nf 1/x 1 1").contains("is not a corner"));
-        assert!(message("v 0 0 0\nf 1/1 1 1").contains("texture coordinate 1, but there are only 0"));
         assert!(parse("vn -nan(ind) 0 0\nvt -1.#IND 0\n").is_ok());
+    }
+
+    #[test]
+    fn indices_of_texture_coordinates_and_normals_that_are_not_there_are_dropped_and_counted() {
+        let points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0.5 0.5\n";
+        let obj = parse(&format!("{points}f 1/1/1 2/2/1 3/1/1\ng second\nf 1/0 2/-9 3/1\nf 1/99999999999 2/1 3/1\n")).unwrap();
+        let mesh = obj.mesh(obj.groups.iter());
+        assert_eq!((mesh.triangles.len(), mesh.normals.len()), (3, 0));
+        assert_eq!(mesh.uvs[..3], [Vec2::splat(0.5), Vec2::ZERO, Vec2::splat(0.5)]);
+        assert_eq!(obj.notes.len(), 2, "{:?}", obj.notes);
+        let expected = "4 corners of faces refer to texture coordinates that are not there, first in line 5 (number 2 of 1)";
+        assert!(obj.notes[0].starts_with(expected), "{:?}", obj.notes);
+        assert!(obj.notes[1].starts_with("3 corners of faces refer to normals that are not there, first in line 5"), "{:?}", obj.notes);
+        // Those that come later in the file are there.
+        assert!(parse(&format!("f 1/1 2/1 3/1\n{points}")).unwrap().notes.is_empty());
     }
 }

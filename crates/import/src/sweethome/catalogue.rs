@@ -5,7 +5,7 @@ use crate::archive::Archive;
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Environment, PartLabel};
+use enfilade_scene::{Environment, PartLabel, is_git_lfs_pointer};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -86,6 +86,9 @@ fn open(file: &Path) -> Result<Archive, ImportError> {
         source,
         remedy: "check the path and the permission to read it".into(),
     })?;
+    if is_git_lfs_pointer(&bytes) {
+        return Err(ImportError::GitLfs { file: file.to_path_buf() });
+    }
     Archive::new(file, bytes).map_err(|e| ImportError::malformed(file, "whole file", format!("{e}; download it again")))
 }
 

@@ -133,18 +133,22 @@ impl Prim {
         self.sites.iter().find_map(|s| s.layer.get(&property_path(&s.path, property), name))
     }
 
-    /// An attribute's value, and the site that says it. Of time samples the first, where there is no value without time.
+    /// An attribute's value, and the site that says it. In a layer, the first of its time samples comes before its value without time,
+    /// as for every time that programs show.
     pub(super) fn value_at(&self, attribute: &str) -> Option<(&Value, &Site)> {
         for site in &self.sites {
             let path = property_path(&site.path, attribute);
-            match (site.layer.get(&path, field::DEFAULT), site.layer.get(&path, field::SAMPLES)) {
-                (Some(Value::Block), None) => return None,
-                (Some(value), _) if *value != Value::Block => return Some((value, site)),
-                (_, Some(Value::Samples(first, _))) => {
-                    self.sampled.set(self.sampled.get() + 1);
-                    return Some((first, site));
+            let value = match site.layer.get(&path, field::SAMPLES) {
+                Some(Value::Samples(first, count)) => {
+                    self.sampled.set(self.sampled.get() + u64::from(*count > 1));
+                    Some(&**first)
                 }
-                _ => (),
+                _ => site.layer.get(&path, field::DEFAULT),
+            };
+            match value {
+                Some(Value::Block) => return None,
+                Some(value) => return Some((value, site)),
+                None => (),
             }
         }
         None

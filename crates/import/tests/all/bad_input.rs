@@ -1,7 +1,7 @@
 //! Files that are wrong: each gets one clear message with file, place and what to do; none panics.
 
 use crate::common::{Folder, Gltf, warnings};
-use enfilade_import::ImportOptions;
+use enfilade_import::{EnvironmentOverride, Format, ImportOptions};
 use serde_json::json;
 
 fn gltf_error(change: impl FnOnce(&mut Gltf)) -> String {
@@ -126,6 +126,55 @@ fn missing_textures_are_an_error_unless_allowed() {
 
     let message = folder.write("textures/wood.png", b"\x89PNG\r\n\x1a\nbroken").error("a.gltf");
     assert!(message.contains("wood.png, which cannot be decoded"), "{message}");
+}
+
+#[test]
+fn pointers_of_git_lfs_are_named_in_every_format_and_for_every_file() {
+    const POINTER: &str = "version https://git-lfs.github.com/spec/v1\noid sha256:00112233\nsize 28200\n";
+    let folder = Folder::new();
+    let expected = "this is a Git LFS pointer, which stands for a file that was not fetched: run `git lfs pull`";
+    for extension in Format::ALL.iter().flat_map(|(_, extensions)| *extensions) {
+        let name = format!("a.{extension}");
+        let message = folder.write(&name, POINTER).error(&name);
+        assert!(message.starts_with(&format!("{name}: {expected}")), "{message}");
+    }
+    let (mut picture, mut buffer) = (Gltf::triangle().json, Gltf::triangle().json);
+    picture["images"] = json!([{"uri": "lfs.png"}]);
+    picture["textures"] = json!([{"source": 0}]);
+    picture["materials"][0]["pbrMetallicRoughness"] = json!({"baseColorTexture": {"index": 0}});
+    let mut textured = Gltf::triangle();
+    textured.json = picture;
+    buffer["buffers"] = json!([{"byteLength": 100, "uri": "lfs.bin"}]);
+    let shape = |kind: &str| {
+        format!("<scene version=\"3.0.0\"><shape type=\"{kind}\"><string name=\"filename\" value=\"lfs.{kind}\"/></shape></scene>")
+    };
+    let faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    for name in ["lfs.png", "lfs.bin", "lfs.ply", "lfs.obj", "lfs.mtl", "lfs.usd", "lfs.serialized"] {
+        folder.write(name, POINTER);
+    }
+    let scenes = [
+        ("buffer.gltf", buffer.to_string(), "lfs.bin"),
+        ("ply.xml", shape("ply"), "lfs.ply"),
+        ("obj.xml", shape("obj"), "lfs.obj"),
+        ("serialized.xml", shape("serialized"), "lfs.serialized"),
+        ("mesh.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"lfs.ply\"\n".into(), "lfs.ply"),
+        ("library.obj", format!("mtllib lfs.mtl\n{faces}"), "lfs.mtl"),
+        ("layer.usda", "#usda 1.0\ndef \"A\" ( references = @lfs.usd@ ) { }\n".into(), "lfs.usd"),
+    ];
+    for (name, text, file) in scenes {
+        let message = folder.write(name, text).error(name);
+        assert!(message.starts_with(&format!("{file}: {expected}")), "{name}: {message}");
+    }
+    // A picture is a texture before it is a file: it may be missing.
+    let message = folder.write("picture.gltf", textured.text()).error("picture.gltf");
+    assert!(message.contains("needs the texture lfs.png, which is a Git LFS pointer"), "{message}");
+    let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+    assert!(warnings(&folder.load_with("picture.gltf", &options).unwrap()).contains("run `git lfs pull`"));
+    let environment = EnvironmentOverride { file: folder.path("lfs.png"), scale: 1.0, rotation_deg: 0.0 };
+    folder.write("plain.gltf", Gltf::triangle().text());
+    let options = ImportOptions { environment: Some(environment), ..ImportOptions::default() };
+    let message = folder.load_with("plain.gltf", &options).unwrap_err().to_string();
+    assert!(message.contains("lfs.png: this is a Git LFS pointer"), "{message}");
 }
 
 #[test]

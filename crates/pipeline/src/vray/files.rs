@@ -1,6 +1,7 @@
 //! Scene files on this machine, and the files that they lead to.
 
 use crate::error::Error;
+use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
 use enfilade_vrscene::edit::{IncludeError, Platform, file_references, inline_includes};
 use enfilade_vrscene::{Document, Include, SceneTextError};
 use serde::{Deserialize, Serialize};
@@ -13,7 +14,11 @@ use std::path::{Path, PathBuf};
 /// When the file cannot be read, or is not a scene: the error has line and column.
 pub fn read_scene(path: &Path) -> Result<Document, Error> {
     let unreadable = |e: std::io::Error| Error::usage(format!("cannot read {}: {e}", path.display()), "check the path");
-    Document::parse(std::fs::read(path).map_err(unreadable)?).map_err(|error| damaged(path, &error))
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    if is_git_lfs_pointer(&bytes) {
+        return Err(Error::usage(format!("{} is {GIT_LFS_POINTER}", path.display()), "fetch the file, and do this again"));
+    }
+    Document::parse(bytes).map_err(|error| damaged(path, &error))
 }
 
 /// The error of a scene file.
