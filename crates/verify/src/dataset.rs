@@ -15,7 +15,7 @@ use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
-use enfilade_frame::LAYERS;
+use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
@@ -58,7 +58,20 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
-    VerifyReport::new(&card, 1, values, pairs, excused).with_notes(facts.notes())
+    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).collect();
+    VerifyReport::new(&card, 1, values, pairs, excused).with_notes(notes)
+}
+
+/// Laws that cannot be checked where what was rendered was not kept beside what is denoised.
+fn note_of_what_is_gone(dataset: &Dataset, values: &[FrameValues]) -> Option<String> {
+    let is_denoised = |frame: &FrameValues| frame.color.as_ref().is_some_and(|color| color.starts_with("denoised"));
+    let is_gone =
+        |frame: &&FrameValues| is_denoised(frame) && !dataset.has_layer(&frame.scene, &frame.camera, frame.frame, Layer::ColorRendered);
+    values.iter().find(is_gone).map(|_| {
+        "some frames keep only denoised color (keep_rendered = false): standard errors, light in parts and saturation belong to what was \
+         rendered, so the laws standard_error and light_splits were not checked there, and reason_codes only in part"
+            .into()
+    })
 }
 
 /// Checks the laws about single frames as they are finished, on a machine that has only these.
@@ -187,10 +200,10 @@ impl SceneFacts {
         }
     }
 
-    /// What users of this program's data should know; Hypersim's own are as its loaders expect them.
-    fn notes(&self) -> Vec<String> {
+    /// What Hypersim's loaders make of the cameras; its own are as they expect them.
+    fn camera_notes(&self) -> impl Iterator<Item = String> {
         let cameras = self.filmed.iter().filter(|_| !self.released).filter_map(|filmed| filmed.camera.as_ref());
-        cameras.filter_map(loader_problem).collect()
+        cameras.filter_map(loader_problem)
     }
 
     /// The laws of walks, for which the scene's mesh is needed.
@@ -333,7 +346,7 @@ mod tests {
     use super::*;
     use enfilade_dataset::hdf5::{Storage, read_array, write_array};
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
-    use enfilade_frame::{Layer, f16};
+    use enfilade_frame::f16;
     use enfilade_geometry::Voxel;
     use enfilade_scene::Intrinsics;
     use enfilade_testroom as testroom;
@@ -365,6 +378,21 @@ mod tests {
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
         assert!(report.to_text().contains("laws hold over 2 frames of 1 scene\n"));
+    }
+
+    #[test]
+    fn what_cannot_be_checked_without_what_was_rendered_is_noted() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        let is_noted = || verified(&dataset).notes.iter().any(|note| note.contains("keep_rendered = false"));
+        assert!(!is_noted());
+        let layers = enfilade_frame::DENOISED.map(|(layer, _)| layer);
+        for frame in 0..2 {
+            let denoised = dataset.read_frame("room", "cam_00", frame, &layers).unwrap();
+            dataset.write_denoised(["room", "cam_00"], frame, &denoised, ["Smoother 3.1", "test"], false).unwrap();
+        }
+        refresh(&dataset);
+        assert!(is_noted());
     }
 
     #[test]

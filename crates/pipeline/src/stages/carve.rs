@@ -1,15 +1,13 @@
 //! `carve`: the scene to its free space, beginning at the cameras where trajectories will begin.
 
-use super::job::World;
+use super::starts::carved;
 use super::{Inputs, Job, Outcome, Record, Stage};
-use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{counted, counted_as, write_json};
-use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Preset, StartReport, StartsConfig};
-use enfilade_math::DVec3;
-use enfilade_scene::{Cx, Pose, Quiet, Scene, StartCamera, Warning};
+use enfilade_dataset::{counted, write_json};
+use enfilade_explore::{FreeSpace, StartReport};
+use enfilade_scene::StartCamera;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -61,7 +59,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
     let world = job.load_world()?;
-    let (starts, space) = carved(job, &world, cx)?;
+    let (starts, space) = carved(job, &world, exploring_seed(job), cx)?;
     job.dataset.write_free_space(name, &space.tree.to_bt(), space.free_min, space.free_max).map_err(Error::stage)?;
     let summary = summary(&space, starts.len());
     let start =
@@ -100,110 +98,3 @@ pub(super) fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let octomap = [layout.octomap(name), layout.octomap_free_space_min(name), layout.octomap_free_space_max(name)];
     Ok(octomap.into_iter().chain([job.work_file(STARTS)?]).collect())
 }
-
-/// The cameras where trajectories begin, and the space around them. The file's own cameras give way to found places where none of them is
-/// in a building or all stand in walls, unless they were chosen by name.
-fn carved(job: &Job, world: &World, cx: &StageCx) -> Result<(Vec<StartCamera>, FreeSpace), Error> {
-    let config = CarveConfig { seed: exploring_seed(job), ..job.scene.carve.clone() };
-    let carve = |starts: &[StartCamera]| {
-        let positions: Vec<DVec3> = starts.iter().map(|s| s.position).collect();
-        enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx)
-    };
-    let scene = job.load_scene()?;
-    if !job.scene.cameras.is_empty() {
-        let choices = job.scene.cameras.iter().enumerate();
-        let starts: Vec<StartCamera> = choices.map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect::<Result<_, _>>()?;
-        let space = carve(&starts).map_err(Error::stage)?;
-        return Ok((starts, space));
-    }
-    if job.scene.finds_cameras || scene.cameras.is_empty() {
-        let starts = found(job, world, cx)?;
-        let space = carve(&starts).map_err(Error::stage)?;
-        return Ok((starts, space));
-    }
-    let starts = indoors(job, &scene, world, cx)?;
-    match carve(&starts) {
-        Err(ExploreError::StartInWall { .. }) if scene.cameras.contains(&starts[0]) => {
-            let instead = found(job, world, cx)?;
-            warn_of_replacement(&scene, "every camera of the file stands in a wall or an object", &instead, cx);
-            let space = carve(&instead).map_err(Error::stage)?;
-            Ok((instead, space))
-        }
-        space => Ok((starts, space.map_err(Error::stage)?)),
-    }
-}
-
-/// Those of the file's cameras that stand in a building; where none does, found places, and without any the cameras after all: an open
-/// place. Hypersim's program takes all.
-fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
-    let is_inside = |camera: &StartCamera| !camera.position.is_finite() || enfilade_explore::is_indoors(&world.bvh, camera.position);
-    let (inside, outside): (Vec<StartCamera>, Vec<StartCamera>) = scene.cameras.iter().cloned().partition(is_inside);
-    if outside.is_empty() || job.scene.carve.preset == Preset::Hypersim {
-        return Ok(scene.cameras.clone());
-    }
-    if !inside.is_empty() {
-        for camera in outside {
-            let message = format!("stands outside, and is left out; to begin there, choose it: cameras = [{:?}]", camera.name);
-            cx.warn(Warning { place: format!("camera {:?}", camera.name), message });
-        }
-        return Ok(inside);
-    }
-    let places = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), &Quiet);
-    if places.is_empty() {
-        return Ok(outside);
-    }
-    warn_of_replacement(scene, "no camera of the file stands in a building", &places, cx);
-    Ok(places)
-}
-
-/// Tells that found places stand in for the file's cameras, with which something is wrong.
-fn warn_of_replacement(scene: &Scene, wrong: &str, places: &[StartCamera], cx: &StageCx) {
-    let message = format!(
-        "{wrong}; trajectories begin at {} instead. To begin at one of the file's, choose it: cameras = [{:?}]",
-        counted_as(places.len(), "place that was found", "places that were found"),
-        scene.cameras[0].name
-    );
-    cx.warn(Warning { place: "start cameras".into(), message });
-}
-
-fn starts_config(job: &Job) -> StartsConfig {
-    StartsConfig { max_spread_m: job.scene.carve.extent_m, ..StartsConfig::default() }
-}
-
-/// Places to stand; there is at least one.
-fn found(job: &Job, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
-    let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), cx);
-    if found.is_empty() {
-        let message = "no place was found in the scene where a camera could stand";
-        return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));
-    }
-    Ok(found)
-}
-
-fn chosen(scene: &Scene, index: usize, choice: &CameraChoice, size: [u32; 2]) -> Result<StartCamera, Error> {
-    match choice {
-        CameraChoice::Named(name) => scene.cameras.iter().find(|c| &c.name == name).cloned().ok_or_else(|| {
-            let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
-            let proposal = closest(name, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
-            Error::scene(format!("the scene has no camera {name:?}"), format!("{proposal}its cameras: {names:?}"))
-        }),
-        CameraChoice::Placed { position, look_at } => {
-            let (position, look_at) = (DVec3::from(*position), DVec3::from(*look_at));
-            let pose = Pose::look_at(0, position, look_at, DVec3::Z).filter(|p| p.world_from_camera.is_finite() && position.is_finite());
-            let pose = pose.ok_or_else(|| {
-                let message = format!("camera {index}: it cannot look from {position} to {look_at}");
-                Error::scene(message, "the two points must differ, and not lie one above the other")
-            })?;
-            Ok(StartCamera {
-                name: format!("camera {index}"),
-                position,
-                world_from_camera: pose.world_from_camera,
-                fov_x_rad: DEFAULT_FOV_X_RAD,
-                aspect: f64::from(size[0]) / f64::from(size[1]),
-            })
-        }
-    }
-}
-
-/// Hypersim's: 60 degrees.
-const DEFAULT_FOV_X_RAD: f64 = std::f64::consts::FRAC_PI_3;

@@ -24,6 +24,7 @@ mod record;
 mod render;
 mod shift;
 mod stage;
+mod starts;
 mod verify;
 
 use crate::error::Error;
