@@ -6,7 +6,7 @@
 //! with longer paths. What specializes is weakest of all. This is the prim index of OpenUSD's `Pcp` without relocates, and without
 //! classes that are overridden from outside of a reference ("implied inherits").
 
-use super::files::{Files, is_materialx, resolve};
+use super::files::{Files, Unread, is_materialx, resolve};
 use super::layer::{Layer, MAX_PATH, child_path, field, moved, without_variants};
 use super::node::{Arc, Node, Site, Stack, Target};
 use super::value::{Item, Value};
@@ -35,20 +35,26 @@ impl Composer {
     /// The composer of a scene file, and the node of its root.
     pub(super) fn open(location: &str, a: &mut Assembly) -> Result<(Self, Node), ImportError> {
         let mut composer = Self { files: Files::default(), nodes: 0, stacks: HashMap::new() };
-        let stack = composer.stack(location, "the scene file", a)?;
+        match composer.files.layer(location, "the scene file", a) {
+            Ok(_) => (),
+            Err(Unread::Absent(error) | Unread::Broken(error)) => return Err(error),
+        }
+        let stack = composer.stack(location, "the scene file", a)?.ok_or_else(|| a.malformed("the scene file", "it is not there"))?;
         let map = Rc::new(vec![("/".to_string(), "/".to_string())]);
         Ok((composer, Node { stack, path: "/".into(), kind: Arc::Root, depth: 0, map, children: Vec::new() }))
     }
 
-    fn stack(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Rc<Stack>, ImportError> {
+    /// The layer at a location with its sublayers; `None`, with a warning, where there is none.
+    fn stack(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Option<Rc<Stack>>, ImportError> {
         if let Some(known) = self.stacks.get(location) {
-            return Ok(known.clone());
+            return Ok(Some(known.clone()));
         }
         let mut layers = Vec::new();
         self.add_layers(location, user, &mut Vec::new(), &mut layers, a)?;
-        let stack = Rc::new(Stack { location: layers[0].location.clone(), layers });
+        let Some(first) = layers.first() else { return Ok(None) };
+        let stack = Rc::new(Stack { location: first.location.clone(), layers });
         self.stacks.insert(location.to_string(), stack.clone());
-        Ok(stack)
+        Ok(Some(stack))
     }
 
     fn add_layers(
@@ -59,7 +65,7 @@ impl Composer {
         out: &mut Vec<Rc<Layer>>,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
-        let layer = self.files.layer(at, user, a)?;
+        let Some(layer) = self.files.find(at, user, a)? else { return Ok(()) };
         if open.contains(&layer.location) || open.len() > MAX_ARCS {
             let way = open.iter().map(|l| &**l).chain([&*layer.location]).collect::<Vec<_>>().join(" → ");
             return Err(a.malformed("subLayers", format!("sublayers stand in a circle or too deep: {way}; take one of them out")));
@@ -163,13 +169,14 @@ impl Composer {
         Ok(())
     }
 
-    /// Where a reference leads. `None`, with a warning, when its layer has no default prim.
+    /// Where a reference leads. `None`, with a warning, when its layer is not there or has no default prim.
     fn target(&mut self, item: &Item, layer: &Rc<Layer>, node: &Node, a: &mut Assembly) -> Result<Option<Target>, ImportError> {
         let stack = if item.asset.is_empty() {
             node.stack.clone()
         } else {
             let user = format!("<{}> in {}", node.path, node.stack.location);
-            self.stack(&resolve(&item.asset, &layer.location), &user, a)?
+            let Some(stack) = self.stack(&resolve(&item.asset, &layer.location), &user, a)? else { return Ok(None) };
+            stack
         };
         let default = || {
             stack.layers[0]

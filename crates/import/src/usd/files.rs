@@ -7,7 +7,7 @@ use super::layer::Layer;
 use super::{binary, text};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -19,27 +19,71 @@ const ARCHIVE: &[u8] = b"PK\x03\x04";
 pub(super) struct Files {
     archives: HashMap<String, Rc<Archive>>,
     layers: HashMap<String, Rc<Layer>>,
+    /// Locations of layers that are not there.
+    absent: HashSet<String>,
+}
+
+/// Why a layer is not there: what would be an error where the scene cannot be read without it.
+pub(super) enum Unread {
+    /// Nothing is at its location, or nothing that could be fetched. Programs show the scene without it.
+    Absent(ImportError),
+    /// Something is there that is no layer.
+    Broken(ImportError),
+}
+
+impl From<ImportError> for Unread {
+    fn from(error: ImportError) -> Self {
+        match error {
+            ImportError::Read { .. } => Self::Absent(error),
+            other => Self::Broken(other),
+        }
+    }
 }
 
 impl Files {
+    /// The layer at a location that a layer names; `None`, with a warning, where there is none. `user` is the layer and prim that want it.
+    ///
+    /// # Errors
+    /// When what is there cannot be understood.
+    pub(super) fn find(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Option<Rc<Layer>>, ImportError> {
+        if self.absent.contains(location) {
+            return Ok(None);
+        }
+        let error = match self.layer(location, user, a) {
+            Ok(layer) => return Ok(Some(layer)),
+            Err(Unread::Broken(error)) => return Err(error),
+            Err(Unread::Absent(error)) => error,
+        };
+        let problem = match error {
+            ImportError::Read { file, source, .. } => {
+                format!("it refers to {}, which cannot be read ({source}); put the file there or correct the reference", file.display())
+            }
+            ImportError::Malformed { problem, .. } => problem,
+            other => other.to_string(),
+        };
+        a.warn(user, format!("{problem}; the scene is without it, here and wherever else it is referred to"));
+        self.absent.insert(location.to_string());
+        Ok(None)
+    }
+
     /// The layer at a location. `user` is the layer and prim that want it.
     ///
     /// # Errors
     /// When it cannot be read or is not USD.
-    pub(super) fn layer(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Rc<Layer>, ImportError> {
+    pub(super) fn layer(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<Rc<Layer>, Unread> {
         if let Some(known) = self.layers.get(location) {
             return Ok(known.clone());
         }
         if let Some(scheme) = scheme(location) {
             let problem =
                 format!("it refers to {location}; {scheme} is not fetched, so save the scene with its files beside it (a usdz holds all)");
-            return Err(a.malformed(user, problem));
+            return Err(Unread::Absent(a.malformed(user, problem)));
         }
         if location.ends_with('`') {
             let problem = format!(
                 "it refers to {location}, an expression of variables, which is not evaluated; flatten the scene (usdcat --flatten)"
             );
-            return Err(a.malformed(user, problem));
+            return Err(Unread::Absent(a.malformed(user, problem)));
         }
         let (bytes, location) = self.bytes(location, user, a)?;
         let place = |place: String| match location.split_once('[') {
@@ -81,20 +125,23 @@ impl Files {
     }
 
     /// The bytes of a layer, with its location, which for an archive is that of its first file.
-    fn bytes(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<(Vec<u8>, String), ImportError> {
+    fn bytes(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<(Vec<u8>, String), Unread> {
         let file = outer(location);
         if !is_archive(file) {
-            return a.read(file).map(|(_, bytes)| (bytes, location.to_string()));
+            return Ok(a.read(file).map(|(_, bytes)| (bytes, location.to_string()))?);
         }
         let archive = self.archive(file, a)?;
         let inner = inner(location).unwrap_or(&archive.first);
         if let Some((nested, _)) = inner.split_once('[') {
             let problem = format!("it refers to {nested}, an archive within the archive {file}; put it beside the scene");
-            return Err(a.malformed(user, problem));
+            return Err(Unread::Absent(a.malformed(user, problem)));
         }
         match archive.get(inner) {
             Some(bytes) => Ok((bytes.to_vec(), format!("{file}[{inner}]"))),
-            None => Err(a.malformed(user, format!("it refers to {inner}, which is not in the archive {file}; pack the archive anew"))),
+            None => {
+                let problem = format!("it refers to {inner}, which is not in the archive {file}; pack the archive anew");
+                Err(Unread::Absent(a.malformed(user, problem)))
+            }
         }
     }
 

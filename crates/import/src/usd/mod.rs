@@ -3,8 +3,8 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | units and axes | `metersPerUnit` (0.01 where none is stated) and `upAxis` (y) of the scene file; [`ImportOptions::meters_per_unit`](crate::ImportOptions::meters_per_unit) multiplies the former, [`ImportOptions::up_axis`](crate::ImportOptions::up_axis) replaces the latter |
-//! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; circles of sublayers, a depth of 64 and a layer that is not there are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
-//! | time | values without time, else the first sample |
+//! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; layers that are not there or on servers (`omniverse://`, `https://`) are left out with a warning; circles of sublayers and a depth of 64 are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
+//! | time | the first sample, else the value without time |
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
 //! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out, and with a warning meshes, instancers and primvars whose numbers do not fit each other |
 //! | meshes | polygons with holes, both orientations, normals and texture coordinates of every interpolation with or without indices. Subdivision surfaces are taken as their cages, with smooth normals where none are stated |
@@ -16,8 +16,6 @@
 //! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. 6500 K is white. Suns of Blender, which writes a quarter of their strength and half their angle, are as in Blender. Light linking, filters and portals are left out |
 //! | cameras | perspective; shifted apertures are centred; clipping is left out, and focus is the renderer's configuration |
 //! | labels | `semantics:labels:*` and `semantic:*:params:semanticData` where they name a class of NYU40 |
-//!
-//! Archives in archives and files on servers (`omniverse://`, `https://`) are errors.
 //!
 //! # Why the reader is our own
 //!

@@ -179,14 +179,81 @@ fn references_that_lead_back_are_left_out() {
 }
 
 #[test]
-fn circles_of_layers_and_missing_layers_are_errors_that_name_them() {
+fn scenes_are_read_without_layers_that_are_not_there() {
+    let folder = Folder::new();
+    folder.write("in.usdz", stored_archive("in.usda", &layer("def Cube \"Inner\" { }")));
+    let cases = [
+        ("payload = @gone.usd@", "Prop> in a.usda: it refers to", "gone.usd, which cannot be read (No such file"),
+        ("references = [@./lost/gone.usd@</A>]", "Prop> in a.usda", "put the file there or correct the reference"),
+        ("payload = @https://example.org/y.usd@", "Prop> in a.usda", "https is not fetched"),
+        ("references = @omniverse://x/y.usd@", "Prop> in a.usda", "omniverse is not fetched"),
+        ("references = @in.usdz[other.usda]@", "Prop> in a.usda", "it refers to other.usda, which is not in the archive in.usdz"),
+    ];
+    for (arc, place, problem) in cases {
+        let text = format!("def Xform \"World\" {{ def Cube \"Box\" {{ }} def \"Prop\" ( {arc} ) {{ }} def \"Again\" ( {arc} ) {{ }} }}");
+        let imported = folder.write("a.usda", layer(&text)).load("a.usda").unwrap_or_else(|e| panic!("{arc}: {e}"));
+        assert_eq!(names(&imported.scene), ["World/Box"], "{arc}");
+        let told = warnings(&imported);
+        assert!(told.contains(place) && told.contains(problem), "{arc}: {told}");
+        assert_eq!(told.lines().count(), 1, "{arc}: {told}");
+    }
+    folder
+        .write("s.usda", "#usda 1.0\n( subLayers = [@gone.usda@, @box.usda@] metersPerUnit = 1 )\n")
+        .write("box.usda", layer("def Cube \"Box\" { }"));
+    let imported = folder.load("s.usda").unwrap();
+    assert_eq!(names(&imported.scene), ["Box"]);
+    assert!(warnings(&imported).contains("subLayers of s.usda: it refers to"), "{}", warnings(&imported));
+    assert_eq!(imported.missing, [folder.path("gone.usda")]);
+    // What is there but no layer is still an error, and so is the scene file itself.
+    folder.write("b.usda", layer("def Cube \"Box\" { } def \"Prop\" ( references = @bad.usd@ ) { }")).write("bad.usd", "no layer");
+    assert!(folder.error("b.usda").contains("found neither `#usda` nor `PXR-USDC`"), "{}", folder.error("b.usda"));
+    assert!(folder.error("nowhere.usda").starts_with("nowhere.usda: cannot be read"), "{}", folder.error("nowhere.usda"));
+}
+
+/// An archive of one file, without compression.
+fn stored_archive(name: &str, text: &str) -> Vec<u8> {
+    let mut zip = zip::write::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    zip.start_file(name, stored).unwrap();
+    std::io::Write::write_all(&mut zip, text.as_bytes()).unwrap();
+    zip.finish().unwrap().into_inner()
+}
+
+#[test]
+fn the_first_sample_comes_before_the_value_without_time_of_the_same_layer() {
+    let folder = Folder::new();
+    let weaker = r#"def Cube "Box" { double size = 100
+        double size.timeSamples = { 3: 3, 1: 1 } }
+        def Cube "Shown" { token visibility = "invisible"
+        token visibility.timeSamples = { 1: "inherited" } }
+        def Cube "Plain" { double size = 4
+        double size.timeSamples = { } }
+        def Cube "Blocked" { double size = 7
+        double size.timeSamples = { 0: None } }"#;
+    folder.write("weaker.usda", layer(weaker));
+    folder.write(
+        "stronger.usda",
+        format!("#usda 1.0\n( subLayers = [@weaker.usda@] metersPerUnit = 1 )\nover \"Box\" {{ double size = 5 }}\n"),
+    );
+    let size = |file: &str, name: &str| {
+        let scene = folder.load(file).unwrap().scene;
+        let part = part(&scene, name);
+        scene.meshes[part.mesh as usize].positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3()).x).fold(0.0, f64::max)
+            * 2.0
+    };
+    // A cube of the default size is 2 units wide.
+    for (name, expected) in [("Box", 1.0), ("Shown", 2.0), ("Plain", 4.0), ("Blocked", 2.0)] {
+        assert!((size("weaker.usda", name) - expected).abs() < 1e-6, "{name}");
+    }
+    // The value of a stronger layer counts before all samples of a weaker one.
+    assert!((size("stronger.usda", "Box") - 5.0).abs() < 1e-6);
+}
+
+#[test]
+fn circles_of_layers_and_endless_references_are_errors_that_name_them() {
     let folder = Folder::new();
     folder.write("s.usda", "#usda 1.0\n( subLayers = [@s.usda@] )\n");
     assert!(folder.error("s.usda").contains("sublayers stand in a circle or too deep: s.usda → s.usda"));
-    folder.write("m.usda", layer(r#"def "World" ( payload = @gone.usd@ ) { }"#));
-    assert!(folder.error("m.usda").contains("gone.usd: cannot be read"), "{}", folder.error("m.usda"));
-    folder.write("o.usda", layer(r#"def "World" ( payload = @omniverse://x/y.usd@ ) { }"#));
-    assert!(folder.error("o.usda").contains("omniverse is not fetched"));
     // References that multiply: 2^40 prims of 80.
     let mut doubling = String::new();
     for i in 0..40 {
