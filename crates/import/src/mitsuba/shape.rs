@@ -158,6 +158,9 @@ impl<'n> Reader<'n, '_> {
                         if ply.mean_color.is_some() && !self.attributes.wanted {
                             self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
                         }
+                        if let Some(trailing) = ply.trailing {
+                            self.warn(node, format!("{}: {trailing}", file.display()));
+                        }
                         means = ply.means;
                         ply.mesh
                     }

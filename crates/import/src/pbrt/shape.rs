@@ -112,6 +112,9 @@ impl Reader<'_> {
         for element in ply.skipped {
             self.warn(&params.place, format!("{}: the elements {element} were left out", file.display()));
         }
+        if let Some(trailing) = ply.trailing {
+            self.warn(&params.place, format!("{}: {trailing}", file.display()));
+        }
         let shape = self.keep_mesh(ply.mesh, None, &file, "mesh")?;
         self.meshes.insert(key, shape);
         Ok(shape)

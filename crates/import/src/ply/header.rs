@@ -13,6 +13,8 @@ pub(super) enum Encoding {
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
+    /// Number of its lines.
+    pub lines: usize,
     /// Pictures that comments name (`comment TextureFile wood.png`), as MeshLab and others write them.
     pub pictures: Vec<String>,
 }
@@ -81,7 +83,7 @@ impl Kind {
 }
 
 pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
-    let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), pictures: Vec::new() };
+    let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), lines: 0, pictures: Vec::new() };
     let (mut at, mut number) = (0, 0);
     loop {
         number += 1;
@@ -123,7 +125,10 @@ pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
                 };
                 element.properties.push(Property { name: name.into(), kind, list });
             }
-            ["end_header"] => return Ok((header, &bytes[at..])),
+            ["end_header"] => {
+                header.lines = number;
+                return Ok((header, &bytes[at..]));
+            }
             ["comment", "TextureFile", _, ..] => {
                 header.pictures.extend(line.split_once("TextureFile").map(|(_, name)| name.trim().to_string()));
             }

@@ -3,6 +3,7 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | encodings | text, and binary in either byte order |
+//! | rows of text | each a line, or several; one that ends within a line is an error, since its file does not have what the header says. What follows the last row is left out, with a warning |
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly |
 //! | `nx ny nz` | vertex normals; a mesh without any is shaded flat |
 //! | `tristrips` | strips of triangles, which −1 ends |
@@ -49,6 +50,9 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     }
     for element in &ply.skipped {
         assembly.warn(format!("element {element}"), "only vertices and faces are read; it was left out");
+    }
+    if let Some(trailing) = &ply.trailing {
+        assembly.warn("end of the file", trailing);
     }
     for (element, properties) in &ply.unused {
         assembly.warn(format!("element {element}"), format!("the properties {} are not read", properties.join(", ")));

@@ -34,6 +34,8 @@ pub(crate) struct PlyFile {
     pub unused: Vec<(String, Vec<String>)>,
     /// Pictures that comments name.
     pub pictures: Vec<String>,
+    /// What is said of what follows the last row, where something does.
+    pub trailing: Option<String>,
 }
 
 /// Reads the elements `vertex`, `face` and `tristrips`, in any order; the means of attributes where they are `wanted`.
@@ -43,7 +45,7 @@ pub(crate) struct PlyFile {
 pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
-    let mut values = Values { encoding: header.encoding, bytes: body, at: 0 };
+    let mut values = Values::new(header.encoding, body, header.lines);
     let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
     let mut means = wanted.then(Means::default);
@@ -72,7 +74,9 @@ pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool) -> Result<PlyFile, I
         }
     }
     faces.cut_into(&mut mesh).map_err(error)?;
-    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means: means.unwrap_or_default(), skipped, unused, pictures: header.pictures })
+    let means = means.unwrap_or_default();
+    let trailing = values.trailing();
+    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures, trailing })
 }
 
 impl Element {
@@ -238,6 +242,39 @@ mod tests {
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n3 0 1 7\n");
         assert!(message(text.as_bytes()).contains("face 0: it refers to vertex 7, but there are 4"));
         assert!(message(b"ply\nformat ascii 1.0\nelements 3\n").contains("\"elements 3\" is not understood; expected format, element"));
+    }
+
+    /// A text file of the header's two elements, whose body begins in line 11.
+    fn text(body: &str) -> Result<PlyFile, String> {
+        read(format!("ply\nformat ascii 1.0\n{HEADER}{body}").as_bytes(), Path::new("a.ply"), false).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn rows_that_are_longer_or_shorter_than_the_header_says_are_refused_with_their_line() {
+        let error = |body: &str| text(body).unwrap_err();
+        let longer = error("0 0 2 9\n1 0 2 9 255\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
+        assert!(longer.starts_with("a.ply: line 12: found 5 values in a row of \"vertex\", expected 4 by the header"), "{longer}");
+        let longer = error("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n3 0 1 2 3\n");
+        assert!(longer.starts_with("a.ply: line 15: found 5 values in a row of \"face\", expected 4"), "{longer}");
+        let shorter = error("0 0 2 9\n1 0 2\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
+        assert!(shorter.starts_with("a.ply: line 12: found 3 values in the row, expected more by the header"), "{shorter}");
+        let shorter = error("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2\n");
+        assert!(shorter.starts_with("a.ply: line 15: found 4 values in the row"), "{shorter}");
+        assert!(error("0 0 2 9\n1 0 2 9\n").starts_with("a.ply: line 13: the file is cut short"));
+        assert!(error("0 0 2 9\n1 zero 2 9\n").starts_with("a.ply: line 12: \"zero\" is not a number"));
+    }
+
+    #[test]
+    fn rows_over_several_lines_are_read_and_what_follows_the_last_is_told() {
+        let plain = text("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n").unwrap();
+        assert_eq!(plain.trailing, None);
+        let wrapped = text("0 0 2 9\r\n\r\n1 0\r\n 2 9 \r\n1 1 2 9\n0 1 2 9\n4 0 1\n2 3").unwrap();
+        assert_eq!(wrapped, plain);
+        let more = text("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n3 0 1 2\n\n3 0 2 3\n").unwrap();
+        assert_eq!(more.trailing.as_deref(), Some("2 lines follow the last row that the header announces; they were left out"));
+        let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false).unwrap();
+        assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
+        assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false).unwrap(), plain);
     }
 
     #[test]
