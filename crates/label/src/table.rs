@@ -1,6 +1,7 @@
 //! The label table: a CSV file whose rows say what parts or materials are.
 //!
-//! Columns are found by their header, in any order; others are ignored.
+//! Columns are found by their header, in any order; others are ignored. Commas, semicolons or tabs separate them; the text is UTF-8, or
+//! UTF-16 with a byte order mark.
 //!
 //! | column | meaning |
 //! |---|---|
@@ -15,7 +16,8 @@
 //!
 //! At least one of the four name columns is needed; where a row fills several, the first in the order above counts.
 
-use enfilade_scene::{Labels, NYU40, PartLabel, Scene};
+use enfilade_scene::{GIT_LFS_POINTER, Labels, NYU40, PartLabel, Scene, is_git_lfs_pointer};
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// A parsed label table.
@@ -82,6 +84,9 @@ pub enum TableError {
 const SUBJECTS: [(Subject, &str); 4] =
     [(Subject::Part, "part"), (Subject::Object, "object"), (Subject::Name, "name"), (Subject::Material, "material")];
 
+/// What may stand between the cells of a row. Where the comma is the decimal point, spreadsheets write semicolons.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
 impl LabelTable {
     /// Reads a table. `source_name` is what errors call it.
     ///
@@ -89,8 +94,11 @@ impl LabelTable {
     /// The first missing column or wrong row: not CSV, unknown class, number out of range, class and name that disagree, or two
     /// rows about the same thing that say different things.
     pub fn parse(bytes: &[u8], source_name: &str) -> Result<Self, TableError> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
+        if is_git_lfs_pointer(bytes) {
+            return Err(row_error(source_name, 1, format!("the file is {GIT_LFS_POINTER}")));
+        }
+        let bytes = &*utf8(bytes);
+        let mut reader = reader(bytes, separator(bytes));
         let header = reader.headers().map_err(|e| row_error(source_name, 1, csv_problem(&e)))?.clone();
         let columns = Columns::find(&header, source_name)?;
         let mut rows = Vec::new();
@@ -231,6 +239,30 @@ fn refuse_contradictions(rows: &[Row], file: &str) -> Result<(), TableError> {
     Ok(())
 }
 
+/// A table's bytes without byte order mark, in UTF-8: spreadsheets also save UTF-16.
+fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair)).collect();
+        Cow::Owned(String::from_utf16_lossy(&units).into_bytes())
+    };
+    match bytes {
+        [0xef, 0xbb, 0xbf, rest @ ..] => Cow::Borrowed(rest),
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        _ => Cow::Borrowed(bytes),
+    }
+}
+
+fn reader(bytes: &[u8], separator: u8) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).delimiter(separator).from_reader(bytes)
+}
+
+/// The separator by which the header has the columns of a table; where none does, the comma.
+fn separator(bytes: &[u8]) -> u8 {
+    let fits = |separator: &u8| reader(bytes, *separator).headers().is_ok_and(|header| Columns::find(header, "").is_ok());
+    SEPARATORS.into_iter().find(fits).unwrap_or(b',')
+}
+
 /// Number of line ends before the first text at or after `start`: the reader skips them without telling.
 fn blank_lines(bytes: &[u8], start: u64) -> u64 {
     let rest = bytes.get(start as usize..).unwrap_or(&[]);
@@ -281,7 +313,26 @@ mod tests {
     }
 
     #[test]
+    fn tables_of_spreadsheets_are_read_whatever_separates_their_cells() {
+        let comma = "part,nyu40_id,instance\nroom,1,\n\"a, b; c\",sofa,2\n";
+        let expected = LabelTable::parse(comma.as_bytes(), "t").unwrap();
+        let tabs = "part\tnyu40_id\tinstance\nroom\t1\t\na, b; c\tsofa\t2\n";
+        let utf16 = |mark: [u8; 2], unit: fn(u16) -> [u8; 2]| [mark.to_vec(), tabs.encode_utf16().flat_map(unit).collect()].concat();
+        for bytes in [
+            b"part;nyu40_id;instance\r\nroom;1;\r\n\"a, b; c\";sofa;2\r\n".to_vec(),
+            "\u{feff}part;nyu40_id;instance\nroom;1\n\"a, b; c\";sofa;2".into(),
+            tabs.into(),
+            utf16([0xff, 0xfe], u16::to_le_bytes),
+            utf16([0xfe, 0xff], u16::to_be_bytes),
+        ] {
+            assert_eq!(LabelTable::parse(&bytes, "t"), Ok(expected.clone()), "{}", String::from_utf8_lossy(&bytes));
+        }
+    }
+
+    #[test]
     fn bad_tables_are_told_with_file_and_line() {
+        let pointer = message("version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n");
+        assert!(pointer.starts_with("labels.csv:1: the file is a Git LFS pointer"), "{pointer}");
         assert_eq!(message("part,class\n"), "labels.csv:1: no column nyu40_id or semantic; the header has: part, class");
         assert_eq!(message("id,semantic\n"), "labels.csv:1: no column part, object, name or material; the header has: id, semantic");
         assert!(message("").starts_with("labels.csv:1: no column part"), "{}", message(""));

@@ -164,9 +164,17 @@ fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)
             b"BIN\0" => binary = binary.or(Some(body)),
             _ => (),
         }
-        at += 8 + size.next_multiple_of(4);
+        at = next_chunk(bytes, at + 8 + size);
     }
     json.map(|json| (json, binary)).ok_or_else(|| ("byte 12".into(), "there is no JSON chunk; export the file again".into()))
+}
+
+/// Where the chunk behind one that ends at `end` begins: at the next multiple of four bytes, as the format asks, or, as some programs write
+/// it, at once.
+fn next_chunk(bytes: &[u8], end: usize) -> usize {
+    let is_binary = |at: usize| bytes.get(at + 4..at + 8) == Some(b"BIN\0");
+    let padded = end.next_multiple_of(4);
+    if is_binary(end) && !is_binary(padded) { end } else { padded }
 }
 
 fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, assembly: &mut Assembly) -> Result<Vec<u8>, ImportError> {
@@ -195,6 +203,17 @@ fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, ass
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn chunks_follow_one_another_with_padding_or_without() {
+        let json = b"{\"asset\": 12}";
+        let chunk = |kind: &[u8], body: &[u8]| [&(body.len() as u32).to_le_bytes()[..], kind, body].concat();
+        for (json, padding) in [(&json[..], 0), (&json[..], 4 - json.len() % 4), (b"{\"asset\": 12}   ", 0)] {
+            let body = [chunk(b"JSON", json), vec![b' '; padding], chunk(b"BIN\0", &[1, 2, 3])].concat();
+            let glb = [b"glTF\x02\0\0\0", &(12 + body.len() as u32).to_le_bytes()[..], &body].concat();
+            assert_eq!(split_binary(&glb), Ok((json, Some(&[1, 2, 3][..]))), "{padding}");
+        }
+    }
 
     #[test]
     fn truncated_binaries_say_where_they_end() {
