@@ -20,6 +20,7 @@ mod pbrt_numbers;
 mod pbrt_rooms;
 mod ply;
 mod rooms;
+mod survey;
 mod sweethome;
 mod usd;
 mod usd_binary;

@@ -39,7 +39,7 @@ impl Stage {
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
     pub(crate) const fn version(self) -> u32 {
         match self {
-            Self::Import => 11,
+            Self::Import => 12,
             Self::Carve => 4,
             Self::Plan => 6,
             Self::Gate => 1,
