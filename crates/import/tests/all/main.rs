@@ -18,6 +18,7 @@ mod obj;
 mod pbrt;
 mod pbrt_numbers;
 mod pbrt_rooms;
+mod pictures;
 mod ply;
 mod rooms;
 mod survey;
