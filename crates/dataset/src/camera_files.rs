@@ -1,7 +1,7 @@
 //! A camera's folder under `_detail`: the keyframe arrays of its trajectory, and its poses and calibration in OpenCV's conventions.
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
-use crate::tables::{Table, write_parameter};
+use crate::tables::{Table, write_parameters};
 use crate::{Dataset, DatasetError, StereoRecord, check_name, replace_file, write_bytes};
 use enfilade_math::{DMat3, DVec3, nearest_rotation};
 use enfilade_scene::{Camera, Intrinsics, Pose, Projection, Trajectory};
@@ -42,7 +42,7 @@ impl Dataset {
             replace_file(&self.layout().keyframes(scene, name, what), |aside| write_array(aside, array, Storage::Contiguous, &[]))?;
         }
         let frame_time_s = camera.shutter.map_or(FRAME_TIME_S, |shutter| shutter.frame_time_s);
-        write_parameter(&self.layout().metadata_camera(scene, name), "frame_time_seconds", frame_time_s)?;
+        write_parameters(&self.layout().metadata_camera(scene, name), &[("frame_time_seconds", frame_time_s)])?;
         write_bytes(&self.layout().cameras_opencv(scene, name), opencv_cameras(scene, trajectory, camera))?;
         self.write_camera_model(scene, trajectory, camera, stereo)?;
         self.make_records_dir(scene, name)?;
@@ -54,7 +54,7 @@ impl Dataset {
     /// # Errors
     /// When the file cannot be written.
     pub fn write_frame_time(&self, scene: &str, camera: &str, frame_time_s: f64) -> Result<(), DatasetError> {
-        write_parameter(&self.layout().metadata_camera(scene, camera), "frame_time_seconds", frame_time_s)
+        write_parameters(&self.layout().metadata_camera(scene, camera), &[("frame_time_seconds", frame_time_s)])
     }
 
     /// The time between two frames of a camera in seconds: 1 unless the trajectory was planned or filmed as a video.

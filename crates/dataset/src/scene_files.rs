@@ -3,7 +3,7 @@
 use crate::camera_files::{optional, read_f64_vec3};
 use crate::hdf5::{Array, Storage, write_array};
 use crate::mesh_files::write_mesh;
-use crate::tables::{Table, write_parameter};
+use crate::tables::{Table, write_parameters};
 use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
 use enfilade_math::DVec3;
 use enfilade_scene::Scene;
@@ -44,7 +44,7 @@ impl Dataset {
             );
             return Err(DatasetError::Unstorable { what: format!("scene {scene_name:?}"), problem });
         }
-        write_parameter(&self.layout().metadata_scene(scene_name), METERS, 1.0)?;
+        write_parameters(&self.layout().metadata_scene(scene_name), &[(METERS, 1.0)])?;
         let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &NODE_COLUMNS);
         nodes.rows =
             scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
@@ -53,6 +53,19 @@ impl Dataset {
         materials.rows = scene.materials.iter().enumerate().map(|(i, m)| vec![(i + 1).to_string(), m.name.clone()]).collect();
         materials.write()?;
         write_mesh(self.layout(), scene_name, scene)
+    }
+
+    /// Adds to `metadata_scene.csv` what was subtracted from the coordinates of the scene's file, metres, z up: `offset_x_m` and so on.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_offset(&self, scene_name: &str, offset_m: [f64; 3]) -> Result<(), DatasetError> {
+        check_name("scene name", scene_name)?;
+        let [x, y, z] = offset_m;
+        write_parameters(
+            &self.layout().metadata_scene(scene_name),
+            &[(METERS, 1.0), ("offset_x_m", x), ("offset_y_m", y), ("offset_z_m", z)],
+        )
     }
 
     /// The render entities, in order of `node_id` (1, 2, …).
@@ -74,7 +87,7 @@ impl Dataset {
         table.rows = nodes.iter().map(|n| vec![n.node_id.to_string(), n.node_name.clone(), object(n), n.object_name.clone()]).collect();
         table.write()?;
         let units = self.layout().metadata_scene(scene);
-        if units.is_file() { Ok(()) } else { write_parameter(&units, METERS, 1.0) }
+        if units.is_file() { Ok(()) } else { write_parameters(&units, &[(METERS, 1.0)]) }
     }
 
     /// Metres per asset unit; 1 in every dataset of ours. Where Hypersim's `metadata_scene.csv` was not downloaded, the table of cameras
@@ -157,6 +170,19 @@ mod tests {
         let expected =
             |id: u32, name: &str| Node { node_id: id, node_name: name.into(), object_id: Some(id - 1), object_name: name.into() };
         assert_eq!(nodes, [expected(1, "floor, oak"), expected(2, "lamp")]);
+        assert_eq!(dataset.meters_per_asset_unit("room").unwrap(), 1.0);
+    }
+
+    #[test]
+    fn the_offset_of_a_scene_stands_beside_its_unit() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        dataset.write_scene("room", &two_parts()).unwrap();
+        dataset.write_offset("room", [445_123.0, 5_411_235.0, 0.0]).unwrap();
+        let text = std::fs::read_to_string(dataset.layout().metadata_scene("room")).unwrap();
+        let expected =
+            "parameter_name,parameter_value\nmeters_per_asset_unit,1.0\noffset_x_m,445123.0\noffset_y_m,5411235.0\noffset_z_m,0.0\n";
+        assert_eq!(text, expected);
         assert_eq!(dataset.meters_per_asset_unit("room").unwrap(), 1.0);
     }
 

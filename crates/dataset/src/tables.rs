@@ -72,10 +72,10 @@ impl Table {
     }
 }
 
-/// Writes a table of `parameter_name,parameter_value` with one row.
-pub(crate) fn write_parameter(path: &Path, name: &str, value: f64) -> Result<(), DatasetError> {
+/// Writes a table of `parameter_name,parameter_value`.
+pub(crate) fn write_parameters(path: &Path, parameters: &[(&str, f64)]) -> Result<(), DatasetError> {
     let mut table = Table::new(path, &["parameter_name", "parameter_value"]);
-    table.rows.push(vec![name.to_string(), format!("{value:?}")]);
+    table.rows = parameters.iter().map(|(name, value)| vec![(*name).to_string(), format!("{value:?}")]).collect();
     table.write()
 }
 

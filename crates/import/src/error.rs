@@ -44,9 +44,10 @@ pub enum ImportError {
     },
     /// A texture that is not there or cannot be decoded.
     #[error(
-        "{}: {user} needs the texture {texture}, which {problem}; put the file there, correct the path in the scene, or import with \
-         allow_missing_textures = true to go on with plain colours",
-        file.display()
+        "{}: {user} needs the texture {texture}, which {problem}; {}, or go on with plain colours: --allow-missing-textures on the command \
+         line, allow_missing_textures = true in dataset.toml",
+        file.display(),
+        remedy(problem)
     )]
     Texture {
         /// The scene file.
@@ -82,6 +83,17 @@ pub enum ImportError {
         /// What was found and what was expected.
         problem: String,
     },
+}
+
+/// What to do about a texture, by what is wrong with it.
+fn remedy(problem: &str) -> &'static str {
+    if problem.starts_with("cannot be read") || problem.starts_with("is not in the archive") {
+        "put the file there, beside the scene or into a folder textures beside it, or correct the path in the scene"
+    } else if problem.contains(GIT_LFS_POINTER) {
+        "import again then"
+    } else {
+        "save the picture as PNG or JPEG, under this name or with the new one in the scene"
+    }
 }
 
 impl ImportError {

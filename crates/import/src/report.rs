@@ -55,6 +55,10 @@ pub struct ImportReport {
     pub format: &'static str,
     /// What the scene contains.
     pub counts: Counts,
+    /// What was subtracted from all positions, metres, z up: of scenes that stand far from the origin of their coordinates, such as those of
+    /// maps. Adding it gives the file's positions in metres with z up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset_m: Option<[f64; 3]>,
     /// What was dropped, guessed or fixed, with its place; in the order of the file, each once.
     pub warnings: Vec<Warning>,
 }
@@ -73,7 +77,7 @@ impl ImportReport {
             Format::SweetHome => "sweethome",
             Format::Package => "package",
         };
-        Self { format, counts: Counts::of(scene), warnings }
+        Self { format, counts: Counts::of(scene), offset_m: None, warnings }
     }
 }
 

@@ -165,6 +165,15 @@ mod tests {
     }
 
     #[test]
+    fn a_pointer_of_git_lfs_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.0000.color.hdf5");
+        std::fs::write(&path, "version https://git-lfs.github.com/spec/v1\noid sha256:00112233\nsize 28200\n").unwrap();
+        let message = read_array(&path).unwrap_err().to_string();
+        assert!(message.contains("frame.0000.color.hdf5: it is a Git LFS pointer"), "{message}");
+    }
+
+    #[test]
     fn a_damaged_file_is_an_error_that_names_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("frame.0000.depth_meters.hdf5");

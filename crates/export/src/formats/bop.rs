@@ -12,7 +12,7 @@ use crate::calibration::{Calibration, row_major};
 use crate::depth::{DEPTH, millimetres, planar_m};
 use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
-use crate::mesh::{InstanceMesh, instance_meshes};
+use crate::mesh::{InstanceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{AmodalMasks, DatasetError, InstanceView, PixelArea};
@@ -145,11 +145,21 @@ fn objects_of(selected: &SelectedFrames<'_>, scene: &str, first_id: u32) -> Resu
     let mut meshes = instance_meshes(selected.dataset, scene)?;
     let boxes = instance_boxes(selected.dataset, scene, &meshes)?;
     if boxes.is_empty() {
-        let problem = "it has neither box files nor a labelled mesh, so poses of objects are not known; add them to _detail/mesh";
-        return Err(selected.unsuitable(scene, problem));
+        return Err(selected.unsuitable(scene, &without_objects(selected, scene)));
     }
     let object = |(id, (number, shape))| (number, Object { id, shape, mesh: meshes.remove(&number) });
     Ok((first_id..).zip(boxes).map(object).collect())
+}
+
+/// Why a scene has no objects, and what to do.
+fn without_objects(selected: &SelectedFrames<'_>, scene: &str) -> String {
+    let (problem, remedy) = match missing_mesh_file(selected.dataset, scene) {
+        Some(file) if !file.contains("_objects_") => {
+            (format!("it has neither box files nor a mesh ({file} is missing in _detail/mesh)"), "add one of them")
+        }
+        _ => ("no part of it is labelled as an instance".to_string(), "label it"),
+    };
+    format!("{problem}, so poses of objects are not known; {remedy}, or leave it out")
 }
 
 fn write_track(

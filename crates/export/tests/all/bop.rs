@@ -1,10 +1,11 @@
 //! What BOP's export says of hidden and truncated parts of objects.
 
+use enfilade_dataset::mesh_names::{OBJECTS_INSTANCE, VERTICES};
 use enfilade_dataset::{AmodalMask, AmodalMasks, Dataset, InstanceView, PixelArea};
 use enfilade_export::{Existing, ExportConfig, Format, export};
 use enfilade_frame::Layer;
 use enfilade_label::instances::visible_areas;
-use enfilade_scene::Quiet;
+use enfilade_scene::{Labels, PartLabel, Quiet};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -73,4 +74,27 @@ fn what_was_found_of_other_labels_is_not_taken_for_these() {
     write_whole(&dataset, PixelArea::default().with(3, 4), 20);
     let infos = exported(&dataset, &folder.path().join("out"));
     assert_eq!((&infos["0"][0]["visib_fract"], &infos["0"][0]["bbox_obj"]), (&json!(1.0), &infos["0"][0]["bbox_visib"]));
+}
+
+#[test]
+fn a_scene_without_labels_is_to_be_labelled() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |dataset: &Dataset| {
+        let config = ExportConfig::new(Format::Bop, vec!["room".into()]);
+        export(dataset, &config, &folder.path().join("out"), Existing::Refuse, &Quiet).unwrap_err().to_string()
+    };
+    let expected = "room cannot be exported as bop: no part of it is labelled as an instance, so poses of objects are not known; label it";
+    let dataset = crate::common::write(&folder.path().join("never_labelled"), &crate::common::pinhole());
+    std::fs::remove_file(dataset.layout().mesh_file("room", OBJECTS_INSTANCE)).unwrap();
+    assert!(refused(&dataset).contains(expected), "{}", refused(&dataset));
+    let dataset = crate::common::write(&folder.path().join("without_instances"), &crate::common::pinhole());
+    let parts = dataset.read_label_tables("room").unwrap().parts.len();
+    dataset.write_label_tables("room", &Labels { parts: vec![PartLabel::NONE; parts] }).unwrap();
+    assert!(refused(&dataset).contains(expected), "{}", refused(&dataset));
+    // Hypersim's public files have labels of pixels, but no mesh.
+    let dataset = crate::common::write(&folder.path().join("without_mesh"), &crate::common::pinhole());
+    std::fs::remove_file(dataset.layout().mesh_file("room", VERTICES)).unwrap();
+    let expected =
+        "it has neither box files nor a mesh (mesh_vertices.hdf5 is missing in _detail/mesh), so poses of objects are not known; add one";
+    assert!(refused(&dataset).contains(expected), "{}", refused(&dataset));
 }

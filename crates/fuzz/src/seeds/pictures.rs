@@ -23,10 +23,31 @@ pub fn pictures() -> Vec<Seed> {
         seed("rgb.jpg", encoded(&rgb, ImageFormat::Jpeg)),
         seed("rgb.bmp", encoded(&rgb, ImageFormat::Bmp)),
         seed("rgba.tga", encoded(&picture, ImageFormat::Tga)),
+        seed("rgba.tif", encoded(&picture, ImageFormat::Tiff)),
+        seed("floats.tif", encoded(&picture.to_rgb32f().into(), ImageFormat::Tiff)),
+        seed("rgba.webp", encoded(&picture, ImageFormat::WebP)),
+        seed("rgba.gif", encoded(&picture, ImageFormat::Gif)),
+        seed("rgb.ppm", encoded(&rgb, ImageFormat::Pnm)),
+        seed("dxt1.dds", dds(u32::from_le_bytes(*b"DXT1"), None)),
+        seed("bc5.dds", dds(u32::from_le_bytes(*b"ATI2"), None)),
+        seed("bc6.dds", dds(DX10, Some(95))),
+        seed("bc7.dds", dds(DX10, Some(98))),
         seed("rgb.hdr", encoded(&picture.to_rgb32f().into(), ImageFormat::Hdr)),
         seed("rgb.exr", exr()),
         seed("rgb.pfm", pfm),
     ]
+}
+
+/// The code of a DDS whose format stands in the extension of its header.
+const DX10: u32 = u32::from_le_bytes(*b"DX10");
+
+/// A DDS of one block in a format by its code, and by its number in the extension.
+fn dds(code: u32, dxgi: Option<u32>) -> Vec<u8> {
+    let mut words = [0u32; 32];
+    words[..5].copy_from_slice(&[u32::from_le_bytes(*b"DDS "), 124, 0x1007, 3, 2]);
+    words[19..22].copy_from_slice(&[32, 4, code]);
+    let extension = dxgi.into_iter().flat_map(|format| [format, 3, 0, 1, 0]);
+    words.into_iter().chain(extension).flat_map(u32::to_le_bytes).chain((0..16).map(|i| 37 * i)).collect()
 }
 
 fn exr() -> Vec<u8> {

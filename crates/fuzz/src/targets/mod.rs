@@ -69,7 +69,7 @@ pub const TARGETS: &[Target] = &[
     importer("fbx", "scene.fbx", "scene.fbx", "FBX, as text and binary", seeds::fbx),
     own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
     // The extension is that of the one format which has no signature.
-    importer("picture", "picture.tga", "with_picture.obj", "PNG, JPEG, BMP, TGA, HDR, EXR and PFM as textures", seeds::pictures),
+    importer("picture", "picture.tga", "with_picture.obj", "pictures of all formats as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
     own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
     own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, octree::trees, seeds::octrees),

@@ -72,10 +72,25 @@ impl Assembly<'_> {
         Ok(Some((self.scene.meshes.len() - 1) as u32))
     }
 
+    /// The same for a mesh whose positions are told from `origin`, a point of the mesh's own space.
+    ///
+    /// # Errors
+    /// As [`Self::push_mesh`].
+    pub(crate) fn push_mesh_from(&mut self, origin: DVec3, mesh: Mesh, file: &Path, place: &str) -> Result<Option<u32>, ImportError> {
+        let pushed = self.push_mesh(mesh, file, place)?;
+        if let Some(index) = pushed.filter(|_| origin != DVec3::ZERO) {
+            self.origins.insert(index, origin);
+        }
+        Ok(pushed)
+    }
+
     /// Places a mesh in the world under a unique name made from `name`. Of parts that a placement flattens only what keeps an area
     /// remains, with a warning. A mirrored placement gets a copy of the mesh with its triangles reversed, so that fronts stay fronts.
     pub(crate) fn push_part(&mut self, name: &str, mut mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
         let mut world_from_mesh = self.world_from_file * file_from_mesh;
+        if let Some(origin) = self.origins.get(&mesh) {
+            world_from_mesh = world_from_mesh * DAffine3::from_translation(*origin);
+        }
         let m = world_from_mesh.matrix3;
         let determinant = m.determinant();
         let size = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();

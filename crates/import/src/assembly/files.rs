@@ -108,6 +108,12 @@ impl Assembly<'_> {
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
     /// and the options allow that; then a plain value has to stand in.
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
+        let elsewhere = match source {
+            Source::File(path) if !self.exists(path) => self.elsewhere(path).map(|found| (self.resolve(path), found)),
+            _ => None,
+        };
+        let found = elsewhere.as_ref().map(|(_, found)| Source::File(found));
+        let source = found.as_ref().unwrap_or(source);
         let key = match source {
             Source::File(path) => self.resolve(path).to_string_lossy().into_owned(),
             Source::Embedded(place, _) | Source::Missing(place) => place.clone(),
@@ -117,6 +123,12 @@ impl Assembly<'_> {
                 self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
             }
             return Ok(found);
+        }
+        if let Some((stated, found)) = &elsewhere {
+            self.warn(user, format!("the texture {} is not there; {found}, which is called alike, was used", stated.display()));
+            if !self.missing.contains(stated) {
+                self.missing.push(stated.clone());
+            }
         }
         let decoded = match source {
             Source::File(path) => match self.read(path) {
@@ -136,7 +148,7 @@ impl Assembly<'_> {
                 Some(self.push_image(decoded.image))
             }
             Err(problem) if self.options.allow_missing_textures => {
-                self.warn(user, format!("the texture {key} {problem}; a plain grey stands in, so put the file there and import again"));
+                self.warn(user, format!("the texture {key} {problem}; a plain grey stands in"));
                 None
             }
             Err(problem) => {

@@ -58,7 +58,7 @@ impl Assembly<'_> {
     }
 
     /// The folders in which files are looked for.
-    fn places(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn places(&self) -> impl Iterator<Item = &Path> {
         self.folders.iter().rev().map(PathBuf::as_path).chain([folder_of(&self.file)])
     }
 

@@ -7,12 +7,18 @@ use enfilade_scene::{Environment, Light, MapRows};
 impl Assembly<'_> {
     /// Adds a light that is already in the world's units and axes.
     pub(crate) fn push_world_light(&mut self, light: Light) {
+        self.light_positions.push(position_of(&light));
         self.scene.lights.push(light);
     }
 
     /// Adds a light given in the file's units and axes. Point and spot lights shine so that a picture looks the same whatever
     /// the unit: their intensity grows with the square of the metres per unit.
     pub(crate) fn push_light(&mut self, light: Light) {
+        self.push_light_at(position_of(&light), light);
+    }
+
+    /// The same for a light whose `position` in the file is known in double precision.
+    pub(crate) fn push_light_at(&mut self, position: DVec3, light: Light) {
         let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();
         let at = |p: Vec3| place(&self.world_from_file, p);
@@ -46,6 +52,7 @@ impl Assembly<'_> {
             Light::Directional { direction, irradiance, .. } => (direction.length() > 0.5, *irradiance),
         };
         if usable && power.is_finite() {
+            self.light_positions.push(self.world_from_file.transform_point3(position));
             self.scene.lights.push(light);
         } else {
             self.warn(format!("light {name:?}"), "its placement or strength makes no sense, so it was left out");
@@ -83,6 +90,14 @@ impl Assembly<'_> {
         if self.scene.environment.replace(environment).is_some() {
             self.warn(place, "the file has several environments; the last one counts");
         }
+    }
+}
+
+/// Where a light is; the origin for one without a place.
+fn position_of(light: &Light) -> DVec3 {
+    match light {
+        Light::Point { position, .. } | Light::Spot { position, .. } | Light::Profile { position, .. } => position.as_dvec3(),
+        Light::Directional { .. } => DVec3::ZERO,
     }
 }
 

@@ -3,15 +3,18 @@
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
 mod contents;
+mod elsewhere;
 mod files;
 mod find;
 mod flat;
 mod light;
 mod names;
+mod survey;
 
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
 pub(crate) use find::is_absolute;
+pub(crate) use survey::{origin_of, positions_from};
 
 use crate::archive::Archive;
 use crate::images::{self, Use};
@@ -39,6 +42,12 @@ pub(crate) struct Assembly<'a> {
     part_names: Names,
     camera_names: Names,
     reversed: HashMap<u32, u32>,
+    /// The points from which the positions of meshes are told.
+    origins: HashMap<u32, DVec3>,
+    /// Where the lights of the scene are in the world, in double precision.
+    light_positions: Vec<DVec3>,
+    /// What was subtracted from the world's positions.
+    offset_m: Option<[f64; 3]>,
     /// Triangles kept of flattened parts.
     flattened: usize,
     labels: Vec<ImportedLabel>,
@@ -64,6 +73,9 @@ impl<'a> Assembly<'a> {
             part_names: Names::default(),
             camera_names: Names::default(),
             reversed: HashMap::new(),
+            origins: HashMap::new(),
+            light_positions: Vec::new(),
+            offset_m: None,
             flattened: 0,
             labels: Vec::new(),
             meters_per_unit: 1.0,
@@ -146,6 +158,7 @@ impl<'a> Assembly<'a> {
     /// # Errors
     /// When nothing visible remains or something about the scene is not valid.
     pub(crate) fn finish(mut self) -> Result<Imported, ImportError> {
+        self.bring_near();
         let scene = without_unused_meshes(std::mem::take(&mut self.scene));
         self.finish_scene(scene)
     }
@@ -175,7 +188,7 @@ impl<'a> Assembly<'a> {
         let file = self.file;
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
-        let report = ImportReport::new(self.format, &self.scene, self.warnings.into_list());
+        let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
         Ok(Imported { scene: self.scene, labels, inputs: self.inputs, missing: self.missing, report })
     }
 }

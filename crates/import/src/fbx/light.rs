@@ -19,7 +19,8 @@ pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, a: &
     let file_from_node = affine(&node.node_to_world);
     let d = &light.local_direction;
     let direction = file_from_node.transform_vector3(DVec3::new(d.x, d.y, d.z)).normalize_or_zero().as_vec3();
-    let position = file_from_node.translation.as_vec3();
+    let at = file_from_node.translation;
+    let position = at.as_vec3();
     let strength = Rgb::new(light.color.x as f32, light.color.y as f32, light.color.z as f32) * light.intensity as f32;
     let of_blender = of_blender(&light.element);
     let intensity = strength * point_scale(light.decay, of_blender, a);
@@ -35,14 +36,14 @@ pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, a: &
                 true => (spot_inner_rad(f64::from(outer_rad), f64::from(1.0 - inner_rad / outer_rad)) as f32, SpotFalloff::SmoothCosine),
                 false => (inner_rad, SpotFalloff::Angle),
             };
-            a.push_light(Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff });
+            a.push_light_at(at, Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff });
         }
         LightType::Area => add_area(&name, light, file_from_node, strength, of_blender, a),
         LightType::Point | LightType::Volume => {
             if light.type_ == LightType::Volume {
                 a.warn(&place, "volume lights are not supported; a point light stands in");
             }
-            a.push_light(Light::Point { name, position, intensity });
+            a.push_light_at(at, Light::Point { name, position, intensity });
         }
     }
     if !of_blender && light.type_ != LightType::Directional && light.decay != LightDecay::Quadratic {

@@ -1,15 +1,17 @@
 //! The faces of one material of a mesh to triangles.
 
+use crate::assembly::origin_of;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use ufbx::MeshPart;
 
 /// The triangles of `part` with texture coordinates of set `uv_set`. Vertices are shared by corners that agree in everything.
-/// Faces that are holes are left out.
-pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize) -> Mesh {
+/// Faces that are holes are left out. Besides, the point from which positions are told.
+pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize, meters_per_unit: f64) -> (Mesh, DVec3) {
     let uvs = mesh.uv_sets.get(uv_set).map(|set| &set.vertex_uv).filter(|uv| uv.exists);
     let (positions, normals) = (&mesh.skinned_position, &mesh.skinned_normal);
+    let origin = origin_of(positions.values.iter().map(dvec3), meters_per_unit);
     let mut built = Mesh::default();
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();
     let mut corners = Vec::new();
@@ -28,9 +30,9 @@ pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize) -> Mesh
                 *known.entry(key).or_insert_with(|| {
                     let [p, n, t] = key.map(|i| i as usize);
                     // An index to nothing becomes a position that is not finite, which is an error with the mesh's name.
-                    built.positions.push(positions.values.get(p).map_or(Vec3::NAN, vec3));
+                    built.positions.push(positions.values.get(p).map_or(Vec3::NAN, |v| (dvec3(v) - origin).as_vec3()));
                     if normals.exists {
-                        built.normals.push(normals.values.get(n).map_or(Vec3::ZERO, vec3));
+                        built.normals.push(normals.values.get(n).map_or(Vec3::ZERO, |v| dvec3(v).as_vec3()));
                     }
                     if let Some(uv) = uvs {
                         built.uvs.push(uv.values.get(t).map_or(Vec2::ZERO, |v| Vec2::new(v.x as f32, v.y as f32)));
@@ -40,9 +42,9 @@ pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize) -> Mesh
             }));
         }
     }
-    built
+    (built, origin)
 }
 
-fn vec3(v: &ufbx::Vec3) -> Vec3 {
-    Vec3::new(v.x as f32, v.y as f32, v.z as f32)
+fn dvec3(v: &ufbx::Vec3) -> DVec3 {
+    DVec3::new(v.x, v.y, v.z)
 }

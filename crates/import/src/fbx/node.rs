@@ -97,7 +97,8 @@ impl Placer {
                 Some(&known) => known,
                 None => {
                     let file = a.file().to_path_buf();
-                    let built = a.push_mesh(mesh::of_part(mesh, part, set), &file, &place_of(node))?;
+                    let (of_part, origin) = mesh::of_part(mesh, part, set, a.meters_per_unit());
+                    let built = a.push_mesh_from(origin, of_part, &file, &place_of(node))?;
                     self.meshes.insert(key, built);
                     built
                 }

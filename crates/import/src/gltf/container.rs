@@ -1,11 +1,13 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
 use super::uri::{Uri, resolve_uri};
-use super::{lumens, omissions};
+use super::{lumens, omissions, transform};
 use crate::ImportError;
 use crate::assembly::Assembly;
+use enfilade_math::DVec3;
 use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
+use std::collections::HashMap;
 
 /// Extensions that an importer may be required to understand and that this one does.
 pub(super) const SUPPORTED: [&str; 16] = [
@@ -39,6 +41,8 @@ pub(super) struct Document {
     pub buffers: Vec<Vec<u8>>,
     /// Numbers that accessors without a buffer view may still ask for.
     pub zeros_left: Cell<u64>,
+    /// Large translations of nodes, see `transform.rs`.
+    pub far_translations: HashMap<usize, DVec3>,
     /// What the strengths of its lights are divided by.
     pub lumens_per_watt: f32,
 }
@@ -64,7 +68,8 @@ impl Document {
             buffers.push(if unused { Vec::new() } else { read_buffer(i, b, binary, assembly)? });
         }
         let lumens_per_watt = lumens::per_watt(&root, assembly);
-        Ok(Self { root, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
+        let far_translations = transform::far_translations(&root.nodes, json);
+        Ok(Self { root, far_translations, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
     }
 
     /// The bytes of a buffer view, or what is wrong with it.

@@ -24,12 +24,15 @@ pub(super) fn add(document: &Document, index: usize, node_name: Option<&str>, no
     let position = file_from_node.translation.as_vec3();
     let direction = file_from_node.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
     match light.type_ {
-        Checked::Valid(Type::Point) => a.push_light(Light::Point { name, position, intensity: strength }),
+        Checked::Valid(Type::Point) => a.push_light_at(file_from_node.translation, Light::Point { name, position, intensity: strength }),
         Checked::Valid(Type::Spot) => {
             let (inner_rad, outer_rad) =
                 light.spot.as_ref().map_or((0.0, std::f32::consts::FRAC_PI_4), |s| (s.inner_cone_angle, s.outer_cone_angle));
             let (inner_rad, falloff) = (inner_rad.min(outer_rad), SpotFalloff::CosineSquare);
-            a.push_light(Light::Spot { name, position, direction, intensity: strength, inner_rad, outer_rad, falloff });
+            a.push_light_at(
+                file_from_node.translation,
+                Light::Spot { name, position, direction, intensity: strength, inner_rad, outer_rad, falloff },
+            );
         }
         Checked::Valid(Type::Directional) => {
             a.push_light(Light::Directional { name, direction, irradiance: strength, angular_radius_rad: 0.0 });

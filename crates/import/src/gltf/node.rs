@@ -2,7 +2,6 @@
 
 use super::container::Document;
 use super::parts::{Parts, Stand};
-use super::transform::local_transform;
 use super::{instancing, light, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -70,7 +69,7 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
             assembly.warn(format!("nodes[{index}]"), "the node is invisible (KHR_node_visibility); it was left out with all below it");
             continue;
         }
-        let file_from_node = file_from_parent * local_transform(node);
+        let file_from_node = file_from_parent * document.local_transform(index);
         let label = label_of(node, index, label, assembly);
         placer.node(node, index, file_from_node, label, assembly)?;
         let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();

@@ -53,14 +53,9 @@ pub(super) fn add(
         a.warn(place, format!("light {name:?} has a placement that makes no sense, so it was left out"));
         return Ok(());
     };
-    let position = file_from_node.translation.as_vec3();
-    a.push_light(Light::Profile {
-        name,
-        position,
-        web_from_world: web_from_file,
-        intensity: color * multiplier,
-        web: Box::new(parsed.web),
-    });
+    let (position, intensity) = (file_from_node.translation.as_vec3(), color * multiplier);
+    let light = Light::Profile { name, position, web_from_world: web_from_file, intensity, web: Box::new(parsed.web) };
+    a.push_light_at(file_from_node.translation, light);
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 //! As the specification has it, the transform of the node that bears the mesh has no part in this.
 
 use super::container::Document;
-use super::transform::{affine, local_transform};
+use super::transform::affine;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
@@ -77,14 +77,14 @@ fn placements(document: &Document) -> Vec<Option<DAffine3>> {
     }
     let mut found = vec![None; nodes.len()];
     let mut stack: Vec<(usize, DAffine3)> =
-        (0..nodes.len()).filter(|&i| parents[i].is_none()).map(|i| (i, local_transform(&nodes[i]))).collect();
+        (0..nodes.len()).filter(|&i| parents[i].is_none()).map(|i| (i, document.local_transform(i))).collect();
     while let Some((index, file_from_node)) = stack.pop() {
         if found[index].replace(file_from_node).is_some() {
             continue;
         }
         let children = nodes[index].children.iter().flatten().map(|child| child.value());
         for child in children.filter(|&child| parents.get(child) == Some(&Some(index))) {
-            stack.push((child, file_from_node * local_transform(&nodes[child])));
+            stack.push((child, file_from_node * document.local_transform(child)));
         }
     }
     found

@@ -1,7 +1,7 @@
 //! Bytes of a picture file to an [`Image`], by what they begin with.
 
 use super::float_picture::{FloatPicture, check_size};
-use super::{exr, pfm};
+use super::{dds, exr, pfm, tiff};
 use ::image::codecs::hdr::HdrDecoder;
 use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use enfilade_scene::{Image, Pixels};
@@ -25,10 +25,13 @@ pub(crate) struct Decoded {
     pub note: Option<String>,
 }
 
+/// What is read, for messages.
+const KNOWN: &str = "PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, PNM, HDR, EXR, PFM";
+
 /// The largest finite half float, which infinite texels become.
 const LARGEST_HALF: f32 = 65_504.0;
 
-/// Decodes a picture from the bytes of a file. `name` is for messages and tells TGA, which has no signature, by its extension.
+/// Decodes a picture from the bytes of a file. `name` is for messages, and its extension tells TGA, which has no signature.
 ///
 /// # Errors
 /// What is wrong with the bytes, as the rest of a sentence that begins with the file's name.
@@ -42,11 +45,21 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
     if bytes.starts_with(b"#?RGBE") {
         return float_image(name, rgbe(bytes)?);
     }
-    let format = ::image::guess_format(bytes)
-        .ok()
-        // Names of files within an archive end in a bracket.
-        .or_else(|| ImageFormat::from_path(Path::new(name.trim_end_matches(']'))).ok())
-        .ok_or_else(|| "is not a picture of a known format (PNG, JPEG, BMP, TGA, HDR, EXR, PFM)".to_string())?;
+    if bytes.starts_with(dds::MAGIC) {
+        return match dds::decode(bytes)? {
+            dds::Surface::Floats(picture) => float_image(name, picture),
+            dds::Surface::Bytes { width, height, texels } => {
+                let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
+                finish(Image { name: name.to_string(), width, height, pixels }, None)
+            }
+        };
+    }
+    let format = format(name, bytes).ok_or_else(|| format!("is not a picture of a known format ({KNOWN})"))?;
+    if format == ImageFormat::Tiff
+        && let Some(picture) = tiff::decode_floats(bytes)?
+    {
+        return float_image(name, picture);
+    }
     let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
     check_size(size.0, size.1)?;
     // The library's own limit of 512 MB for what it decodes applies too.
@@ -67,6 +80,35 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
             finish(Image { name: name.to_string(), width, height, pixels }, note)
         }
     }
+}
+
+/// The format of a picture by how it begins, or else, as TGA begins in no certain way, by its name or because it looks like TGA.
+fn format(name: &str, bytes: &[u8]) -> Option<ImageFormat> {
+    // Names of files within an archive end in a bracket, those within a scene file in a parenthesis.
+    let by_name = || ImageFormat::from_path(Path::new(name.trim_end_matches([']', ')', '"']))).ok();
+    let by_look = || looks_like_tga(bytes).then_some(ImageFormat::Tga);
+    ::image::guess_format(bytes).ok().or_else(by_name).or_else(by_look)
+}
+
+/// True for bytes that begin with a possible header of TGA, and have enough behind it where they are not compressed.
+fn looks_like_tga(bytes: &[u8]) -> bool {
+    let Some(head) = bytes.first_chunk::<18>() else { return false };
+    let (has_map, kind, depth, descriptor) = (head[1], head[2], head[16], head[17]);
+    let number = |at: usize| usize::from(u16::from_le_bytes([head[at], head[at + 1]]));
+    let map = if has_map == 1 { number(5) * usize::from(head[7]).div_ceil(8) } else { 0 };
+    let (width, height) = (number(12), number(14));
+    let fits = match kind {
+        1 => has_map == 1 && depth == 8,
+        2 => matches!(depth, 15 | 16 | 24 | 32),
+        3 => matches!(depth, 8 | 16),
+        9 => has_map == 1 && depth == 8,
+        10 => matches!(depth, 15 | 16 | 24 | 32),
+        11 => matches!(depth, 8 | 16),
+        _ => false,
+    };
+    let pixels = if kind < 9 { width * height * usize::from(depth).div_ceil(8) } else { 1 };
+    let needed = 18 + usize::from(head[0]) + map + pixels;
+    has_map <= 1 && fits && width > 0 && height > 0 && descriptor & 0xc0 == 0 && bytes.len() >= needed
 }
 
 fn undecodable(e: ImageError) -> String {
@@ -132,6 +174,55 @@ mod tests {
         let decoded = decode("a.png", &bytes, Use::Data).unwrap();
         assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: false, texels: vec![[255; 4]] });
         assert!(decoded.note.unwrap().contains("16 bits"));
+    }
+
+    /// The bytes of a picture in a format.
+    fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn pictures_of_every_lossless_format_keep_their_bytes() {
+        let texels = vec![[10, 200, 30, 255], [0, 0, 255, 255]];
+        let picture = ImageBuffer::from_fn(2, 1, |x, _| Rgba(texels[x as usize]));
+        for format in [ImageFormat::Tiff, ImageFormat::WebP, ImageFormat::Gif, ImageFormat::Bmp, ImageFormat::Tga] {
+            // Whatever the name says, and without one.
+            for name in ["a.png (12)", "images[0]", "3 (C:\\tex\\wood.tga)"] {
+                let decoded = decode(name, &encoded(picture.clone(), format), Use::Color).unwrap_or_else(|e| panic!("{format:?} {e}"));
+                assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: true, texels: texels.clone() }, "{format:?} as {name}");
+            }
+        }
+        let grey = DynamicImage::ImageLuma8(ImageBuffer::from_fn(1, 1, |_, _| Luma([77u8])));
+        let pnm = decode("a.ppm", &encoded(grey, ImageFormat::Pnm), Use::Data).unwrap().image.pixels;
+        assert_eq!(pnm, Pixels::Rgba8 { srgb: false, texels: vec![[77, 77, 77, 255]] });
+    }
+
+    #[test]
+    fn tiff_has_sixteen_bits_or_floats_of_one_channel_or_three() {
+        let sixteen = encoded(ImageBuffer::from_fn(1, 1, |_, _| Luma([32_896u16])), ImageFormat::Tiff);
+        let decoded = decode("a.tif", &sixteen, Use::Data).unwrap();
+        assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: false, texels: vec![[128, 128, 128, 255]] });
+        assert!(decoded.note.unwrap().contains("16 bits"));
+        let color = ImageBuffer::from_fn(1, 1, |_, _| ::image::Rgb([4.0f32, 0.5, 0.25]));
+        let pixels = decode("a.tif", &encoded(color, ImageFormat::Tiff), Use::Color).unwrap().image.pixels;
+        assert_eq!(pixels, Pixels::RgbF32(vec![[4.0, 0.5, 0.25]]));
+        let mut bytes = Cursor::new(Vec::new());
+        let mut encoder = ::tiff::encoder::TiffEncoder::new(&mut bytes).unwrap();
+        encoder.write_image::<::tiff::encoder::colortype::Gray32Float>(2, 1, &[0.75, 3.0]).unwrap();
+        let pixels = decode("height.tif", &bytes.into_inner(), Use::Data).unwrap().image.pixels;
+        assert_eq!(pixels, Pixels::RgbF32(vec![[0.75; 3], [3.0; 3]]));
+    }
+
+    #[test]
+    fn what_looks_like_tga_has_its_size() {
+        let tga = encoded(ImageBuffer::from_fn(4, 4, |x, y| Rgba([x as u8, y as u8, 0, 255])), ImageFormat::Tga);
+        assert!(looks_like_tga(&tga));
+        for other in [&b"hello, this is text that is long enough"[..], &[0; 64], &tga[..17], b""] {
+            assert!(!looks_like_tga(other));
+        }
+        assert!(!looks_like_tga(&[&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 4, 24, 0][..], &[0; 100]].concat()));
     }
 
     #[test]

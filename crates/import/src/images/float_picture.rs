@@ -4,6 +4,7 @@
 const MAX_TEXELS: u64 = 1 << 27;
 
 /// A linear floating-point picture, row 0 at the top.
+#[derive(Debug, PartialEq)]
 pub(super) struct FloatPicture {
     pub width: u32,
     pub height: u32,

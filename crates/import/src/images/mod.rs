@@ -1,14 +1,16 @@
-//! Pictures: PNG, JPEG, BMP, TGA, Radiance HDR, OpenEXR and PFM into [`Image`](enfilade_scene::Image).
+//! Pictures: PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, PNM, Radiance HDR, OpenEXR and PFM into [`Image`](enfilade_scene::Image).
 //!
-//! Eight bits a channel stay eight bits; sixteen-bit PNGs are rounded to eight; floating-point pictures become linear RGB
+//! Of animations and files of several pictures the first one counts. Eight bits a channel stay eight bits; sixteen are rounded to eight; floating-point pictures become linear RGB
 //! without alpha, in which a value that is not a number or below zero becomes 0 and an infinite one the largest half float.
 
+mod dds;
 mod decode;
 mod exr;
 mod float_picture;
 mod looks;
 mod mean;
 mod pfm;
+mod tiff;
 
 pub(crate) use decode::{Use, decode};
 pub use exr::{check_exr_blocks, check_exr_table};

@@ -77,9 +77,10 @@ impl<'n> Reader<'n, '_> {
         self.report_unknown(node, if node.plugin == "spot" { &KNOWN } else { &KNOWN[..6] }, &[]);
         let mut intensity = self.emission(node, "intensity")?;
         let placement = transform::of(node, "to_world")?;
-        let position = node.child("position").map_or(Ok(placement.translation), vector)?.as_vec3();
+        let at = node.child("position").map_or(Ok(placement.translation), vector)?;
+        let position = at.as_vec3();
         if node.plugin == "point" {
-            self.a.push_light(Light::Point { name: name(node), position, intensity });
+            self.a.push_light_at(at, Light::Point { name: name(node), position, intensity });
             return Ok(());
         }
         let outer = node.float_or("cutoff_angle", 20.0)?;
@@ -93,7 +94,7 @@ impl<'n> Reader<'n, '_> {
         }
         let (inner_rad, outer_rad) = (inner.to_radians() as f32, outer.to_radians() as f32);
         let falloff = SpotFalloff::Angle;
-        self.a.push_light(Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad, falloff });
+        self.a.push_light_at(at, Light::Spot { name: name(node), position, direction, intensity, inner_rad, outer_rad, falloff });
         Ok(())
     }
 

@@ -65,7 +65,8 @@ impl<'n> Reader<'n, '_> {
             return Ok(known.clone());
         }
         let (file, bytes) = self.a.read(path)?;
-        let obj = ObjFile::parse(&bytes, &file)?;
+        let mut obj = ObjFile::parse(&bytes, &file)?;
+        obj.settle(self.a.meters_per_unit());
         obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
         if obj.groups.is_empty() {
             self.warn(node, format!("{}: there are no faces; the shape was left out", file.display()));
@@ -75,7 +76,7 @@ impl<'n> Reader<'n, '_> {
             let name = group.name.clone().or_else(|| group.material.clone()).unwrap_or_else(|| "mesh".to_string());
             let place = if obj.groups.len() > 1 { format!("mesh {name:?}") } else { "mesh".to_string() };
             let mesh = shape::finish(obj.mesh(std::iter::once(group)), true, flags);
-            let mesh = self.a.push_mesh(mesh, &file, &place)?;
+            let mesh = self.a.push_mesh_from(obj.origin, mesh, &file, &place)?;
             meshes.push(ObjMesh { name, material: group.material.clone(), mesh });
         }
         let read = Rc::new(ObjMeshes { meshes, libraries: obj.libraries });

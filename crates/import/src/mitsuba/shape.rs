@@ -9,7 +9,7 @@ use crate::obj::ObjFile;
 use crate::ply::{self, Means};
 use crate::primitives;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Vec2, Vec3};
+use enfilade_math::{DAffine3, DVec3, Vec2, Vec3};
 use enfilade_scene::PartLabel;
 use std::path::{Path, PathBuf};
 
@@ -123,10 +123,10 @@ impl<'n> Reader<'n, '_> {
         let mesh = match self.meshes.get(&key) {
             Some(&known) => known,
             None => {
-                let (mesh, means, file) = self.build(node, path, index)?;
+                let Built { mesh, origin, means, file } = self.build(node, path, index)?;
                 let mesh = finish(mesh, from_file, flags);
                 let place = if from_file { "mesh".to_string() } else { node.place() };
-                let built = self.a.push_mesh(mesh, &file, &place)?;
+                let built = self.a.push_mesh_from(origin, mesh, &file, &place)?;
                 built.into_iter().for_each(|mesh| self.attributes.insert(mesh, means.clone()));
                 self.meshes.insert(key, built);
                 built
@@ -135,26 +135,29 @@ impl<'n> Reader<'n, '_> {
         Ok(mesh.map(|mesh| (mesh, in_shape, stem)))
     }
 
-    /// The mesh as the file or the formula has it, with v downward as Mitsuba has it, its attributes, and the file to name in messages.
-    fn build(&mut self, node: &'n Node, path: &str, index: i64) -> Result<(Mesh, Means, PathBuf), ImportError> {
+    /// The mesh as the file or the formula has it, with v downward as Mitsuba has it.
+    fn build(&mut self, node: &'n Node, path: &str, index: i64) -> Result<Built, ImportError> {
         let mut means = Means::default();
         let scene = self.a.file().to_path_buf();
+        let own = |mesh| Ok(Built { mesh, origin: DVec3::ZERO, means: Means::default(), file: scene });
         match node.plugin.as_str() {
-            "rectangle" => Ok((primitives::rectangle(), means, scene)),
-            "disk" => Ok((primitives::disk(), means, scene)),
-            "sphere" => Ok((primitives::sphere(), means, scene)),
-            "cube" => Ok((primitives::cube(), means, scene)),
-            "cylinder" => Ok((primitives::cylinder(), means, scene)),
+            "rectangle" => own(primitives::rectangle()),
+            "disk" => own(primitives::disk()),
+            "sphere" => own(primitives::sphere()),
+            "cube" => own(primitives::cube()),
+            "cylinder" => own(primitives::cylinder()),
             plugin => {
                 let (file, bytes) = self.a.read(path)?;
-                let mesh = match plugin {
+                let unit = self.a.meters_per_unit();
+                let (mesh, origin) = match plugin {
                     "obj" => {
-                        let obj = ObjFile::parse(&bytes, &file)?;
+                        let mut obj = ObjFile::parse(&bytes, &file)?;
+                        obj.settle(unit);
                         obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
-                        obj.mesh(obj.groups.iter())
+                        (obj.mesh(obj.groups.iter()), obj.origin)
                     }
                     "ply" => {
-                        let ply = ply::read(&bytes, &file, self.attributes.wanted)?;
+                        let ply = ply::read(&bytes, &file, self.attributes.wanted, unit)?;
                         if ply.mean_color.is_some() && !self.attributes.wanted {
                             self.warn(node, format!("{}: the colours of vertices were dropped", file.display()));
                         }
@@ -162,14 +165,22 @@ impl<'n> Reader<'n, '_> {
                             self.warn(node, format!("{}: {trailing}", file.display()));
                         }
                         means = ply.means;
-                        ply.mesh
+                        (ply.mesh, ply.origin)
                     }
-                    _ => serialized::read(&bytes, index, &file)?,
+                    _ => (serialized::read(&bytes, index, &file)?, DVec3::ZERO),
                 };
-                Ok((mesh, means, file))
+                Ok(Built { mesh, origin, means, file })
             }
         }
     }
+}
+
+/// A mesh, the point from which its positions are told, its attributes, and the file to name in messages.
+struct Built {
+    mesh: Mesh,
+    origin: DVec3,
+    means: Means,
+    file: PathBuf,
 }
 
 /// True for shapes whose mesh is in a file.

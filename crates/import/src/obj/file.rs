@@ -1,8 +1,9 @@
 //! What an OBJ file contains, as it is written, and the meshes that its groups are.
 
+use crate::assembly::origin_of;
 use crate::polygon;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -12,7 +13,9 @@ pub(super) const NONE: u32 = u32::MAX;
 /// The content of an OBJ file.
 #[derive(Default)]
 pub(crate) struct ObjFile {
-    pub(super) positions: Vec<Vec3>,
+    pub(super) positions: Vec<DVec3>,
+    /// The point from which the positions of meshes are told.
+    pub(crate) origin: DVec3,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
     /// Colours of the vertices up to the last that has one.
@@ -48,6 +51,16 @@ pub(super) struct Face {
 }
 
 impl ObjFile {
+    /// Tells the positions of meshes from a point nearby, where those of the file are far from the origin of its coordinates.
+    pub(crate) fn settle(&mut self, meters_per_unit: f64) {
+        self.origin = origin_of(self.positions.iter().copied(), meters_per_unit);
+    }
+
+    /// A position as meshes have it.
+    pub(super) fn position(&self, index: u32) -> Vec3 {
+        (self.positions[index as usize] - self.origin).as_vec3()
+    }
+
     /// The mean colour of a group's corners, 0 … 1 as they are written; `None` where none has a colour.
     pub(crate) fn mean_color(&self, group: &Group) -> Option<Vec3> {
         let colors = group.corners.iter().filter_map(|corner| *self.colors.get(corner[0] as usize)?);
@@ -55,7 +68,7 @@ impl ObjFile {
         (count > 0).then(|| (sum / count as f32).clamp(Vec3::ZERO, Vec3::ONE))
     }
 
-    /// The mesh of some groups. Vertices are shared by corners with the same indices, polygons are cut into triangles. Normals
+    /// The mesh of some groups, in positions from [`Self::origin`]. Vertices are shared by corners with the same indices, polygons are cut into triangles. Normals
     /// and texture coordinates are there when any corner has one; corners without one get zero (which is replaced later).
     pub(crate) fn mesh<'g>(&self, groups: impl Iterator<Item = &'g Group> + Clone) -> Mesh {
         let any = |k: usize| groups.clone().any(|g| g.corners.iter().any(|c| c[k] != NONE));
@@ -69,7 +82,7 @@ impl ObjFile {
                 polygon.clear();
                 for &corner in group.corners_of(face) {
                     polygon.push(*known.entry(corner).or_insert_with(|| {
-                        mesh.positions.push(self.positions[corner[0] as usize]);
+                        mesh.positions.push(self.position(corner[0]));
                         if with_uvs {
                             mesh.uvs.push(self.uvs.get(corner[1] as usize).copied().unwrap_or_default());
                         }

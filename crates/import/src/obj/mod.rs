@@ -58,6 +58,7 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
     let mut obj = ObjFile::parse(&bytes, &file)?;
+    obj.settle(assembly.meters_per_unit());
     obj.smooth();
     report(&obj, &mut assembly);
     let own = file.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
@@ -88,7 +89,7 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
             (None, Some(material)) => material.to_string(),
             (None, None) => "part".to_string(),
         };
-        let mesh = assembly.push_mesh(obj.mesh(std::iter::once(group)), &file, &format!("part {name:?}"))?;
+        let mesh = assembly.push_mesh_from(obj.origin, obj.mesh(std::iter::once(group)), &file, &format!("part {name:?}"))?;
         if let Some(mesh) = mesh {
             assembly.push_part(&name, mesh, material, DAffine3::IDENTITY, PartLabel::NONE);
         }

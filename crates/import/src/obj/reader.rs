@@ -3,7 +3,7 @@
 use super::file::{Face, Group, NONE, ObjFile};
 use super::text;
 use crate::ImportError;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -78,8 +78,8 @@ impl Parser<'_> {
             // "off" is 0; groups without a number, as some programs write, are one.
             "s" => self.smoothing = if rest == "off" { 0 } else { rest.parse().unwrap_or(1) },
             "v" => {
-                let [x, y, z] = self.numbers(rest, 3, number, false)?;
-                if !(x.is_finite() && y.is_finite() && z.is_finite()) {
+                let position = DVec3::from_array(self.numbers(rest, 3, number, false)?);
+                if !position.as_vec3().is_finite() {
                     let problem = format!("the vertex {rest:?} is not finite; clean the mesh in the program that made it");
                     return Err(self.error(number, problem));
                 }
@@ -90,15 +90,15 @@ impl Parser<'_> {
                     self.obj.colors.resize(self.obj.positions.len(), None);
                     self.obj.colors.push(color);
                 }
-                self.obj.positions.push(Vec3::new(x, y, z));
+                self.obj.positions.push(position);
             }
             "vt" => {
                 let [u, v, _] = self.numbers(rest, 1, number, true)?;
-                self.obj.uvs.push(Vec2::new(u, v));
+                self.obj.uvs.push(Vec2::new(u as f32, v as f32));
             }
             "vn" => {
                 let n = self.numbers(rest, 3, number, true)?;
-                self.obj.normals.push(Vec3::from(n));
+                self.obj.normals.push(Vec3::from(n.map(|v| v as f32)));
             }
             "f" | "fo" => self.face(rest, number)?,
             "o" | "g" => {
@@ -226,7 +226,7 @@ impl Parser<'_> {
     }
 
     /// Up to three numbers, of which `required` must be there. Where `lenient`, what some writers print for "not a number" is one.
-    fn numbers(&self, rest: &str, required: usize, number: usize, lenient: bool) -> Result<[f32; 3], ImportError> {
+    fn numbers(&self, rest: &str, required: usize, number: usize, lenient: bool) -> Result<[f64; 3], ImportError> {
         let mut values = [0.0; 3];
         let mut words = rest.split_whitespace();
         for (i, value) in values.iter_mut().enumerate() {
@@ -235,7 +235,7 @@ impl Parser<'_> {
                 None => return Err(self.error(number, format!("found {i} numbers in {rest:?}, expected {required}"))),
                 Some(word) => {
                     let odd = lenient && (word.to_ascii_lowercase().contains("nan") || word.contains("IND"));
-                    let parsed = word.parse().ok().or(odd.then_some(f32::NAN));
+                    let parsed = word.parse().ok().or(odd.then_some(f64::NAN));
                     *value = parsed.ok_or_else(|| self.error(number, format!("{word:?} is not a number")))?;
                 }
             }

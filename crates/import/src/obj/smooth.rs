@@ -65,19 +65,15 @@ impl ObjFile {
         }
     }
 
-    fn position(&self, corner: &[u32; 3]) -> Vec3 {
-        self.positions[corner[0] as usize]
-    }
-
     fn normal(&self, corners: &[[u32; 3]]) -> Vec3 {
-        let points: Vec<Vec3> = corners.iter().map(|c| self.position(c)).collect();
+        let points: Vec<Vec3> = corners.iter().map(|c| self.position(c[0])).collect();
         newell_normal(&points).normalize_or_zero()
     }
 
     /// The angle of a polygon at its corner `i`.
     fn angle(&self, corners: &[[u32; 3]], i: usize) -> f32 {
         let n = corners.len();
-        let [before, here, after] = [(i + n - 1) % n, i, (i + 1) % n].map(|k| self.position(&corners[k]));
+        let [before, here, after] = [(i + n - 1) % n, i, (i + 1) % n].map(|k| self.position(corners[k][0]));
         (before - here).normalize_or_zero().dot((after - here).normalize_or_zero()).clamp(-1.0, 1.0).acos()
     }
 }

@@ -34,9 +34,9 @@ impl Reader<'_> {
                     self.warn(&params.place, "the picture of intensities was dropped; the light shines alike in all directions");
                     params.ignore(&["filename", "mapname"]);
                 }
-                let position = file_from_light.transform_point3(params.point_or("from", DVec3::ZERO)?).as_vec3();
+                let at = file_from_light.transform_point3(params.point_or("from", DVec3::ZERO)?);
                 let intensity = self.emitted(params, "I")? * power_factor(params, 4.0 * PI)?;
-                self.a.push_light(Light::Point { name, position, intensity });
+                self.a.push_light_at(at, Light::Point { name, position: at.as_vec3(), intensity });
             }
             _ => {
                 self.warn(&params.place, format!("{class} lights are not supported; it was left out"));
@@ -66,15 +66,17 @@ impl Reader<'_> {
                 "between its two angles the light dims by the second power of a line in the cosine, not by the fourth",
             );
         }
-        self.a.push_light(Light::Spot {
+        let at = file_from_light.transform_point3(from);
+        let light = Light::Spot {
             name,
-            position: file_from_light.transform_point3(from).as_vec3(),
+            position: at.as_vec3(),
             direction: file_from_light.transform_vector3(to - from).normalize_or_zero().as_vec3(),
             intensity,
             inner_rad: inner.to_radians() as f32,
             outer_rad: outer.to_radians() as f32,
             falloff,
-        });
+        };
+        self.a.push_light_at(at, light);
         Ok(())
     }
 

@@ -8,10 +8,11 @@ use super::round;
 use super::state::Saved;
 use super::version::Version;
 use crate::ImportError;
+use crate::assembly::{origin_of, positions_from};
 use crate::mesh;
 use crate::ply;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Vec2, Vec3};
+use enfilade_math::{DAffine3, DVec3, Vec2, Vec3};
 use enfilade_scene::{Alpha, PartLabel, ScalarParam};
 use std::path::Path;
 
@@ -105,7 +106,7 @@ impl Reader<'_> {
             return Ok(known);
         }
         let (file, bytes) = self.a.read(path)?;
-        let ply = ply::read(&unpacked(bytes, &file)?, &file, false)?;
+        let ply = ply::read(&unpacked(bytes, &file)?, &file, false, self.a.meters_per_unit())?;
         if ply.mean_color.is_some() {
             self.warn(&params.place, "the colours of vertices were dropped");
         }
@@ -115,7 +116,11 @@ impl Reader<'_> {
         if let Some(trailing) = ply.trailing {
             self.warn(&params.place, format!("{}: {trailing}", file.display()));
         }
+<<<<<<< HEAD
         let shape = self.keep_mesh(ply.mesh, None, &file, "mesh")?;
+=======
+        let shape = self.keep_mesh(ply.mesh, ply.origin, None, &file, "mesh")?;
+>>>>>>> walks
         self.meshes.insert(key, shape);
         Ok(shape)
     }
@@ -126,21 +131,25 @@ impl Reader<'_> {
         if let Some(known) = round.as_ref().and_then(|key| self.meshes.get(key)) {
             return Ok(*known);
         }
-        let (mesh, pieces) = match class {
-            "trianglemesh" => (triangle_mesh(params)?, None),
+        let unit = self.a.meters_per_unit();
+        let (mesh, origin, pieces) = match class {
+            "trianglemesh" => {
+                let (mesh, origin) = triangle_mesh(params, unit)?;
+                (mesh, origin, None)
+            }
             "loopsubdiv" => {
                 self.warn(&params.place, "subdivision is not supported; the control mesh stands in, with smooth normals");
                 params.ignore(&["levels", "nlevels", "scheme"]);
-                let mut mesh = triangle_mesh(params)?;
+                let (mut mesh, origin) = triangle_mesh(params, unit)?;
                 mesh::add_smooth_normals(&mut mesh);
-                (mesh, None)
+                (mesh, origin, None)
             }
             "bilinearmesh" => {
-                let (mesh, patches) = bilinear_mesh(params)?;
-                (mesh, Some(patches))
+                let (mesh, origin, patches) = bilinear_mesh(params, unit)?;
+                (mesh, origin, Some(patches))
             }
             _ => match round::mesh(class, params)? {
-                Some(mesh) => (mesh, Some(1)),
+                Some(mesh) => (mesh, DVec3::ZERO, Some(1)),
                 None => {
                     self.warn(&params.place, format!("{class} shapes are not supported; it was left out"));
                     return Ok(None);
@@ -148,7 +157,7 @@ impl Reader<'_> {
             },
         };
         let file = params.place.file.clone();
-        let shape = self.keep_mesh(mesh, pieces, &file, &params.place.text())?;
+        let shape = self.keep_mesh(mesh, origin, pieces, &file, &params.place.text())?;
         if let Some(key) = round {
             self.meshes.insert(key, shape);
         }
@@ -156,14 +165,21 @@ impl Reader<'_> {
     }
 
     /// Adds a mesh whose faces have been turned to its normals, or away from them under `ReverseOrientation`.
-    fn keep_mesh(&mut self, mut mesh: Mesh, pieces: Option<usize>, file: &Path, place: &str) -> Result<Option<Shape>, ImportError> {
+    fn keep_mesh(
+        &mut self,
+        mut mesh: Mesh,
+        origin: DVec3,
+        pieces: Option<usize>,
+        file: &Path,
+        place: &str,
+    ) -> Result<Option<Shape>, ImportError> {
         mesh::turn_faces_to_normals(&mut mesh);
         if self.state.reversed {
             mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
             mesh.normals.iter_mut().for_each(|n| *n = -*n);
         }
         let (pieces, has_uvs) = (pieces.unwrap_or(mesh.triangles.len()), !mesh.uvs.is_empty());
-        Ok(self.a.push_mesh(mesh, file, place)?.map(|mesh| Shape { mesh, pieces, has_uvs }))
+        Ok(self.a.push_mesh_from(origin, mesh, file, place)?.map(|mesh| Shape { mesh, pieces, has_uvs }))
     }
 
     /// What `alpha` cuts out: in version 3 only where it is zero, in version 4 with its probability.
@@ -187,9 +203,9 @@ impl Reader<'_> {
     }
 }
 
-/// `P`, `N`, `uv` (or `st`) and `indices`, which a single triangle may omit.
-fn triangle_mesh(params: &Params) -> Result<Mesh, ImportError> {
-    let mut mesh = vertices(params)?;
+/// `P`, `N`, `uv` (or `st`) and `indices`, which a single triangle may omit; and the point from which positions are told.
+fn triangle_mesh(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3), ImportError> {
+    let (mut mesh, origin) = vertices(params, meters_per_unit)?;
     let count = mesh.positions.len();
     let mut indices = params.indices("indices", count)?;
     if indices.is_empty() && count == 3 {
@@ -200,32 +216,34 @@ fn triangle_mesh(params: &Params) -> Result<Mesh, ImportError> {
     }
     mesh.triangles = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
     params.ignore(&["faceIndices"]);
-    Ok(mesh)
+    Ok((mesh, origin))
 }
 
-fn vertices(params: &Params) -> Result<Mesh, ImportError> {
-    let points = |name: &str, size: usize| -> Result<Vec<Vec3>, ImportError> {
+fn vertices(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3), ImportError> {
+    let points = |name: &str, size: usize| -> Result<Vec<DVec3>, ImportError> {
         let n = params.numbers(name)?;
         if !n.len().is_multiple_of(size) {
             return Err(params.place.error(format!("{name} has {} numbers, expected {size} to a vertex", n.len())));
         }
-        Ok(n.chunks_exact(size).map(|p| Vec3::new(p[0] as f32, p[1] as f32, if size > 2 { p[2] as f32 } else { 0.0 })).collect())
+        Ok(n.chunks_exact(size).map(|p| DVec3::new(p[0], p[1], if size > 2 { p[2] } else { 0.0 })).collect())
     };
-    let (positions, normals) = (points("P", 3)?, points("N", 3)?);
+    let (positions, normals) = (points("P", 3)?, positions_from(DVec3::ZERO, &points("N", 3)?));
     let uv_name = if params.has("uv") { "uv" } else { "st" };
     // Version 3 allows plain numbers in pairs.
-    let uvs: Vec<Vec2> = points(uv_name, 2)?.into_iter().map(Vec3::truncate).collect();
+    let uvs: Vec<Vec2> = points(uv_name, 2)?.into_iter().map(|uv| uv.truncate().as_vec2()).collect();
     for (what, found) in [("normals (N)", normals.len()), ("texture coordinates (uv)", uvs.len())] {
         if found != 0 && found != positions.len() {
             return Err(params.place.error(format!("found {found} {what} for {} vertices (P), expected as many", positions.len())));
         }
     }
-    Ok(Mesh { positions, normals, uvs, triangles: Vec::new() })
+    let origin = origin_of(positions.iter().copied(), meters_per_unit);
+    Ok((Mesh { positions: positions_from(origin, &positions), normals, uvs, triangles: Vec::new() }, origin))
 }
 
-/// Patches of four corners, (0,0), (1,0), (0,1), (1,1) in their own coordinates, each with vertices of its own; and how many.
-fn bilinear_mesh(params: &Params) -> Result<(Mesh, usize), ImportError> {
-    let v = vertices(params)?;
+/// Patches of four corners, (0,0), (1,0), (0,1), (1,1) in their own coordinates, each with vertices of its own; the point from which positions
+/// are told; and how many patches.
+fn bilinear_mesh(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3, usize), ImportError> {
+    let (v, origin) = vertices(params, meters_per_unit)?;
     let mut indices = params.indices("indices", v.positions.len())?;
     if indices.is_empty() && v.positions.len() == 4 {
         indices = vec![0, 1, 2, 3];
@@ -244,7 +262,7 @@ fn bilinear_mesh(params: &Params) -> Result<(Mesh, usize), ImportError> {
         let size = (p[1] - p[0]).length() * (p[2] - p[0]).length() * (p[3] - p[0]).length();
         add_patch(&mut mesh, &v, patch, if bent > 1e-4 * size { cuts } else { 1 });
     }
-    Ok((mesh, indices.len() / 4))
+    Ok((mesh, origin, indices.len() / 4))
 }
 
 fn add_patch(mesh: &mut Mesh, v: &Mesh, patch: &[u32], cuts: u32) {

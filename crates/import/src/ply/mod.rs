@@ -40,7 +40,7 @@ const GREY: f32 = 0.5;
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
-    let ply = read(&bytes, &file, false)?;
+    let ply = read(&bytes, &file, false, assembly.meters_per_unit())?;
     if ply.mesh.triangles.is_empty() {
         let problem = format!(
             "the file has {} vertices but no faces: a cloud of points has no surface to render; make a mesh of it first",
@@ -71,7 +71,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     };
     let material = Material { bsdf: Bsdf::Diffuse { reflectance }, ..Material::diffuse(name.clone(), Rgb::splat(GREY)) };
     let material = assembly.push_material(material);
-    if let Some(mesh) = assembly.push_mesh(ply.mesh, &file, "mesh")? {
+    if let Some(mesh) = assembly.push_mesh_from(ply.origin, ply.mesh, &file, "mesh")? {
         assembly.push_part(&name, mesh, material, DAffine3::IDENTITY, PartLabel::NONE);
     }
     assembly.finish()

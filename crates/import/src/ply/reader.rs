@@ -5,8 +5,9 @@ use super::faces::Faces;
 use super::header::{Element, Problem, parse_header};
 use super::values::Values;
 use crate::ImportError;
+use crate::assembly::{origin_of, positions_from};
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 use std::path::Path;
 
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
@@ -24,6 +25,8 @@ const TEXCOORD: [&str; 1] = ["texcoord"];
 pub(crate) struct PlyFile {
     /// Its mesh, with texture coordinates as they are. Without faces it has no triangles.
     pub mesh: Mesh,
+    /// The point from which its positions are told: zero unless they are far from the origin of their coordinates.
+    pub origin: DVec3,
     /// Mean of the colours of the vertices, or of the faces, 0 … 1 as they are written; `None` when they have none.
     pub mean_color: Option<[f64; 3]>,
     /// Means of the attributes of vertices and faces, where they were wanted.
@@ -38,21 +41,26 @@ pub(crate) struct PlyFile {
     pub trailing: Option<String>,
 }
 
-/// Reads the elements `vertex`, `face` and `tristrips`, in any order; the means of attributes where they are `wanted`.
+/// Reads the elements `vertex`, `face` and `tristrips`, in any order; the means of attributes where they are `wanted`. The unit of the file
+/// decides what is far.
 ///
 /// # Errors
 /// When the header or a value is not what the format calls for, or a face refers to a vertex that is not there.
-pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool) -> Result<PlyFile, ImportError> {
+pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool, meters_per_unit: f64) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values::new(header.encoding, body, header.lines);
+<<<<<<< HEAD
     let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
+=======
+    let (mut mesh, mut points, mut faces) = (Mesh::default(), Vec::new(), Faces::default());
+>>>>>>> walks
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
     let mut means = wanted.then(Means::default);
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => {
-                of_vertices = read_vertices(element, &mut values, &mut mesh, means.as_mut()).map_err(error)?;
+                of_vertices = read_vertices(element, &mut values, &mut points, &mut mesh, means.as_mut()).map_err(error)?;
                 unused.extend(element.unread(&[&COORDINATES, &NORMAL, U, V, &RED, &GREEN, &BLUE]));
             }
             "face" => {
@@ -73,10 +81,16 @@ pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool) -> Result<PlyFile, I
             }
         }
     }
+    let origin = origin_of(points.iter().copied(), meters_per_unit);
+    mesh.positions = positions_from(origin, &points);
     faces.cut_into(&mut mesh).map_err(error)?;
     let means = means.unwrap_or_default();
     let trailing = values.trailing();
+<<<<<<< HEAD
     Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures, trailing })
+=======
+    Ok(PlyFile { mesh, origin, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures, trailing })
+>>>>>>> walks
 }
 
 impl Element {
@@ -98,8 +112,14 @@ impl Element {
     }
 }
 
-/// Reads the vertices and returns the mean of their colours, if they have any.
-fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means: Option<&mut Means>) -> Result<Option<[f64; 3]>, Problem> {
+/// Reads the vertices, their positions as `points`, and returns the mean of their colours, if they have any.
+fn read_vertices(
+    element: &Element,
+    values: &mut Values,
+    points: &mut Vec<DVec3>,
+    mesh: &mut Mesh,
+    means: Option<&mut Means>,
+) -> Result<Option<[f64; 3]>, Problem> {
     let [x, y, z] = COORDINATES.map(|n| element.index_of(&[n]));
     let (Some(x), Some(y), Some(z)) = (x, y, z) else {
         return Err(("header".into(), "the vertices have no x, y and z; export the file with them".into()));
@@ -113,7 +133,7 @@ fn read_vertices(element: &Element, values: &mut Values, mesh: &mut Mesh, means:
             row[i] = value;
             attributes.add(i, value);
         })?;
-        mesh.positions.push(Vec3::new(row[x] as f32, row[y] as f32, row[z] as f32));
+        points.push(DVec3::new(row[x], row[y], row[z]));
         if let [Some(a), Some(b), Some(c)] = normal {
             mesh.normals.push(Vec3::new(row[a] as f32, row[b] as f32, row[c] as f32));
         }
@@ -226,16 +246,16 @@ mod tests {
     #[test]
     fn text_and_binary_of_both_orders_give_the_same_mesh() {
         let text = format!("ply\nformat ascii 1.0\n{HEADER}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n");
-        let ply = read(text.as_bytes(), Path::new("a.ply"), false).unwrap();
+        let ply = read(text.as_bytes(), Path::new("a.ply"), false, 1.0).unwrap();
         assert_eq!((ply.mesh.positions[2], ply.mesh.triangles.len(), ply.mean_color), (Vec3::new(1.0, 1.0, 2.0), 2, None));
         for big in [false, true] {
-            assert_eq!(read(&binary(big), Path::new("a.ply"), false).unwrap(), ply);
+            assert_eq!(read(&binary(big), Path::new("a.ply"), false, 1.0).unwrap(), ply);
         }
     }
 
     #[test]
     fn damage_is_named() {
-        let message = |bytes: &[u8]| read(bytes, Path::new("a.ply"), false).unwrap_err().to_string();
+        let message = |bytes: &[u8]| read(bytes, Path::new("a.ply"), false, 1.0).unwrap_err().to_string();
         let whole = binary(false);
         assert!(message(&whole[..whole.len() - 3]).contains("cut short"));
         assert!(message(b"ply\nformat ascii 1.0\nelement vertex 1\n").contains("header does not end"));
@@ -246,7 +266,11 @@ mod tests {
 
     /// A text file of the header's two elements, whose body begins in line 11.
     fn text(body: &str) -> Result<PlyFile, String> {
+<<<<<<< HEAD
         read(format!("ply\nformat ascii 1.0\n{HEADER}{body}").as_bytes(), Path::new("a.ply"), false).map_err(|e| e.to_string())
+=======
+        read(format!("ply\nformat ascii 1.0\n{HEADER}{body}").as_bytes(), Path::new("a.ply"), false, 1.0).map_err(|e| e.to_string())
+>>>>>>> walks
     }
 
     #[test]
@@ -272,9 +296,15 @@ mod tests {
         assert_eq!(wrapped, plain);
         let more = text("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n3 0 1 2\n\n3 0 2 3\n").unwrap();
         assert_eq!(more.trailing.as_deref(), Some("2 lines follow the last row that the header announces; they were left out"));
+<<<<<<< HEAD
         let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false).unwrap();
         assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
         assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false).unwrap(), plain);
+=======
+        let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false, 1.0).unwrap();
+        assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
+        assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false, 1.0).unwrap(), plain);
+>>>>>>> walks
     }
 
     #[test]
@@ -283,8 +313,9 @@ mod tests {
         let strips = "element tristrips 1\nproperty list int int vertex_indices\n";
         let faces = "element face 2\nproperty list uchar int vertex_indices\n";
         let points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
-        let triangles =
-            |text: String| read(format!("ply\nformat ascii 1.0\n{text}").as_bytes(), Path::new("a.ply"), false).unwrap().mesh.triangles;
+        let triangles = |text: String| {
+            read(format!("ply\nformat ascii 1.0\n{text}").as_bytes(), Path::new("a.ply"), false, 1.0).unwrap().mesh.triangles
+        };
         let expected = vec![[0, 1, 2], [2, 1, 3]];
         assert_eq!(triangles(format!("{faces}{vertices}end_header\n3 0 1 2\n3 2 1 3\n{points}")), expected);
         assert_eq!(triangles(format!("{vertices}{strips}end_header\n{points}4 0 1 2 3\n")), expected);
@@ -297,7 +328,7 @@ mod tests {
                     element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty uchar red\n\
                     property uchar green\nproperty uchar blue\nend_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\
                     3 0 1 2 6 0 0 1 0 0 1 255 0 0\n3 2 1 0 6 0 1 1 0 0.5 0.5 255 0 0\n";
-        let ply = read(text.as_bytes(), Path::new("a.ply"), false).unwrap();
+        let ply = read(text.as_bytes(), Path::new("a.ply"), false, 1.0).unwrap();
         assert_eq!(ply.mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
         assert_eq!(ply.mesh.uvs, [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::splat(0.5)]);
         assert_eq!((ply.mean_color, ply.unused), (Some([1.0, 0.0, 0.0]), vec![("vertex".to_string(), vec!["alpha".to_string()])]));

@@ -165,7 +165,7 @@ impl Lamp<'_> {
         if let Some(asset) = profile {
             return self.profile(stage, &asset, intensity, a);
         }
-        a.push_light(if cone < 90.0 {
+        let light = if cone < 90.0 {
             let direction = self.file_from_prim.transform_vector3(DVec3::NEG_Z).normalize_or_zero().as_vec3();
             let (outer, softness) = (cone.max(0.0).to_radians(), softness.clamp(0.0, 1.0));
             // Blender writes its blend as it is.
@@ -176,7 +176,8 @@ impl Lamp<'_> {
             Light::Spot { name, position, direction, intensity, inner_rad: inner as f32, outer_rad: outer as f32, falloff }
         } else {
             Light::Point { name, position, intensity }
-        });
+        };
+        a.push_light_at(self.file_from_prim.translation, light);
         Ok(())
     }
 
@@ -236,7 +237,8 @@ impl Lamp<'_> {
         }
         let position = self.file_from_prim.translation.as_vec3();
         let web_from_world = axes.transpose().as_mat3();
-        a.push_light(Light::Profile { name: name(self.prim), position, web_from_world, intensity, web: Box::new(parsed.web) });
+        let light = Light::Profile { name: name(self.prim), position, web_from_world, intensity, web: Box::new(parsed.web) };
+        a.push_light_at(self.file_from_prim.translation, light);
         Ok(())
     }
 

@@ -12,6 +12,7 @@ use super::walk::{Piece, Shape, State, Walk};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
+use enfilade_math::DVec3;
 use std::rc::Rc;
 
 impl Walk<'_> {
@@ -20,7 +21,7 @@ impl Walk<'_> {
         let shape = match self.pieces.get(&key) {
             Some(known) => known.clone(),
             None => {
-                let mesh = pushed(mesh, prim, a)?;
+                let mesh = pushed(DVec3::ZERO, mesh, prim, a)?;
                 let pieces = mesh.into_iter().map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default() }).collect();
                 Shape { pieces, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
             }
@@ -83,7 +84,7 @@ impl Walk<'_> {
             };
             let uvs = uvs(prim, wanted.as_deref().unwrap_or(uv_name), sizes, a);
             let mesh = polygons.mesh(faces.into_iter(), uvs.as_ref());
-            if let Some(mesh) = pushed(mesh, prim, a)? {
+            if let Some(mesh) = pushed(polygons.origin, mesh, prim, a)? {
                 pieces.push(Piece { mesh, name, bindings });
             }
         }
@@ -132,9 +133,9 @@ fn faces_of(subset: &Prim, taken: &mut [bool], a: &mut Assembly) -> Vec<usize> {
 }
 
 /// Scene index of a mesh; `None` for an empty one, and with a warning for one that makes no sense.
-fn pushed(mesh: Mesh, prim: &Prim, a: &mut Assembly) -> Result<Option<u32>, ImportError> {
+fn pushed(origin: DVec3, mesh: Mesh, prim: &Prim, a: &mut Assembly) -> Result<Option<u32>, ImportError> {
     let file = a.file().to_path_buf();
-    match a.push_mesh(mesh, &file, &prim.path) {
+    match a.push_mesh_from(origin, mesh, &file, &prim.path) {
         Err(ImportError::Malformed { problem, .. }) => {
             a.warn(&prim.path, format!("{problem}; the mesh was left out"));
             Ok(None)

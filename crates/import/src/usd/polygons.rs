@@ -2,11 +2,11 @@
 
 use super::primvar::{Primvar, Sizes};
 use super::stage::Prim;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, origin_of, positions_from};
 use crate::mesh::add_smooth_normals;
 use crate::polygon::triangulate;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 
 /// Cutting a larger polygon into triangles could take hours.
@@ -15,6 +15,8 @@ const MAX_CORNERS: usize = 4096;
 /// A mesh prim's points and faces, checked.
 pub(super) struct Polygons {
     points: Vec<Vec3>,
+    /// The point from which the points are told.
+    pub origin: DVec3,
     /// Point of each corner.
     corners: Vec<u32>,
     /// First corner and number of corners of each face.
@@ -34,7 +36,9 @@ impl Polygons {
     /// The attribute, and what is wrong with it, when counts and indices do not fit each other.
     pub(super) fn read(prim: &Prim, a: &mut Assembly) -> Result<Self, (&'static str, String)> {
         let numbers = |name: &str, width: usize| prim.value(name).and_then(|v| v.as_numbers(width)).unwrap_or(&[]);
-        let points: Vec<Vec3> = numbers("points", 3).as_chunks::<3>().0.iter().map(|p| Vec3::from_array(p.map(|c| c as f32))).collect();
+        let points: Vec<DVec3> = numbers("points", 3).as_chunks::<3>().0.iter().map(|p| DVec3::from_array(*p)).collect();
+        let origin = origin_of(points.iter().copied(), a.meters_per_unit());
+        let points = positions_from(origin, &points);
         let (counts, indices) = (numbers("faceVertexCounts", 1), numbers("faceVertexIndices", 1));
         let mut faces = Vec::with_capacity(counts.len());
         let mut next = 0usize;
@@ -67,6 +71,7 @@ impl Polygons {
             Primvar::read(prim, "primvars:normals", "vertex", sizes, a).or_else(|| Primvar::read(prim, "normals", "vertex", sizes, a));
         Ok(Self {
             points,
+            origin,
             corners,
             faces,
             left_handed: prim.text("orientation") == Some("leftHanded"),

@@ -28,13 +28,16 @@ impl<'n> Reader<'n, '_> {
             "LightIES" => self.profile(light)?,
             kind if kind.starts_with("LightOmni") => {
                 let intensity = self.intensity(light, 4.0 * PI)?;
-                self.a.push_light(Light::Point { name, position, intensity });
+                self.a.push_light_at(placement.translation, Light::Point { name, position, intensity });
             }
             _ => {
                 let (inner, outer) = self.cone(light)?;
                 let intensity = self.intensity(light, 2.0 * PI * (1.0 - outer.cos()))?;
                 let (inner_rad, outer_rad, falloff) = (inner as f32, outer as f32, SpotFalloff::Angle);
-                self.a.push_light(Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff });
+                self.a.push_light_at(
+                    placement.translation,
+                    Light::Spot { name, position, direction, intensity, inner_rad, outer_rad, falloff },
+                );
             }
         }
         Ok(())

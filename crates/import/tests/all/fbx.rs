@@ -206,6 +206,18 @@ fn pictures_are_scaled_turned_and_moved_in_this_order() {
     }
 }
 
+#[test]
+fn pictures_within_the_file_may_be_tga_which_begins_in_no_certain_way() {
+    let folder = Folder::new();
+    // A picture of one texel of 24 bits, blue first.
+    let tga = [&[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0][..], &[60, 100, 150]].concat();
+    for name in ["wood.tga", "C:\\tex\\wood.TGA", "wood"] {
+        let imported = load(&folder, &with_picture(vec![], &["DiffuseColor"], name, name, Some(tga.clone())));
+        let image = &imported.scene.images[picture_of(&imported).image as usize];
+        assert_eq!(image.pixels, enfilade_scene::Pixels::Rgba8 { srgb: true, texels: vec![[150, 100, 60, 255]] }, "{name}");
+    }
+}
+
 /// A mapping of scale (2, 3), turned by 30 degrees and moved by (0.2, 0.3).
 #[test]
 fn blenders_mapping_is_undone_as_its_exporter_writes_it() {

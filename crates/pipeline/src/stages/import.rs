@@ -64,12 +64,12 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let (scene, labels, inputs, report) = match &job.scene.source {
+    let (scene, labels, inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
             // Its files were known before, and hashed.
-            (home.scene, Some(home.labels), None, report)
+            (home.scene, Some(home.labels), None, report, None)
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);
@@ -77,12 +77,13 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
             let inputs = watch.inputs(&[imported.inputs, imported.missing].concat())?;
-            (imported.scene, labels, Some(inputs), report)
+            (imported.scene, labels, Some(inputs), report, imported.report.offset_m)
         }
     };
     let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
     remove_frames_of_other_scenes(job, &package, &bytes)?;
     job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
+    offset_m.map_or(Ok(()), |offset_m| job.dataset.write_offset(name, offset_m)).map_err(Error::stage)?;
     write_bytes(&package, &bytes)?;
     let labels_file = job.work_file(LABELS)?;
     write_json(&labels_file, &labels)?;
