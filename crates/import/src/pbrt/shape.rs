@@ -116,11 +116,7 @@ impl Reader<'_> {
         if let Some(trailing) = ply.trailing {
             self.warn(&params.place, format!("{}: {trailing}", file.display()));
         }
-<<<<<<< HEAD
-        let shape = self.keep_mesh(ply.mesh, None, &file, "mesh")?;
-=======
         let shape = self.keep_mesh(ply.mesh, ply.origin, None, &file, "mesh")?;
->>>>>>> walks
         self.meshes.insert(key, shape);
         Ok(shape)
     }

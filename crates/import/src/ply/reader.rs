@@ -50,11 +50,7 @@ pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool, meters_per_unit: f64
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
     let mut values = Values::new(header.encoding, body, header.lines);
-<<<<<<< HEAD
-    let (mut mesh, mut faces) = (Mesh::default(), Faces::default());
-=======
     let (mut mesh, mut points, mut faces) = (Mesh::default(), Vec::new(), Faces::default());
->>>>>>> walks
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
     let mut means = wanted.then(Means::default);
     for element in &header.elements {
@@ -86,11 +82,7 @@ pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool, meters_per_unit: f64
     faces.cut_into(&mut mesh).map_err(error)?;
     let means = means.unwrap_or_default();
     let trailing = values.trailing();
-<<<<<<< HEAD
-    Ok(PlyFile { mesh, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures, trailing })
-=======
     Ok(PlyFile { mesh, origin, mean_color: of_vertices.or(of_faces), means, skipped, unused, pictures: header.pictures, trailing })
->>>>>>> walks
 }
 
 impl Element {
@@ -266,11 +258,7 @@ mod tests {
 
     /// A text file of the header's two elements, whose body begins in line 11.
     fn text(body: &str) -> Result<PlyFile, String> {
-<<<<<<< HEAD
-        read(format!("ply\nformat ascii 1.0\n{HEADER}{body}").as_bytes(), Path::new("a.ply"), false).map_err(|e| e.to_string())
-=======
         read(format!("ply\nformat ascii 1.0\n{HEADER}{body}").as_bytes(), Path::new("a.ply"), false, 1.0).map_err(|e| e.to_string())
->>>>>>> walks
     }
 
     #[test]
@@ -296,15 +284,9 @@ mod tests {
         assert_eq!(wrapped, plain);
         let more = text("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n3 0 1 2\n\n3 0 2 3\n").unwrap();
         assert_eq!(more.trailing.as_deref(), Some("2 lines follow the last row that the header announces; they were left out"));
-<<<<<<< HEAD
-        let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false).unwrap();
-        assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
-        assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false).unwrap(), plain);
-=======
         let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false, 1.0).unwrap();
         assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
         assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false, 1.0).unwrap(), plain);
->>>>>>> walks
     }
 
     #[test]

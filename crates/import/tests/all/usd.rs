@@ -231,14 +231,7 @@ fn the_first_sample_comes_before_the_value_without_time_of_the_same_layer() {
         def Cube "Blocked" { double size = 7
         double size.timeSamples = { 0: None } }"#;
     folder.write("weaker.usda", layer(weaker));
-<<<<<<< HEAD
     folder.write("stronger.usda", "#usda 1.0\n( subLayers = [@weaker.usda@] metersPerUnit = 1 )\nover \"Box\" { double size = 5 }\n");
-=======
-    folder.write(
-        "stronger.usda",
-        format!("#usda 1.0\n( subLayers = [@weaker.usda@] metersPerUnit = 1 )\nover \"Box\" {{ double size = 5 }}\n"),
-    );
->>>>>>> walks
     let size = |file: &str, name: &str| {
         let scene = folder.load(file).unwrap().scene;
         let part = part(&scene, name);
