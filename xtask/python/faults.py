@@ -17,6 +17,8 @@ from slurm import Cluster, signal_to
 
 # A job of this size takes seconds on an idle machine; this is for busy ones.
 PATIENCE = 420
+# A full store stays full for so long, seconds: every worker has tried to hand in a frame by then.
+HELD = 20
 # Machines at the dollars per vCPU-hour that half of Hypersim's rendering was paid at or below, and its licence by the minute.
 PRICE = Path(__file__).resolve().parents[1] / "cluster" / "machines.csv"
 
@@ -188,6 +190,19 @@ def grow(place):
     return after_a_failure
 
 
+def grow_store(trial):
+    """Gives room to a store that is full: workers hold the frames that they could not hand in, and try again."""
+
+    def is_full():
+        left = shutil.disk_usage(trial.job).free
+        frames = [path.stat().st_size for path in trial.job.glob("frames/**/*.tar")]
+        return bool(frames) and left < max(frames)
+
+    trial.cluster.wait_until(is_full, PATIENCE, "a store that has no room for another frame")
+    time.sleep(HELD)
+    subprocess.run(["mount", "-o", "remount,size=200m", str(trial.job)], check=True)
+
+
 def mount(path, size):
     path.mkdir(parents=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(path)], check=True)
@@ -247,6 +262,6 @@ FAULTS = [
     Fault("old attempt ends last", "a node's daemon is killed and its worker stopped until another has made its frame", during=stall, after=counts(lost=1)),
     Fault("controller restarted", "the controller is killed for 5 s while frames are made", '[ "$task" -lt 3 ] || until [ -e {go} ]; do sleep 0.2; done', during=restart_controller),
     Fault("node's disk full", "the first node's disk has 200 KB, and more after a failure", before=small_disk, during=grow(lambda trial: trial.disks / "n1"), after=counts(transient=1), mounts=True),
-    Fault("store full", "the store has room for some frames, and for more after a failure", before=small_store, during=grow(lambda trial: trial.job), after=counts(restarts=1), mounts=True),
+    Fault("store full", "the store has room for some frames, and for more 20 s later; workers hold what they could not hand in", before=small_store, during=grow_store, mounts=True),
     Fault("clock skew", "clocks of two nodes are two days fast and three hours slow", SKEW, after=clocks),
 ]  # fmt: skip

@@ -47,7 +47,7 @@ fn dds(code: u32, dxgi: Option<u32>) -> Vec<u8> {
     words[..5].copy_from_slice(&[u32::from_le_bytes(*b"DDS "), 124, 0x1007, 3, 2]);
     words[19..22].copy_from_slice(&[32, 4, code]);
     let extension = dxgi.into_iter().flat_map(|format| [format, 3, 0, 1, 0]);
-    words.into_iter().chain(extension).flat_map(u32::to_le_bytes).chain((0..16).map(|i| 37 * i)).collect()
+    words.into_iter().chain(extension).flat_map(u32::to_le_bytes).chain((0..16u8).map(|i| i.wrapping_mul(37))).collect()
 }
 
 fn exr() -> Vec<u8> {
