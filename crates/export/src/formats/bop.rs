@@ -145,7 +145,7 @@ fn objects_of(selected: &SelectedFrames<'_>, scene: &str, first_id: u32) -> Resu
     let mut meshes = instance_meshes(selected.dataset, scene)?;
     let boxes = instance_boxes(selected.dataset, scene, &meshes)?;
     if boxes.is_empty() {
-        return Err(selected.unsuitable(scene, &without_objects(selected, scene)));
+        return Err(selected.unsuitable(scene, without_objects(selected, scene)));
     }
     let object = |(id, (number, shape))| (number, Object { id, shape, mesh: meshes.remove(&number) });
     Ok((first_id..).zip(boxes).map(object).collect())

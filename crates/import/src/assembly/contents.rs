@@ -89,7 +89,7 @@ impl Assembly<'_> {
     pub(crate) fn push_part(&mut self, name: &str, mut mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
         let mut world_from_mesh = self.world_from_file * file_from_mesh;
         if let Some(origin) = self.origins.get(&mesh) {
-            world_from_mesh = world_from_mesh * DAffine3::from_translation(*origin);
+            world_from_mesh *= DAffine3::from_translation(*origin);
         }
         let m = world_from_mesh.matrix3;
         let determinant = m.determinant();
