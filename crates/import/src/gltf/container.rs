@@ -1,7 +1,7 @@
 //! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
 
 use super::uri::{Uri, resolve_uri};
-use super::{lumens, omissions, transform};
+use super::{far, lumens, omissions};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DVec3;
@@ -41,7 +41,7 @@ pub(super) struct Document {
     pub buffers: Vec<Vec<u8>>,
     /// Numbers that accessors without a buffer view may still ask for.
     pub zeros_left: Cell<u64>,
-    /// Large translations of nodes, see `transform.rs`.
+    /// Large translations of nodes, see `far.rs`.
     pub far_translations: HashMap<usize, DVec3>,
     /// What the strengths of its lights are divided by.
     pub lumens_per_watt: f32,
@@ -68,7 +68,7 @@ impl Document {
             buffers.push(if unused { Vec::new() } else { read_buffer(i, b, binary, assembly)? });
         }
         let lumens_per_watt = lumens::per_watt(&root, assembly);
-        let far_translations = transform::far_translations(&root.nodes, json);
+        let far_translations = far::far_translations(&root.nodes, json);
         Ok(Self { root, far_translations, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
     }
 

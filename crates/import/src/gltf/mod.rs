@@ -33,6 +33,7 @@ mod accessor;
 mod color;
 mod container;
 mod environment;
+mod far;
 mod file_material;
 mod gloss;
 mod gloss_pictures;
