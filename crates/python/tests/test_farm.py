@@ -92,7 +92,7 @@ class Farm(unittest.TestCase):
         self.assertEqual((len(added), added[path]), (2, str(float(frame["color"].sum())).encode()))
 
     def test_a_program_that_fails_is_told_and_costs_no_rendering(self):
-        here = datasets.folder() / "farm-failing"
+        here = datasets.folder() / "failing-job"
         here.mkdir()
         (here / "program.py").write_text("import sys\nsys.exit('no weights here')\n")
         job = here / "job"
@@ -107,7 +107,7 @@ class Farm(unittest.TestCase):
 
     @unittest.skipIf(os.name == "nt", "Windows has no signal that a process can send to itself so")
     def test_a_worker_that_is_interrupted_keeps_its_frame(self):
-        job = datasets.folder() / "farm-interrupted"
+        job = datasets.folder() / "interrupted-job"
         farm.plan(job, enfilade.Config.demo(frames=1, size=(64, 48), samples=65536))
 
         def interrupt():
@@ -118,15 +118,15 @@ class Farm(unittest.TestCase):
 
         threading.Thread(target=interrupt, daemon=True).start()
         with self.assertRaises(KeyboardInterrupt):
-            farm.work(job, 0, scratch=datasets.folder() / "farm-scratch")
+            farm.work(job, 0, scratch=datasets.folder() / "node-scratch")
         status = farm.status(job)
         self.assertEqual((status["attempts"], status["complete"]), ({"transient": 1}, False))
         self.assertEqual(len(list(job.glob("kept/*/*/*.partial"))), 1)
 
     def test_what_cannot_be_is_refused(self):
-        folder = datasets.folder() / "farm-wrong"
+        folder = datasets.folder() / "wrong-job"
         for refused, said in [
-            (lambda: farm.status(folder), "farm-wrong does not exist"),
+            (lambda: farm.status(folder), "wrong-job does not exist"),
             (lambda: farm.plan(folder, minutes=0), "cannot take 0 minutes"),
             (lambda: farm.plan(folder, price="cheap"), "is no number, and no table.*--price 0.04"),
             (lambda: farm.submit(folder, "pbs"), "engine is \"pbs\"; expected \"slurm\""),

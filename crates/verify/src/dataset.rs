@@ -12,7 +12,7 @@ use super::walk::{self, Walls};
 use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
 use enfilade_dataset::{
-    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, StereoRecord, StereoSide, loader_problem,
+    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -39,7 +39,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
         whole::check_manifest(&mut card, dataset, manifest, scene);
     }
     let facts = SceneFacts::read(dataset, scene, &mut card);
-    facts.check_walks(dataset, &mut card);
+    facts.check(dataset, &mut card);
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let done = AtomicU64::new(0);
     let check = |&(filmed, index): &(&Filmed, usize)| {
@@ -128,7 +128,7 @@ struct Filmed {
 }
 
 impl SceneFacts {
-    /// Reads them, and checks the laws that concern no single frame.
+    /// Reads them. What cannot be read goes on the card.
     fn read(dataset: &Dataset, name: &str, card: &mut Card) -> Self {
         let nodes = dataset.read_nodes(name);
         // Parts of archives are often downloaded without tables.
@@ -136,7 +136,7 @@ impl SceneFacts {
         let problem = nodes.as_ref().err().filter(|_| !left_out).map(ToString::to_string);
         card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
         let nodes = nodes.unwrap_or_default();
-        let facts = Self {
+        Self {
             name: name.to_string(),
             released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
@@ -144,15 +144,21 @@ impl SceneFacts {
             labels: read_labels(dataset, name, &nodes, card),
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
-        };
-        facts.filmed.iter().filter_map(|f| Some((f, f.camera.as_ref()?))).for_each(|(f, camera)| {
-            facts.check_matrices(dataset, camera, card);
+        }
+    }
+
+    /// Checks the laws that concern no single frame.
+    fn check(&self, dataset: &Dataset, card: &mut Card) {
+        let name = &self.name;
+        self.filmed.iter().filter_map(|f| Some((f, f.camera.as_ref()?))).for_each(|(f, camera)| {
+            self.check_matrices(dataset, camera, card);
             camera_files::check(dataset, name, &f.trajectory, camera, card);
         });
-        facts.check_trajectories(dataset, card);
-        check_mesh(dataset, name, card);
-        boxes::check_boxes(&facts.boxes, name, card);
-        facts
+        let tree = read_tree(dataset, name, card);
+        self.check_trajectories(dataset, tree.as_ref(), card);
+        let mesh = check_mesh(dataset, name, card);
+        boxes::check_boxes(&self.boxes, name, card);
+        self.check_walks(mesh.as_ref(), tree.as_ref(), card);
     }
 
     /// `M_cam_from_uv` and `M_proj` describe the camera where they can, and are not there where they cannot.
@@ -176,9 +182,8 @@ impl SceneFacts {
         }
     }
 
-    fn check_trajectories(&self, dataset: &Dataset, card: &mut Card) {
+    fn check_trajectories(&self, dataset: &Dataset, tree: Option<&OccupancyTree>, card: &mut Card) {
         let name = &self.name;
-        let tree = read_tree(dataset, name, card);
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
         for filmed in &self.filmed {
@@ -191,7 +196,7 @@ impl SceneFacts {
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
             for pose in trajectory.poses.iter().filter(|pose| !rejected.contains_key(&pose.frame)) {
                 self.check_record(dataset, &trajectory.name, camera.as_ref(), pose, card);
-                if let Some(tree) = &tree {
+                if let Some(tree) = tree {
                     let state = tree.state(pose.position);
                     let at = || format!("{place}/frame.{:04}: {:.3} m is {state:?}", pose.frame, pose.position);
                     card.observe(Law::FreeCamera, if rules.may_stand_in(state, pose.frame) { 0.0 } else { 1.0 }, at);
@@ -207,18 +212,16 @@ impl SceneFacts {
     }
 
     /// The laws of walks, for which the scene's mesh is needed.
-    fn check_walks(&self, dataset: &Dataset, card: &mut Card) {
+    fn check_walks(&self, mesh: Option<&MeshGeometry>, tree: Option<&OccupancyTree>, card: &mut Card) {
         let walks = self.filmed.iter().filter(|filmed| !filmed.rules.is_second);
         let walks: Vec<(&Filmed, &WalkBoxes)> = walks.filter_map(|filmed| Some((filmed, filmed.rules.walk.as_ref()?))).collect();
         if walks.is_empty() {
             return;
         }
-        // What of these cannot be read is on the card already.
-        let walls = dataset.mesh_files(&self.name).read().ok().and_then(|mesh| Walls::new(&mesh));
-        let tree = dataset.read_free_space(&self.name).ok().and_then(|(bytes, ..)| OccupancyTree::from_bt(&bytes).ok());
+        let walls = mesh.and_then(Walls::new);
         for (filmed, boxes) in walks {
             let place = format!("{}/{}", self.name, filmed.trajectory.name);
-            card.merge(walk::check(&filmed.trajectory, boxes, walls.as_ref(), tree.as_ref(), &place));
+            card.merge(walk::check(&filmed.trajectory, boxes, walls.as_ref(), tree, &place));
         }
     }
 

@@ -5,7 +5,7 @@ use super::check_labels;
 use super::law::Law;
 use super::rounding::Rounding;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Dataset, DatasetError, Node};
+use enfilade_dataset::{Dataset, DatasetError, MeshGeometry, Node};
 use enfilade_frame::{Dtype, Frame, Layer, LayerSpec, Values, f16};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Labels, PartLabel};
@@ -124,17 +124,18 @@ pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: 
 }
 
 /// The geometry of the mesh folder, of which all is there or nothing: scenes that were rendered elsewhere, and copies for fast reading, have
-/// none, and of Hypersim's release parts are downloaded.
-pub(super) fn check_mesh(dataset: &Dataset, scene: &str, card: &mut Card) {
+/// none, and of Hypersim's release parts are downloaded. The triangles, where they are there.
+pub(super) fn check_mesh(dataset: &Dataset, scene: &str, card: &mut Card) -> Option<MeshGeometry> {
     let files = dataset.mesh_files(scene);
     let is_there = |name: &&str| files.file(name).is_file();
     if dataset.is_released(scene) || !["mesh_vertices.hdf5", "mesh_normals.hdf5", "mesh_faces_vi.hdf5"].iter().any(is_there) {
-        return;
+        return None;
     }
-    readable(card, files.read());
+    let mesh = readable(card, files.read());
     for name in ["mesh_normals.hdf5", "mesh_texcoords.hdf5", "mesh_faces_vni.hdf5", "mesh_faces_vti.hdf5"] {
         readable(card, read_array(&files.file(name)));
     }
+    mesh
 }
 
 /// The free space, if there is one.

@@ -43,6 +43,7 @@ impl Viewer {
             ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| layout.keyframes(scene, camera, what));
         self.allow_all(keyframes)?;
         self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera), layout.view_gates(scene, camera)])?;
+        let model = self.camera_model(scene, camera)?;
         let mut views: BTreeMap<u32, View> = BTreeMap::new();
         let trajectory = optional(self.dataset.read_trajectory(scene, camera))?;
         for pose in trajectory.iter().flat_map(|trajectory| &trajectory.poses) {
@@ -50,7 +51,7 @@ impl Viewer {
             let value = json!({ "position": pose.position.to_array(), "orientation": rows });
             views.entry(pose.frame).or_default().pose = Some(value);
         }
-        for (frame, layers) in self.layers_of_frames(scene, camera)? {
+        for (frame, layers) in self.layers_of_frames(scene, camera, model.as_ref())? {
             views.entry(frame).or_default().layers = layers.into_iter().collect();
         }
         self.allow(&layout.records_dir(scene, camera))?;
@@ -77,15 +78,15 @@ impl Viewer {
         Ok(json!({
             "name": camera,
             "frame_time_s": self.dataset.read_frame_time(scene, camera).map_err(problem)?,
-            "projection": self.projection(scene, camera)?,
-            "loader_problem": self.camera_model(scene, camera)?.filter(|_| !self.dataset.is_released(scene)).as_ref().and_then(loader_problem),
+            "projection": model.as_ref().map(projection),
+            "loader_problem": model.as_ref().filter(|_| !self.dataset.is_released(scene)).and_then(loader_problem),
             "frames": frames,
             "tone": tone,
         }))
     }
 
     /// For each frame that has any layer, the positions of its layers in [`LAYERS`]. Planar depth counts where it can be computed.
-    fn layers_of_frames(&self, scene: &str, camera: &str) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
+    fn layers_of_frames(&self, scene: &str, camera: &str, model: Option<&Camera>) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
         let mut found: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
         let folders: BTreeSet<_> = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass)).into();
         for folder in folders {
@@ -100,7 +101,7 @@ impl Viewer {
                 }
             }
         }
-        let planar = self.camera_model(scene, camera)?.is_some_and(|camera| camera.projection.has_image_plane());
+        let planar = model.is_some_and(|camera| camera.projection.has_image_plane());
         for layers in found.values_mut().filter(|layers| planar && layers.contains(&(Layer::DepthMeters as usize))) {
             layers.insert(Layer::DepthZMeters as usize);
         }
@@ -117,25 +118,24 @@ impl Viewer {
         // Hypersim's table lacks other scenes, which have poses and pictures all the same.
         Ok(self.dataset.read_camera(scene, camera).ok())
     }
+}
 
-    /// The kind of the camera, its image size, and the rays through the image's corners in camera space, from the upper left clockwise.
-    fn projection(&self, scene: &str, camera: &str) -> Result<Value, ApiProblem> {
-        let Some(camera) = self.camera_model(scene, camera)? else { return Ok(Value::Null) };
-        let [width, height] = camera.size();
-        let (w, h) = (f64::from(width), f64::from(height));
-        let ray = |x: f64, y: f64| camera.projection.ray(x, y).map(|ray| ray.normalize().to_array());
-        let corners: Option<Vec<[f64; 3]>> = [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)].into_iter().map(|(x, y)| ray(x, y)).collect();
-        let kind = match &camera.projection {
-            Projection::Pinhole(_) => "pinhole",
-            Projection::TiltedPinhole(_) => "tilted pinhole",
-            Projection::RadialTangential(..) => "radial-tangential",
-            Projection::Fisheye(..) => "fisheye",
-            Projection::Equirectangular { .. } => "equirectangular",
-            Projection::RayGrid(_) => "ray grid",
-        };
-        let middle = |y: f64| camera.projection.ray(w / 2.0, y);
-        let fov_y_deg = middle(0.0).zip(middle(h)).map(|(top, bottom)| top.angle_between(bottom).to_degrees());
-        let linear = camera.projection.is_linear();
-        Ok(json!({ "kind": kind, "linear": linear, "width": width, "height": height, "corner_rays": corners, "fov_y_deg": fov_y_deg }))
-    }
+/// The kind of the camera, its image size, and the rays through the image's corners in camera space, from the upper left clockwise.
+fn projection(camera: &Camera) -> Value {
+    let [width, height] = camera.size();
+    let (w, h) = (f64::from(width), f64::from(height));
+    let ray = |x: f64, y: f64| camera.projection.ray(x, y).map(|ray| ray.normalize().to_array());
+    let corners: Option<Vec<[f64; 3]>> = [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)].into_iter().map(|(x, y)| ray(x, y)).collect();
+    let kind = match &camera.projection {
+        Projection::Pinhole(_) => "pinhole",
+        Projection::TiltedPinhole(_) => "tilted pinhole",
+        Projection::RadialTangential(..) => "radial-tangential",
+        Projection::Fisheye(..) => "fisheye",
+        Projection::Equirectangular { .. } => "equirectangular",
+        Projection::RayGrid(_) => "ray grid",
+    };
+    let middle = |y: f64| camera.projection.ray(w / 2.0, y);
+    let fov_y_deg = middle(0.0).zip(middle(h)).map(|(top, bottom)| top.angle_between(bottom).to_degrees());
+    let linear = camera.projection.is_linear();
+    json!({ "kind": kind, "linear": linear, "width": width, "height": height, "corner_rays": corners, "fov_y_deg": fov_y_deg })
 }

@@ -32,7 +32,16 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
     let poses = draft.poses;
     let views = if draft.views.len() == poses.len() { draft.views } else { planner.views(&poses) };
     let surfaces = Surfaces::new(&planner.world.corners);
-    let measured = |i: usize| measure(planner, &surfaces, &poses[i], &views[i], i.checked_sub(1).map(|i| &poses[i]));
+    let start = planner.start.map(|start| planned_start(start, &poses[0]));
+    let is_kept = start.as_ref().is_some_and(|start| start.is_kept);
+    let measured = |i: usize| {
+        let (row, mut faults) = measure(planner, &surfaces, &poses[i], &views[i], i.checked_sub(1).map(|i| &poses[i]));
+        // The start camera's own pose keeps the gates' faults alone: the rules are for poses that are chosen.
+        if i > 0 || !is_kept {
+            faults.extend(broken_rules(planner, &poses[i], &row));
+        }
+        (row, faults)
+    };
     let rows: Vec<(FrameRow, Vec<Fault>)> = (0..poses.len()).into_par_iter().map(measured).collect();
 
     let mut per_frame = FrameValues::default();
@@ -48,7 +57,6 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         warn_of_faults(planner, &relaxed, poses.len());
     }
     let (seen_area_share, seen_part_share) = seen(planner, &poses);
-    let start = planner.start.map(|start| planned_start(start, &poses[0]));
     let report = PlanReport {
         trajectory: planner.name.to_string(),
         mode: planner.config.mode.name().to_string(),
@@ -102,7 +110,7 @@ fn planned_start(start: &StartCamera, first: &Pose) -> PlannedStart {
     }
 }
 
-/// The values of one frame, and its faults.
+/// The values of one frame, and what the gates find wrong with it.
 fn measure(planner: &Planner, surfaces: &Surfaces, pose: &Pose, view: &ViewStats, before: Option<&Pose>) -> (FrameRow, Vec<Fault>) {
     let (gates, glancer) = (planner.gates, planner.gates.glancer);
     let glance = glancer.look(pose);
@@ -122,11 +130,7 @@ fn measure(planner: &Planner, surfaces: &Surfaces, pose: &Pose, view: &ViewStats
         turn_deg: before.map(|before| turned_rad(before, pose).to_degrees()),
         overlap: before.and_then(|before| glancer.overlap(&glance, before)),
     };
-    let mut faults = gates.faults(pose, &glance, view, before);
-    let is_given = before.is_none() && planner.start.is_some_and(|start| planned_start(start, pose).is_kept);
-    if !is_given {
-        faults.extend(broken_rules(planner, pose, &row));
-    }
+    let faults = gates.faults(pose, &glance, view, before);
     (row, faults)
 }
 

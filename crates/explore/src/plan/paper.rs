@@ -5,9 +5,8 @@
 //! last p, t from the last t, and a roll of at most 5 degrees; in proportion to how salient the view is (equation 1 of the paper).
 
 use super::planner::{Draft, Planner};
-use super::report::RejectedCounts;
 use super::rules::rolled;
-use super::walk::points;
+use super::walk::{points, steps};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Distribution1, Rng};
 use enfilade_scene::Pose;
@@ -17,17 +16,7 @@ const ROUNDS: u32 = 32;
 
 /// A walk from `first`.
 pub(super) fn walk(planner: &Planner, first: Pose, rng: &Rng) -> Result<Draft, ExploreError> {
-    let frames = planner.config.frames as usize;
-    let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
-    for frame in 1..frames {
-        planner.progress(frame, frames);
-        let last = draft.poses[frame - 1];
-        let (pose, view) = step(planner, &first, &last, frame as u32, rng.fork(frame as u64))?;
-        draft.poses.push(pose);
-        draft.views.push(view);
-    }
-    planner.progress(frames, frames);
-    Ok(Draft { rejected: RejectedCounts::default(), ..draft })
+    steps(planner, first, |last, frame| step(planner, &first, last, frame, rng.fork(u64::from(frame))))
 }
 
 /// The pose after `last`, and what it shows.

@@ -173,8 +173,10 @@ impl<'a> Rules<'a> {
 
     /// The farthest point along a direction that is in free space and well before the first surface.
     pub fn target(&self, position: DVec3, direction: DVec3) -> Option<DVec3> {
-        let steep = direction.truncate().length() < MIN_SLANT;
-        (!steep).then(|| self.farthest(position, direction, self.config.min_look_distance_m))?
+        if direction.truncate().length() < MIN_SLANT {
+            return None;
+        }
+        self.farthest(position, direction, self.config.min_look_distance_m)
     }
 
     /// As [`Rules::target`], of directions however steep, at least `nearest_m` away.
@@ -214,7 +216,10 @@ pub(super) fn turned_rad(from: &Pose, to: &Pose) -> f64 {
 /// The pose that looks from `position` to `look_at` with exactly this roll; `None` when the view is nearly vertical.
 pub(super) fn posed(frame: u32, position: DVec3, look_at: DVec3, roll_rad: f64) -> Option<Pose> {
     let z = (position - look_at).try_normalize()?;
-    (z.truncate().length() >= MIN_SLANT).then(|| rolled(frame, position, look_at, roll_rad))?
+    if z.truncate().length() < MIN_SLANT {
+        return None;
+    }
+    rolled(frame, position, look_at, roll_rad)
 }
 
 /// As [`posed`], however steep the view is; `None` when it is vertical.

@@ -19,12 +19,24 @@ const DRAWS_PER_CANDIDATE: usize = 50;
 /// 0; the last position sees the new one, and the last target the new one. Where a height above the floor is asked for, positions have
 /// that instead, and targets go up and down with them. Among the poses that keep the rules, one is chosen in proportion to its score.
 pub(super) fn walk(planner: &Planner, first: Pose, rng: &Rng) -> Result<Draft, ExploreError> {
+    let mut rejected = RejectedCounts::default();
+    let draft = steps(planner, first, |last, frame| {
+        Step { planner, first: &first, last: *last }.take(frame, &mut rejected, rng.fork(u64::from(frame)))
+    })?;
+    Ok(Draft { rejected, ..draft })
+}
+
+/// All poses of a walk from `first`, each by `next` from the last one and its frame number, and what they show.
+pub(super) fn steps(
+    planner: &Planner,
+    first: Pose,
+    mut next: impl FnMut(&Pose, u32) -> Result<(Pose, ViewStats), ExploreError>,
+) -> Result<Draft, ExploreError> {
     let frames = planner.config.frames as usize;
     let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
     for frame in 1..frames {
         planner.progress(frame, frames);
-        let step = Step { planner, first: &first, last: draft.poses[frame - 1] };
-        let (pose, view) = step.take(frame as u32, &mut draft.rejected, rng.fork(frame as u64))?;
+        let (pose, view) = next(&draft.poses[frame - 1], frame as u32)?;
         draft.poses.push(pose);
         draft.views.push(view);
     }

@@ -14,7 +14,7 @@ mod survey;
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
 pub(crate) use find::is_absolute;
-pub(crate) use survey::{origin_of, positions_from};
+pub(crate) use survey::{FAR_M, origin_of, positions_from};
 
 use crate::archive::Archive;
 use crate::images::{self, Use};

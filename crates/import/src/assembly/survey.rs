@@ -10,7 +10,7 @@ use enfilade_math::{DAffine3, DVec3, Vec3};
 use enfilade_scene::{Light, Part, Scene};
 
 /// Beyond this distance from the origin numbers of single precision lie a millimetre apart, metres.
-const FAR_M: f64 = 8192.0;
+pub(crate) const FAR_M: f64 = 8192.0;
 /// Along an axis on which things are nearer than this they stay, metres: there numbers lie a tenth of a millimetre apart.
 const NEAR_M: f64 = 1024.0;
 /// What reaches farther than this share of its distance from the origin would be little nearer to another.

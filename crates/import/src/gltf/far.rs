@@ -1,17 +1,15 @@
 //! Translations of nodes so large that single precision loses them, read once more from the JSON.
 
+use crate::assembly::FAR_M;
 use enfilade_math::DVec3;
 use gltf::json::scene::Node;
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Translations as large as this, metres, are read from the text in double precision: those of coordinates of maps.
-const FAR: f32 = 8192.0;
-
 /// The large translations of nodes in double precision, which the typed JSON does not have; the index of the node is the key.
 pub(super) fn far_translations(nodes: &[Node], json: &[u8]) -> HashMap<usize, DVec3> {
     let stated = |node: &Node| node.matrix.map_or(node.translation, |m| Some([m[12], m[13], m[14]]));
-    let is_far = |node: &Node| stated(node).is_some_and(|t| t.iter().any(|v| v.abs() >= FAR));
+    let is_far = |node: &Node| stated(node).is_some_and(|t| t.iter().any(|v| f64::from(v.abs()) >= FAR_M));
     if !nodes.iter().any(is_far) {
         return HashMap::new();
     }

@@ -7,7 +7,10 @@ use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
 use super::settings::{CameraChoice, EnvironmentChoice};
 use enfilade_explore::Preset;
 use enfilade_import::UpAxis;
-use serde::de::{MapAccess, SeqAccess, Unexpected, Visitor, value::MapAccessDeserializer};
+use serde::de::{
+    MapAccess, SeqAccess, Unexpected, Visitor,
+    value::{MapAccessDeserializer, SeqAccessDeserializer},
+};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
@@ -131,12 +134,9 @@ impl<'de> Deserialize<'de> for CamerasKey {
                     other => Err(E::invalid_value(Unexpected::Str(other), &self)),
                 }
             }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<CamerasKey, A::Error> {
-                let mut chosen = Vec::new();
-                while let Some(CameraKey(camera)) = list.next_element()? {
-                    chosen.push(camera);
-                }
-                Ok(CamerasKey { chosen, found: false })
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<CamerasKey, A::Error> {
+                let list = Vec::<CameraKey>::deserialize(SeqAccessDeserializer::new(list))?;
+                Ok(CamerasKey { chosen: list.into_iter().map(|camera| camera.0).collect(), found: false })
             }
         }
         deserializer.deserialize_any(ListOrFound)

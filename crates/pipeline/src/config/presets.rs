@@ -5,12 +5,12 @@
 
 use super::document::Level;
 use super::settings::SceneConfig;
+use enfilade_dataset::LOADER_SIZE;
 use enfilade_explore::Preset;
 use enfilade_verify::view_gates::GateAction;
 use std::ops::Range;
 
-/// The camera of Hypersim's pictures, whose focal length is 886.81 pixels: its loaders take that for granted.
-const SIZE: [u32; 2] = [1024, 768];
+/// The width of Hypersim's pictures, which makes the focal length that its loaders take for granted, [`enfilade_dataset::LOADER_FOCAL_PX`].
 const FOV_X_DEG: f64 = 60.0;
 
 /// Keys of `[plan]` for rules that are ours alone, ...
@@ -37,7 +37,7 @@ pub(super) fn lay_over(preset: Preset, scene: &mut SceneConfig) {
     if preset == Preset::Default {
         return;
     }
-    scene.size = SIZE;
+    scene.size = LOADER_SIZE;
     scene.fov_x_deg = scene.camera.takes_field_of_view().then_some(FOV_X_DEG);
     scene.gate.action = GateAction::Report;
     if preset == Preset::Paper {

@@ -19,27 +19,24 @@ pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Resul
         enfilade_explore::carve(&world.mesh, &world.bvh, &positions, &config, cx)
     };
     let scene = job.load_scene()?;
-    if !job.scene.cameras.is_empty() {
+    let starts = if !job.scene.cameras.is_empty() {
         let choices = job.scene.cameras.iter().enumerate();
-        let starts: Vec<StartCamera> = choices.map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect::<Result<_, _>>()?;
-        let space = carve(&starts).map_err(Error::stage)?;
-        return Ok((starts, space));
-    }
-    if job.scene.finds_cameras || scene.cameras.is_empty() {
-        let starts = found(job, world, cx)?;
-        let space = carve(&starts).map_err(Error::stage)?;
-        return Ok((starts, space));
-    }
-    let starts = indoors(job, &scene, world, cx)?;
-    match carve(&starts) {
-        Err(ExploreError::StartInWall { .. }) if scene.cameras.contains(&starts[0]) => {
-            let instead = found(job, world, cx)?;
-            warn_of_replacement(&scene, "every camera of the file stands in a wall or an object", &instead, cx);
-            let space = carve(&instead).map_err(Error::stage)?;
-            Ok((instead, space))
+        choices.map(|(i, choice)| chosen(&scene, i, choice, job.scene.size)).collect::<Result<_, _>>()?
+    } else if job.scene.finds_cameras || scene.cameras.is_empty() {
+        found(job, world, cx)?
+    } else {
+        let starts = indoors(job, &scene, world, cx)?;
+        match carve(&starts) {
+            Err(ExploreError::StartInWall { .. }) if scene.cameras.contains(&starts[0]) => {
+                let instead = found(job, world, cx)?;
+                warn_of_replacement(&scene, "every camera of the file stands in a wall or an object", &instead, cx);
+                instead
+            }
+            space => return Ok((starts, space.map_err(Error::stage)?)),
         }
-        space => Ok((starts, space.map_err(Error::stage)?)),
-    }
+    };
+    let space = carve(&starts).map_err(Error::stage)?;
+    Ok((starts, space))
 }
 
 /// Those of the file's cameras that stand in a building; where none does, found places, and without any the cameras after all: an open
