@@ -60,6 +60,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
     start_threads(cli.threads.map(usize::from))?;
     match &cli.verb {
         Verb::Run(args) => verbs::run(args, cli.quiet),
+        Verb::Look(args) => scene_files::look(args, cli.quiet),
         Verb::Import(args) => scene_files::import(args, cli.quiet),
         Verb::Home(args) => scene_files::home(args, cli.quiet),
         Verb::Carve(args) => verbs::stage(args, enfilade_pipeline::Stage::Carve, cli.quiet),

@@ -25,8 +25,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
     let mut pictures = 0;
     for scene in &scenes {
         for camera in dataset.cameras(scene)? {
-            let frames = dataset.frame_numbers(scene, &camera)?;
-            dataset.warn_of_incomplete([scene, &camera], &frames, None, &cx)?;
+            let frames = dataset.whole_frames([scene, &camera], None, &cx)?;
             let (exposures, _) = expose_camera(&dataset, scene, &camera, &frames)?;
             pictures += preview_camera(&dataset, [scene, &camera], &frames, &exposures, &BTreeSet::new(), &cx)?.len();
             pictures += preview_boxes(&dataset, scene, &camera, &frames, &cx)?.len();

@@ -1,11 +1,29 @@
-//! The verbs that make scene files: `import` and `home`.
+//! The verbs of scene files: `look`, `import` and `home`.
 
-use crate::args::{HomeArgs, ImportArgs, MomentArg, StageArgs};
+use crate::args::{HomeArgs, ImportArgs, LookArgs, MomentArg, StageArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::verbs;
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{EnvironmentChoice, Event, FileSource, HomeConfig, Reporter, Stage, scene_file_of};
+use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, scene_file_of};
+use std::path::PathBuf;
+
+/// `look`: one picture of a scene file.
+pub fn look(args: &LookArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let source = args.choices.source(&args.input);
+    let name = args.input.file_stem().map_or_else(|| "look".into(), PathBuf::from);
+    let output = args.output.clone().unwrap_or_else(|| name.with_extension("jpg"));
+    let looked = {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&source.file, "look");
+        enfilade_pipeline::look(&source, args.camera.as_deref(), &output, &cx)?
+    };
+    say(&looked.summary);
+    say(&format!("view     {}", looked.view));
+    looked.light.iter().for_each(|light| say(&format!("light    {light}")));
+    say(&format!("picture  {} ({:.0} samples per pixel, denoised; {:.1} s)", output.display(), looked.samples, looked.wall_s));
+    Ok(Verdict::Done)
+}
 
 /// `import`: of a dataset's scenes, or of one file.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -17,13 +35,10 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
         let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
         return verbs::stage(&stage_args, Stage::Import, quiet);
     }
-    let source = FileSource {
-        file: args.input.to_string_lossy().into_owned(),
-        meters_per_unit: args.meters_per_unit.unwrap_or(1.0),
-        up_axis: args.up_axis.map(Into::into),
-        environment: args.environment.clone().map(|file| EnvironmentChoice { file, scale: 1.0, rotation_deg: 0.0 }),
-        allow_missing_textures: args.allow_missing_textures,
-    };
+    let source = args.choices.source(&args.input);
+    if args.check {
+        return check(&source, quiet);
+    }
     let output = args.output.clone().unwrap_or_else(|| scene_file_of(&args.input));
     let encode = scene_encoder(&output)?;
     let name = args.input.display().to_string();
@@ -39,14 +54,33 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
+/// `import --check`.
+fn check(source: &FileSource, quiet: bool) -> Result<Verdict, Problem> {
+    let checked = {
+        let progress = Progress::new(quiet);
+        progress.on(&source.file, Stage::Import, Event::Started);
+        enfilade_pipeline::check_file(source, &progress.cx(&source.file, Stage::Import))?
+    };
+    say(&checked.summary);
+    if quiet {
+        checked.warnings.iter().for_each(|warning| say(&warning.to_string()));
+    }
+    say(&format!("checked  {} warnings; nothing was written", checked.warnings.len()));
+    Ok(Verdict::Done)
+}
+
 /// A flag that is given and means nothing for a dataset, whose configuration says the same.
 fn flag_of_files(args: &ImportArgs) -> Option<&'static str> {
+    let choices = &args.choices;
     let given = [
         ("--output", args.output.is_some()),
-        ("--meters-per-unit", args.meters_per_unit.is_some()),
-        ("--up-axis", args.up_axis.is_some()),
-        ("--environment", args.environment.is_some()),
-        ("--allow-missing-textures", args.allow_missing_textures),
+        ("--check", args.check),
+        ("--meters-per-unit", choices.meters_per_unit.is_some()),
+        ("--up-axis", choices.up_axis.is_some()),
+        ("--environment", choices.environment.is_some()),
+        ("--lamps", choices.lamps.is_some()),
+        ("--drop-doubled-faces", choices.drop_doubled_faces),
+        ("--allow-missing-textures", choices.allow_missing_textures),
     ];
     given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
 }

@@ -1,7 +1,7 @@
 //! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
 
 use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
-use crate::hdf5::{ArrayView, Packing, Storage, write_view};
+use crate::hdf5::{ArrayView, Packing, Storage, missing_bytes, write_view};
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
 use crate::{ColorKind, Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json};
@@ -219,6 +219,39 @@ impl Dataset {
             }
         }
         Ok(())
+    }
+
+    /// The numbers of frames that are whole, as [`Dataset::frame_numbers`] gives them, with a warning of those in `range` (`None`: of all)
+    /// that are not. Hypersim's own frames have no records; of these, ones with a file that is cut short are left out as well.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn whole_frames(&self, [scene, camera]: [&str; 2], range: Option<&Range<u32>>, cx: &dyn Cx) -> Result<Vec<u32>, DatasetError> {
+        let mut frames = self.frame_numbers(scene, camera)?;
+        self.warn_of_incomplete([scene, camera], &frames, range, cx)?;
+        if self.layout().records_dir(scene, camera).is_dir() {
+            return Ok(frames);
+        }
+        let mut cut = Vec::new();
+        frames.retain(|&frame| {
+            let problem = if range.is_none_or(|range| range.contains(&frame)) { self.cut_file(scene, camera, frame) } else { None };
+            cut.extend(problem.as_ref().map(|problem| format!("frame {frame}{{}} left out: {problem}")));
+            problem.is_none()
+        });
+        if let Some(first) = cut.first() {
+            let more = if cut.len() > 1 { format!(" and {} more are", cut.len() - 1) } else { " is".into() };
+            cx.warn(Warning { place: format!("{scene}/{camera}"), message: first.replacen("{}", &more, 1) });
+        }
+        Ok(frames)
+    }
+
+    /// The first layer's file of a frame that is cut short, and by how much.
+    fn cut_file(&self, scene: &str, camera: &str, frame: u32) -> Option<String> {
+        let files = LAYERS.iter().map(|spec| self.layout().layer(scene, camera, frame, spec.layer));
+        files.into_iter().find_map(|path| {
+            let [found, expected] = missing_bytes(&path)?;
+            Some(format!("{} is cut short: it has {found} of {expected} bytes; download it again", path.display()))
+        })
     }
 
     /// The commit record of a frame; `None` when it has none.

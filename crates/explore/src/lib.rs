@@ -11,6 +11,8 @@
 //!    among them in proportion to how much a small test image of each shows ([`Saliency`]).
 //!    [`plan_accepted`] lets the caller have a last word on every view, and [`Surroundings`] tells what is around a point.
 //!
+//! [`findings`] looks at what a scene's maker may not have meant, and [`ceilings`] finds where lamps can hang.
+//!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 //!
 //! A closed room of 2 m by 2 m by 2 m, carved and photographed:
@@ -61,8 +63,10 @@
 
 mod armadillo;
 mod carve;
+mod ceilings;
 mod error;
 mod find_starts;
+mod findings;
 mod grid;
 mod plan;
 mod preset;
@@ -73,8 +77,10 @@ mod view;
 mod view_stats;
 
 pub use carve::{CarveConfig, carve, is_indoors};
+pub use ceilings::{Ceiling, LampPlace, ceilings};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
+pub use findings::{Backs, Findings, Overlap, doubled_faces, findings};
 pub use plan::{
     CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
     PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, WalkBox, WalkBoxes, WalkConfig,

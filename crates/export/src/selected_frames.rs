@@ -3,7 +3,7 @@
 use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::{Dataset, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose};
+use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose, Warning};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -85,7 +85,7 @@ impl<'s> View<'s> {
 }
 
 impl<'d> SelectedFrames<'d> {
-    /// Finds the chosen frames and checks that each has the layers that the format needs.
+    /// Finds the chosen frames that have the layers that the format needs.
     pub fn open(dataset: &'d Dataset, spec: &FormatSpec, selection: &Selection, cx: &'d dyn Cx) -> Result<Self, ExportError> {
         let taken = |layer: &Layer| spec.takes.is_none_or(|takes| takes.contains(layer));
         let wanted = |layer: &Layer| selection.layers.as_ref().is_none_or(|layers| layers.contains(layer));
@@ -99,11 +99,33 @@ impl<'d> SelectedFrames<'d> {
             }
         }
         selected.check(spec, selection)?;
+        selected.leave_out_incomplete(spec)?;
         Ok(selected)
     }
 
+    /// Leaves out the frames that lack what the format needs, with a warning; an error where it is all of them.
+    fn leave_out_incomplete(&mut self, spec: &FormatSpec) -> Result<(), ExportError> {
+        let missing = |view: View<'_>| spec.needs.iter().find(|group| !group.iter().any(|&layer| self.has(view, layer)));
+        let lacking: Vec<(String, usize, usize, String)> = (self.tracks.iter().enumerate())
+            .flat_map(|(number, track)| track.views().map(move |view| (number, view)))
+            .filter_map(|(number, view)| Some((view.name(), number, view.index, names(missing(view)?))))
+            .collect();
+        let Some((first, _, _, layer)) = lacking.first() else { return Ok(()) };
+        if lacking.len() == self.views().count() {
+            let problem = format!("it has no layer {layer}; make it (label, render), or leave the frame out");
+            return Err(self.unsuitable(first.clone(), problem));
+        }
+        let others = if lacking.len() > 1 { format!(" and {} more are", lacking.len() - 1) } else { " is".into() };
+        let message = format!("{first}{others} left out: no layer {layer}, which {} needs", spec.name);
+        self.cx.warn(Warning { place: self.dataset.root().display().to_string(), message });
+        for (_, number, index, _) in &lacking {
+            self.tracks[*number].chosen.retain(|chosen| chosen != index);
+        }
+        self.tracks.retain(|track| !track.chosen.is_empty());
+        Ok(())
+    }
+
     fn check(&self, spec: &FormatSpec, selection: &Selection) -> Result<(), ExportError> {
-        let names = |layers: &[Layer]| layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(" or ");
         if let Some(group) = spec.needs.iter().find(|group| !group.iter().any(|layer| self.layers.contains(layer))) {
             return Err(ExportError::Selection(format!("{} needs the layer {}; add it to --layers", spec.name, names(group))));
         }
@@ -115,13 +137,6 @@ impl<'d> SelectedFrames<'d> {
             let known = selection.scenes.iter().map(|scene| self.dataset.cameras(scene)).collect::<Result<Vec<_>, _>>()?.concat();
             let problem = "no finished frame is selected; widen --scene, --camera or --frames";
             return Err(ExportError::Selection(format!("{problem} (cameras here: {})", known.join(", "))));
-        }
-        for view in self.views() {
-            let missing = spec.needs.iter().find(|group| !group.iter().any(|&layer| self.has(view, layer)));
-            if let Some(group) = missing {
-                let problem = format!("it has no layer {}; make it (label, render), or leave the frame out", names(group));
-                return Err(self.unsuitable(view.name(), problem));
-            }
         }
         Ok(())
     }
@@ -212,10 +227,14 @@ impl<'d> SelectedFrames<'d> {
     }
 }
 
+/// Names of layers of which one is enough.
+fn names(layers: &[Layer]) -> String {
+    layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(" or ")
+}
+
 /// A camera with its finished frames within `range`, with a warning of those that have lost a file; `None` when there are none.
 fn track(dataset: &Dataset, scene: &str, name: &str, range: Option<&Range<u32>>, cx: &dyn Cx) -> Result<Option<Track>, ExportError> {
-    let finished = dataset.frame_numbers(scene, name)?;
-    dataset.warn_of_incomplete([scene, name], &finished, range, cx)?;
+    let finished = dataset.whole_frames([scene, name], range, cx)?;
     let poses = dataset.read_trajectory(scene, name)?.poses;
     let wanted = |pose: &Pose| finished.binary_search(&pose.frame).is_ok() && range.is_none_or(|range| range.contains(&pose.frame));
     let chosen: Vec<usize> = (0..poses.len()).filter(|&i| wanted(&poses[i])).collect();

@@ -76,7 +76,7 @@ pub enum ImportError {
         source: SceneError,
     },
     /// An option whose value makes no sense.
-    #[error("import option {option}: {problem}")]
+    #[error("import option {option}: {problem} (on the command line: --{})", option.replace('_', "-"))]
     Option {
         /// Name of the option.
         option: &'static str,

@@ -50,6 +50,7 @@
 mod archive;
 mod assembly;
 mod blender;
+mod environment;
 mod error;
 pub mod fbx;
 mod format;
@@ -75,10 +76,11 @@ pub mod sweethome;
 pub mod usd;
 pub mod vray;
 
+pub use environment::{EnvironmentOverride, EnvironmentSource};
 pub use error::ImportError;
 pub use format::Format;
 pub use images::{check_exr_blocks, check_exr_table};
 pub use imported::{Imported, ImportedLabel};
 pub use load::load;
-pub use options::{EnvironmentOverride, ImportOptions, UpAxis};
+pub use options::{ImportOptions, UpAxis};
 pub use report::{Counts, ImportReport};

@@ -1,8 +1,7 @@
 //! What the user knows about a scene file that the file does not say: unit, upward axis, environment.
 
-use crate::ImportError;
+use crate::{EnvironmentOverride, ImportError};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 
 /// The axis of the file that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -12,24 +11,6 @@ pub enum UpAxis {
     Y,
     /// As in this workspace.
     Z,
-}
-
-/// An environment picture to use instead of the file's own.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EnvironmentOverride {
-    /// Equirectangular picture (HDR, EXR, PFM, or an eight-bit one); its upper edge is straight up, its middle −y.
-    pub file: PathBuf,
-    /// Multiplies the picture.
-    #[serde(default = "one")]
-    pub scale: f32,
-    /// Turns it about the up axis, counter-clockwise seen from above, in degrees.
-    #[serde(default)]
-    pub rotation_deg: f32,
-}
-
-fn one() -> f32 {
-    1.0
 }
 
 /// What the user knows about a scene file that the file does not say.
@@ -84,15 +65,9 @@ impl ImportOptions {
             let problem = format!("found {metres}; expected a number above zero, such as 1, 0.01 or 0.0254");
             return Err(ImportError::Option { option: "meters_per_unit", problem });
         }
-        match &self.environment {
-            Some(e) if !(e.scale.is_finite() && e.scale >= 0.0 && e.rotation_deg.is_finite()) => Err(ImportError::Option {
-                option: "environment",
-                problem: format!(
-                    "found scale {} and rotation {}; expected finite numbers, the scale not below zero",
-                    e.scale, e.rotation_deg
-                ),
-            }),
-            _ => Ok(()),
+        match self.environment.as_ref().and_then(EnvironmentOverride::problem) {
+            Some(problem) => Err(ImportError::Option { option: "environment", problem }),
+            None => Ok(()),
         }
     }
 }

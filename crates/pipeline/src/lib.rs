@@ -10,6 +10,8 @@ mod error;
 mod estimate;
 mod forecast;
 mod gatekeeper;
+mod intake;
+mod look;
 mod parts;
 mod replay;
 mod report;
@@ -25,23 +27,24 @@ mod workdir;
 #[doc(hidden)]
 pub use assets::read_library;
 pub use config::{
-    CameraChoice, CameraConfig, CameraModel, Config, EnvironmentChoice, FarmConfig, FileSource, LabelSource, LensConfig, Overrides,
-    Placeholder, Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
+    CameraChoice, CameraConfig, CameraModel, Config, FarmConfig, FileSource, LabelSource, Lamps, LensConfig, Overrides, Placeholder,
+    Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
 };
 pub use enfilade_dataset::{ColorKind, WORKDIR};
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};
-pub use enfilade_import::{Format as SceneFormat, UpAxis};
+pub use enfilade_import::{EnvironmentOverride, Format as SceneFormat, UpAxis};
 pub use enfilade_label::split::SplitConfig;
 pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::{ConfigError, Error, Place};
 pub use estimate::estimate;
 pub use forecast::{Expected, Forecast};
+pub use look::{Looked, look};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};
-pub use single::{Imported, MadeHome, import_file, make_home, refuse_overwriting, scene_file_of};
+pub use single::{Checked, Imported, MadeHome, check_file, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};
 pub use stages::{FinishedFrame, Part, STAGES, Stage, StageSpec};
 pub use statistics::write_statistics;

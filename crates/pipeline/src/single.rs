@@ -3,12 +3,12 @@
 use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::stages::{describe, describe_and_measure, labels_by_part, load_file};
+use crate::intake::{load_file, settle};
+use crate::stages::{describe, labels_by_part};
 use enfilade_dataset::{write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_scene::{Cx, Labels, Scene, Warning};
 use serde::Serialize;
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// What importing a file made.
@@ -38,9 +38,6 @@ pub fn scene_file_of(input: &Path) -> PathBuf {
     name.with_extension("scene")
 }
 
-/// Largest extents of what may be a room or a building, m; beyond them the unit is probably another.
-const ROOMS: RangeInclusive<f32> = 0.5..=500.0;
-
 /// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the
 /// output from the scene and the labels that came with it, and what they cannot hold.
 ///
@@ -52,18 +49,35 @@ pub fn import_file(
     encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
-    let imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
     refuse_overwriting(output, &imported.inputs)?;
-    let (mut summary, largest) = describe_and_measure(&imported.scene);
-    if source.meters_per_unit == 1.0 && !ROOMS.contains(&largest) {
-        summary.push_str(" (if this is a room, its unit is another: name it with --meters-per-unit)");
-    }
+    settle(source, &mut imported, cx);
+    let summary = describe(&imported.scene);
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
     let (bytes, lost) = encode(&imported.scene, labels.as_ref());
     write_output(output, &bytes)?;
     let report = output.with_extension("report.json");
     write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
     Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
+}
+
+/// What a look at a file found.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// One line about the scene.
+    pub summary: String,
+    /// Everything that would be dropped, guessed or fixed, and what is odd about the geometry.
+    pub warnings: Vec<Warning>,
+}
+
+/// As [`import_file`], but writes nothing.
+///
+/// # Errors
+/// When the file cannot be imported.
+pub fn check_file(source: &FileSource, cx: &dyn Cx) -> Result<Checked, Error> {
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    settle(source, &mut imported, cx);
+    Ok(Checked { summary: describe(&imported.scene), warnings: imported.report.warnings })
 }
 
 /// Refuses an output that is one of the files that it is made from.

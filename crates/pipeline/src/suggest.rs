@@ -2,8 +2,8 @@
 
 use crate::config::FileSource;
 use crate::error::Error;
+use crate::intake::load_file;
 use crate::single::{refuse_overwriting, write_output};
-use crate::stages::load_file;
 use enfilade_import::Imported;
 use enfilade_label::class_name;
 use enfilade_scene::{Cx, Scene};

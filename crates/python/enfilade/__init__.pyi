@@ -144,6 +144,8 @@ def import_scene(
     meters_per_unit: float = 1.0,
     up_axis: Literal["y", "z"] | None = None,
     environment: Path | None = None,
+    lamps: Literal["ceiling"] | None = None,
+    drop_doubled_faces: bool = False,
     allow_missing_textures: bool = False,
 ) -> dict[str, Any]: ...
 def home(

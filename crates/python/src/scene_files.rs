@@ -5,7 +5,7 @@ use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, interruptible};
 use crate::json;
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{EnvironmentChoice, FileSource, HomeConfig, Moment, RoomKind, UpAxis, scene_file_of};
+use enfilade_pipeline::{EnvironmentOverride, FileSource, HomeConfig, Lamps, Moment, RoomKind, UpAxis, scene_file_of};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::json;
@@ -17,13 +17,16 @@ use std::path::PathBuf;
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.
 /// meters_per_unit: metres per unit of the file.
 /// up_axis: "y" or "z"; as its format says unless given.
-/// environment: an equirectangular picture that lights the scene instead of the file's own surroundings.
+/// environment: an equirectangular picture that lights the scene instead of the file's own surroundings, or "sky" or "overcast".
+/// lamps: "ceiling" hangs lamps from the ceiling of every room.
+/// drop_doubled_faces: of faces with the same corners keeps the first.
 /// allow_missing_textures: goes on with plain grey where a texture is missing.
 ///
 /// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or fixed), `lost` (what the output cannot hold).
 /// The scenes of a dataset are imported by `enfilade.stage("import", dataset)`.
 #[pyfunction]
-#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, allow_missing_textures=false))]
+#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
+    allow_missing_textures=false))]
 pub fn import_scene<'py>(
     py: Python<'py>,
     file: PathBuf,
@@ -31,6 +34,8 @@ pub fn import_scene<'py>(
     meters_per_unit: f64,
     up_axis: Option<&str>,
     environment: Option<PathBuf>,
+    lamps: Option<&str>,
+    drop_doubled_faces: bool,
     allow_missing_textures: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let up_axis = match up_axis {
@@ -39,10 +44,15 @@ pub fn import_scene<'py>(
         Some("z") => Some(UpAxis::Z),
         Some(other) => return Err(PyValueError::new_err(format!("up_axis is {other:?}; expected \"y\" or \"z\""))),
     };
-    let picture = |file: PathBuf| EnvironmentChoice { file: file.to_string_lossy().into_owned(), scale: 1.0, rotation_deg: 0.0 };
+    let lamps = match lamps {
+        None => None,
+        Some("ceiling") => Some(Lamps::Ceiling),
+        Some(other) => return Err(PyValueError::new_err(format!("lamps is {other:?}; expected \"ceiling\""))),
+    };
+    let environment = environment.map(|written| EnvironmentOverride::named(&written.to_string_lossy()));
     let output = output.unwrap_or_else(|| scene_file_of(&file));
-    let file = file.to_string_lossy().into_owned();
-    let source = FileSource { file, meters_per_unit, up_axis, environment: environment.map(picture), allow_missing_textures };
+    let file = FileSource::of(file.to_string_lossy());
+    let source = FileSource { meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures, ..file };
     let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
     let imported = interruptible(py, |cx: &Interrupt| enfilade_pipeline::import_file(&source, &output, encode, cx))?;
     let done = json!({ "scene": output, "report": imported.report, "summary": imported.summary, "warnings": imported.warnings, "lost": imported.lost });

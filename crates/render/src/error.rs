@@ -6,7 +6,7 @@ pub enum RenderError {
     /// Nothing emits.
     #[error(
         "the scene has no light: no emissive material, no light source and no environment, so every picture would be black; \
-         add an environment (`environment = {{ file = \"sky.hdr\" }}`) or lights to the scene file"
+         light it by `environment = \"sky\"` or `lamps = \"ceiling\"`, or add lights to the scene file"
     )]
     NoLight,
     /// More parts than `render_entity_id` (int16) can tell apart.

@@ -225,6 +225,17 @@ impl Scene {
         dangling
     }
 
+    /// Removes the meshes that no part uses; the others keep their order.
+    pub fn remove_unused_meshes(&mut self) {
+        let mut used = vec![false; self.meshes.len()];
+        self.parts.iter().for_each(|p| used[p.mesh as usize] = true);
+        let mut next = 0;
+        let new_index: Vec<u32> = used.iter().map(|&u| (next, next += u32::from(u)).0).collect();
+        self.parts.iter_mut().for_each(|p| p.mesh = new_index[p.mesh as usize]);
+        let mut keep = used.into_iter();
+        self.meshes.retain(|_| keep.next().unwrap_or(false));
+    }
+
     /// World positions of the vertices of `part`.
     pub fn world_positions<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = Vec3> + 'a {
         self.meshes[part.mesh as usize].positions.iter().map(|&p| place(&part.world_from_mesh, p))

@@ -21,7 +21,7 @@ class Overfitting(unittest.TestCase):
                 train_data=data,
                 test_data=data,
                 classes=13,
-                network=Network(width=16, blocks=(1, 1, 1, 1)),
+                network=Network(width=24, blocks=(1, 1, 1, 1)),
                 augment=Augment(size=(96, 96), scale=(1.0, 1.0), ratio=(1.0, 1.0), flip=0.0, jitter=0.0),
                 train=Train(epochs=320, batch_size=2, learning_rate=0.1, weight_decay=0.0, workers=0, log_steps=20),
                 evaluation=Evaluation(every_epochs=0, batch_size=8, pictures=0),

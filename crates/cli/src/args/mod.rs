@@ -16,7 +16,7 @@ pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::CamerasArg;
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
-pub use scenes::{HomeArgs, ImportArgs, MomentArg, SuggestArgs, UpAxisArg};
+pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisArg};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
 
@@ -44,6 +44,8 @@ pub struct Cli {
 pub enum Verb {
     /// Make a dataset: all stages, for the demo or for the scenes of a TOML file
     Run(RunArgs),
+    /// The first picture of a scene file, in some seconds
+    Look(LookArgs),
     /// Scene file -> scene package
     Import(ImportArgs),
     /// A furnished home of a seed -> scene package

@@ -8,6 +8,7 @@ mod farm;
 mod farm_program;
 mod hypersim;
 mod ingest;
+mod look;
 mod rendering;
 mod replay;
 mod resume;

@@ -21,6 +21,7 @@ mod chunk_tree;
 mod chunks;
 mod image_decoder;
 mod image_map;
+mod length;
 mod lz4;
 mod packing;
 mod read;
@@ -31,6 +32,7 @@ mod write;
 
 pub(crate) use array::ArrayView;
 pub use array::{Array, Element, Elements};
+pub(crate) use length::missing_bytes;
 pub use packing::{Packing, Storage};
 pub use read::{image_shape, read_array, read_window};
 pub use volume::Volume;

@@ -58,7 +58,7 @@ struct FlatRow {
 /// Reads poses made by hand from the text of `file`, whose name ends in `.json` or `.csv`.
 ///
 /// JSON is an array of `{"frame": 0, "position": [x, y, z], "look_at": [x, y, z]}`; CSV has the columns `frame`, `position_x`,
-/// `position_y`, `position_z`, `look_at_x`, `look_at_y`, `look_at_z`. Metres, z up. Optional are `roll_deg`, or `up` (`up_x`, `up_y`,
+/// `position_y`, `position_z`, `look_at_x`, `look_at_y`, `look_at_z`, separated by commas, semicolons or tabs. Metres, z up. Optional are `roll_deg`, or `up` (`up_x`, `up_y`,
 /// `up_z`) for a vector that shall be upright in the picture. Frames ascend from 0; those left out are interpolated.
 ///
 /// # Errors
@@ -110,7 +110,10 @@ fn json_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
 fn csv_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
     const EXPECTED: &str = "the columns frame, position_x, position_y, position_z, look_at_x, look_at_y, look_at_z and optionally \
                             roll_deg or up_x, up_y, up_z";
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
+    let separator = separator(text);
+    // Where cells are separated by semicolons, the comma is the decimal point.
+    let text = if separator == b';' { text.replace(',', ".") } else { text.into() };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).delimiter(separator).from_reader(text.as_bytes());
     let row = |(i, row): (usize, Result<FlatRow, csv::Error>)| {
         let row = row.map_err(|e| wrong(file, i + 1, e.to_string(), EXPECTED))?;
         let up = match (row.up_x, row.up_y, row.up_z) {
@@ -122,6 +125,12 @@ fn csv_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
         Ok(Row { frame: row.frame, position, look_at: [row.look_at_x, row.look_at_y, row.look_at_z], roll_deg: row.roll_deg, up })
     };
     reader.deserialize().enumerate().map(row).collect()
+}
+
+/// What stands between the names of the first line that is no comment: a comma, a semicolon or a tab.
+fn separator(text: &str) -> u8 {
+    let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    if header.contains(',') { b',' } else { [b';', b'\t'].into_iter().find(|byte| header.as_bytes().contains(byte)).unwrap_or(b',') }
 }
 
 /// The pose of a row, or what was found in it and what was expected.

@@ -4,6 +4,7 @@ mod bop;
 mod coco;
 mod common;
 mod export_folder;
+mod incomplete;
 mod pix3d;
 mod readers;
 mod round_trips;

@@ -2,13 +2,11 @@
 
 use super::outside::{Outside, Surroundings};
 use enfilade_math::{Rgb, Vec3, warp};
-use enfilade_scene::sky::Daylight;
+use enfilade_scene::sky::{Daylight, Overcast};
 use std::f32::consts::PI;
 
 /// Directions that sum up the light of the sky on the ground.
 const DIRECTIONS: u32 = 256;
-/// White of clouds: daylight of 6500 K.
-const CLOUD_TINT: Rgb = Rgb::new(0.975, 1.0, 1.07);
 /// Luminance of the night sky over a city at the zenith, kcd/m² (0.06 cd/m²; without towns it is some hundred times darker).
 const NIGHT: Rgb = Rgb::new(5.2e-5, 5.8e-5, 8.5e-5);
 
@@ -38,12 +36,10 @@ impl Weather {
 
     /// Radiance of the sky in the unit direction `d`, kcd/m²; directions below the horizon see it mirrored.
     ///
-    /// Clear sky and the CIE standard overcast sky (Moon & Spencer 1942: three times as bright at the zenith as at the horizon) are
-    /// mixed by their shares, and the glow of the night is added.
+    /// Clear sky and the CIE's overcast sky are mixed by their shares, and the glow of the night is added.
     pub fn radiance(&self, d: Vec3) -> Rgb {
         let up = Vec3::new(d.x, d.y, d.z.abs());
-        let zenith_kcd = 9.0 / (7.0 * PI) * self.overcast_klx();
-        let overcast = CLOUD_TINT * (zenith_kcd * (1.0 + 2.0 * up.z) / 3.0);
+        let overcast = Overcast { to_sun: self.to_sun }.radiance(up);
         let night = NIGHT * (1.0 + 3.0 * (1.0 - up.z).powi(4));
         (self.clear)(up) * (1.0 - self.cloud) + overcast * self.cloud + night
     }
@@ -51,12 +47,6 @@ impl Weather {
     /// What stands outside in this light; `seed` decides trees and houses.
     pub(super) fn surroundings(&self, kind: Outside, seed: u32) -> Surroundings {
         Surroundings { kind, to_sun: self.to_sun, sun_klx: self.sun, sky_klx: self.sky, seed }
-    }
-
-    /// Illuminance of level ground under an overcast sky, kilo-lux: 0.3 + 21 sin h (Krochmann 1963), and in twilight a tenth for every
-    /// 2.4 degrees that the sun sinks, as measured by Kimball 1938 for all skies.
-    fn overcast_klx(&self) -> f32 {
-        if self.to_sun.z > 0.0 { 0.3 + 21.0 * self.to_sun.z } else { 0.3 * 10f32.powf(self.to_sun.z.asin().to_degrees() / 2.4) }
     }
 
     /// Illuminance of level ground by the sky, kilo-lux.

@@ -19,9 +19,9 @@ pub(crate) use survey::{FAR_M, origin_of, positions_from};
 use crate::archive::Archive;
 use crate::images::{self, Use};
 use crate::report::Warnings;
-use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
-use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb};
-use enfilade_scene::{Cx, Environment, Labels, MapRows, PartLabel, Scene};
+use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
+use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
+use enfilade_scene::{Cx, Labels, PartLabel, Scene};
 use names::Names;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -159,7 +159,8 @@ impl<'a> Assembly<'a> {
     /// When nothing visible remains or something about the scene is not valid.
     pub(crate) fn finish(mut self) -> Result<Imported, ImportError> {
         self.bring_near();
-        let scene = without_unused_meshes(std::mem::take(&mut self.scene));
+        let mut scene = std::mem::take(&mut self.scene);
+        scene.remove_unused_meshes();
         self.finish_scene(scene)
     }
 
@@ -174,22 +175,31 @@ impl<'a> Assembly<'a> {
     pub(crate) fn finish_scene(mut self, scene: Scene) -> Result<Imported, ImportError> {
         self.scene = scene;
         if let Some(environment) = &self.options.environment {
-            // The override's path is the caller's, not the scene file's: relative to the working directory.
-            let bytes = self.read_input(&environment.file, "the import options name it as the environment; correct the path")?;
-            let decoded = images::decode(&self.picture_name(&environment.file), &bytes, Use::Color)
-                .map_err(|problem| ImportError::malformed(&environment.file, "environment picture", format!("it {problem}")))?;
-            let image = self.push_image(decoded.image);
-            let world_from_map = DMat3::from_rotation_z(f64::from(environment.rotation_deg).to_radians())
-                * DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
-            let scale = Rgb::splat(environment.scale);
-            let map_from_world = mat3_f32(world_from_map.transpose());
-            self.scene.environment = Some(Environment::Map { image, rows: MapRows::Bands, scale, map_from_world });
+            self.replace_environment(environment)?;
         }
         let file = self.file;
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
         Ok(Imported { scene: self.scene, labels, inputs: self.inputs, missing: self.missing, report })
+    }
+
+    /// Puts the surroundings of the options in place of the file's own.
+    fn replace_environment(&mut self, environment: &EnvironmentOverride) -> Result<(), ImportError> {
+        if let Some((sky, environment, sun)) = environment.of_sky(self.next_image()) {
+            self.push_image(sky);
+            self.scene.lights.extend(sun);
+            self.scene.environment = Some(environment);
+        }
+        if let Some(file) = environment.file() {
+            // The path is the caller's, not the scene file's: relative to the working directory.
+            let bytes = self.read_input(file, "the import options name it as the environment; correct the path")?;
+            let decoded = images::decode(&self.picture_name(file), &bytes, Use::Color)
+                .map_err(|problem| ImportError::malformed(file, "environment picture", format!("it {problem}")))?;
+            let image = self.push_image(decoded.image);
+            self.scene.environment = Some(environment.of_picture(image));
+        }
+        Ok(())
     }
 }
 
@@ -206,24 +216,12 @@ pub(crate) fn mat3_f32(m: DMat3) -> Mat3 {
     Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3())
 }
 
-/// The scene without meshes that no part uses; the others keep their order.
-fn without_unused_meshes(mut scene: Scene) -> Scene {
-    let mut used = vec![false; scene.meshes.len()];
-    scene.parts.iter().for_each(|p| used[p.mesh as usize] = true);
-    let mut next = 0;
-    let new_index: Vec<u32> = used.iter().map(|&u| (next, next += u32::from(u)).0).collect();
-    scene.parts.iter_mut().for_each(|p| p.mesh = new_index[p.mesh as usize]);
-    let mut keep = used.into_iter();
-    scene.meshes.retain(|_| keep.next().unwrap_or(false));
-    scene
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use enfilade_geometry::Mesh;
-    use enfilade_math::Vec3;
-    use enfilade_scene::{Light, Material, Quiet, uv_from_direction};
+    use enfilade_math::{Rgb, Vec3};
+    use enfilade_scene::{Environment, Light, MapRows, Material, Quiet, uv_from_direction};
 
     fn triangle() -> Mesh {
         Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }

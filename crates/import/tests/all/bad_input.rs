@@ -1,7 +1,7 @@
 //! Files that are wrong: each gets one clear message with file, place and what to do; none panics.
 
 use crate::common::{Folder, Gltf, warnings};
-use enfilade_import::{EnvironmentOverride, Format, ImportOptions};
+use enfilade_import::{EnvironmentOverride, EnvironmentSource, Format, ImportOptions};
 use serde_json::json;
 
 fn gltf_error(change: impl FnOnce(&mut Gltf)) -> String {
@@ -170,7 +170,7 @@ fn pointers_of_git_lfs_are_named_in_every_format_and_for_every_file() {
     assert!(message.contains("needs the texture lfs.png, which is a Git LFS pointer"), "{message}");
     let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
     assert!(warnings(&folder.load_with("picture.gltf", &options).unwrap()).contains("run `git lfs pull`"));
-    let environment = EnvironmentOverride { file: folder.path("lfs.png"), scale: 1.0, rotation_deg: 0.0 };
+    let environment = EnvironmentOverride::from(EnvironmentSource::Picture(folder.path("lfs.png")));
     folder.write("plain.gltf", Gltf::triangle().text());
     let options = ImportOptions { environment: Some(environment), ..ImportOptions::default() };
     let message = folder.load_with("plain.gltf", &options).unwrap_err().to_string();

@@ -334,7 +334,11 @@ fn dropped_features_are_in_the_report() {
 fn environments_can_be_given_by_the_user() {
     let folder = Folder::new();
     folder.write("sky.png", png(4, 2, [9, 9, 9, 255])).write("a.gltf", Gltf::triangle().text());
-    let environment = enfilade_import::EnvironmentOverride { file: folder.path("sky.png"), scale: 2.0, rotation_deg: 90.0 };
+    let environment = enfilade_import::EnvironmentOverride {
+        source: enfilade_import::EnvironmentSource::Picture(folder.path("sky.png")),
+        scale: 2.0,
+        rotation_deg: 90.0,
+    };
     let options = ImportOptions { environment: Some(environment), ..ImportOptions::default() };
     let imported = folder.load_with("a.gltf", &options).unwrap();
     let Some(enfilade_scene::Environment::Map { map_from_world, scale, .. }) = imported.scene.environment else { panic!("no map") };

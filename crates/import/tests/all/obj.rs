@@ -1,7 +1,7 @@
 //! OBJ and MTL features, one small file each.
 
 use crate::common::{Folder, png, warnings};
-use enfilade_import::{EnvironmentOverride, ImportOptions};
+use enfilade_import::{EnvironmentOverride, EnvironmentSource, ImportOptions};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, NormalMap, Wrap};
 
@@ -37,7 +37,7 @@ fn a_scene_is_the_same_wherever_its_files_lie() {
         }
         folder.write("room/a.mtl", "newmtl M\nmap_Kd tex/wood.png\nmap_Bump ../grey.png\n");
         folder.write("room/a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
-        let environment = EnvironmentOverride { file: folder.path("sky.png"), scale: 1.0, rotation_deg: 0.0 };
+        let environment = EnvironmentOverride::from(EnvironmentSource::Picture(folder.path("sky.png")));
         let options = ImportOptions { environment: Some(environment), ..ImportOptions::default() };
         folder.load_with("room/a.obj", &options).unwrap().scene
     };

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::workdir::OWN_FILES;
 use enfilade_dataset::check_name;
 use enfilade_explore::ExploreError;
-use enfilade_import::{EnvironmentOverride, ImportError, ImportOptions};
+use enfilade_import::{ImportError, ImportOptions};
 use enfilade_render::{RenderConfig, RenderError};
 use std::collections::HashSet;
 
@@ -118,6 +118,10 @@ impl SceneConfig {
     }
 }
 
+/// What to write for surroundings.
+const ENVIRONMENT: &str = "for example: environment = { file = \"sky.hdr\", scale = 1 }, \"sky\", \"overcast\", or \
+    { sky = \"clear\", date = \"06-21\", hour = 15, latitude_deg = 45 }";
+
 /// What to write for a home.
 pub(super) const HOME: &str =
     "home = {} takes everything as it comes; home = { seed = 3, rooms = [\"living\", \"kitchen\", \"hall\"] } chooses";
@@ -127,12 +131,11 @@ fn found(problem: Option<String>, misset: impl FnOnce(String) -> Misset) -> Resu
 }
 
 fn check_import(file: &FileSource) -> Result<(), Misset> {
-    let environment = file.environment.as_ref();
-    let environment = environment.map(|e| EnvironmentOverride { file: (&e.file).into(), scale: e.scale, rotation_deg: e.rotation_deg });
+    let environment = file.environment.clone();
     let options = ImportOptions { meters_per_unit: file.meters_per_unit, environment, ..ImportOptions::default() };
     options.validate().map_err(|error| match error {
         ImportError::Option { option: key @ "environment", problem } => {
-            Misset::new(Section::Import, key, format!("{key}: {problem}"), "for example: environment = { file = \"sky.hdr\", scale = 1 }")
+            Misset::new(Section::Import, key, format!("{key}: {problem}"), ENVIRONMENT)
         }
         ImportError::Option { option: key, problem } => {
             Misset::new(Section::Import, key, format!("{key}: {problem}"), "0.01 for a file in centimetres, 1 for one in metres")

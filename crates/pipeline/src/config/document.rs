@@ -4,8 +4,9 @@ use super::camera::CameraConfig;
 use super::choices::Quality;
 use super::farm::FarmKeys;
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
-use super::settings::{CameraChoice, EnvironmentChoice};
+use super::settings::{CameraChoice, Lamps};
 use enfilade_explore::Preset;
+use enfilade_import::EnvironmentOverride;
 use enfilade_import::UpAxis;
 use serde::de::{
     MapAccess, SeqAccess, Unexpected, Visitor,
@@ -47,6 +48,9 @@ pub(super) struct Document {
 pub(super) struct ImportKeys {
     pub meters_per_unit: Option<Spanned<f64>>,
     pub up_axis: Option<UpAxis>,
+    pub environment: Option<Spanned<EnvironmentOverride>>,
+    pub lamps: Option<Lamps>,
+    pub drop_doubled_faces: Option<bool>,
     pub allow_missing_textures: Option<bool>,
 }
 
@@ -59,7 +63,9 @@ pub(super) struct SceneKeys {
     pub home: Option<Spanned<toml::Table>>,
     pub meters_per_unit: Option<Spanned<f64>>,
     pub up_axis: Option<UpAxis>,
-    pub environment: Option<Spanned<EnvironmentChoice>>,
+    pub environment: Option<Spanned<EnvironmentOverride>>,
+    pub lamps: Option<Lamps>,
+    pub drop_doubled_faces: Option<bool>,
     pub allow_missing_textures: Option<bool>,
     pub labels: Option<Spanned<String>>,
     pub label_scene: Option<String>,

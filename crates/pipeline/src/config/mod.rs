@@ -32,7 +32,7 @@ pub use choices::{Overrides, Quality, RenderChoices};
 pub use farm::{FarmConfig, Placeholder};
 pub(crate) use locate::closest;
 pub use select::select;
-pub use settings::{CameraChoice, Config, EnvironmentChoice, FileSource, LabelSource, SceneConfig, Source};
+pub use settings::{CameraChoice, Config, FileSource, LabelSource, Lamps, SceneConfig, Source};
 
 impl Config {
     /// Reads and resolves `file`.

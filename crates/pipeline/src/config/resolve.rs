@@ -212,7 +212,9 @@ impl Resolver<'_> {
         let in_levels = |span: &dyn Fn(&Level) -> Option<Range<usize>>| levels.iter().find_map(span);
         match section {
             Section::Scene => in_levels(&|level| level.frames.map(Spanned::span)),
-            Section::Import if key == "environment" => keys.environment.as_ref().map(Spanned::span),
+            Section::Import if key == "environment" => {
+                keys.environment.as_ref().or(self.document.import.environment.as_ref()).map(Spanned::span)
+            }
             Section::Import => keys.meters_per_unit.as_ref().or(self.document.import.meters_per_unit.as_ref()).map(Spanned::span),
             Section::Home => keys.home.as_ref().map(Spanned::span),
             Section::Camera => in_levels(&|level| level.camera.map(Spanned::span)),
@@ -253,15 +255,20 @@ impl Resolver<'_> {
         };
         let defaults = &self.document.import;
         let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
-        if let Some(environment) = &keys.environment {
-            self.check_path(&environment.get_ref().file, environment)?;
+        let environment = keys.environment.as_ref().or(defaults.environment.as_ref());
+        if let Some(environment) = environment
+            && let Some(picture) = environment.get_ref().file()
+        {
+            self.check_path(&picture.to_string_lossy(), environment)?;
         }
         self.check_path(file.get_ref(), file)?;
         Ok(Source::File(FileSource {
             file: file.get_ref().clone(),
             meters_per_unit: meters_per_unit.map_or(1.0, |v| *v.get_ref()),
             up_axis: keys.up_axis.or(defaults.up_axis),
-            environment: keys.environment.as_ref().map(|e| e.get_ref().clone()),
+            environment: environment.map(|e| e.get_ref().clone()),
+            lamps: keys.lamps.or(defaults.lamps),
+            drop_doubled_faces: keys.drop_doubled_faces.or(defaults.drop_doubled_faces).unwrap_or(false),
             allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
         }))
     }

@@ -11,7 +11,7 @@ use crate::error::Error;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
-use enfilade_import::UpAxis;
+use enfilade_import::{EnvironmentOverride, UpAxis};
 use enfilade_math::hash_u64;
 use enfilade_render::RenderConfig;
 use enfilade_verify::view_gates::GateConfig;
@@ -111,24 +111,37 @@ pub struct FileSource {
     pub meters_per_unit: f64,
     /// `None` takes the format's own.
     pub up_axis: Option<UpAxis>,
-    /// Replaces the file's surroundings.
-    pub environment: Option<EnvironmentChoice>,
+    /// Replaces the file's surroundings; a path is as written.
+    pub environment: Option<EnvironmentOverride>,
+    /// Adds lamps to the file's own.
+    pub lamps: Option<Lamps>,
+    /// Keeps the first of all faces with the same corners.
+    pub drop_doubled_faces: bool,
     /// Goes on, with a warning, where a texture file is missing.
     pub allow_missing_textures: bool,
 }
 
-/// An environment map for a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EnvironmentChoice {
-    /// An equirectangular picture; as written.
-    pub file: String,
-    /// Multiplies its radiance.
-    #[serde(default = "one")]
-    pub scale: f32,
-    /// About the up axis.
-    #[serde(default)]
-    pub rotation_deg: f32,
+impl FileSource {
+    /// The file as it comes.
+    pub fn of(file: impl Into<String>) -> Self {
+        Self {
+            file: file.into(),
+            meters_per_unit: 1.0,
+            up_axis: None,
+            environment: None,
+            lamps: None,
+            drop_doubled_faces: false,
+            allow_missing_textures: false,
+        }
+    }
+}
+
+/// Lamps for a scene whose file has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Lamps {
+    /// Square ones below the ceiling of every room.
+    Ceiling,
 }
 
 /// Who wants less on disk says so; who wants what was rendered later cannot.
@@ -144,10 +157,6 @@ pub(super) const fn save_every_s() -> f64 {
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
 fn is_false(value: &bool) -> bool {
     !value
-}
-
-fn one() -> f32 {
-    1.0
 }
 
 /// A label table and the rows of it that count.

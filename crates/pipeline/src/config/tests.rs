@@ -6,6 +6,7 @@ use enfilade_dataset::ColorKind;
 use enfilade_explore::{Mode, Preset, VideoConfig};
 use enfilade_home::light::Moment;
 use enfilade_home::{HomeConfig, RoomKind};
+use enfilade_import::EnvironmentOverride;
 use enfilade_import::UpAxis;
 use enfilade_render::RenderConfig;
 use enfilade_verify::view_gates::{GateAction, GateConfig};
@@ -37,7 +38,7 @@ fn a_scene_needs_a_name_and_a_file_and_gets_defaults_for_the_rest() {
     let scene = &config.scenes[0];
     assert_eq!((scene.seed, scene.size, scene.fov_x_deg, scene.render.samples), (0, [1024, 768], None, 32));
     assert_eq!((scene.plan.frames, &scene.labels, scene.cameras.len()), (100, &None, 0));
-    let file = FileSource { file: "a.gltf".into(), meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false };
+    let file = FileSource::of("a.gltf");
     assert_eq!(scene.source, Source::File(file));
 }
 
@@ -143,7 +144,7 @@ fn everything_about_a_scene_can_be_said() {
     let Source::File(file) = &hall.source else { panic!("{:?}", hall.source) };
     assert_eq!((file.file.as_str(), file.meters_per_unit, file.up_axis), ("$ROOMS/hall.xml", 0.4, Some(UpAxis::Z)));
     assert!(file.allow_missing_textures);
-    assert_eq!(file.environment, Some(EnvironmentChoice { file: "sky.hdr".into(), scale: 1.0, rotation_deg: 90.0 }));
+    assert_eq!(file.environment, Some(EnvironmentOverride { rotation_deg: 90.0, ..EnvironmentOverride::named("sky.hdr") }));
     assert_eq!(hall.labels, Some(LabelSource { table: "../../examples/real-rooms/drake_labels.csv".into(), scene: "modern-hall".into() }));
     assert_eq!(
         hall.cameras,

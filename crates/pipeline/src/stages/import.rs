@@ -4,12 +4,13 @@ use super::{Input, Inputs, Job, Outcome, Record};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
+use crate::intake::{load_file, settle};
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
 use enfilade_home::HomeConfig;
-use enfilade_import::{EnvironmentOverride, ImportOptions, ImportedLabel};
-use enfilade_scene::{Cx, Labels, PartLabel, Scene, WorldMesh};
+use enfilade_import::{EnvironmentOverride, ImportedLabel};
+use enfilade_scene::{Labels, PartLabel, Scene, WorldMesh};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -49,8 +50,7 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     let Some(record) = previous else { return Ok(None) };
     // Where the configuration names other files now, those that were read do not matter, although they may still be there.
     let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == path);
-    let named = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
-    if named.into_iter().flatten().any(|written| job.config.path(written).is_ok_and(|path| !was_read(&path))) {
+    if named(source).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
     // A file that cannot be read makes the stage run, and its error says why.
@@ -73,7 +73,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);
-            let imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
+            let mut imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
+            settle(source, &mut imported, cx);
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
             let inputs = watch.inputs(&[imported.inputs, imported.missing].concat())?;
@@ -116,6 +117,12 @@ fn remove_frames_of_other_scenes(job: &Job, package: &Path, bytes: &[u8]) -> Res
     job.there()?.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
 }
 
+/// The files that the configuration names, as written.
+fn named(source: &FileSource) -> impl Iterator<Item = String> {
+    let picture = source.environment.as_ref().and_then(EnvironmentOverride::file).map(|file| file.to_string_lossy().into_owned());
+    [Some(source.file.clone()), picture].into_iter().flatten()
+}
+
 /// Finds files that somebody saves while the scene is read from them: whether the old or the new content was read is unknown.
 struct Watch {
     start: SystemTime,
@@ -125,8 +132,7 @@ struct Watch {
 
 impl Watch {
     fn start(job: &Job, source: &FileSource) -> Self {
-        let written = [Some(&source.file), source.environment.as_ref().map(|environment| &environment.file)];
-        let files = written.into_iter().flatten().filter_map(|written| job.config.path(written).ok()).filter(|path| path.is_file());
+        let files = named(source).filter_map(|written| job.config.path(&written).ok()).filter(|path| path.is_file());
         // A file that cannot be read here fails the import, which says why.
         let named = files.filter_map(|path| Input::of(&path).ok()).collect();
         Self { start: SystemTime::now(), named }
@@ -146,26 +152,6 @@ impl Watch {
     }
 }
 
-/// Imports `file` with the choices of `source`; `locate` finds the other files that these name.
-pub(crate) fn load_file(
-    source: &FileSource,
-    file: &Path,
-    locate: &dyn Fn(&str) -> Result<PathBuf, Error>,
-    cx: &dyn Cx,
-) -> Result<enfilade_import::Imported, Error> {
-    let environment = match &source.environment {
-        Some(e) => Some(EnvironmentOverride { file: locate(&e.file)?, scale: e.scale, rotation_deg: e.rotation_deg }),
-        None => None,
-    };
-    let options = ImportOptions {
-        meters_per_unit: source.meters_per_unit,
-        up_axis: source.up_axis,
-        environment,
-        allow_missing_textures: source.allow_missing_textures,
-    };
-    enfilade_import::load(file, &options, cx).map_err(Error::stage)
-}
-
 pub(crate) fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels {
     let mut parts = vec![PartLabel::NONE; scene.parts.len()];
     for label in labels {
@@ -176,14 +162,9 @@ pub(crate) fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels 
 
 /// One line about a scene.
 pub(crate) fn describe(scene: &Scene) -> String {
-    describe_and_measure(scene).0
-}
-
-/// One line about a scene, and its largest extent, m.
-pub(crate) fn describe_and_measure(scene: &Scene) -> (String, f32) {
     let triangles: usize = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
     let extent = WorldMesh::new(scene).bounds.extent();
-    let line = format!(
+    format!(
         "{}, {}, {}, {}; {} x {} x {} m",
         counted(scene.parts.len(), "part"),
         counted(triangles, "triangle"),
@@ -192,8 +173,7 @@ pub(crate) fn describe_and_measure(scene: &Scene) -> (String, f32) {
         metres(extent.x),
         metres(extent.y),
         metres(extent.z)
-    );
-    (line, extent.max_element())
+    )
 }
 
 /// A length to a tenth, or, where it is below that, to two significant digits, so that a scene in a wrong unit shows its size.

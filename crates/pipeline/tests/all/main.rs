@@ -6,6 +6,7 @@ mod common;
 mod damage;
 mod demo;
 mod gates;
+mod intake;
 mod places;
 mod presets;
 mod rooms;

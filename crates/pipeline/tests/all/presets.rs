@@ -10,8 +10,9 @@ use std::path::Path;
 
 /// A home of one room, walked through by every preset.
 fn config(folder: &Path, size: &str, frames: u32) -> Config {
-    let mut text =
-        format!("seed = 3\nframes = {frames}\n[render]\n{size}samples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n");
+    let mut text = format!(
+        "seed = 3\nframes = {frames}\n[render]\n{size}samples = 1\nmax_bounces = 1\ncolor = \"rendered\"\n[carve]\nrays = 8192\niterations = 2\n"
+    );
     for preset in ["default", "paper", "hypersim"] {
         text += &format!(
             "[[scene]]\nname = \"{preset}\"\npreset = \"{preset}\"\nhome = {{ seed = 0, rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n"

@@ -132,8 +132,7 @@ pub fn animate_camera(
     cx: &dyn Cx,
 ) -> Result<Vec<Result<Animated, NoFrames>>, AnimateError> {
     let shot = Shot { dataset, scene, camera };
-    let numbers = dataset.frame_numbers(scene, camera)?;
-    dataset.warn_of_incomplete([scene, camera], &numbers, None, cx)?;
+    let numbers = dataset.whole_frames([scene, camera], None, cx)?;
     let first = shot.first(&numbers)?;
     let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
     let fps = config.fps.map_or_else(|| shot.pictures_per_second(), Ok)?;

@@ -45,8 +45,7 @@ pub fn gather(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Gathe
     let mut filmed = Vec::new();
     for scene in scenes {
         for camera in dataset.cameras(scene)? {
-            let frames = dataset.frame_numbers(scene, &camera)?;
-            dataset.warn_of_incomplete([scene, &camera], &frames, None, cx)?;
+            let frames = dataset.whole_frames([scene, &camera], None, cx)?;
             // Hypersim's table of cameras comes apart from its archives.
             let projection = dataset.read_camera(scene, &camera).ok().map(|camera| camera.projection);
             filmed.push(Filmed { scene, camera, frames, projection });

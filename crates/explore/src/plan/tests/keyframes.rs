@@ -15,6 +15,10 @@ const JSON: &str = r#"[{"frame": 0, "position": [3.0, 2.5, 1.5], "look_at": [3.0
 fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() {
     let keyframes = parse_keyframes("path.csv", CSV).unwrap();
     assert_eq!(keyframes, parse_keyframes("PATH.JSON", JSON).unwrap());
+    // As spreadsheets write them where the comma is the decimal point, and with tabs.
+    let semicolons = CSV.replace(", ", ";").replace('.', ",");
+    assert_eq!(keyframes, parse_keyframes("path.csv", &semicolons).unwrap());
+    assert_eq!(keyframes, parse_keyframes("path.csv", &CSV.replace(", ", "\t")).unwrap());
     let room = furnished_room();
     let (space, heard) = (carved(&room), Heard::default());
     let planned = follow(&room.world, &room.bvh, &space, &keyframes, "cam_04", &quick(), &heard).unwrap();

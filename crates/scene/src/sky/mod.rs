@@ -1,5 +1,11 @@
 //! Sky and sun by day, at dusk and at dawn, as an environment map and a directional light.
 
+mod overcast;
+mod solar_moment;
+
+pub use overcast::Overcast;
+pub use solar_moment::SolarMoment;
+
 use crate::atmosphere::Atmosphere;
 use crate::{Environment, Image, Light, MapRows, Pixels, direction_from_uv};
 use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
@@ -59,18 +65,8 @@ impl Daylight {
     /// The sky as an equirectangular environment of `width` × `width`/2 texels, and the sun as a light; both multiplied by
     /// `exposure`. `image` is the index that the picture will have in the scene.
     pub fn lights(&self, width: u32, exposure: f32, image: u32) -> (Image, Environment, Light) {
-        let height = width / 2;
-        let map_from_world = Mat3::from_cols(Vec3::X, Vec3::NEG_Z, Vec3::Y); // the map's up is y
-        let world_from_map = map_from_world.transpose();
         let radiance = self.sky_radiance();
-        let texels = (0..width * height)
-            .map(|i| {
-                let uv = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / Vec2::new(width as f32, height as f32);
-                (radiance(world_from_map * direction_from_uv(uv)) * exposure).to_array()
-            })
-            .collect();
-        let picture = Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) };
-        let environment = Environment::Map { image, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world };
+        let (picture, environment) = environment(width, image, |d| radiance(d) * exposure);
         let sun = Light::Directional {
             name: "sun".into(),
             direction: -self.to_sun,
@@ -79,6 +75,30 @@ impl Daylight {
         };
         (picture, environment, sun)
     }
+}
+
+impl Overcast {
+    /// The sky as an equirectangular environment of `width` × `width`/2 texels, multiplied by `exposure`, over a ground that reflects
+    /// this share of its light. `image` is the index that the picture will have in the scene.
+    pub fn lights(&self, width: u32, exposure: f32, ground_albedo: f32, image: u32) -> (Image, Environment) {
+        let ground = Rgb::splat(self.ground_klx() * ground_albedo / PI);
+        environment(width, image, |d| if d.z < 0.0 { ground * exposure } else { self.radiance(d) * exposure })
+    }
+}
+
+/// The picture of a sky by its radiance in unit directions (z up), and the environment that shows it.
+fn environment(width: u32, image: u32, radiance: impl Fn(Vec3) -> Rgb) -> (Image, Environment) {
+    let height = width / 2;
+    let map_from_world = Mat3::from_cols(Vec3::X, Vec3::NEG_Z, Vec3::Y); // the map's up is y
+    let world_from_map = map_from_world.transpose();
+    let texels = (0..width * height)
+        .map(|i| {
+            let uv = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / Vec2::new(width as f32, height as f32);
+            radiance(world_from_map * direction_from_uv(uv)).to_array()
+        })
+        .collect();
+    let picture = Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) };
+    (picture, Environment::Map { image, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world })
 }
 
 #[cfg(test)]

@@ -1,0 +1,52 @@
+//! `drop_doubled_faces`: of faces with the same corners only the first stays.
+
+use super::Look;
+use enfilade_dataset::counted;
+use enfilade_geometry::Mesh;
+use enfilade_import::Imported;
+use enfilade_scene::PartId;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Drops every doubled face, and with its last face a part; says how many went.
+pub(super) fn drop_faces(imported: &mut Imported, look: &Look) -> Option<String> {
+    let doubled = &look.findings.doubled;
+    let mut by_part: BTreeMap<PartId, BTreeSet<u32>> = BTreeMap::new();
+    for [_, later] in doubled {
+        let source = look.world.sources[*later as usize];
+        by_part.entry(source.part).or_default().insert(source.triangle);
+    }
+    let scene = &mut imported.scene;
+    let mut emptied = BTreeSet::new();
+    for (part, dropped) in &by_part {
+        let mesh = &scene.meshes[scene.parts[*part as usize].mesh as usize];
+        if dropped.len() == mesh.triangles.len() {
+            emptied.insert(*part);
+            continue;
+        }
+        // Other parts may share the mesh, and theirs stay whole.
+        let own = without(mesh, dropped);
+        scene.parts[*part as usize].mesh = scene.meshes.len() as u32;
+        scene.meshes.push(own);
+    }
+    remove_parts(imported, &emptied);
+    imported.scene.remove_unused_meshes();
+    (!doubled.is_empty()).then(|| {
+        let parts = if emptied.is_empty() { String::new() } else { format!(", and with them {}", counted(emptied.len(), "part")) };
+        format!("{} with the corners of another went (drop_doubled_faces){parts}", counted(doubled.len(), "face"))
+    })
+}
+
+fn without(mesh: &Mesh, dropped: &BTreeSet<u32>) -> Mesh {
+    let kept = mesh.triangles.iter().enumerate().filter(|(i, _)| !dropped.contains(&(*i as u32)));
+    Mesh { triangles: kept.map(|(_, triangle)| *triangle).collect(), ..mesh.clone() }
+}
+
+/// Takes parts out, with their labels; the numbers of those behind them move up.
+fn remove_parts(imported: &mut Imported, emptied: &BTreeSet<PartId>) {
+    let mut number = 0..;
+    imported.scene.parts.retain(|_| !emptied.contains(&number.next().unwrap_or_default()));
+    if let Some(labels) = &mut imported.labels {
+        labels.retain(|label| !emptied.contains(&label.part));
+        labels.iter_mut().for_each(|label| label.part -= emptied.range(..label.part).count() as PartId);
+    }
+}

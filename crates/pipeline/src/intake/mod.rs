@@ -1,0 +1,75 @@
+//! What becomes of a scene file between its importer and the stages: a look at its geometry, and what the user asked to be mended.
+//!
+//! An importer gives what the file says. Here follow doubled faces that go, lamps that are hung, and the remarks about both and about
+//! everything else that a look finds; they join the importer's warnings, in the report.
+
+mod doubled;
+mod lamps;
+mod remarks;
+
+pub(crate) use remarks::has_light;
+
+use crate::config::{FileSource, Lamps};
+use crate::error::Error;
+use enfilade_explore::{Findings, findings};
+use enfilade_geometry::Bvh;
+use enfilade_import::{ImportOptions, Imported};
+use enfilade_scene::{Cx, Scene, Warning, WorldMesh};
+use std::path::{Path, PathBuf};
+
+/// Imports `file` with the choices of `source`, as the file is; `locate` finds the other files that these name.
+pub(crate) fn load_file(
+    source: &FileSource,
+    file: &Path,
+    locate: &dyn Fn(&str) -> Result<PathBuf, Error>,
+    cx: &dyn Cx,
+) -> Result<Imported, Error> {
+    let mut environment = source.environment.clone();
+    if let Some(written) = environment.as_mut().and_then(|e| e.file_mut()) {
+        *written = locate(&written.to_string_lossy())?;
+    }
+    let options = ImportOptions {
+        meters_per_unit: source.meters_per_unit,
+        up_axis: source.up_axis,
+        environment,
+        allow_missing_textures: source.allow_missing_textures,
+    };
+    enfilade_import::load(file, &options, cx).map_err(Error::stage)
+}
+
+/// An imported scene as rays meet it, and what a look at it found.
+pub(crate) struct Look {
+    pub world: WorldMesh,
+    pub bvh: Bvh,
+    pub findings: Findings,
+}
+
+impl Look {
+    /// Looks at a scene.
+    pub fn at(scene: &Scene) -> Self {
+        let world = WorldMesh::new(scene);
+        let bvh = Bvh::new(&world.corners, &|_| true);
+        let findings = findings(&world, &bvh);
+        Self { world, bvh, findings }
+    }
+}
+
+/// Mends what `source` asks for, and tells what a look found: `cx` hears it, and the report keeps it.
+pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Look {
+    let look = Look::at(&imported.scene);
+    let mut remarks = remarks::of_geometry(source, &imported.scene, &look);
+    if source.drop_doubled_faces {
+        remarks.extend(doubled::drop_faces(imported, &look));
+    }
+    if source.lamps == Some(Lamps::Ceiling) {
+        remarks.push(lamps::hang(&mut imported.scene, imported.labels.as_mut(), &look));
+    }
+    remarks.extend(remarks::of_light(&imported.scene));
+    for message in remarks {
+        let warning = Warning { place: source.file.clone(), message };
+        cx.warn(warning.clone());
+        imported.report.warnings.push(warning);
+    }
+    imported.report.recount(&imported.scene);
+    look
+}

@@ -1,0 +1,164 @@
+//! What a look at a scene finds, in sentences that name the key that mends it.
+
+use super::Look;
+use crate::config::FileSource;
+use enfilade_dataset::counted;
+use enfilade_scene::{PartId, Scene};
+use std::fmt::Write;
+use std::ops::RangeInclusive;
+
+/// Longest sides of what may be a room or a building, metres; beyond them the unit is probably another.
+const BUILDINGS_M: RangeInclusive<f32> = 1.0..=200.0;
+/// Longest sides of what mostly is a room or a flat, metres: a unit that leads there is proposed.
+const ROOMS_M: RangeInclusive<f32> = 2.0..=60.0;
+/// Units that files have, and what they are called.
+const UNITS: [(f64, &str); 8] = [
+    (0.001, "millimetres"),
+    (0.01, "centimetres"),
+    (0.0254, "inches"),
+    (0.1, "decimetres"),
+    (0.3048, "feet"),
+    (10.0, "tens of metres"),
+    (100.0, "metres, if its exporter took centimetres for its unit"),
+    (1000.0, "metres, if its exporter took millimetres for its unit"),
+];
+/// Common areas below this are a matter of contact, square metres.
+const LEAST_OVERLAP_M2: f64 = 0.01;
+/// Floors without a ceiling are told from this area on, square metres, and this share of all floors.
+const LEAST_OPEN_M2: f64 = 2.0;
+const LEAST_OPEN_SHARE: f64 = 0.2;
+/// Share of what is seen in rooms that may be backs: sheets have two sides.
+const BACKS_SHARE: f64 = 0.3;
+/// Names that stand for all.
+const NAMED: usize = 3;
+
+/// About the geometry, most important first.
+pub(super) fn of_geometry(source: &FileSource, scene: &Scene, look: &Look) -> Vec<String> {
+    let found = [unit(source, look), open_floor(look), doubled(source, scene, look), overlapping(scene, look), backs(scene, look)];
+    found.into_iter().flatten().chain(without_area(scene, look)).collect()
+}
+
+/// Says so when nothing shines.
+pub(super) fn of_light(scene: &Scene) -> Option<String> {
+    (!has_light(scene)).then(|| {
+        "nothing in it shines, so every picture would be black; light it by environment = \"sky\" or \"overcast\" (or --environment sky), \
+         which comes in through windows, or by lamps = \"ceiling\" (or --lamps ceiling) in every room"
+            .into()
+    })
+}
+
+/// Whether anything of a scene shines.
+pub(crate) fn has_light(scene: &Scene) -> bool {
+    let shines = |part: &enfilade_scene::Part| !scene.materials[part.material as usize].emission.factor.is_black();
+    scene.environment.is_some() || !scene.lights.is_empty() || scene.parts.iter().any(shines)
+}
+
+fn unit(source: &FileSource, look: &Look) -> Option<String> {
+    let size = look.world.bounds.extent();
+    let longest = size.max_element();
+    if look.world.bounds.is_empty() || BUILDINGS_M.contains(&longest) {
+        return None;
+    }
+    let stated = source.meters_per_unit;
+    let mut text = format!("it is {longest:.2} m long; if it is a room, its unit is another");
+    let fits = |(factor, _): &&(f64, &str)| ROOMS_M.contains(&((longest as f64 * factor / stated) as f32));
+    let proposals: Vec<String> = UNITS.iter().filter(fits).map(|(factor, name)| proposal(size.to_array(), *factor, stated, name)).collect();
+    if proposals.is_empty() {
+        text.push_str(": state it by meters_per_unit (or --meters-per-unit)");
+    } else {
+        let _ = write!(text, ". {}", proposals.join("; "));
+    }
+    Some(text)
+}
+
+fn proposal(size: [f32; 3], factor: f64, stated: f64, name: &str) -> String {
+    let [x, y, z] = size.map(|side| f64::from(side) * factor / stated);
+    format!("meters_per_unit = {factor} (or --meters-per-unit {factor}), for a file in {name}, makes it {x:.1} x {y:.1} x {z:.1} m")
+}
+
+fn open_floor(look: &Look) -> Option<String> {
+    let open_m2 = look.findings.open_floor_m2;
+    let covered_m2: f64 = look.findings.ceilings.iter().map(enfilade_explore::Ceiling::area_m2).sum();
+    let share = open_m2 / (open_m2 + covered_m2).max(f64::MIN_POSITIVE);
+    (open_m2 >= LEAST_OPEN_M2 && share >= LEAST_OPEN_SHARE).then(|| {
+        format!(
+            "{:.0} % of its floors, {open_m2:.0} m2, have walls around them and no ceiling above; light comes in from there \
+             (environment = \"overcast\" is even), and views may look out: max_open_share and max_void_share of [plan] say how many may",
+            100.0 * share
+        )
+    })
+}
+
+fn doubled(source: &FileSource, scene: &Scene, look: &Look) -> Option<String> {
+    let doubled = &look.findings.doubled;
+    let part = |triangle: u32| look.world.sources[triangle as usize].part;
+    let [earlier, later] = *doubled.first()?;
+    if source.drop_doubled_faces {
+        return None;
+    }
+    Some(format!(
+        "{} the corners of another, as of part {:?} and {:?}: which of the two is seen is chance; drop_doubled_faces = true (or \
+         --drop-doubled-faces) keeps the first",
+        if doubled.len() == 1 { "1 face has".into() } else { format!("{} faces have", doubled.len()) },
+        scene.parts[part(earlier) as usize].name,
+        scene.parts[part(later) as usize].name
+    ))
+}
+
+fn overlapping(scene: &Scene, look: &Look) -> Option<String> {
+    let large: Vec<_> = look.findings.overlapping.iter().filter(|overlap| overlap.area_m2 >= LEAST_OVERLAP_M2).collect();
+    let total_m2: f64 = large.iter().map(|overlap| overlap.area_m2).sum();
+    let name = |part: PartId| &scene.parts[part as usize].name;
+    let pairs = large.iter().take(NAMED).map(|overlap| match overlap.parts {
+        [a, b] if a == b => format!("{:?} with itself", name(a)),
+        [a, b] => format!("{:?} and {:?}", name(a), name(b)),
+    });
+    (!large.is_empty()).then(|| {
+        format!(
+            "surfaces lie in each other over about {total_m2:.2} m2 ({}{}), so rounding decides which is seen, in spots; move one of them \
+             by a millimetre",
+            pairs.collect::<Vec<_>>().join(", "),
+            and_more(large.len())
+        )
+    })
+}
+
+fn backs(scene: &Scene, look: &Look) -> Option<String> {
+    let backs = look.findings.backs.as_ref().filter(|backs| backs.share >= BACKS_SHARE && !backs.parts.is_empty())?;
+    let is_black = |part: &PartId| {
+        let material = &scene.materials[scene.parts[*part as usize].material as usize];
+        !material.two_sided && !material.bsdf.transmits()
+    };
+    let black: Vec<PartId> = backs.parts.iter().copied().filter(is_black).collect();
+    let shown = if black.is_empty() { &backs.parts } else { &black };
+    let percent = 100.0 * backs.share;
+    let names = names(scene, shown);
+    Some(if black.is_empty() {
+        format!(
+            "{percent:.0} % of what is seen in its rooms are backs of faces ({names}): shells whose fronts look outward. Pictures, depth and \
+             normals are the same from both sides; the mesh files keep the file's order of corners"
+        )
+    } else {
+        format!(
+            "{percent:.0} % of what is seen in its rooms are backs of faces; {names} are black there, since their materials have one side: \
+             in Mitsuba files put the bsdf into a \"twosided\" one, or turn the faces"
+        )
+    })
+}
+
+fn without_area(scene: &Scene, look: &Look) -> Option<String> {
+    let parts = &look.findings.without_area;
+    (!parts.is_empty()).then(|| {
+        let verb = if parts.len() == 1 { "has" } else { "have" };
+        format!("{} {verb} no area and can never be seen ({}); their numbers stay", counted(parts.len(), "part"), names(scene, parts))
+    })
+}
+
+fn names(scene: &Scene, parts: &[PartId]) -> String {
+    let first: Vec<String> = parts.iter().take(NAMED).map(|part| format!("{:?}", scene.parts[*part as usize].name)).collect();
+    first.join(", ") + &and_more(parts.len())
+}
+
+fn and_more(count: usize) -> String {
+    if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() }
+}

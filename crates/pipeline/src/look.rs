@@ -1,0 +1,191 @@
+//! `look`: the first picture of a scene file, in one step.
+//!
+//! The file is imported and looked at; it gets light if it has none, and a place to stand is found if none of its cameras stands in a
+//! room. Then one picture is rendered, denoised and shown as people see it.
+
+use crate::config::{FileSource, Lamps, closest};
+use crate::error::Error;
+use crate::intake::{Look, has_light, load_file, settle};
+use crate::report::Stopwatch;
+use crate::single::{refuse_overwriting, write_output};
+use crate::stages::describe;
+use enfilade_denoise::{Denoiser, denoise};
+use enfilade_explore::{Saliency, StartsConfig, find_starts, is_indoors, view_stats};
+use enfilade_frame::{Frame, Pass};
+use enfilade_import::{EnvironmentOverride, Imported};
+use enfilade_math::{DMat3, DVec3, Ray};
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
+use enfilade_scene::{Camera, CameraView, Cx, Intrinsics, Pose, Scene, StartCamera, Warning};
+use enfilade_show::exposure::{Brightness, Exposure, display_exposure};
+use enfilade_show::preview::{PreviewSpec, Subject};
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+/// Width and height of the picture, pixels.
+const SIZE: [u32; 2] = [640, 480];
+/// Samples per pixel, before denoising, where there is time for them.
+const SAMPLES: u32 = 24;
+/// Wall time after which no further samples are begun, seconds.
+const RENDER_S: f64 = 9.0;
+/// Horizontal field of view from a place that was found: 75 degrees, a wide lens.
+const WIDE_RAD: f64 = 75.0 * PI / 180.0;
+/// Range of that of a file's camera, for pictures that show something.
+const FOV_RAD: [f64; 2] = [20.0 * PI / 180.0, 100.0 * PI / 180.0];
+/// Headings tried at a place that was found, and how far the view is tilted down, radians.
+const HEADINGS: u32 = 24;
+const TILT_RAD: f64 = 0.08;
+/// Views that go farther are not better, metres.
+const FAR_M: f64 = 6.0;
+/// Test images of them.
+const TEST_SIZE: [u32; 2] = [64, 48];
+
+/// What a look showed.
+#[derive(Clone, Debug)]
+pub struct Looked {
+    /// One line about the scene.
+    pub summary: String,
+    /// What is looked through.
+    pub view: String,
+    /// What lights it, where the file did not.
+    pub light: Option<String>,
+    /// Samples per pixel that were taken.
+    pub samples: f64,
+    /// Wall time of everything, seconds.
+    pub wall_s: f64,
+}
+
+/// Renders a picture of the file of `source` (a path as it stands) to `output`, a JPEG or PNG by its extension; through the file's camera
+/// `camera` where one is named.
+///
+/// # Errors
+/// When the file cannot be imported, has no such camera, shows no place to stand, or the picture cannot be written.
+pub fn look(source: &FileSource, camera: Option<&str>, output: &Path, cx: &dyn Cx) -> Result<Looked, Error> {
+    let time = Stopwatch::start();
+    let name = picture_name(output)?;
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    refuse_overwriting(output, &imported.inputs)?;
+    let (light, look) = lit(source, &mut imported, cx)?;
+    let scene = &imported.scene;
+    let (start, view) = place(scene, &look, camera, cx)?;
+    drop(look);
+
+    let (frame, samples) = render(scene, &start, cx)?;
+    let layers = denoise(&frame, |noisy| Denoiser::built_in().filter(noisy)).map_err(Error::stage)?;
+    let mut shown = frame;
+    layers.iter().for_each(|(layer, values)| shown.insert(layer, values.clone()));
+    let display = display_exposure(&Brightness::of_frame(&shown, 1).into_iter().collect::<Vec<_>>());
+    let spec = PreviewSpec { pass: Pass::Final, name, subject: Subject::Displayed };
+    let bytes = spec.file(&shown, Exposure::from(display)).unwrap_or_default();
+    write_output(output, &bytes)?;
+    Ok(Looked { summary: describe(scene), view, light, samples, wall_s: time.wall_s() })
+}
+
+/// The kind of picture that the extension of a path names.
+fn picture_name(output: &Path) -> Result<&'static str, Error> {
+    let extension = output.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("jpg" | "jpeg") => Ok("look.jpg"),
+        Some("png") => Ok("look.png"),
+        _ => Err(Error::usage(format!("{} is no name of a picture", output.display()), "end it with .jpg or .png")),
+    }
+}
+
+/// Gives a scene without light some; says which.
+fn lit(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Result<(Option<String>, Look), Error> {
+    let is_dark = !has_light(&imported.scene) && source.lamps.is_none();
+    if !is_dark {
+        return Ok((None, settle(source, imported, cx)));
+    }
+    let sky = EnvironmentOverride::named("overcast");
+    let lamps = FileSource { lamps: Some(Lamps::Ceiling), environment: Some(sky), ..source.clone() };
+    // The sky is the importer's: the file is read again, with it. What is dark has seldom more than a mesh.
+    *imported = load_file(&lamps, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    let look = settle(&lamps, imported, cx);
+    let light = if look.findings.ceilings.is_empty() {
+        "nothing in the file shines: an overcast sky lights it (--environment overcast)"
+    } else {
+        "nothing in the file shines: lamps below its ceilings and an overcast sky light it (--lamps ceiling --environment overcast)"
+    };
+    Ok((Some(light.into()), look))
+}
+
+/// Where to look from, and in words.
+fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
+    let of_file = |camera: &StartCamera| (with_usable_view(camera), format!("camera {:?} of the file", camera.name));
+    if let Some(name) = name {
+        let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+        let proposal = || closest(name, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
+        let found = scene.cameras.iter().find(|camera| camera.name == name);
+        return found
+            .map(of_file)
+            .ok_or_else(|| Error::usage(format!("the scene has no camera {name:?}"), format!("{}its cameras: {names:?}", proposal())));
+    }
+    if let Some(inside) = scene.cameras.iter().find(|camera| camera.position.is_finite() && is_indoors(&look.bvh, camera.position)) {
+        return Ok(of_file(inside));
+    }
+    let places = find_starts(&look.world, &look.bvh, &StartsConfig::default(), cx);
+    if let Some(best) = best_view(look, &places) {
+        let instead = if scene.cameras.is_empty() { "the file has no camera" } else { "no camera of the file stands in a room" };
+        return Ok((best, format!("a place that was found, since {instead}")));
+    }
+    if let Some(outside) = scene.cameras.first() {
+        return Ok(of_file(outside));
+    }
+    cx.warn(Warning { place: "look".into(), message: "it is seen from outside".into() });
+    Ok((from_outside(look), "outside, since no place in it was found where one could stand".into()))
+}
+
+/// The camera with a field of view that a picture can have.
+fn with_usable_view(camera: &StartCamera) -> StartCamera {
+    StartCamera { fov_x_rad: camera.fov_x_rad.clamp(FOV_RAD[0], FOV_RAD[1]), ..camera.clone() }
+}
+
+/// Of the places, with all headings, the view that shows most, not from close by: its saliency times the root of how far it goes.
+fn best_view(look: &Look, places: &[StartCamera]) -> Option<StartCamera> {
+    let test = Intrinsics::from_fov_x(TEST_SIZE[0], TEST_SIZE[1], WIDE_RAD);
+    let saliency = Saliency::Entropy { alpha: 1.0, beta: 2.0 };
+    let views = places.iter().flat_map(|place| (0..HEADINGS).map(move |k| heading(place, TAU * f64::from(k) / f64::from(HEADINGS))));
+    let score = |view: &StartCamera| {
+        let ray = Ray::new(view.position.as_vec3(), -view.world_from_camera.z_axis.as_vec3());
+        let far_m = look.bvh.closest(&ray).map_or(0.0, |hit| f64::from(hit.t).min(FAR_M));
+        saliency.score(&view_stats(&look.world, &look.bvh, &test, &view.pose(0))) * far_m.sqrt()
+    };
+    let scored = views.map(|view| (score(&view), view));
+    scored.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, view)| view)
+}
+
+fn heading(place: &StartCamera, angle_rad: f64) -> StartCamera {
+    let (sin, cos) = angle_rad.sin_cos();
+    let forward = DVec3::new(cos * TILT_RAD.cos(), sin * TILT_RAD.cos(), -TILT_RAD.sin());
+    looking(&place.name, place.position, forward)
+}
+
+fn looking(name: &str, position: DVec3, forward: DVec3) -> StartCamera {
+    let right = forward.cross(DVec3::Z).normalize();
+    let world_from_camera = DMat3::from_cols(right, right.cross(forward), -forward);
+    StartCamera { name: name.into(), position, world_from_camera, fov_x_rad: WIDE_RAD, aspect: 4.0 / 3.0 }
+}
+
+/// A view of all of it, from above one corner.
+fn from_outside(look: &Look) -> StartCamera {
+    let (low, high) = (look.world.bounds.min.as_dvec3(), look.world.bounds.max.as_dvec3());
+    let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+    let forward = DVec3::new(1.0, 1.0, -0.8).normalize();
+    looking("outside", middle - forward * (radius / (0.35 * WIDE_RAD).sin()), forward)
+}
+
+/// Renders the view for as long as a look may take.
+fn render(scene: &Scene, start: &StartCamera, cx: &dyn Cx) -> Result<(Frame, f64), Error> {
+    let camera = Camera::from(Intrinsics::from_fov_x(SIZE[0], SIZE[1], start.fov_x_rad));
+    let pose: Pose = start.pose(0);
+    let view = CameraView::still(&camera, &pose);
+    let prepared = RenderScene::new(scene, cx).map_err(Error::stage)?;
+    let config = RenderConfig { samples: SAMPLES, ..RenderConfig::default() };
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let mut rendering = FrameRender::new(&prepared, &guide, &view, &config).map_err(Error::stage)?;
+    let time = Stopwatch::start();
+    while !rendering.is_done() && (time.wall_s() < RENDER_S || rendering.samples() == 0.0) {
+        rendering.short_pass(cx);
+    }
+    Ok((rendering.frame(), f64::from(rendering.samples())))
+}

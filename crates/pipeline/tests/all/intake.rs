@@ -1,0 +1,132 @@
+//! What becomes of a scene file before the stages: light for dark ones, doubled faces, and what a look at the geometry tells.
+
+use enfilade_pipeline::{EnvironmentOverride, FileSource, Lamps, check_file, import_file};
+use enfilade_scene::{Heard, Light, Quiet, Scene, from_bytes, to_bytes};
+use std::path::Path;
+
+/// A closed room of 4 m x 3 m x 2.5 m with z up, whose faces look inward, times `scale`.
+fn room(scale: f64) -> String {
+    let mut text = String::from("o room\n");
+    for i in 0..8 {
+        let at = |bit: u32, far: f64| if i >> bit & 1 == 1 { scale * far } else { 0.0 };
+        text += &format!("v {} {} {}\n", at(0, 4.0), at(1, 3.0), at(2, 2.5));
+    }
+    text + &faces([[1, 3, 7, 5], [2, 6, 8, 4], [1, 5, 6, 2], [3, 4, 8, 7], [1, 2, 4, 3], [5, 7, 8, 6]])
+}
+
+fn faces<const N: usize>(corners: [[u32; 4]; N]) -> String {
+    corners.iter().map(|face| format!("f {}\n", face.map(|i| i.to_string()).join(" "))).collect()
+}
+
+fn source(folder: &Path, text: &str) -> FileSource {
+    let file = folder.join("room.obj");
+    std::fs::write(&file, text).unwrap();
+    FileSource { up_axis: Some(enfilade_pipeline::UpAxis::Z), ..FileSource::of(file.to_string_lossy()) }
+}
+
+/// What checking a file tells.
+fn told(source: &FileSource) -> String {
+    let heard = Heard::default();
+    let checked = check_file(source, &heard).unwrap();
+    let messages: Vec<String> = checked.warnings.iter().map(ToString::to_string).collect();
+    messages.join("\n")
+}
+
+fn imported(folder: &Path, source: &FileSource) -> (Scene, serde_json::Value) {
+    let output = folder.join("room.scene");
+    let made = import_file(source, &output, |scene, _| (to_bytes(scene), Vec::new()), &Quiet).unwrap();
+    let report = serde_json::from_slice(&std::fs::read(made.report).unwrap()).unwrap();
+    (from_bytes(&std::fs::read(output).unwrap()).unwrap(), report)
+}
+
+#[test]
+fn a_dark_room_is_told_and_lit_by_lamps_or_a_sky_that_need_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let dark = source(folder.path(), &room(1.0));
+    let text = told(&dark);
+    assert!(
+        text.contains("nothing in it shines") && text.contains("environment = \"sky\"") && text.contains("lamps = \"ceiling\""),
+        "{text}"
+    );
+
+    let lamps = FileSource { lamps: Some(Lamps::Ceiling), ..dark.clone() };
+    let (scene, report) = imported(folder.path(), &lamps);
+    let names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["room", "ceiling_lamp_1", "ceiling_lamp_1_frame"]);
+    let panel = scene.world_corners(&scene.parts[1], 0)[0];
+    assert!((panel.x - 2.0).abs() < 0.5 && (panel.y - 1.5).abs() < 0.5 && (2.4..2.5).contains(&panel.z), "{panel}");
+    // A quarter of a kilo-lumen for each of the 12 m², from a Lambert emitter of 0.52 m × 0.52 m.
+    let radiance = scene.materials[scene.parts[1].material as usize].emission.factor.luminance();
+    assert!((f64::from(radiance) * std::f64::consts::PI * 0.52 * 0.52 - 3.0).abs() < 0.1, "{radiance}");
+    let warnings = report["import"]["warnings"].to_string();
+    assert!(warnings.contains("1 lamp of 0.60 m") && !warnings.contains("nothing in it shines"), "{warnings}");
+    assert_eq!(report["import"]["counts"]["emissive_materials"], 1);
+
+    let sky = FileSource { environment: Some(EnvironmentOverride::named("sky")), ..dark.clone() };
+    let (scene, _) = imported(folder.path(), &sky);
+    assert!(matches!(scene.lights[..], [Light::Directional { .. }]) && scene.environment.is_some());
+    let overcast = FileSource { environment: Some(EnvironmentOverride::named("overcast")), ..dark };
+    let (scene, _) = imported(folder.path(), &overcast);
+    assert!(scene.lights.is_empty() && scene.environment.is_some());
+}
+
+#[test]
+fn doubled_faces_are_told_and_go_where_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    // The floor once more as a part of its own, and the wall at x = 0 within the room, from the other side.
+    let text = room(1.0) + &faces([[7, 3, 1, 5]]) + "o carpet\n" + &faces([[1, 2, 4, 3]]);
+    let doubled = source(folder.path(), &text);
+    let text = told(&doubled);
+    assert!(text.contains("4 faces have the corners of another") && text.contains("drop_doubled_faces = true"), "{text}");
+    let (scene, report) = imported(folder.path(), &FileSource { drop_doubled_faces: true, ..doubled });
+    assert_eq!((scene.parts.len(), scene.meshes.len(), scene.meshes[0].triangles.len()), (1, 1, 12));
+    assert!(report["import"]["warnings"].to_string().contains("4 faces with the corners of another went"), "{report}");
+    assert_eq!(report["import"]["counts"]["triangles"], 12);
+}
+
+#[test]
+fn a_wrong_unit_is_told_with_the_ones_that_make_a_room() {
+    let folder = tempfile::tempdir().unwrap();
+    for (scale, words) in [
+        (100.0, "it is 400.00 m long; if it is a room, its unit is another. meters_per_unit = 0.01 (or --meters-per-unit 0.01)"),
+        (
+            0.01,
+            "meters_per_unit = 100 (or --meters-per-unit 100), for a file in metres, if its exporter took centimetres for its unit, makes it 4.0 x 3.0 x 2.5 m",
+        ),
+        (1e9, "state it by meters_per_unit"),
+    ] {
+        let text = told(&source(folder.path(), &room(scale)));
+        assert!(text.contains(words), "{scale}: {text}");
+    }
+    // Where a unit is stated, what is proposed is to stand in its place.
+    let stated = FileSource { meters_per_unit: 10.0, ..source(folder.path(), &room(100.0)) };
+    let text = told(&stated);
+    assert!(text.contains("it is 4000.00 m long") && text.contains("meters_per_unit = 0.01 "), "{text}");
+    assert!(!told(&source(folder.path(), &room(1.0))).contains("unit"));
+}
+
+#[test]
+fn missing_ceilings_shells_and_parts_without_area_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let without_ceiling = room(1.0).replace("f 5 7 8 6\n", "") + "o speck\nf 1 1 1\n";
+    let text = told(&source(folder.path(), &without_ceiling));
+    assert!(text.contains("100 % of its floors") && text.contains("max_open_share"), "{text}");
+    let turned: String = room(1.0)
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(face) => format!("f {}\n", face.split(' ').rev().collect::<Vec<_>>().join(" ")),
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let text = told(&source(folder.path(), &turned));
+    assert!(text.contains("100 % of what is seen in its rooms are backs of faces (\"room\")"), "{text}");
+}
+
+#[test]
+fn the_report_of_a_sound_room_has_nothing_about_its_geometry() {
+    let folder = tempfile::tempdir().unwrap();
+    let lit = FileSource { environment: Some(EnvironmentOverride::named("sky")), ..source(folder.path(), &room(1.0)) };
+    let checked = check_file(&lit, &Quiet).unwrap();
+    // OBJ files have no material of their own here, which their reader tells.
+    assert!(checked.warnings.iter().all(|warning| warning.message.contains("material")), "{:?}", checked.warnings);
+}
