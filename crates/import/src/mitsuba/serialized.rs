@@ -5,8 +5,9 @@
 //! and 32-bit indices. All is little-endian.
 
 use crate::ImportError;
+use crate::assembly::{origin_of, positions_from};
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DVec2, DVec3};
 use flate2::bufread::ZlibDecoder;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -22,13 +23,14 @@ const MAX_ELEMENTS: u64 = 1 << 26;
 /// Longest name of a mesh, bytes.
 const MAX_NAME: u64 = 1 << 16;
 
-/// Reads mesh `index` of the file. Texture coordinates stay as they are.
-pub(super) fn read(bytes: &[u8], index: i64, file: &Path) -> Result<Mesh, ImportError> {
+/// Reads mesh `index` of the file, and the point from which its positions are told (see `origin_of`). Texture coordinates stay as they are.
+pub(super) fn read(bytes: &[u8], index: i64, file: &Path, meters_per_unit: f64) -> Result<(Mesh, DVec3), ImportError> {
     let error = |problem: String| ImportError::malformed(file, format!("mesh {index}"), problem);
     let (start, version) = locate(bytes, index).map_err(error)?;
     let body = bytes.get(start + 4..).unwrap_or_default();
     let mut stream = Stream { inner: BufReader::new(ZlibDecoder::new(body)) };
-    stream.mesh(version).map_err(|e| error(format!("{e}; the file is damaged or cut short, so copy or export it again")))
+    let damaged = |e| error(format!("{e}; the file is damaged or cut short, so copy or export it again"));
+    stream.mesh(version, meters_per_unit).map_err(damaged)
 }
 
 /// Byte offset and version of a mesh.
@@ -55,7 +57,7 @@ struct Stream<R> {
 }
 
 impl<R: BufRead> Stream<R> {
-    fn mesh(&mut self, version: u16) -> std::io::Result<Mesh> {
+    fn mesh(&mut self, version: u16, meters_per_unit: f64) -> std::io::Result<(Mesh, DVec3)> {
         let flags = self.u32()?;
         if version == 4 {
             self.name()?;
@@ -67,6 +69,7 @@ impl<R: BufRead> Stream<R> {
         }
         let double = flags & DOUBLE != 0;
         let positions = self.floats(vertices, 3, double)?;
+        let positions: Vec<DVec3> = positions.chunks_exact(3).map(DVec3::from_slice).collect();
         let normals = if flags & HAS_NORMALS != 0 { self.floats(vertices, 3, double)? } else { Vec::new() };
         let uvs = if flags & HAS_UVS != 0 { self.floats(vertices, 2, double)? } else { Vec::new() };
         if flags & HAS_COLORS != 0 {
@@ -74,12 +77,14 @@ impl<R: BufRead> Stream<R> {
         }
         let indices = self.exactly(triangles, 12)?;
         let word = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-        Ok(Mesh {
-            positions: positions.chunks_exact(3).map(Vec3::from_slice).collect(),
-            normals: normals.chunks_exact(3).map(Vec3::from_slice).collect(),
-            uvs: uvs.chunks_exact(2).map(Vec2::from_slice).collect(),
+        let origin = origin_of(positions.iter().copied(), meters_per_unit);
+        let mesh = Mesh {
+            positions: positions_from(origin, &positions),
+            normals: normals.chunks_exact(3).map(|n| DVec3::from_slice(n).as_vec3()).collect(),
+            uvs: uvs.chunks_exact(2).map(|uv| DVec2::from_slice(uv).as_vec2()).collect(),
             triangles: indices.chunks_exact(12).map(|t| [word(t), word(&t[4..]), word(&t[8..])]).collect(),
-        })
+        };
+        Ok((mesh, origin))
     }
 
     /// Passes the name and the zero after it.
@@ -91,13 +96,13 @@ impl<R: BufRead> Stream<R> {
         Ok(())
     }
 
-    fn floats(&mut self, count: u64, components: u64, double: bool) -> std::io::Result<Vec<f32>> {
+    fn floats(&mut self, count: u64, components: u64, double: bool) -> std::io::Result<Vec<f64>> {
         let size = if double { 8 } else { 4 };
         let bytes = self.exactly(count, components * size)?;
         Ok(if double {
-            bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]) as f32).collect()
+            bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect()
         } else {
-            bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
+            bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))).collect()
         })
     }
 
@@ -128,14 +133,15 @@ impl<R: BufRead> Stream<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_math::{Vec2, Vec3};
     use flate2::{Compression, write::ZlibEncoder};
     use std::io::Write;
 
     /// Two meshes of one triangle, the second one shifted and in double precision.
-    fn file(version: u16) -> Vec<u8> {
+    fn file(version: u16, far: f64) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut offsets = Vec::new();
-        for shift in [0.0f64, 5.0] {
+        for shift in [0.0f64, far] {
             let double = shift > 0.0;
             offsets.push(bytes.len() as u64);
             bytes.extend(MAGIC.to_le_bytes());
@@ -163,19 +169,27 @@ mod tests {
     #[test]
     fn every_mesh_of_either_version_is_found() {
         for version in [3, 4] {
-            let mesh = read(&file(version), 1, Path::new("a.serialized")).unwrap();
+            let (mesh, origin) = read(&file(version, 5.0), 1, Path::new("a.serialized"), 1.0).unwrap();
+            assert_eq!(origin, DVec3::ZERO);
             assert_eq!((mesh.positions[1], mesh.uvs[2], mesh.triangles[0]), (Vec3::new(6.0, 0.0, 0.0), Vec2::Y, [0, 1, 2]));
-            assert_eq!(read(&file(version), 0, Path::new("a.serialized")).unwrap().positions[1], Vec3::X);
+            assert_eq!(read(&file(version, 5.0), 0, Path::new("a.serialized"), 1.0).unwrap().0.positions[1], Vec3::X);
         }
     }
 
     #[test]
+    fn double_precision_far_from_the_origin_is_kept() {
+        let (mesh, origin) = read(&file(4, 445_123.125), 1, Path::new("a.serialized"), 1.0).unwrap();
+        assert_eq!(origin.x + f64::from(mesh.positions[1].x), 445_124.125);
+        assert!(origin.x > 445_000.0);
+    }
+
+    #[test]
     fn damage_is_named() {
-        let message = |bytes: &[u8], i| read(bytes, i, Path::new("a.serialized")).unwrap_err().to_string();
-        assert!(message(&file(4), 2).contains("only 2 meshes"));
-        assert!(message(&file(4), -1).contains("only 2 meshes"));
+        let message = |bytes: &[u8], i| read(bytes, i, Path::new("a.serialized"), 1.0).unwrap_err().to_string();
+        assert!(message(&file(4, 5.0), 2).contains("only 2 meshes"));
+        assert!(message(&file(4, 5.0), -1).contains("only 2 meshes"));
         assert!(message(b"", 0).contains("does not begin like"));
-        let mut broken = file(4);
+        let mut broken = file(4, 5.0);
         broken[30..60].fill(0xff);
         assert!(message(&broken, 0).contains("damaged"));
         let mut z = ZlibEncoder::new(Vec::new(), Compression::fast());

@@ -167,7 +167,7 @@ impl<'n> Reader<'n, '_> {
                         means = ply.means;
                         (ply.mesh, ply.origin)
                     }
-                    _ => (serialized::read(&bytes, index, &file)?, DVec3::ZERO),
+                    _ => serialized::read(&bytes, index, &file, unit)?,
                 };
                 Ok(Built { mesh, origin, means, file })
             }
