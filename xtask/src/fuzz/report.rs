@@ -14,6 +14,9 @@ const NOTES: &str = "\
   EXRs, V-Ray's too, with blocks of more than 128 MiB, for which room is made before they are read, and with a table that does not lead
   to each block once.
 - `png`, in scene packages: the size must be the one that the package says, and no more than deflate can make of the file.
+- `draco-core`: has limits of its own on vertices, triangles and bytes, which are set by the size of the stream; so is what meshopt unpacks.
+- `basisu`: width and height are read first; where its decoder of ETC1S panics, as at sums beyond 32 bits, that becomes an error.
+- `ruzstd`: no more is unpacked than the picture's size calls for.
 - `flate2`, `zip`: what is unpacked is counted, and refused beyond a bound: vertices of a mesh, bytes of a list, of a model.
 - `postcard`: blends within blends are read 128 deep, since the library has no bound of its own.
 ";

@@ -77,7 +77,13 @@ pub fn gltf() -> Vec<Seed> {
     full.json["accessors"][0]["sparse"] =
         json!({"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}});
     full.json["scenes"][0]["extras"] = json!({"environment": {"color": [1, 1, 1]}});
-    vec![seed("triangle.gltf", plain.text()), seed("triangle.glb", plain.binary()), seed("everything.gltf", full.text())]
+    vec![
+        seed("triangle.gltf", plain.text()),
+        seed("triangle.glb", plain.binary()),
+        seed("everything.gltf", full.text()),
+        seed("draco.glb", include_bytes!("../../../import/tests/gltf/draco_edgebreaker.glb")),
+        seed("meshopt.glb", include_bytes!("../../../import/tests/gltf/meshopt_khr.glb")),
+    ]
 }
 
 /// A glTF with a light that a photometric profile describes.

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "program")]
 mod annotations;
+mod compressed;
 #[cfg(feature = "dataset")]
 mod datasets;
 #[cfg(feature = "program")]
@@ -56,6 +57,8 @@ pub enum Reads {
 /// All targets.
 pub const TARGETS: &[Target] = &[
     importer("gltf", "scene.gltf", "scene.gltf", "glTF, as text and binary", seeds::gltf),
+    own("draco", "Draco streams of a glTF", 8 << 10, compressed::draco, compressed::dracos),
+    own("meshopt", "buffer views of a glTF that meshopt has packed", 8 << 10, compressed::meshopt, compressed::meshopts),
     importer("obj", "scene.obj", "scene.obj", "Wavefront OBJ", none),
     importer("mtl", "scene.mtl", "with_mtl.obj", "MTL materials of an OBJ", none),
     importer("mitsuba", "scene.xml", "scene.xml", "Mitsuba XML", seeds::mitsuba),

@@ -3,7 +3,7 @@
 use super::Assembly;
 use crate::ImportError;
 use crate::archive::Archive;
-use crate::images::{self, Use};
+use crate::images::{self, Decoded, Use};
 use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
 use std::path::{Component, Path, PathBuf};
 
@@ -108,6 +108,22 @@ impl Assembly<'_> {
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
     /// and the options allow that; then a plain value has to stand in.
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
+        let (key, problem) = match self.try_image(source, usage, user)? {
+            Ok(index) => return Ok(Some(index)),
+            Err(failed) => failed,
+        };
+        if self.images.insert((key.clone(), usage), None).is_some() {
+            self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
+        } else if self.options.allow_missing_textures {
+            self.warn(user, format!("the texture {key} {problem}; a plain grey stands in"));
+        } else {
+            return Err(ImportError::Texture { file: self.file.clone(), user: user.to_string(), texture: key, problem });
+        }
+        Ok(None)
+    }
+
+    /// The index of a picture, decoded at first use, or its name and what is wrong with it.
+    pub(crate) fn try_image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Result<u32, (String, String)>, ImportError> {
         let elsewhere = match source {
             Source::File(path) if !self.exists(path) => self.elsewhere(path).map(|found| (self.resolve(path), found)),
             _ => None,
@@ -119,10 +135,7 @@ impl Assembly<'_> {
             Source::Embedded(place, _) | Source::Missing(place) => place.clone(),
         };
         if let Some(&found) = self.images.get(&(key.clone(), usage)) {
-            if found.is_none() {
-                self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
-            }
-            return Ok(found);
+            return Ok(found.ok_or_else(|| (key, String::new())));
         }
         if let Some((stated, found)) = &elsewhere {
             self.warn(user, format!("the texture {} is not there; {found}, which is called alike, was used", stated.display()));
@@ -130,7 +143,21 @@ impl Assembly<'_> {
                 self.missing.push(stated.clone());
             }
         }
-        let decoded = match source {
+        let decoded = match self.decoded(source, usage)? {
+            Ok(decoded) => decoded,
+            Err(problem) => return Ok(Err((key, problem))),
+        };
+        if let Some(note) = decoded.note {
+            self.warn(user, format!("texture {key}: {note}"));
+        }
+        let index = self.push_image(decoded.image);
+        self.images.insert((key, usage), Some(index));
+        Ok(Ok(index))
+    }
+
+    /// A picture, or what is wrong with it.
+    fn decoded(&mut self, source: &Source, usage: Use) -> Result<Result<Decoded, String>, ImportError> {
+        Ok(match source {
             Source::File(path) => match self.read(path) {
                 Ok((file, bytes)) => images::decode(&self.picture_name(&file), &bytes, usage),
                 Err(ImportError::Read { source, .. }) => Err(format!("cannot be read ({source})")),
@@ -139,23 +166,6 @@ impl Assembly<'_> {
             },
             Source::Embedded(place, bytes) => images::decode(place, bytes, usage),
             Source::Missing(_) => Err("is not in the archive".to_string()),
-        };
-        let index = match decoded {
-            Ok(decoded) => {
-                if let Some(note) = decoded.note {
-                    self.warn(user, format!("texture {key}: {note}"));
-                }
-                Some(self.push_image(decoded.image))
-            }
-            Err(problem) if self.options.allow_missing_textures => {
-                self.warn(user, format!("the texture {key} {problem}; a plain grey stands in"));
-                None
-            }
-            Err(problem) => {
-                return Err(ImportError::Texture { file: self.file.clone(), user: user.to_string(), texture: key, problem });
-            }
-        };
-        self.images.insert((key, usage), index);
-        Ok(index)
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! Colours of vertices (`COLOR_0`): a scene has none, so that their mean over a primitive multiplies its material.
+//! Colours of vertices (`COLOR_0`), and their mean over a primitive, which multiplies its material where they are not painted.
 
 use super::container::Document;
 use crate::ImportError;
@@ -34,22 +34,22 @@ pub(super) struct Several {
     pub opacities: bool,
 }
 
-/// The mean of `COLOR_0` over the triangles of a primitive, weighted by area, and what of them varies.
+/// `COLOR_0` of a primitive, one a vertex; empty where it has none.
 ///
 /// # Errors
 /// When the accessor cannot be read or is of another length than the positions, or a colour is not a number.
-pub(super) fn mean(
+pub(super) fn read(
     document: &Document,
     primitive: &Primitive,
     mesh: &Mesh,
     place: &str,
     a: &mut Assembly,
-) -> Result<(Tint, Several), ImportError> {
+) -> Result<Vec<[f32; 4]>, ImportError> {
     if primitive.attributes.keys().any(|k| matches!(k, Checked::Valid(Semantic::Colors(set)) if *set > 0)) {
         a.warn(place, "vertex colours of further sets dropped; COLOR_0 alone multiplies the base colour");
     }
     let Some(&accessor) = primitive.attributes.get(&Checked::Valid(Semantic::Colors(0))) else {
-        return Ok((Tint::NONE, Several::default()));
+        return Ok(Vec::new());
     };
     let has_alpha = document.root.accessors.get(accessor.value()).is_some_and(|a| a.type_ == Checked::Valid(Type::Vec4));
     let colors = if has_alpha {
@@ -66,10 +66,11 @@ pub(super) fn mean(
     if let Some(vertex) = colors.iter().position(|color| color.iter().any(|v| !v.is_finite())) {
         return Err(bad(format!("found {:?} at vertex {vertex}, expected numbers; export the file again", colors[vertex])));
     }
-    Ok(over_triangles(mesh, &colors))
+    Ok(colors)
 }
 
-fn over_triangles(mesh: &Mesh, colors: &[[f32; 4]]) -> (Tint, Several) {
+/// The mean of colours over the triangles of a primitive, weighted by area, and what of them varies.
+pub(super) fn mean(mesh: &Mesh, colors: &[[f32; 4]]) -> (Tint, Several) {
     let color = |vertex: u32| colors.get(vertex as usize).copied();
     let of = |[i, j, k]: [u32; 3]| Some([color(i)?, color(j)?, color(k)?]);
     let triangles: Vec<_> = mesh.triangles.iter().enumerate().filter_map(|(i, t)| Some((area(mesh, i), of(*t)?))).collect();
@@ -77,11 +78,11 @@ fn over_triangles(mesh: &Mesh, colors: &[[f32; 4]]) -> (Tint, Several) {
     let varies: [bool; 4] = std::array::from_fn(|c| triangles.iter().any(|(_, corners)| corners.iter().any(|v| v[c] != first[c])));
     let total: f64 = triangles.iter().map(|(area, _)| area).sum();
     let weight = |area: f64| if total > 0.0 && total.is_finite() { area / total } else { 1.0 / triangles.len() as f64 };
-    let mean = |c: usize| {
+    let mean_of = |c: usize| {
         let sum = |corners: &[[f32; 4]; 3]| corners.iter().map(|v| f64::from(v[c])).sum::<f64>();
         triangles.iter().map(|(area, corners)| weight(*area) * sum(corners) / 3.0).sum::<f64>() as f32
     };
-    let [r, g, b, opacity] = std::array::from_fn(|c| if varies[c] { mean(c) } else { first[c] }.clamp(0.0, 1.0));
+    let [r, g, b, opacity] = std::array::from_fn(|c| if varies[c] { mean_of(c) } else { first[c] }.clamp(0.0, 1.0));
     (Tint { color: Rgb::new(r, g, b), opacity }, Several { colors: varies[..3].contains(&true), opacities: varies[3] })
 }
 
@@ -106,14 +107,14 @@ mod tests {
         let (red, blue) = ([1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.5]);
         let colors = [red, red, red, blue, blue, blue, [9.0; 4]];
         let tint = |r, b, opacity| Tint { color: Rgb::new(r, 0.0, b), opacity };
-        assert_eq!(over_triangles(&mesh, &colors), (tint(0.75, 0.25, 0.875), Several { colors: true, opacities: true }));
+        assert_eq!(mean(&mesh, &colors), (tint(0.75, 0.25, 0.875), Several { colors: true, opacities: true }));
         mesh.triangles.pop();
-        assert_eq!(over_triangles(&mesh, &colors), (tint(1.0, 0.0, 1.0), Several::default()));
+        assert_eq!(mean(&mesh, &colors), (tint(1.0, 0.0, 1.0), Several::default()));
         // Without an area, and beyond the vertices.
         mesh.triangles = vec![[0, 0, 3], [0, 1, 99]];
-        let (Tint { color, opacity }, _) = over_triangles(&mesh, &colors);
+        let (Tint { color, opacity }, _) = mean(&mesh, &colors);
         assert!((color.r - 2.0 / 3.0).abs() < 1e-6 && (color.b - 1.0 / 3.0).abs() < 1e-6 && (opacity - 2.5 / 3.0).abs() < 1e-6);
         mesh.triangles.clear();
-        assert_eq!(over_triangles(&mesh, &colors), (Tint::NONE, Several::default()));
+        assert_eq!(mean(&mesh, &colors), (Tint::NONE, Several::default()));
     }
 }

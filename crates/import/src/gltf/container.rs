@@ -1,7 +1,9 @@
-//! The outer layer of a glTF file: text or binary, its buffers, and the URIs in it.
+//! The outer layer of a glTF file: text or binary, and what lies in its buffers.
 
+use super::budget::Budget;
+use super::buffers::Buffers;
 use super::uri::{Uri, resolve_uri};
-use super::{far, lumens, omissions};
+use super::{draco, far, lumens, meshopt, omissions, unrendered};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DVec3;
@@ -10,9 +12,12 @@ use std::cell::Cell;
 use std::collections::HashMap;
 
 /// Extensions that an importer may be required to understand and that this one does.
-pub(super) const SUPPORTED: [&str; 16] = [
+const SUPPORTED: [&str; 22] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -25,9 +30,17 @@ pub(super) const SUPPORTED: [&str; 16] = [
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 ];
+
+/// True for an extension that is read, or of which the report says what is rendered instead.
+pub(super) fn is_supported(extension: &str) -> bool {
+    SUPPORTED.contains(&extension) || unrendered::is_told(extension)
+}
 
 /// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
 /// than allocated.
@@ -38,7 +51,11 @@ pub(super) struct Document {
     /// The JSON part. Nothing in it has been checked: indices are followed by `get` only.
     pub root: Root,
     /// Bytes of all buffers.
-    pub buffers: Vec<Vec<u8>>,
+    buffers: Buffers,
+    /// What is wrong with buffer views whose data cannot be unpacked.
+    unreadable_views: HashMap<usize, String>,
+    /// What is wrong with primitives, by mesh, whose data cannot be unpacked.
+    unreadable_primitives: HashMap<(usize, usize), String>,
     /// Numbers that accessors without a buffer view may still ask for.
     pub zeros_left: Cell<u64>,
     /// Large translations of nodes, see `far.rs`.
@@ -59,17 +76,17 @@ impl Document {
         } else {
             (bytes.as_slice(), None)
         };
-        let root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
+        let mut root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
-        let mut buffers = Vec::with_capacity(root.buffers.len());
-        for (i, b) in root.buffers.iter().enumerate() {
-            let lacking = b.uri.is_none() && (i > 0 || binary.is_none());
-            let unused = lacking && root.buffer_views.iter().all(|view| view.buffer.value() != i);
-            buffers.push(if unused { Vec::new() } else { read_buffer(i, b, binary, assembly)? });
-        }
+        let mut buffers = Buffers::read(&root, binary, assembly)?;
+        let (mut unreadable_views, mut unreadable_primitives) = (HashMap::new(), HashMap::new());
+        let mut budget = Budget::default();
+        meshopt::unpack(&mut root, &mut buffers, binary, &mut unreadable_views, &mut budget, assembly);
+        draco::unpack(&mut root, &mut buffers, &mut unreadable_primitives, &mut budget, assembly);
         let lumens_per_watt = lumens::per_watt(&root, assembly);
         let far_translations = far::far_translations(&root.nodes, json);
-        Ok(Self { root, far_translations, buffers, zeros_left: Cell::new(MAX_ZEROS), lumens_per_watt })
+        let zeros_left = Cell::new(MAX_ZEROS);
+        Ok(Self { root, buffers, unreadable_views, unreadable_primitives, zeros_left, far_translations, lumens_per_watt })
     }
 
     /// The bytes of a buffer view, or what is wrong with it.
@@ -79,23 +96,17 @@ impl Document {
             .buffer_views
             .get(index)
             .ok_or_else(|| format!("refers to bufferView {index}, but there are only {}", self.root.buffer_views.len()))?;
-        if let Some(codec) = view.extensions.as_ref().and_then(|e| e.others.keys().find(|k| k.contains("meshopt"))) {
-            return Err(format!("bufferViews[{index}] is compressed with {codec}, which is not supported; export without compression"));
+        if let Some(problem) = self.unreadable_views.get(&index) {
+            return Err(problem.clone());
         }
-        let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
-            format!("bufferViews[{index}] refers to buffer {}, but there are only {}", view.buffer.value(), self.buffers.len())
-        })?;
         let start = view.byte_offset.map_or(0, |o| o.0);
-        let end = start.checked_add(view.byte_length.0);
-        let range = end.and_then(|end| buffer.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
-        let bytes = range.ok_or_else(|| {
-            format!(
-                "bufferViews[{index}] spans bytes {start} to {start}+{}, but its buffer has {}; the file is damaged, so export it again",
-                view.byte_length.0,
-                buffer.len()
-            )
-        })?;
+        let bytes = self.buffers.range(&format!("bufferViews[{index}]"), view.buffer.value(), start, view.byte_length.0)?;
         Ok((bytes, view))
+    }
+
+    /// What is wrong with the packed data of a primitive, if anything, as the rest of a sentence.
+    pub(super) fn is_unpacked(&self, mesh: usize, primitive: usize) -> Result<(), &str> {
+        self.unreadable_primitives.get(&(mesh, primitive)).map_or(Ok(()), |problem| Err(problem))
     }
 
     /// The encoded bytes and place of a picture that is inside the glTF file; `Err(path)` when it is a file of its own.
@@ -131,12 +142,11 @@ fn check_version(root: &Root, assembly: &Assembly) -> Result<(), ImportError> {
         let problem = format!("found glTF version {:?}, expected 2.0; convert the file to glTF 2.0", root.asset.version);
         return Err(assembly.malformed("asset.version", problem));
     }
-    match root.extensions_required.iter().find(|e| !SUPPORTED.contains(&e.as_str())) {
+    match root.extensions_required.iter().find(|e| !is_supported(e)) {
         None => Ok(()),
         Some(extension) => {
             let advice = match extension.as_str() {
-                "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => "export without mesh compression",
-                "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => "export with PNG or JPEG textures",
+                "EXT_texture_avif" => "export with PNG, JPEG, WebP or KTX2 textures",
                 _ => "export without it",
             };
             Err(assembly.malformed("extensionsRequired", format!("the file requires {extension}, which is not supported; {advice}")))
@@ -180,29 +190,6 @@ fn next_chunk(bytes: &[u8], end: usize) -> usize {
     let is_binary = |at: usize| bytes.get(at + 4..at + 8) == Some(b"BIN\0");
     let padded = end.next_multiple_of(4);
     if is_binary(end) && !is_binary(padded) { end } else { padded }
-}
-
-fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, assembly: &mut Assembly) -> Result<Vec<u8>, ImportError> {
-    let place = format!("buffers[{index}]");
-    let bytes = match &buffer.uri {
-        None if index == 0 => {
-            binary.map(<[u8]>::to_vec).ok_or_else(|| assembly.malformed(&place, "it has no uri, and the file has no binary chunk"))?
-        }
-        None => return Err(assembly.malformed(place, "it has no uri; only the first buffer may be the binary chunk")),
-        Some(uri) => match resolve_uri(uri).map_err(|problem| assembly.malformed(&place, format!("it {problem}")))? {
-            Uri::Data(bytes) => bytes,
-            Uri::Path(path) => assembly.read(&path)?.1,
-        },
-    };
-    if (bytes.len() as u64) < buffer.byte_length.0 {
-        let problem = format!(
-            "it should have {} bytes, but only {} are there: it is cut short, so copy or export it again",
-            buffer.byte_length.0,
-            bytes.len()
-        );
-        return Err(assembly.malformed(place, problem));
-    }
-    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::color::{Several, Tint};
 use enfilade_math::Rgb;
-use enfilade_scene::{Alpha, Bsdf, Material, ScalarParam};
+use enfilade_scene::{Alpha, Bsdf, Material, ScalarParam, TextureRef, Wrap};
 use gltf::json::material::AlphaMode;
 
 /// A material of the file.
@@ -25,9 +25,20 @@ impl FileMaterial {
         several.colors && self.has_color || several.opacities && self.alpha_mode != AlphaMode::Opaque
     }
 
-    /// The material with its colour and opacity multiplied by a tint, and what is cut out of it.
-    pub(super) fn tinted(&self, tint: Tint) -> Material {
+    /// True when the material reads pictures, so that texture coordinates are theirs.
+    pub(super) fn is_textured(&self) -> bool {
+        let mut textured = self.opacity.texture.is_some();
+        self.material.textures(|_| textured = true);
+        textured
+    }
+
+    /// The material with its colour and opacity multiplied by a tint and a picture of colours, and what is cut out of it.
+    pub(super) fn tinted(&self, tint: Tint, picture: Option<u32>) -> Material {
         let mut material = self.material.clone();
+        if let Some(picture) = picture {
+            paint(&mut material.bsdf, TextureRef { wrap: [Wrap::Clamp; 2], ..TextureRef::new(picture) });
+            material.name += &format!(" colours {picture}");
+        }
         if tint != Tint::NONE {
             let Tint { color, opacity } = tint;
             multiply(&mut material.bsdf, color);
@@ -44,6 +55,16 @@ impl FileMaterial {
             _ => Alpha::Opaque,
         };
         material
+    }
+}
+
+/// Gives the base colour a texture, where [`multiply`] would multiply it.
+fn paint(bsdf: &mut Bsdf, texture: TextureRef) {
+    match bsdf {
+        Bsdf::Diffuse { reflectance } => reflectance.texture = Some(texture),
+        Bsdf::Principled(p) => p.base_color.texture = Some(texture),
+        Bsdf::Blend { second, .. } => paint(second, texture),
+        _ => {}
     }
 }
 

@@ -1,10 +1,11 @@
 //! glTF materials to [`Material`]: metallic-roughness and the extensions that add layers to it.
 
-use super::container::{Document, ImageAt};
+use super::container::Document;
 use super::file_material::FileMaterial;
 use super::gloss_pictures::GlossPictures;
+use super::{texture, unrendered};
 use crate::ImportError;
-use crate::assembly::{Assembly, Source};
+use crate::assembly::Assembly;
 use crate::images::{self, Use};
 use enfilade_math::Rgb;
 use enfilade_scene::{Bsdf, ColorParam, Filter, Material, NormalMap, Principled, ScalarParam, TextureRef, Wrap};
@@ -185,6 +186,7 @@ impl Converter<'_, '_> {
                     let roughness = texture("sheenRoughnessTexture");
                     p.sheen_roughness = self.scalar(number("sheenRoughnessFactor", 0.0), roughness.as_ref(), 3, 0.5)?;
                 }
+                other if unrendered::is_told(other) => {}
                 other => self.warn(format!("extension {other} ignored")),
             }
         }
@@ -217,23 +219,8 @@ impl Converter<'_, '_> {
 
     fn texture(&mut self, index: usize, transform: Option<&TextureTransform>, usage: Use) -> Result<Option<TextureRef>, ImportError> {
         let root = &self.document.root;
-        let dangling = |kind: &str, i: usize, n: usize| format!("it refers to {kind} {i}, but there are only {n}");
-        let Some(texture) = root.textures.get(index) else {
-            return Err(self.a.malformed(&self.user, dangling("texture", index, root.textures.len())));
-        };
-        let source = texture.source.value();
-        let Some(image) = root.images.get(source) else {
-            let problem = match source == u32::MAX as usize {
-                true => format!("textures[{index}] has no PNG or JPEG picture; export with PNG or JPEG textures"),
-                false => dangling("image", source, root.images.len()),
-            };
-            return Err(self.a.malformed(&self.user, problem));
-        };
-        let found = match self.document.embedded_image(source, image) {
-            Ok((place, bytes)) => self.a.image(&Source::Embedded(place, &bytes), usage, &self.user)?,
-            Err(ImageAt::File(path)) => self.a.image(&Source::File(&path), usage, &self.user)?,
-            Err(ImageAt::Nowhere(problem)) => return Err(self.a.malformed(&self.user, problem)),
-        };
+        let found = texture::image(self.document, index, usage, &self.user, self.a)?;
+        let Some(texture) = root.textures.get(index) else { return Ok(None) };
         let sampler = texture.sampler.and_then(|s| root.samplers.get(s.value()));
         let wrap = |mode: Checked<WrappingMode>| match mode {
             Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,

@@ -12,12 +12,15 @@ use gltf::json::material::{AlphaMode, Material as Json};
 use std::collections::HashMap;
 use std::rc::Rc;
 
+/// A material of the file, a tint of four floats, and a picture of colours.
+type Look = (Option<usize>, [u32; 4], Option<u32>);
+
 /// The materials met so far.
 #[derive(Default)]
 pub(super) struct Materials {
     known: HashMap<Option<usize>, Rc<FileMaterial>>,
-    /// Scene indices by material and tint.
-    added: HashMap<(Option<usize>, [u32; 4]), u32>,
+    /// Scene indices.
+    added: HashMap<Look, u32>,
     made: GlossPictures,
 }
 
@@ -53,12 +56,13 @@ impl Materials {
         Ok(known)
     }
 
-    /// The scene index of a material whose base colour, and opacity where it has one, is multiplied by a tint.
-    pub(super) fn tinted(&mut self, known: &FileMaterial, tint: Tint, a: &mut Assembly) -> u32 {
+    /// The scene index of a material whose base colour, and opacity where it has one, is multiplied by a tint and a picture.
+    pub(super) fn tinted(&mut self, known: &FileMaterial, tint: Tint, picture: Option<u32>, a: &mut Assembly) -> u32 {
         let tint = Tint {
             color: if known.has_color { tint.color } else { Rgb::WHITE },
             opacity: if known.alpha_mode == AlphaMode::Opaque { 1.0 } else { tint.opacity },
         };
-        *self.added.entry((known.index, tint.to_array().map(f32::to_bits))).or_insert_with(|| a.push_material(known.tinted(tint)))
+        let key = (known.index, tint.to_array().map(f32::to_bits), picture);
+        *self.added.entry(key).or_insert_with(|| a.push_material(known.tinted(tint, picture)))
     }
 }

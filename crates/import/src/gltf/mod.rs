@@ -6,15 +6,17 @@
 //! | nodes | one part per node and primitive, named after the node, else its mesh, else `node_<index>`; `.<primitive>` is appended where a mesh has several; nested, mirrored and sheared transforms; meshes are shared between nodes |
 //! | primitives | triangles, strips, fans, with or without indices; points and lines are dropped |
 //! | accessors | all component types, normalized integers, sparse ones, strides; `KHR_mesh_quantization` |
-//! | buffers | files, data URIs, the binary chunk; Draco and meshopt compression are an error |
-//! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter |
+//! | buffers | files, data URIs, the binary chunk |
+//! | compression | `KHR_draco_mesh_compression` (meshes and clouds of points); `EXT_meshopt_compression` and `KHR_meshopt_compression` (all modes and filters, both versions of attributes). Packed data that are damaged are replaced by the file's plain ones, with a warning; without these they are an error where they are used |
+//! | pictures | PNG, JPEG and all that [`crate`] decodes, from files, data URIs and buffer views; sampler wrapping and magnification filter. `KHR_texture_basisu`, `EXT_texture_webp`, `MSFT_texture_dds`; the plain picture beside these stands in where they cannot be read, as that of `EXT_texture_avif` always |
 //! | materials | metallic-roughness to `Bsdf::Principled`; base colour, metallic-roughness, normal and emissive textures; alpha modes; surfaces scatter on both sides, and emit on both when they are double-sided; `KHR_materials_pbrSpecularGlossiness` (see `gloss.rs`). The occlusion texture is dropped, because light transport computes occlusion |
 //! | extensions | `KHR_materials_emissive_strength`, `_ior`, `_transmission`, `_volume`, `_specular`, `_clearcoat` (but its normal map), `_sheen`, `_unlit` (as a diffuse surface of that colour); `KHR_texture_transform`; `KHR_lights_punctual` (candela as W/sr, lux as W/m²; divided by 683 where Blender has multiplied them, see `lumens.rs`); `EXT_lights_ies` (the same; type C); `EXT_mesh_gpu_instancing` (a part per instance); `KHR_node_visibility` (what is invisible is left out); `KHR_materials_variants` (the default materials) |
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
-//! | `COLOR_0` | multiplies base colour and opacity; where it varies, its mean over the primitive, and the report says so |
+//! | `COLOR_0` | multiplies base colour and opacity; where it varies, as a picture if the material has no textures (see `painted.rs`), else by its mean over the primitive, as opacity always, and the report says so |
 //! | skins | in the pose of the nodes; the transform of the node that bears the mesh does not count |
 //! | morph targets | by the weights of the node, else of the mesh |
+//! | told once, not rendered | `KHR_materials_anisotropy`, `_diffuse_transmission`, `_dispersion`, `_iridescence`, `_volume_scatter` (see `unrendered.rs`) |
 //! | dropped with a warning | further vertex colours, animations, light ranges, other extensions |
 //!
 //! A file that requires an extension outside this list is an error.
@@ -30,8 +32,11 @@
 //! scenes leave them, their environment map is used, and reported as guessed.
 
 mod accessor;
+mod budget;
+mod buffers;
 mod color;
 mod container;
+mod draco;
 mod environment;
 mod far;
 mod file_material;
@@ -42,14 +47,18 @@ mod light;
 mod lumens;
 mod material;
 mod materials;
+mod meshopt;
 mod morph;
 mod node;
 mod omissions;
+mod painted;
 mod parts;
 mod primitive;
 mod profile;
 mod skin;
+mod texture;
 mod transform;
+mod unrendered;
 mod uri;
 
 use crate::assembly::Assembly;
@@ -76,8 +85,9 @@ fn report_dropped(document: &Document, assembly: &mut Assembly) {
     if root.extensions_used.iter().any(|e| e == "KHR_materials_variants") {
         assembly.warn("extensions.KHR_materials_variants", "variants of materials dropped; every part has its default material");
     }
+    unrendered::report(root, assembly);
     for extension in &root.extensions_used {
-        if !container::SUPPORTED.contains(&extension.as_str()) {
+        if !container::is_supported(extension) && extension != "EXT_texture_avif" {
             assembly.warn("extensionsUsed", format!("{extension} is not supported and was ignored"));
         }
     }

@@ -2,13 +2,16 @@
 
 use super::color::{self, Several, Tint};
 use super::container::Document;
+use super::draco;
+use super::file_material::FileMaterial;
 use super::materials::Materials;
 use super::morph;
+use super::painted::painted;
 use super::primitive::{self, Pose};
 use super::skin::{self, Skins};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use enfilade_math::DAffine3;
+use enfilade_math::{DAffine3, Rgb};
 use enfilade_scene::PartLabel;
 use gltf::json::mesh::Primitive;
 use gltf::json::scene::Node;
@@ -48,7 +51,10 @@ struct Key {
 struct Shape {
     mesh: u32,
     tint: Tint,
+    /// What of the colours is not shown but by the tint.
     several: Several,
+    /// The picture of its colours.
+    picture: Option<u32>,
 }
 
 impl<'d> Parts<'d> {
@@ -71,6 +77,8 @@ impl<'d> Parts<'d> {
         let weights = morph::weights(stand.node, json);
         for (i, primitive) in json.primitives.iter().enumerate() {
             let place = format!("meshes[{mesh}].primitives[{i}]");
+            let packed = self.document.is_unpacked(mesh, i);
+            packed.map_err(|problem| a.malformed(format!("{place}.extensions.{}", draco::NAME), format!("it {problem}")))?;
             let material = self.materials.read(self.document, primitive.material.map(|m| m.value()), &place, a)?;
             let skin = self.skin(stand, primitive, places, &place, a);
             let key = Key { mesh, primitive: i, skin, weights: weights.iter().map(|w| w.to_bits()).collect() };
@@ -79,7 +87,7 @@ impl<'d> Parts<'d> {
                 None => {
                     let joints = skin.map(|skin| self.skins.joints(skin, stand.index, a)).transpose()?;
                     let pose = Pose { weights, joints: joints.as_deref() };
-                    let built = self.shape(primitive, material.uv_set, &pose, &place, a)?;
+                    let built = self.shape(primitive, &material, &pose, &place, a)?;
                     self.shapes.insert(key, built);
                     if built.is_some_and(|shape| material.shows(shape.several)) {
                         self.varied.insert((mesh, i));
@@ -88,7 +96,7 @@ impl<'d> Parts<'d> {
                 }
             };
             let Some(shape) = shape else { continue };
-            let material = self.materials.tinted(&material, shape.tint, a);
+            let material = self.materials.tinted(&material, shape.tint, shape.picture, a);
             let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
             // Joints place a skinned mesh in the file by themselves.
             let places = if skin.is_some() { &[DAffine3::IDENTITY] } else { places };
@@ -115,16 +123,24 @@ impl<'d> Parts<'d> {
     fn shape(
         &mut self,
         primitive: &Primitive,
-        uv_set: u32,
+        material: &FileMaterial,
         pose: &Pose,
         place: &str,
         a: &mut Assembly,
     ) -> Result<Option<Shape>, ImportError> {
-        let Some(mesh) = primitive::mesh(self.document, primitive, uv_set, pose, place, a)? else { return Ok(None) };
-        let (tint, several) = color::mean(self.document, primitive, &mesh, place, a)?;
+        let Some(mut mesh) = primitive::mesh(self.document, primitive, material.uv_set, pose, place, a)? else { return Ok(None) };
+        let colors = color::read(self.document, primitive, &mesh, place, a)?;
+        let (mut tint, mut several) = color::mean(&mesh, &colors);
+        let is_painted = several.colors && material.has_color && !material.is_textured();
+        let painted = is_painted.then(|| painted(&mesh, &colors, &format!("{place}.attributes.COLOR_0"))).flatten();
+        let picture = painted.map(|(painted, image)| {
+            (mesh, tint.color, several.colors) = (painted, Rgb::WHITE, false);
+            image
+        });
         let file = a.file().to_path_buf();
         let Some(mesh) = a.push_mesh(mesh, &file, place)? else { return Ok(None) };
-        Ok(Some(Shape { mesh, tint, several }))
+        let picture = picture.map(|image| a.push_image(image));
+        Ok(Some(Shape { mesh, tint, several, picture }))
     }
 
     /// Reports what concerns many parts.
@@ -136,6 +152,6 @@ impl<'d> Parts<'d> {
             n => format!(" and {} other primitives", n - 1),
         };
         let first = format!("meshes[{mesh}].primitives[{primitive}]");
-        a.warn("meshes", format!("vertex colours vary over {first}{others}; their mean over each multiplies its base colour"));
+        a.warn("meshes", format!("vertex colours vary over {first}{others}, beside textures or in opacity; their mean over each was used"));
     }
 }

@@ -26,10 +26,6 @@ pub(super) fn mesh(
     place: &str,
     assembly: &mut Assembly,
 ) -> Result<Option<Mesh>, ImportError> {
-    if primitive.extensions.as_ref().is_some_and(|e| e.others.keys().any(|k| k.contains("draco"))) {
-        let problem = "the mesh is compressed with Draco, which is not supported; export the file without mesh compression";
-        return Err(assembly.malformed(place, problem));
-    }
     let Checked::Valid(mode) = primitive.mode else { return Err(assembly.malformed(place, "unknown primitive mode; expected 0 to 6")) };
     if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         assembly.warn(place, "points and lines have no surface and were left out");

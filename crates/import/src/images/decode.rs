@@ -1,7 +1,8 @@
 //! Bytes of a picture file to an [`Image`], by what they begin with.
 
 use super::float_picture::{FloatPicture, check_size};
-use super::{dds, exr, pfm, tiff};
+use super::layout::Surface;
+use super::{dds, exr, ktx2, pfm, tiff};
 use ::image::codecs::hdr::HdrDecoder;
 use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use enfilade_scene::{Image, Pixels};
@@ -26,7 +27,7 @@ pub(crate) struct Decoded {
 }
 
 /// What is read, for messages.
-const KNOWN: &str = "PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, PNM, HDR, EXR, PFM";
+const KNOWN: &str = "PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, KTX2, PNM, HDR, EXR, PFM";
 
 /// The largest finite half float, which infinite texels become.
 const LARGEST_HALF: f32 = 65_504.0;
@@ -36,23 +37,8 @@ const LARGEST_HALF: f32 = 65_504.0;
 /// # Errors
 /// What is wrong with the bytes, as the rest of a sentence that begins with the file's name.
 pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, String> {
-    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return float_image(name, exr::decode(bytes)?);
-    }
-    if bytes.starts_with(b"PF") || bytes.starts_with(b"Pf") {
-        return float_image(name, pfm::decode(bytes)?);
-    }
-    if bytes.starts_with(b"#?RGBE") {
-        return float_image(name, rgbe(bytes)?);
-    }
-    if bytes.starts_with(dds::MAGIC) {
-        return match dds::decode(bytes)? {
-            dds::Surface::Floats(picture) => float_image(name, picture),
-            dds::Surface::Bytes { width, height, texels } => {
-                let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
-                finish(Image { name: name.to_string(), width, height, pixels }, None)
-            }
-        };
+    if let Some(decoded) = by_signature(name, bytes, usage) {
+        return decoded;
     }
     let format = format(name, bytes).ok_or_else(|| format!("is not a picture of a known format ({KNOWN})"))?;
     if format == ImageFormat::Tiff
@@ -80,6 +66,23 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
             finish(Image { name: name.to_string(), width, height, pixels }, note)
         }
     }
+}
+
+/// A picture in a format that is ours to read; `None` for other formats.
+fn by_signature(name: &str, bytes: &[u8], usage: Use) -> Option<Result<Decoded, String>> {
+    let floats = |picture: Result<FloatPicture, String>| picture.and_then(|picture| float_image(name, picture));
+    let surface = |surface: Result<Surface, String>| surface.and_then(|surface| of_surface(name, surface, usage));
+    Some(match bytes {
+        [0x76, 0x2f, 0x31, 0x01, ..] => floats(exr::decode(bytes)),
+        [b'P', b'F' | b'f', ..] => floats(pfm::decode(bytes)),
+        b if b.starts_with(b"#?RGBE") => floats(rgbe(bytes)),
+        b if b.starts_with(dds::MAGIC) => surface(dds::decode(bytes)),
+        b if b.starts_with(ktx2::MAGIC) => surface(ktx2::decode(bytes)),
+        [_, _, _, _, b'f', b't', b'y', b'p', b'a', b'v', b'i', b'f' | b's', ..] => {
+            Err("is an AVIF, which is not read; save it as PNG, JPEG or WebP".into())
+        }
+        _ => return None,
+    })
 }
 
 /// The format of a picture by how it begins, or else, as TGA begins in no certain way, by its name or because it looks like TGA.
@@ -136,6 +139,16 @@ fn float_image(name: &str, mut picture: FloatPicture) -> Result<Decoded, String>
     let note = (replaced > 0).then(|| format!("{replaced} values that were negative, infinite or not numbers were replaced"));
     let pixels = Pixels::RgbF32(picture.texels);
     finish(Image { name: name.to_string(), width: picture.width, height: picture.height, pixels }, note)
+}
+
+fn of_surface(name: &str, surface: Surface, usage: Use) -> Result<Decoded, String> {
+    match surface {
+        Surface::Floats(picture) => float_image(name, picture),
+        Surface::Bytes { width, height, texels } => {
+            let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
+            finish(Image { name: name.to_string(), width, height, pixels }, None)
+        }
+    }
 }
 
 fn finish(image: Image, note: Option<String>) -> Result<Decoded, String> {
@@ -240,6 +253,7 @@ mod tests {
                 .unwrap()
                 .contains("65535x65535 pixels, expected at most")
         );
+        assert!(decode("a.avif", b"\0\0\0\x1cftypavif\0\0\0\0", Use::Color).err().unwrap().contains("is an AVIF, which is not read"));
         assert!(decode("a.exr", &[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0], Use::Data).is_err());
     }
 

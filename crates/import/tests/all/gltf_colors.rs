@@ -1,6 +1,6 @@
 //! Colours of vertices.
 
-use crate::common::{Folder, Gltf, warnings};
+use crate::common::{Folder, Gltf, base64, png, warnings};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, Material, Scene};
 use serde_json::json;
@@ -48,15 +48,38 @@ fn one_colour_multiplies_exactly_and_white_makes_no_copy() {
 }
 
 #[test]
+fn several_colours_are_painted_where_the_material_has_no_textures() {
+    let mut g = document(&[1.0, 0.0, 0.0, 0.3, 0.0, 1.0, 0.0, 0.5, 0.0, 0.0, 0.5, 0.7], "VEC4");
+    let (scene, text) = load(&g);
+    let Bsdf::Principled(p) = &scene.materials[0].bsdf else { panic!("principled") };
+    let (texture, mesh) = (p.base_color.texture.unwrap(), &scene.meshes[0]);
+    assert_eq!((p.base_color.factor, text.as_str()), (Rgb::new(0.5, 1.0, 1.0), ""));
+    for (uv, color) in mesh.uvs.iter().zip([Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.0), Rgb::new(0.0, 0.0, 0.5)]) {
+        assert_eq!(scene.images[0].sample(&texture, *uv).0, color);
+    }
+    assert_eq!(scene.materials[0].name, "Wood colours 0");
+    scene.validate().unwrap();
+
+    // Opacities, where they show, have their mean all the same.
+    g.json["materials"][0]["alphaMode"] = json!("BLEND");
+    let (scene, text) = load(&g);
+    assert!(matches!(scene.materials[0].alpha, Alpha::Blend { opacity } if (opacity.factor - 0.25).abs() < 1e-6));
+    assert!(text.contains("vertex colours vary over meshes[0].primitives[0], beside textures or in opacity; their mean"), "{text}");
+}
+
+#[test]
 fn the_mean_of_several_colours_is_used_and_told_once() {
     let mut g = document(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5], "VEC3");
+    g.json["images"] = json!([{"uri": format!("data:image/png;base64,{}", base64(&png(1, 1, [255; 4])))}]);
+    g.json["textures"] = json!([{"source": 0}]);
+    g.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
     let primitive = g.json["meshes"][0]["primitives"][0].clone();
     g.json["meshes"][0]["primitives"] = json!([primitive, primitive]);
     let (scene, text) = load(&g);
     let color = base_color(&scene.materials[0]);
     assert!((color.r - 1.0 / 6.0).abs() < 1e-6 && (color.g - 1.0 / 3.0).abs() < 1e-6 && (color.b - 1.0 / 6.0).abs() < 1e-6, "{color:?}");
     assert_eq!(scene.materials.len(), 1);
-    let told = "vertex colours vary over meshes[0].primitives[0] and one other primitive; their mean over each multiplies its base colour";
+    let told = "vertex colours vary over meshes[0].primitives[0] and one other primitive, beside textures or in opacity; their mean over each was used";
     assert!(text.contains(told) && text.lines().count() == 1, "{text}");
 }
 

@@ -72,8 +72,8 @@ fn what_cannot_be_decoded_is_not_asked_for_again() {
     let folder = Folder::new();
     write_obj(&folder, "a.obj", "wood.psd");
     let message = folder.write("wood.psd", "8BPS and more").error("a.obj");
-    let expected = "which is not a picture of a known format (PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, PNM, HDR, EXR, PFM); save the picture as \
-                    PNG or JPEG, under this name or with the new one in the scene, or go on with plain colours: --allow-missing-textures";
+    let expected = "which is not a picture of a known format (PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, KTX2, PNM, HDR, EXR, PFM); save the picture \
+                    as PNG or JPEG, under this name or with the new one in the scene, or go on with plain colours: --allow-missing-textures";
     assert!(message.contains(expected) && !message.contains("put the file there"), "{message}");
     let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
     let told = warnings(&folder.load_with("a.obj", &options).unwrap());
@@ -81,7 +81,7 @@ fn what_cannot_be_decoded_is_not_asked_for_again() {
 }
 
 #[test]
-fn textures_may_be_tiff_webp_gif_or_dds() {
+fn textures_may_be_tiff_webp_gif_dds_or_ktx2() {
     let picture_of = image::RgbaImage::from_pixel(1, 1, image::Rgba([10, 200, 30, 255]));
     let encoded = |format| {
         let mut bytes = std::io::Cursor::new(Vec::new());
@@ -92,7 +92,12 @@ fn textures_may_be_tiff_webp_gif_or_dds() {
     (dds[0], dds[1], dds[3], dds[4]) = (u32::from_le_bytes(*b"DDS "), 124, 1, 1);
     dds[20..27].copy_from_slice(&[0x41, 0, 32, 0xff, 0xff00, 0xff_0000, 0xff00_0000]);
     let dds: Vec<u8> = dds.iter().flat_map(|word| word.to_le_bytes()).chain([10, 200, 30, 255]).collect();
+    // Vulkan's format 37 of 1×1 pixels, whose one level of 4 bytes lies behind the header.
+    let words = [37u32, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes);
+    let longs = [0u64, 0, 104, 4, 4].into_iter().flat_map(u64::to_le_bytes);
+    let ktx2: Vec<u8> = b"\xabKTX 20\xbb\r\n\x1a\n".iter().copied().chain(words).chain(longs).chain([10, 200, 30, 255]).collect();
     let files = [
+        ("a.ktx2", ktx2),
         ("a.tif", encoded(image::ImageFormat::Tiff)),
         ("a.webp", encoded(image::ImageFormat::WebP)),
         ("a.gif", encoded(image::ImageFormat::Gif)),

@@ -1,0 +1,71 @@
+//! The picture of a texture: that of an extension where it can be read, else the plain one.
+
+use super::container::{Document, ImageAt};
+use crate::ImportError;
+use crate::assembly::{Assembly, Source};
+use crate::images::Use;
+use gltf::json::texture::Texture;
+use serde_json::Value;
+
+/// Extensions by which a texture has a picture of another format. All formats are told by their content; AVIF alone is not read, and named
+/// for what the message then says.
+const EXTENSIONS: [&str; 4] = ["KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds", "EXT_texture_avif"];
+
+/// Stands for a texture without a plain picture.
+const NONE: usize = u32::MAX as usize;
+
+/// The index of a texture's picture in the scene; `None` when it is missing and the options allow that.
+///
+/// # Errors
+/// When there is no such texture or picture, or none of its pictures can be read.
+pub(super) fn image(document: &Document, index: usize, usage: Use, user: &str, a: &mut Assembly) -> Result<Option<u32>, ImportError> {
+    let textures = &document.root.textures;
+    let Some(texture) = textures.get(index) else {
+        return Err(a.malformed(user, format!("it refers to texture {index}, but there are only {}", textures.len())));
+    };
+    let mut pictures = pictures(texture).into_iter().peekable();
+    while let Some(picture) = pictures.next() {
+        if pictures.peek().is_none() {
+            return with_source(document, picture, user, a, |source, a| a.image(source, usage, user))?;
+        }
+        let (name, problem) = match with_source(document, picture, user, a, |source, a| a.try_image(source, usage, user)) {
+            Ok(read) => match read? {
+                Ok(image) => return Ok(Some(image)),
+                Err(failed) => failed,
+            },
+            Err(problem) => (format!("images[{picture}]"), format!("cannot be read ({problem})")),
+        };
+        a.warn(user, format!("the texture {name} {problem}; the plain picture that the file has besides was used"));
+    }
+    Err(a.malformed(user, format!("textures[{index}] has no picture; export with PNG, JPEG, WebP or KTX2 textures")))
+}
+
+/// The indices of a texture's pictures, the one to prefer first.
+fn pictures(texture: &Texture) -> Vec<usize> {
+    let others = texture.extensions.as_ref().map(|e| &e.others);
+    let source = |name: &str| others?.get(name)?.get("source").and_then(Value::as_u64).and_then(|i| usize::try_from(i).ok());
+    let plain = Some(texture.source.value()).filter(|&i| i != NONE);
+    EXTENSIONS.into_iter().filter_map(source).chain(plain).collect()
+}
+
+/// What `read` makes of a picture of the file.
+///
+/// # Errors
+/// When the file does not have it.
+fn with_source<T>(
+    document: &Document,
+    picture: usize,
+    user: &str,
+    a: &mut Assembly,
+    read: impl FnOnce(&Source, &mut Assembly) -> T,
+) -> Result<T, ImportError> {
+    let images = &document.root.images;
+    let Some(image) = images.get(picture) else {
+        return Err(a.malformed(user, format!("it refers to image {picture}, but there are only {}", images.len())));
+    };
+    match document.embedded_image(picture, image) {
+        Ok((place, bytes)) => Ok(read(&Source::Embedded(place, &bytes), a)),
+        Err(ImageAt::File(path)) => Ok(read(&Source::File(&path), a)),
+        Err(ImageAt::Nowhere(problem)) => Err(a.malformed(user, problem)),
+    }
+}
