@@ -5,7 +5,7 @@ use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::verbs;
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, scene_file_of};
+use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, holds_scene, scene_file_of};
 use std::path::PathBuf;
 
 /// `look`: one picture of a scene file.
@@ -25,9 +25,9 @@ pub fn look(args: &LookArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// `import`: of a dataset's scenes, or of one file.
+/// `import`: of a dataset's scenes, or of one file or folder of a collection.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
-    if args.input.is_dir() {
+    if args.input.is_dir() && !holds_scene(&args.input)? {
         if let Some(flag) = flag_of_files(args) {
             let hint = format!("leave {flag} out, and write what it says into the scene's table of dataset.toml");
             return Err(Problem::new(format!("{flag} is for scene files, but {} is a folder", args.input.display()), hint));

@@ -24,13 +24,15 @@ pub enum Format {
     Fbx,
     /// Homes and furniture libraries of Sweet Home 3D.
     SweetHome,
+    /// Scenes of published collections, such as HSSD-200, in their own layouts.
+    Collection,
     /// The scene package that `enfilade import` writes.
     Package,
 }
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 10] = [
+    pub const ALL: [(Self, &'static [&'static str]); 11] = [
         (Self::Gltf, &["gltf", "glb"]),
         (Self::Obj, &["obj"]),
         (Self::Mitsuba, &["xml"]),
@@ -40,8 +42,12 @@ impl Format {
         (Self::Fbx, &["fbx"]),
         (Self::SweetHome, &["sh3d", "sh3f", "zip"]),
         (Self::VRay, &["vrscene"]),
+        (Self::Collection, &["json", "house", "semantic.txt"]),
         (Self::Package, &["scene"]),
     ];
+
+    /// Ends of names that consist of several extensions, in lower case.
+    const LONG: [&str; 3] = ["pbrt.gz", "scene_instance.json", "semantic.txt"];
 
     /// All extensions as they stand in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
     pub fn extensions() -> String {
@@ -63,7 +69,7 @@ impl Format {
     pub fn of(path: &Path) -> Result<Self, ImportError> {
         let lower = |e: &std::ffi::OsStr| e.to_string_lossy().to_lowercase();
         let extension = path.extension().map(lower).map(|e| match path.file_stem().and_then(|s| Path::new(s).extension()) {
-            Some(inner) if e == "gz" => format!("{}.gz", lower(inner)),
+            Some(inner) if e == "gz" || e == "txt" => format!("{}.{e}", lower(inner)),
             _ => e,
         });
         let found = match &extension {
@@ -76,6 +82,22 @@ impl Format {
             .map(|&(format, _)| format)
             .ok_or_else(|| ImportError::UnknownFormat { file: path.to_path_buf(), found, known: Self::extensions() })
     }
+}
+
+/// What a scene is called by its file: the file's name without its extension, be it as long as `.scene_instance.json`.
+///
+/// ```
+/// use enfilade_import::scene_name;
+///
+/// assert_eq!(scene_name("hssd/scenes/102344193.scene_instance.json".as_ref()), "102344193");
+/// assert_eq!(scene_name("rooms/hall.pbrt.gz".as_ref()), "hall");
+/// assert_eq!(scene_name("rooms/hall.v2.glb".as_ref()), "hall.v2");
+/// ```
+pub fn scene_name(file: &Path) -> String {
+    let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+    let long = Format::LONG.iter().find(|end| name.to_lowercase().ends_with(&format!(".{end}")));
+    let before = long.and_then(|end| name.get(..name.len() - end.len() - 1)).filter(|before| !before.is_empty());
+    before.map_or_else(|| file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned(), str::to_string)
 }
 
 #[cfg(test)]
@@ -91,7 +113,7 @@ mod tests {
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
         assert_eq!(
             message,
-            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .scene"
+            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .json, .house, .semantic.txt, .scene"
         );
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }

@@ -45,11 +45,12 @@
 //! # Formats
 //!
 //! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`fbx`], [`vray`], [`sweethome`] and [`package`] list what is
-//! supported of each.
+//! supported of each, and that of [`collections`] which layouts of published collections are read.
 
 mod archive;
 mod assembly;
 mod blender;
+pub mod collections;
 mod environment;
 mod error;
 pub mod fbx;
@@ -75,12 +76,15 @@ mod spectrum;
 pub mod sweethome;
 pub mod usd;
 pub mod vray;
+mod wildcards;
 
+pub use collections::scene_in_folder;
 pub use environment::{EnvironmentOverride, EnvironmentSource};
 pub use error::ImportError;
-pub use format::Format;
+pub use format::{Format, scene_name};
 pub use images::{check_exr_blocks, check_exr_table};
 pub use imported::{Imported, ImportedLabel};
 pub use load::load;
 pub use options::{ImportOptions, UpAxis};
 pub use report::{Counts, ImportReport};
+pub use wildcards::{Match, matches};

@@ -2,17 +2,20 @@
 
 use crate::assembly::Assembly;
 use crate::{Format, ImportError, ImportOptions, Imported, UpAxis};
-use crate::{fbx, gltf, mitsuba, obj, package, pbrt, ply, sweethome, usd, vray};
+use crate::{collections, fbx, gltf, mitsuba, obj, package, pbrt, ply, sweethome, usd, vray};
 use enfilade_scene::Cx;
 use std::path::Path;
 
-/// Imports a scene file by the importer that its extension calls for.
+/// Imports a scene file by the importer that its extension calls for; of a folder the scene of a collection in it.
 ///
 /// # Errors
 /// When the file or one that it refers to cannot be read, is not what its format calls for, or leaves nothing visible; the
 /// message names file and place and says what to do.
 pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Imported, ImportError> {
     options.validate()?;
+    let is_folder = path.is_dir() && Format::of(path).is_err();
+    let within = if is_folder { Some(collections::the_scene_in_folder(path)?) } else { None };
+    let path = within.as_deref().unwrap_or(path);
     let format = Format::of(path)?;
     let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
     match format {
@@ -25,6 +28,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::Usd => usd::load(assembly),
         Format::Fbx => fbx::load(assembly),
         Format::SweetHome => sweethome::load(assembly),
+        Format::Collection => collections::load(assembly),
         Format::Package => package::load(assembly, options),
     }
 }

@@ -75,6 +75,7 @@ impl ImportReport {
             Format::VRay => "vray",
             Format::Fbx => "fbx",
             Format::SweetHome => "sweethome",
+            Format::Collection => "collection",
             Format::Package => "package",
         };
         Self { format, counts: Counts::of(scene), offset_m: None, warnings }

@@ -44,7 +44,7 @@ pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, re
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};
-pub use single::{Checked, Imported, MadeHome, check_file, import_file, make_home, refuse_overwriting, scene_file_of};
+pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};
 pub use stages::{FinishedFrame, Part, STAGES, Stage, StageSpec};
 pub use statistics::write_statistics;

@@ -5,8 +5,9 @@ use crate::config::FileSource;
 use crate::error::Error;
 use crate::intake::{load_file, settle};
 use crate::stages::{describe, labels_by_part};
-use enfilade_dataset::{write_bytes, write_json};
+use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
+use enfilade_import::{scene_in_folder, scene_name};
 use enfilade_scene::{Cx, Labels, Scene, Warning};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -34,8 +35,16 @@ struct Report<'a> {
 
 /// Where a scene file is imported to unless that is said: a package of its name, in the current folder.
 pub fn scene_file_of(input: &Path) -> PathBuf {
-    let name = input.file_name().map_or_else(|| "scene".into(), PathBuf::from);
-    name.with_extension("scene")
+    let name = input.file_name().map_or_else(|| "scene".into(), |_| scene_name(input));
+    format!("{name}.scene").into()
+}
+
+/// True for a folder that is no dataset and holds the scene of a collection.
+///
+/// # Errors
+/// When it holds several scenes.
+pub fn holds_scene(folder: &Path) -> Result<bool, Error> {
+    Ok(!folder.join(WORKDIR).exists() && scene_in_folder(folder).map_err(Error::stage)?.is_some())
 }
 
 /// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .scene)
+/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .json, .house, .semantic.txt, .scene)
 /// to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
 ///
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.

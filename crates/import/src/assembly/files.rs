@@ -72,12 +72,13 @@ impl Assembly<'_> {
         is_there
     }
 
-    pub(super) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
+    /// The bytes of a file by its whole path; `remedy` says what to do where it cannot be read.
+    pub(crate) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
         if self.archive.is_none() {
             let found = std::fs::metadata(file);
-            if found.as_ref().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) && !self.missing.iter().any(|m| m == file) {
-                self.missing.push(file.to_path_buf());
+            if found.as_ref().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) {
+                self.note_missing(file);
             }
             // A device would be read without end, and a pipe would block.
             if !found.map_err(unreadable)?.is_file() {

@@ -2,6 +2,7 @@
 //!
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
+mod adopt;
 mod contents;
 mod elsewhere;
 mod files;
@@ -11,6 +12,7 @@ mod light;
 mod names;
 mod survey;
 
+pub(crate) use adopt::Piece;
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
 pub(crate) use find::is_absolute;
@@ -141,6 +143,23 @@ impl<'a> Assembly<'a> {
     /// A [`ImportError::Malformed`] of the scene file.
     pub(crate) fn malformed(&self, place: impl Into<String>, problem: impl Into<String>) -> ImportError {
         ImportError::malformed(&self.file, place, problem)
+    }
+
+    /// True where a missing picture is replaced by grey.
+    pub(crate) fn allows_missing_textures(&self) -> bool {
+        self.options.allow_missing_textures
+    }
+
+    /// Records a file that was looked for and not found: with it the scene would be a different one.
+    pub(crate) fn note_missing(&mut self, file: &Path) {
+        if !self.missing.iter().any(|known| known == file) {
+            self.missing.push(file.to_path_buf());
+        }
+    }
+
+    /// Records files that were read for the scene elsewhere.
+    pub(crate) fn note_inputs(&mut self, files: &[PathBuf]) {
+        self.inputs.extend(files.iter().filter(|file| !self.inputs.contains(file)).cloned().collect::<Vec<_>>());
     }
 
     /// True unless the options say which axis is up.

@@ -20,10 +20,12 @@
 mod attributes;
 mod faces;
 mod header;
+mod objects;
 mod reader;
 mod values;
 
 pub(crate) use attributes::Means;
+pub(crate) use objects::read_objects;
 pub(crate) use reader::read;
 
 use crate::assembly::{Assembly, Source};

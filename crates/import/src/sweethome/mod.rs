@@ -54,6 +54,8 @@ use crate::archive::Archive;
 use crate::assembly::Assembly;
 use crate::{Format, ImportError, Imported, UpAxis};
 
+pub(crate) use surface::{Hole, subtract, without_holes};
+
 pub use catalogue::{CatalogueKind, CatalogueLight, CataloguePiece, catalogue};
 
 const HOME: &str = "Home.xml";

@@ -1,11 +1,11 @@
 //! The models of furniture within an archive.
 
 use crate::archive::Archive;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Piece};
 use crate::{Format, ImportError, ImportOptions, ImportReport, Imported, UpAxis, obj};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
-use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Quiet, SceneError, TextureRef};
+use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, Quiet, SceneError};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -97,7 +97,6 @@ fn unit_scale(size: DVec3) -> DAffine3 {
 /// Why it cannot be used, as the rest of a sentence that begins with its name.
 pub(super) fn load(archive: &Archive, file: &str, a: &mut Assembly) -> Result<Model, String> {
     let Some(imported) = read(archive, file)? else { return Ok(Model { parts: Vec::new() }) };
-    a.pass_on(imported.report.warnings.clone());
     add(imported, a).map_err(|e| format!("cannot be used ({e})"))
 }
 
@@ -190,26 +189,10 @@ pub(super) fn base_color(bsdf: &mut Bsdf) -> Option<&mut ColorParam> {
 }
 
 fn add(imported: Imported, a: &mut Assembly) -> Result<Model, ImportError> {
-    let scene = imported.scene;
-    let first_image = a.next_image();
-    for image in scene.images {
-        a.push_image(image);
-    }
-    let moved = |mut m: Material| {
-        each_texture(&mut m, &mut |t| t.image += first_image);
-        m
-    };
-    let materials: Vec<u32> = scene.materials.into_iter().map(|m| a.push_material(moved(m))).collect();
     let file = a.file().to_path_buf();
-    let mut meshes = Vec::new();
-    for mesh in scene.meshes {
-        meshes.push(a.push_mesh(mesh, &file, "model")?);
-    }
-    let part = |p: enfilade_scene::Part| {
-        let (mesh, material) = (meshes[p.mesh as usize]?, materials[p.material as usize]);
-        Some(ModelPart { name: p.name, mesh, material, file_from_mesh: p.world_from_mesh })
-    };
-    Ok(Model { parts: scene.parts.into_iter().filter_map(part).collect() })
+    let pieces = a.adopt(imported, &file)?;
+    let part = |p: Piece| ModelPart { name: p.name, mesh: p.mesh, material: p.material, file_from_mesh: p.model_from_mesh };
+    Ok(Model { parts: pieces.into_iter().map(part).collect() })
 }
 
 /// A grey box of side one, in place of a model that cannot be used.
@@ -228,46 +211,4 @@ pub(super) fn cuboid(a: &mut Assembly) -> Result<Model, ImportError> {
 fn corner(k: u32) -> DVec3 {
     let at = |bit: u32| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
     DVec3::new(at(0), at(1), at(2))
-}
-
-/// Calls `found` with every texture that a material of an OBJ model may have.
-fn each_texture(material: &mut Material, found: &mut dyn FnMut(&mut TextureRef)) {
-    of_bsdf(&mut material.bsdf, found);
-    material.emission.texture.iter_mut().for_each(&mut *found);
-    if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut material.alpha {
-        opacity.texture.iter_mut().for_each(|(t, _)| found(t));
-    }
-    if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &mut material.normal_map {
-        found(texture);
-    }
-}
-
-fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
-    let (colors, scalars) = match bsdf {
-        Bsdf::Diffuse { reflectance } => (vec![reflectance], vec![]),
-        Bsdf::RoughDiffuse { reflectance, roughness } => (vec![reflectance], vec![roughness]),
-        Bsdf::Conductor { reflectance, alpha, .. } => (vec![reflectance], vec![alpha]),
-        Bsdf::Dielectric { transmittance, alpha, .. } => (vec![transmittance], vec![alpha]),
-        Bsdf::ThinDielectric { transmittance, .. } => (vec![transmittance], vec![]),
-        Bsdf::Plastic { diffuse, specular, alpha, .. } => (vec![diffuse, specular], vec![alpha]),
-        Bsdf::Blend { first, second, weight } => {
-            of_bsdf(first, found);
-            of_bsdf(second, found);
-            (vec![], vec![weight])
-        }
-        Bsdf::Principled(p) => (
-            vec![&mut p.base_color, &mut p.specular_color, &mut p.sheen_color],
-            vec![
-                &mut p.metallic,
-                &mut p.roughness,
-                &mut p.specular,
-                &mut p.transmission,
-                &mut p.clearcoat,
-                &mut p.clearcoat_roughness,
-                &mut p.sheen_roughness,
-            ],
-        ),
-    };
-    colors.into_iter().filter_map(|c| c.texture.as_mut()).for_each(&mut *found);
-    scalars.into_iter().filter_map(|s| s.texture.as_mut()).for_each(|(t, _)| found(t));
 }

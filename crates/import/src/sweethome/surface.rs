@@ -36,14 +36,14 @@ pub(super) fn lifted(p: DVec2, height: f64) -> DVec3 {
 
 /// A rectangular hole of an upright face: along it as a share of its length, and up, in centimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hole {
+pub(crate) struct Hole {
     pub along: [f64; 2],
     pub up: [f64; 2],
 }
 
 /// What is left of an upright face from `bottom` to a straight upper edge, which rises from `tops[0]` to `tops[1]`: convex
 /// polygons of points (share along, height), counter-clockwise where along is to the right.
-pub(super) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<Vec<DVec2>> {
+pub(crate) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<Vec<DVec2>> {
     let top = |s: f64| tops[0] + s * (tops[1] - tops[0]);
     let mut breaks = vec![0.0, 1.0];
     for hole in holes {
@@ -75,7 +75,7 @@ pub(super) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<
 }
 
 /// What is left of flat triangles outside a convex polygon; both may run either way round.
-pub(super) fn subtract(triangles: Vec<[DVec2; 3]>, convex: &[DVec2]) -> Vec<[DVec2; 3]> {
+pub(crate) fn subtract(triangles: Vec<[DVec2; 3]>, convex: &[DVec2]) -> Vec<[DVec2; 3]> {
     let turn = if area(convex) < 0.0 { -1.0 } else { 1.0 };
     let mut left = Vec::new();
     for triangle in triangles {

@@ -39,7 +39,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub farm: FarmKeys,
     #[serde(default)]
-    pub scene: Vec<SceneKeys>,
+    pub scene: Vec<Spanned<SceneKeys>>,
 }
 
 /// `[import]`.
@@ -58,8 +58,10 @@ pub(super) struct ImportKeys {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneKeys {
-    pub name: Spanned<String>,
+    pub name: Option<Spanned<String>>,
     pub file: Option<Spanned<String>>,
+    /// A pattern: each file that it means is a scene.
+    pub files: Option<Spanned<String>>,
     pub home: Option<Spanned<toml::Table>>,
     pub meters_per_unit: Option<Spanned<f64>>,
     pub up_axis: Option<UpAxis>,

@@ -10,6 +10,7 @@ pub mod demo;
 mod document;
 mod expand;
 mod farm;
+mod files;
 mod locate;
 mod patch;
 mod presets;

@@ -9,6 +9,7 @@ use super::choices::{Overrides, Quality};
 use super::document::{Document, Level, SceneKeys};
 use super::expand::expand;
 use super::farm::FarmConfig;
+use super::files::{self, Entry};
 use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
@@ -51,13 +52,18 @@ pub(super) fn resolve(
     }
     let mut names = HashSet::new();
     let mut scenes = Vec::new();
+    let mut entries = Vec::new();
     for keys in &document.scene {
-        if !names.insert(keys.name.get_ref().as_str()) {
-            return Err(resolver.refuse(&keys.name, "two scenes have this name", "names of scenes must be unique"));
-        }
-        scenes.push(resolver.scene(keys)?);
+        entries.extend(resolver.entries(keys)?);
     }
-    resolver.check_homes(&scenes)?;
+    for entry in &entries {
+        if !names.insert(entry.name.get_ref().as_str()) {
+            let message = format!("two scenes have the name {:?}", entry.name.get_ref());
+            return Err(resolver.refuse(&entry.name, message, "names of scenes must be unique"));
+        }
+        scenes.push(resolver.scene(entry)?);
+    }
+    resolver.check_homes(&entries, &scenes)?;
     Ok(Config { base: Default::default(), carried: Default::default(), name, scenes, farm: resolver.farm()? })
 }
 
@@ -83,16 +89,34 @@ impl Resolver<'_> {
         ConfigError { help: Some(help.into()), ..self.source.error(Some(value.span()), message) }
     }
 
-    fn scene(&self, keys: &SceneKeys) -> Result<SceneConfig, ConfigError> {
-        let document = self.document;
-        let name = self.checked_scene_name(&keys.name)?;
+    /// The scenes of a table: one, or those that its `files` mean.
+    fn entries<'k>(&self, table: &'k Spanned<SceneKeys>) -> Result<Vec<Entry<'k>>, ConfigError> {
+        let keys = table.get_ref();
+        match (&keys.files, &keys.name) {
+            (None, Some(name)) => Ok(vec![Entry { keys, name: name.clone(), file: keys.file.clone() }]),
+            (None, None) => Err(self.refuse(table, "missing field `name`", "add name = \"my-room\" to the scene")),
+            (Some(files), None) if keys.file.is_none() && keys.home.is_none() => {
+                let folder = self.source.file.parent().unwrap_or(Path::new(""));
+                let expanded = self.expanded(files.get_ref(), files)?;
+                files::entries(keys, files, &expanded, folder).map_err(|(message, help)| self.refuse(files, message, help))
+            }
+            (Some(files), _) => {
+                let help = "leave them out: each file that `files` means is a scene, named after its file";
+                Err(self.refuse(files, "`files` stands beside `name`, `file` or `home`", help))
+            }
+        }
+    }
+
+    fn scene(&self, entry: &Entry) -> Result<SceneConfig, ConfigError> {
+        let (document, keys) = (self.document, entry.keys);
+        let name = self.checked_scene_name(&entry.name)?;
         let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
         let camera = keys.camera.as_ref().or(document.camera.as_ref());
 
         // Built-in defaults.
         let mut scene = SceneConfig {
             seed,
-            source: self.scene_source(keys, seed)?,
+            source: self.scene_source(entry, seed)?,
             labels: self.labels(keys, &name)?,
             cameras: keys.cameras.chosen.clone(),
             finds_cameras: keys.cameras.found,
@@ -123,7 +147,7 @@ impl Resolver<'_> {
         }
         self.lay_arguments_over(&mut scene, keys.quality.or(document.quality).unwrap_or(QUALITY));
 
-        scene.validate().map_err(|wrong| self.misset(wrong, keys))?;
+        scene.validate().map_err(|wrong| self.misset(wrong, entry))?;
         if let Some(camera) = camera {
             self.check_grid(&scene, camera)?;
         }
@@ -197,12 +221,12 @@ impl Resolver<'_> {
     }
 
     /// The error of a value that cannot be, at the key that says it; those of a mode stand in its table.
-    fn misset(&self, wrong: Misset, keys: &SceneKeys) -> ConfigError {
+    fn misset(&self, wrong: Misset, entry: &Entry) -> ConfigError {
         let Misset { section, key, message, help } = wrong;
         if self.overrides.say(section, key) {
             return ConfigError { file: "the command line".into(), ..self.source.error(None, message) };
         }
-        let place = self.span(section, key, keys).unwrap_or_else(|| keys.name.span());
+        let place = self.span(section, key, entry.keys).unwrap_or_else(|| entry.name.span());
         ConfigError { help: Some(help.into()), ..self.source.error(Some(place), message) }
     }
 
@@ -226,8 +250,8 @@ impl Resolver<'_> {
     }
 
     /// Refuses a home that an earlier scene is too: training and test could hold the same. Where both say its seed, it is meant.
-    fn check_homes(&self, scenes: &[SceneConfig]) -> Result<(), ConfigError> {
-        let homes = self.document.scene.iter().zip(scenes).filter_map(|(keys, scene)| Some((keys.home.as_ref()?, scene)));
+    fn check_homes(&self, entries: &[Entry], scenes: &[SceneConfig]) -> Result<(), ConfigError> {
+        let homes = entries.iter().zip(scenes).filter_map(|(entry, scene)| Some((entry.keys.home.as_ref()?, scene)));
         let homes: Vec<(&Spanned<toml::Table>, &SceneConfig)> = homes.collect();
         for (i, &(keys, scene)) in homes.iter().enumerate() {
             let meant = |other: &Spanned<toml::Table>| names_seed(keys) && names_seed(other);
@@ -240,14 +264,15 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    fn scene_source(&self, keys: &SceneKeys, seed: u64) -> Result<Source, ConfigError> {
-        let file = match (&keys.file, &keys.home) {
+    fn scene_source(&self, entry: &Entry, seed: u64) -> Result<Source, ConfigError> {
+        let keys = entry.keys;
+        let file = match (&entry.file, &keys.home) {
             (Some(file), None) => file,
             (None, Some(home)) => return self.home(home, seed).map(Source::Home),
             _ => {
                 let message = "a scene needs either `file` or `home`";
                 return Err(self.refuse(
-                    &keys.name,
+                    &entry.name,
                     message,
                     "add file = \"room.gltf\" for a scene of yours, or home = {} for a generated one",
                 ));

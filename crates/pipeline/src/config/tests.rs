@@ -395,7 +395,7 @@ fn scenes_that_cannot_be_made_are_told() {
     assert!(error("name = \"x\"\n").starts_with("sets/dataset.toml: there is no [[scene]] in it\nhelp: add at least one:"));
     assert!(error("[[scene]]\nname = \"a\"\n").contains("sets/dataset.toml:2:8: a scene needs either `file` or `home`"));
     assert!(error(&format!("{SCENE}home = {{}}\n")).contains("a scene needs either `file` or `home`"));
-    assert!(error(&format!("{SCENE}{SCENE}")).starts_with("sets/dataset.toml:5:8: two scenes have this name"));
+    assert!(error(&format!("{SCENE}{SCENE}")).starts_with("sets/dataset.toml:5:8: two scenes have the name \"a\""));
     assert!(error("[[scene]]\nname = \"my room\"\nhome = {}\n").contains("\"my room\" cannot be the name of a scene"));
     let text = error("[[scene]]\nname = \"a\"\nfile = \"$NOWHERE/a.gltf\"\n");
     assert!(text.starts_with("sets/dataset.toml:3:8: the environment variable NOWHERE is not set"), "{text}");
@@ -586,4 +586,62 @@ fn cameras_are_a_list_or_found() {
     assert!(scene.finds_cameras && scene.cameras.is_empty());
     let text = error(&format!("{SCENE}cameras = \"door\"\n"));
     assert!(text.contains("a list of cameras, or \"found\""), "{text}");
+}
+
+/// A folder of files like a collection's, and a configuration beside them.
+fn collection() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["hssd/scenes/2.scene_instance.json", "hssd/scenes/10.scene_instance.json", "s3d/scene_7/annotation_3d.json", "a b$.glb"] {
+        let path = folder.path().join(file);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, "").unwrap();
+    }
+    folder
+}
+
+fn of_collection(folder: &Path, text: &str) -> Result<Config, String> {
+    let lookup = |name: &str| (name == "DATA").then(|| folder.display().to_string());
+    let resolved = resolve(&folder.join("dataset.toml"), text, &Overrides::default(), &lookup);
+    resolved.map_err(|e| format!("{e}\nhelp: {}", e.help.as_deref().unwrap_or("-")))
+}
+
+#[test]
+fn every_file_that_a_pattern_means_is_a_scene_in_the_order_of_the_paths() {
+    let folder = collection();
+    let named = |text: &str| -> Vec<(String, String)> {
+        let scenes = of_collection(folder.path(), text).unwrap_or_else(|e| panic!("{e}")).scenes;
+        let file = |source: &Source| if let Source::File(file) = source { file.file.clone() } else { panic!("a home") };
+        scenes.iter().map(|scene| (scene.name.clone(), file(&scene.source))).collect()
+    };
+    let pair = |name: &str, file: &str| (name.to_string(), file.to_string());
+    let text = "[[scene]]\nfiles = \"hssd/scenes/*.scene_instance.json\"\nframes = 7\n[[scene]]\nname = \"x\"\nfile = \"x.glb\"\n";
+    let expected = [pair("10", "hssd/scenes/10.scene_instance.json"), pair("2", "hssd/scenes/2.scene_instance.json"), pair("x", "x.glb")];
+    assert_eq!(named(text), expected);
+    let scenes = of_collection(folder.path(), text).unwrap().scenes;
+    assert_eq!(scenes.iter().map(|scene| scene.plan.frames).collect::<Vec<_>>(), [7, 7, 100]);
+    assert_eq!(named("[[scene]]\nfiles = \"s3d/*/annotation_3d.json\"\n"), [pair("scene_7", "s3d/scene_7/annotation_3d.json")]);
+    // Variables stay in the path, so that the dataset can move; a dollar sign of a name is doubled.
+    assert_eq!(named("[[scene]]\nfiles = \"$DATA/*.glb\"\n"), [pair("a_b_", "$DATA/a b$$.glb")]);
+    assert_eq!(named("[[scene]]\nfiles = \"s3d/scene_7/annotation_3d.json\"\n"), [pair("annotation_3d", "s3d/scene_7/annotation_3d.json")]);
+}
+
+#[test]
+fn patterns_that_mean_nothing_or_stand_beside_a_name_are_refused_at_their_place() {
+    let folder = collection();
+    let error = |text: &str| of_collection(folder.path(), text).unwrap_err();
+    let message = error("[[scene]]\nfiles = \"hssd/scene/*.scene_instance.json\"\n");
+    assert!(message.contains("dataset.toml:2:9: no file is called \"hssd/scene/*.scene_instance.json\" in "), "{message}");
+    assert!(
+        message.contains("help: there is \"hssd\", but nothing in it is called \"scene\", so the rest was not looked for; `*`"),
+        "{message}"
+    );
+    let message = error("[[scene]]\nfiles = \"hssd/scenes/*.glb\"\n");
+    assert!(message.contains("there is \"hssd/scenes\", but nothing in it is called \"*.glb\"; "), "{message}");
+    let message = error("[[scene]]\nname = \"a\"\nfiles = \"*.glb\"\n");
+    assert!(message.contains("dataset.toml:3:9: `files` stands beside `name`, `file` or `home`"), "{message}");
+    let message = error("[[scene]]\nfiles = \"hssd/scenes/*\"\n[[scene]]\nname = \"2\"\nfile = \"2.glb\"\n");
+    assert!(message.contains("two scenes have the name \"2\""), "{message}");
+    let message = error("[[scene]]\nfile = \"2.glb\"\n");
+    assert!(message.contains("dataset.toml:1:1: missing field `name`"), "{message}");
+    assert!(error("[[scene]]\nfiles = \"$NONE/*\"\n").contains("the environment variable NONE is not set"));
 }

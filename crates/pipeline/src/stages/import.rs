@@ -9,7 +9,7 @@ use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
 use enfilade_home::HomeConfig;
-use enfilade_import::{EnvironmentOverride, ImportedLabel};
+use enfilade_import::{EnvironmentOverride, ImportedLabel, scene_in_folder};
 use enfilade_scene::{Labels, PartLabel, Scene, WorldMesh};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -49,12 +49,18 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     };
     let Some(record) = previous else { return Ok(None) };
     // Where the configuration names other files now, those that were read do not matter, although they may still be there.
-    let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == path);
+    let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == in_folder(path));
     if named(source).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
     // A file that cannot be read makes the stage run, and its error says why.
     Ok(record.inputs.iter().map(|input| Input::of_any(&input.path)).collect::<Result<_, _>>().ok())
+}
+
+/// The file that is imported of a path: of a folder the scene of a collection in it.
+fn in_folder(path: &Path) -> PathBuf {
+    let within = if path.is_dir() { scene_in_folder(path).ok().flatten() } else { None };
+    within.unwrap_or_else(|| path.to_path_buf())
 }
 
 /// The files of the libraries that a home takes models of, all of them: which ones it takes, only making it tells.

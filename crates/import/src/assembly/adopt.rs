@@ -1,0 +1,108 @@
+//! Scenes that are parts of others: models with files of their own, of which each is read once and may stand in many places.
+
+use super::Assembly;
+use crate::{ImportError, Imported};
+use enfilade_math::DAffine3;
+use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, Part, PartLabel, Scene, TextureRef};
+use std::path::Path;
+
+/// One mesh of an adopted model with its material, both as indices into the scene.
+#[derive(Clone)]
+pub(crate) struct Piece {
+    pub name: String,
+    pub mesh: u32,
+    pub material: u32,
+    pub model_from_mesh: DAffine3,
+    /// What the model's own file says of it.
+    pub label: PartLabel,
+}
+
+impl Assembly<'_> {
+    /// Takes over the meshes, materials and pictures of a model, the files that it was made of and its warnings. Nothing is placed yet:
+    /// [`Assembly::push_part`] does, with each piece's placement within the model. `file` is the model's.
+    ///
+    /// # Errors
+    /// When a mesh is not valid, which the model's import excludes.
+    pub(crate) fn adopt(&mut self, imported: Imported, file: &Path) -> Result<Vec<Piece>, ImportError> {
+        self.note_inputs(&imported.inputs);
+        imported.missing.iter().for_each(|file| self.note_missing(file));
+        self.pass_on(imported.report.warnings);
+        let mut scene = imported.scene;
+        turn_mirrored_back(&mut scene);
+        let first_image = self.next_image();
+        for image in scene.images {
+            self.push_image(image);
+        }
+        let mut materials = Vec::with_capacity(scene.materials.len());
+        for mut material in scene.materials {
+            each_texture(&mut material, &mut |t| t.image += first_image);
+            materials.push(self.push_material(material));
+        }
+        let mut meshes = Vec::with_capacity(scene.meshes.len());
+        for mesh in scene.meshes {
+            meshes.push(self.push_mesh(mesh, file, "model")?);
+        }
+        // A model that stood far off was moved to its origin; within this scene it stands where its file has it.
+        let moved = imported.report.offset_m.map_or(DAffine3::IDENTITY, |offset| DAffine3::from_translation(offset.into()));
+        let mut labels = vec![PartLabel::NONE; scene.parts.len()];
+        imported.labels.into_iter().flatten().for_each(|l| labels[l.part as usize] = l.label);
+        let piece = |(part, label): (Part, PartLabel)| {
+            let (mesh, material) = (meshes[part.mesh as usize]?, materials[part.material as usize]);
+            Some(Piece { name: part.name, mesh, material, model_from_mesh: moved * part.world_from_mesh, label })
+        };
+        Ok(scene.parts.into_iter().zip(labels).filter_map(piece).collect())
+    }
+}
+
+/// Gives meshes that mirrored placements have wound the other way their own winding again: [`Assembly::push_part`] winds them by the whole
+/// placement. A mesh of a scene has either mirrored placements or others.
+fn turn_mirrored_back(scene: &mut Scene) {
+    let mut mirrored = vec![false; scene.meshes.len()];
+    for part in scene.parts.iter().filter(|part| part.world_from_mesh.matrix3.determinant() < 0.0) {
+        mirrored[part.mesh as usize] = true;
+    }
+    let wound = scene.meshes.iter_mut().zip(mirrored).filter(|(_, mirrored)| *mirrored);
+    wound.for_each(|(mesh, _)| mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2)));
+}
+
+/// Calls `found` with every texture of a material.
+fn each_texture(material: &mut Material, found: &mut dyn FnMut(&mut TextureRef)) {
+    of_bsdf(&mut material.bsdf, found);
+    material.emission.texture.iter_mut().for_each(&mut *found);
+    if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut material.alpha {
+        opacity.texture.iter_mut().for_each(|(t, _)| found(t));
+    }
+    if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &mut material.normal_map {
+        found(texture);
+    }
+}
+
+fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
+    let (colors, scalars) = match bsdf {
+        Bsdf::Diffuse { reflectance } => (vec![reflectance], vec![]),
+        Bsdf::RoughDiffuse { reflectance, roughness } => (vec![reflectance], vec![roughness]),
+        Bsdf::Conductor { reflectance, alpha, .. } => (vec![reflectance], vec![alpha]),
+        Bsdf::Dielectric { transmittance, alpha, .. } => (vec![transmittance], vec![alpha]),
+        Bsdf::ThinDielectric { transmittance, .. } => (vec![transmittance], vec![]),
+        Bsdf::Plastic { diffuse, specular, alpha, .. } => (vec![diffuse, specular], vec![alpha]),
+        Bsdf::Blend { first, second, weight } => {
+            of_bsdf(first, found);
+            of_bsdf(second, found);
+            (vec![], vec![weight])
+        }
+        Bsdf::Principled(p) => (
+            vec![&mut p.base_color, &mut p.specular_color, &mut p.sheen_color],
+            vec![
+                &mut p.metallic,
+                &mut p.roughness,
+                &mut p.specular,
+                &mut p.transmission,
+                &mut p.clearcoat,
+                &mut p.clearcoat_roughness,
+                &mut p.sheen_roughness,
+            ],
+        ),
+    };
+    colors.into_iter().filter_map(|c| c.texture.as_mut()).for_each(&mut *found);
+    scalars.into_iter().filter_map(|s| s.texture.as_mut()).for_each(|(t, _)| found(t));
+}

@@ -1,0 +1,89 @@
+//! The JSON of a house, as far as it is used.
+
+use enfilade_math::DVec3;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+pub(super) struct House {
+    #[serde(default)]
+    pub furniture: Vec<Furniture>,
+    #[serde(default)]
+    pub mesh: Vec<Surface>,
+    #[serde(default)]
+    pub material: Vec<Paint>,
+    pub scene: Rooms,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Furniture {
+    pub uid: String,
+    pub jid: String,
+    pub category: Option<String>,
+    #[serde(default)]
+    pub valid: bool,
+}
+
+/// A mesh of the building.
+#[derive(Deserialize)]
+pub(super) struct Surface {
+    pub uid: String,
+    #[serde(default)]
+    pub r#type: String,
+    #[serde(default)]
+    pub material: String,
+    pub xyz: Vec<f64>,
+    #[serde(default)]
+    pub normal: Vec<f32>,
+    #[serde(default)]
+    pub uv: Vec<f32>,
+    pub faces: Vec<u32>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Paint {
+    pub uid: String,
+    #[serde(default)]
+    pub jid: String,
+    /// Where the picture was on the authors' servers; empty where there is none.
+    #[serde(default)]
+    pub texture: String,
+    /// Red, green, blue and opacity, 0 … 255, in sRGB.
+    pub color: Option<Vec<f32>>,
+    /// Three by three, row by row.
+    #[serde(rename = "UVTransform")]
+    pub uv_transform: Option<Vec<f32>>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Rooms {
+    #[serde(default)]
+    pub room: Vec<Room>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Room {
+    #[serde(default)]
+    pub instanceid: String,
+    #[serde(default)]
+    pub children: Vec<Child>,
+}
+
+/// Something that stands in a room.
+#[derive(Deserialize)]
+pub(super) struct Child {
+    pub r#ref: String,
+    #[serde(default)]
+    pub pos: DVec3,
+    #[serde(default = "no_turn")]
+    pub rot: [f64; 4],
+    #[serde(default = "one")]
+    pub scale: DVec3,
+}
+
+fn no_turn() -> [f64; 4] {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
+fn one() -> DVec3 {
+    DVec3::ONE
+}

@@ -1,0 +1,61 @@
+//! Scenes of published collections, in the layouts that they are published in, with their models, categories and instances.
+//!
+//! None of the collections was at hand: everything here was made from public descriptions and from the code that reads them, which the
+//! module of each layout names, and tested with small files in the same layouts.
+//!
+//! | layout | what is given |
+//! |---|---|
+//! | Habitat (HSSD-200, ReplicaCAD), see `habitat/mod.rs` | `*.scene_instance.json` |
+//! | 3D-FRONT with 3D-FUTURE, see `front3d/mod.rs` | the house's `.json` |
+//! | ProcTHOR, see `procthor/mod.rs` | one house as `.json` |
+//! | Replica, see `replica.rs` | `habitat/info_semantic.json`, or the scan's folder |
+//! | Matterport3D, see `matterport.rs` | `*.house` |
+//! | HM3D-Semantics, see `hm3d.rs` | `*.semantic.txt` |
+//! | Structured3D, see `structured3d.rs` | `annotation_3d.json`, or the scene's folder |
+//!
+//! # What all layouts have in common
+//!
+//! - Which layout a file has is told by the keys of its JSON. A folder stands for the one scene in it.
+//! - A model's file is read once, by the importer of its format (glTF, OBJ, PLY, USD, FBX), and its meshes are shared by all places.
+//! - Objects have names such as `chair_2 (ab12cd)`: their category, numbered, and what the collection calls their model. Where a model has
+//!   several parts they are `chair_2 (ab12cd)/seat`, so that a label table can name the object.
+//! - Categories become classes of NYU40 by `classes.csv`; other categories are told and stay unlabelled. Each object is an instance;
+//!   walls, floors and ceilings are none.
+//! - Models that are missing or cannot be read are left out, with a warning for each and their number. A picture that is missing is an
+//!   error as everywhere, unless [`ImportOptions::allow_missing_textures`](crate::ImportOptions::allow_missing_textures) is set.
+//! - Lights and cameras within models are left out, with a warning.
+
+mod assets;
+mod classes;
+mod detect;
+mod front3d;
+mod habitat;
+mod hm3d;
+mod json;
+mod matterport;
+mod objects;
+mod procthor;
+mod replica;
+mod scan;
+mod structured3d;
+
+pub use detect::scene_in_folder;
+pub(crate) use detect::the_scene_in_folder;
+
+use crate::assembly::Assembly;
+use crate::{ImportError, Imported};
+use detect::Layout;
+
+/// Imports a scene of a collection.
+pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
+    let bytes = assembly.read_scene_file()?;
+    match detect::layout(assembly.file(), &bytes)? {
+        Layout::Habitat => habitat::load(&bytes, assembly),
+        Layout::Front3d => front3d::load(&bytes, assembly),
+        Layout::ProcThor => procthor::load(&bytes, assembly),
+        Layout::Replica => replica::load(&bytes, assembly),
+        Layout::Matterport => matterport::load(&bytes, assembly),
+        Layout::Hm3d => hm3d::load(&bytes, assembly),
+        Layout::Structured3d => structured3d::load(&bytes, assembly),
+    }
+}

@@ -1,0 +1,145 @@
+//! The JSON of a house, as far as it is used.
+
+use enfilade_math::DVec3;
+use serde::Deserialize;
+use serde_json::Value;
+
+#[derive(Deserialize)]
+pub(super) struct House {
+    #[serde(default)]
+    pub rooms: Vec<Room>,
+    #[serde(default)]
+    pub walls: Vec<Wall>,
+    #[serde(default)]
+    pub doors: Vec<Opening>,
+    #[serde(default)]
+    pub windows: Vec<Opening>,
+    #[serde(default)]
+    pub objects: Vec<Thing>,
+    #[serde(rename = "proceduralParameters")]
+    pub parameters: Option<Parameters>,
+}
+
+/// A point.
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct Xyz {
+    pub x: f64,
+    pub y: f64,
+    #[serde(default)]
+    pub z: f64,
+}
+
+impl Xyz {
+    pub fn point(self) -> DVec3 {
+        DVec3::new(self.x, self.y, self.z)
+    }
+}
+
+/// Angles, degrees.
+#[derive(Clone, Copy, Default, Deserialize)]
+pub(super) struct Euler {
+    #[serde(default)]
+    pub x: f64,
+    #[serde(default)]
+    pub y: f64,
+    #[serde(default)]
+    pub z: f64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Room {
+    pub id: String,
+    #[serde(rename = "roomType", default)]
+    pub kind: String,
+    #[serde(rename = "floorPolygon", default)]
+    pub floor: Vec<Xyz>,
+    #[serde(rename = "floorMaterial")]
+    pub material: Option<Value>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Wall {
+    pub id: String,
+    #[serde(default)]
+    pub polygon: Vec<Xyz>,
+    #[serde(rename = "roomId", default)]
+    pub room: String,
+    #[serde(default)]
+    pub empty: bool,
+    pub material: Option<Value>,
+}
+
+/// A door or window.
+#[derive(Deserialize)]
+pub(super) struct Opening {
+    pub id: String,
+    #[serde(rename = "assetId", default)]
+    pub asset: String,
+    pub wall0: Option<String>,
+    pub wall1: Option<String>,
+    #[serde(rename = "holePolygon", default)]
+    pub hole: Vec<Xyz>,
+    #[serde(rename = "boundingBox")]
+    pub bounds: Option<Bounds>,
+    #[serde(rename = "assetPosition")]
+    pub position: Option<Xyz>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Bounds {
+    pub min: Xyz,
+    pub max: Xyz,
+}
+
+impl Opening {
+    /// Two corners of the hole: along `wall0` from its start, and up, metres.
+    pub fn corners(&self) -> Option<[Xyz; 2]> {
+        let of_bounds = self.bounds.as_ref().map(|b| [b.min, b.max]);
+        let of_polygon = if let [first, second, ..] = self.hole[..] { Some([first, second]) } else { None };
+        of_polygon.or(of_bounds)
+    }
+}
+
+/// An object.
+#[derive(Deserialize)]
+pub(super) struct Thing {
+    #[serde(default)]
+    pub id: String,
+    #[serde(rename = "assetId", default)]
+    pub asset: String,
+    pub position: Option<Xyz>,
+    #[serde(default)]
+    pub rotation: Euler,
+    #[serde(default)]
+    pub children: Vec<Self>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Parameters {
+    #[serde(default)]
+    pub lights: Vec<Lamp>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Lamp {
+    #[serde(default)]
+    pub id: String,
+    #[serde(default)]
+    pub r#type: String,
+    pub position: Xyz,
+    pub rotation: Option<Euler>,
+    #[serde(default = "one")]
+    pub intensity: f64,
+    pub rgb: Option<Rgb>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct Rgb {
+    pub r: f64,
+    pub g: f64,
+    pub b: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
