@@ -2,6 +2,7 @@
 
 #[cfg(feature = "program")]
 mod annotations;
+mod collections;
 mod compressed;
 #[cfg(feature = "dataset")]
 mod datasets;
@@ -71,6 +72,7 @@ pub const TARGETS: &[Target] = &[
     importer("usdz", "scene.usdz", "scene.usdz", "archives of Universal Scene Description", seeds::usdz),
     importer("fbx", "scene.fbx", "scene.fbx", "FBX, as text and binary", seeds::fbx),
     own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
+    own("collections", "scenes of collections, and what they are made of", 8 << 10, collections::scene, none),
     // The extension is that of the one format which has no signature.
     importer("picture", "picture.tga", "with_picture.obj", "pictures of all formats as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),

@@ -2,6 +2,7 @@
 
 use crate::ImportError;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
 use std::path::Path;
 
 /// The description in the bytes of `file`; `what` says what it should be.
@@ -15,6 +16,14 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) 
         let place = format!("line {}, column {}", error.line(), error.column());
         ImportError::malformed(file, place, format!("{message}; expected {what}, so copy or unpack the file again"))
     })
+}
+
+/// A value that may be `null`, which stands for its default.
+///
+/// # Errors
+/// When it is another value of another type.
+pub(super) fn or_default<'de, D: Deserializer<'de>, T: Default + Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
+    Option::<T>::deserialize(deserializer).map(Option::unwrap_or_default)
 }
 
 /// The text without a byte order mark.

@@ -20,7 +20,7 @@ fn house() -> Value {
             {"uid": "f", "type": "Floor", "material": "oak", "xyz": quad(0.0), "normal": [0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0],
                 "uv": [0, 0, 4, 0, 4, 3, 0, 3], "faces": [0, 2, 1, 0, 3, 2]},
             {"uid": "w", "type": "WallInner", "material": "paint", "xyz": [0, 0, 0, 4, 0, 0, 4, 2.5, 0], "faces": [0, 1, 2]},
-            {"uid": "d", "type": "Door", "xyz": [1, 0, 0, 2, 0, 0, 2, 2, 0], "faces": [0, 1, 2]},
+            {"uid": "d", "type": "Door", "material": null, "uv": null, "xyz": [1, 0, 0, 2, 0, 0, 2, 2, 0], "faces": [0, 1, 2]},
             {"uid": "b", "type": "Back", "xyz": [0, 0, 3, 4, 0, 3, 4, 2.5, 3], "faces": [0, 1, 2]}
         ],
         "material": [

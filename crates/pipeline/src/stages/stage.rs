@@ -39,7 +39,7 @@ impl Stage {
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
     pub(crate) const fn version(self) -> u32 {
         match self {
-            Self::Import => 12,
+            Self::Import => 13,
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,

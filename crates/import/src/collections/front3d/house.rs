@@ -1,15 +1,16 @@
 //! The JSON of a house, as far as it is used.
 
+use super::super::json::or_default;
 use enfilade_math::DVec3;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
 pub(super) struct House {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub furniture: Vec<Furniture>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub mesh: Vec<Surface>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub material: Vec<Paint>,
     pub scene: Rooms,
 }
@@ -19,7 +20,7 @@ pub(super) struct Furniture {
     pub uid: String,
     pub jid: String,
     pub category: Option<String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub valid: bool,
 }
 
@@ -27,14 +28,14 @@ pub(super) struct Furniture {
 #[derive(Deserialize)]
 pub(super) struct Surface {
     pub uid: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub r#type: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub material: String,
     pub xyz: Vec<f64>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub normal: Vec<f32>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub uv: Vec<f32>,
     pub faces: Vec<u32>,
 }
@@ -42,10 +43,10 @@ pub(super) struct Surface {
 #[derive(Deserialize)]
 pub(super) struct Paint {
     pub uid: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub jid: String,
     /// Where the picture was on the authors' servers; empty where there is none.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub texture: String,
     /// Red, green, blue and opacity, 0 … 255, in sRGB.
     pub color: Option<Vec<f32>>,
@@ -56,15 +57,15 @@ pub(super) struct Paint {
 
 #[derive(Deserialize)]
 pub(super) struct Rooms {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub room: Vec<Room>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Room {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub instanceid: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub children: Vec<Child>,
 }
 
@@ -72,7 +73,7 @@ pub(super) struct Room {
 #[derive(Deserialize)]
 pub(super) struct Child {
     pub r#ref: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub pos: DVec3,
     #[serde(default = "no_turn")]
     pub rot: [f64; 4],

@@ -1,20 +1,21 @@
 //! The JSON of a house, as far as it is used.
 
+use super::super::json::or_default;
 use enfilade_math::DVec3;
 use serde::Deserialize;
 use serde_json::Value;
 
 #[derive(Deserialize)]
 pub(super) struct House {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub rooms: Vec<Room>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub walls: Vec<Wall>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub doors: Vec<Opening>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub windows: Vec<Opening>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub objects: Vec<Thing>,
     #[serde(rename = "proceduralParameters")]
     pub parameters: Option<Parameters>,
@@ -25,7 +26,7 @@ pub(super) struct House {
 pub(super) struct Xyz {
     pub x: f64,
     pub y: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub z: f64,
 }
 
@@ -38,20 +39,20 @@ impl Xyz {
 /// Angles, degrees.
 #[derive(Clone, Copy, Default, Deserialize)]
 pub(super) struct Euler {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub x: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub y: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub z: f64,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Room {
     pub id: String,
-    #[serde(rename = "roomType", default)]
+    #[serde(rename = "roomType", default, deserialize_with = "or_default")]
     pub kind: String,
-    #[serde(rename = "floorPolygon", default)]
+    #[serde(rename = "floorPolygon", default, deserialize_with = "or_default")]
     pub floor: Vec<Xyz>,
     #[serde(rename = "floorMaterial")]
     pub material: Option<Value>,
@@ -60,11 +61,11 @@ pub(super) struct Room {
 #[derive(Deserialize)]
 pub(super) struct Wall {
     pub id: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub polygon: Vec<Xyz>,
-    #[serde(rename = "roomId", default)]
+    #[serde(rename = "roomId", default, deserialize_with = "or_default")]
     pub room: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub empty: bool,
     pub material: Option<Value>,
 }
@@ -73,11 +74,11 @@ pub(super) struct Wall {
 #[derive(Deserialize)]
 pub(super) struct Opening {
     pub id: String,
-    #[serde(rename = "assetId", default)]
+    #[serde(rename = "assetId", default, deserialize_with = "or_default")]
     pub asset: String,
     pub wall0: Option<String>,
     pub wall1: Option<String>,
-    #[serde(rename = "holePolygon", default)]
+    #[serde(rename = "holePolygon", default, deserialize_with = "or_default")]
     pub hole: Vec<Xyz>,
     #[serde(rename = "boundingBox")]
     pub bounds: Option<Bounds>,
@@ -103,28 +104,28 @@ impl Opening {
 /// An object.
 #[derive(Deserialize)]
 pub(super) struct Thing {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub id: String,
-    #[serde(rename = "assetId", default)]
+    #[serde(rename = "assetId", default, deserialize_with = "or_default")]
     pub asset: String,
     pub position: Option<Xyz>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub rotation: Euler,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub children: Vec<Self>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Parameters {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub lights: Vec<Lamp>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Lamp {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub id: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub r#type: String,
     pub position: Xyz,
     pub rotation: Option<Euler>,
