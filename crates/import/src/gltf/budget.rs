@@ -4,7 +4,7 @@
 const RATIO: u64 = 256;
 
 /// Bytes beyond that ratio that all packed parts of a file share, for meshes in which much is the same.
-const SHARED: u64 = 1 << 25;
+const SHARED: u64 = 1 << 26;
 
 /// What a file may still unpack.
 pub(super) struct Budget {
@@ -31,7 +31,9 @@ impl Budget {
         let beyond = unpacked.saturating_sub(RATIO * packed as u64);
         self.shared_left = self.shared_left.checked_sub(beyond).ok_or_else(|| {
             let most = self.most(packed);
-            format!("would unpack {packed} bytes to {unpacked}, expected at most {most}; the file is damaged, so export it again")
+            format!(
+                "would unpack {packed} bytes to {unpacked}, expected at most {most}; it is damaged, or else export it without compression"
+            )
         })?;
         Ok(())
     }

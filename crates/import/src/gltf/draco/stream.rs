@@ -22,7 +22,7 @@ impl Stream {
         let limits = DecodeLimits::default().with_max_decoded_bytes(most).with_max_points(most / 3).with_max_faces(most / 3);
         let mut mesh = Mesh::new();
         let decoded = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
-        decoded.map_err(|e| format!("cannot be decoded ({e}); the file is damaged, so export it again"))?;
+        decoded.map_err(|e| format!("cannot be decoded ({e}); it is damaged, or else export it without compression"))?;
         // Behind the magic and the version.
         Ok(Self { mesh, has_triangles: bytes.get(7) == Some(&1) })
     }

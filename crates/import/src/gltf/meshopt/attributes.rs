@@ -113,3 +113,35 @@ fn step(last: &mut [u8], difference: [u8; 4], kind: u8) -> Result<(), String> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bytes(hexadecimal: &str) -> Vec<u8> {
+        let digit = |c: u8| char::from(c).to_digit(16).unwrap() as u8;
+        hexadecimal.as_bytes().chunks_exact(2).map(|pair| digit(pair[0]) << 4 | digit(pair[1])).collect()
+    }
+
+    /// By meshoptimizer 1.3's encoder, version 1 at level 3: floats as exclusive ors, differences of 16 bits, and differences of bytes.
+    #[test]
+    fn all_kinds_of_version_1_are_unpacked() {
+        let alternating = "a1390515555555550000000010301070103010f010301070103010f0081808040100ff0000000000000000000000000000000000\
+            00000000803f12";
+        let powers = "a14a012084ffffff0515755d5703030355000000000000000000000000000000000000000000000000803f01";
+        let scattered = "a15a004a52ffffffffffff0200ff0206383363383363830f0003060303000000000000000000000000000000000000000000003d00";
+        let expected: [&dyn Fn(i32) -> f32; 3] =
+            [&|i| if i % 2 == 0 { 1.0 + i as f32 / 16.0 } else { -1.0 - i as f32 / 16.0 }, &|i| 2f32.powi(i % 5), &|i| {
+                2f32.powi(i * 7 % 11 - 5)
+            }];
+        for (packed, expected) in [alternating, powers, scattered].into_iter().zip(expected) {
+            let packed = bytes(packed);
+            let floats: Vec<f32> = unpack(&packed, 20, 4).unwrap().as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+            assert_eq!(floats, (0..20).map(expected).collect::<Vec<f32>>());
+            for end in 0..packed.len() {
+                assert!(unpack(&packed[..end], 20, 4).is_err(), "{end}");
+            }
+            assert!(unpack(&packed, 4, 4).unwrap_err().contains("bytes behind its packed data"));
+        }
+    }
+}

@@ -160,3 +160,21 @@ impl Triangles<'_> {
         self.last
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By meshoptimizer 1.3's encoder, which turns triangles so that they begin with a known edge: here the third.
+    #[test]
+    fn triangles_and_sequences_are_unpacked_to_the_end() {
+        let packed = *b"\xe1\xf0\x10\x10\xfe\x7f\xff\x1f\xf0\x0e\x04\xff\xb6\x01\x02\x02\x67\x00\x76\x87\x56\x67\x78\xa9\x86\x65\x89\x68\x98\x01\x69\0\0";
+        let expected = [0, 1, 2, 2, 1, 3, 3, 1, 4, 5, 7, 6, 0, 2, 9, 100, 101, 102, 102, 101, 50];
+        assert_eq!(triangles(&packed, 21).unwrap(), expected);
+        let other = *b"\xd1\x00\x04\xcd\x01\x04\x07\x98\x1f\xfd\x89\x11\x92\x1f\0\0\0\0";
+        assert_eq!(sequence(&other, 8).unwrap(), [0, 1, 51, 2, 49, 1000, 70_000, 3]);
+        assert!((0..packed.len()).all(|end| triangles(&packed[..end], 21).is_err()));
+        assert!((0..other.len()).all(|end| sequence(&other[..end], 8).is_err()));
+        assert!(triangles(&other, 21).unwrap_err().contains("begins with Some(d1), expected e1 for triangles"));
+    }
+}

@@ -40,32 +40,37 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Surface, String> {
 
 /// The picture with its rows from the top down, and its channels as the file says that they should be read.
 fn arranged(surface: Surface, header: &Header) -> Surface {
-    fn from_top<T>(width: u32, texels: Vec<T>, header: &Header) -> Vec<T>
-    where
-        T: Copy,
-    {
+    fn from_top<T: Copy>(width: u32, texels: Vec<T>, header: &Header) -> Vec<T> {
         if header.bottom_up { texels.chunks_exact(width as usize).rev().flatten().copied().collect() } else { texels }
     }
     match surface {
         Surface::Floats(mut picture) => {
             picture.texels = from_top(picture.width, picture.texels, header);
+            if let Some([red, green, blue, _]) = header.swizzle {
+                let channel = |[r, g, b]: [f32; 3], from: u8| channel([r, g, b, 1.0], from, 1.0);
+                picture.texels.iter_mut().for_each(|texel| *texel = [red, green, blue].map(|from| channel(*texel, from)));
+            }
             Surface::Floats(picture)
         }
         Surface::Bytes { width, height, texels } => {
             let mut texels = from_top(width, texels, header);
             if let Some(swizzle) = header.swizzle {
-                let channel = |texel: [u8; 4], from: u8| match from {
-                    b'r' => texel[0],
-                    b'g' => texel[1],
-                    b'b' => texel[2],
-                    b'a' => texel[3],
-                    b'0' => 0,
-                    _ => 255,
-                };
-                texels.iter_mut().for_each(|texel| *texel = swizzle.map(|from| channel(*texel, from)));
+                texels.iter_mut().for_each(|texel| *texel = swizzle.map(|from| channel(*texel, from, 255)));
             }
             Surface::Bytes { width, height, texels }
         }
+    }
+}
+
+/// What a letter of a swizzle stands for in a texel.
+fn channel<T: Copy + Default>(texel: [T; 4], from: u8, one: T) -> T {
+    match from {
+        b'r' => texel[0],
+        b'g' => texel[1],
+        b'b' => texel[2],
+        b'a' => texel[3],
+        b'0' => T::default(),
+        _ => one,
     }
 }
 

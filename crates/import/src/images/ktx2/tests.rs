@@ -89,6 +89,9 @@ fn notes_turn_rows_and_channels() {
     assert_eq!(texels(&file(37, 0, [1, 2], &up, &[1, 2, 3, 4, 5, 6, 7, 8])), [[5, 6, 7, 8], [1, 2, 3, 4]]);
     let swizzled = [note("KTXwriter", "x"), note("KTXswizzle", "rrr1")].concat();
     assert_eq!(texels(&file(37, 0, [1, 1], &swizzled, &[1, 2, 3, 4])), [[1, 1, 1, 255]]);
+    let pixel: Vec<u8> = [4.0f32, 0.5, 0.25].iter().flat_map(|v| v.to_le_bytes()).collect();
+    let floats = Surface::Floats(FloatPicture { width: 1, height: 1, texels: vec![[0.25, 1.0, 0.0]] });
+    assert_eq!(decode(&file(106, 0, [1, 1], &note("KTXswizzle", "b101"), &pixel)), Ok(floats));
 }
 
 #[test]
