@@ -1,4 +1,5 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `pictures`, `bench`, `oracle` and `cluster`.
+//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `pictures`, `bench`, `oracle`, `readers` and
+//! `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
 //! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them;
@@ -23,6 +24,7 @@ mod oidn;
 mod peers;
 mod pictures;
 mod python;
+mod readers;
 mod simulate;
 mod spdx;
 mod step;
@@ -42,6 +44,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask pictures                       the pictures of README, by the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
+       cargo xtask readers FOLDER [--only TEXT]   our readers of scene files beside other programs', on public files
        cargo xtask cluster [--program PATH] [TEST...]   a farm on Slurm, S3 and by other engines' files, with faults
        cargo xtask simulate                       the same on thousands of nodes, simulated
        cargo xtask bench render [CASE...]         what pictures of rooms and homes cost, against Mitsuba 3
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
         ["simulate"] => simulate::run(&house),
         ["cluster", rest @ ..] => cluster::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),
+        ["readers", rest @ ..] => readers::run(&house, rest),
         ["bench", rest @ ..] => bench::run(&house, rest),
         _ => Err(format!("unknown command `{}`\n{USAGE}", words.join(" "))),
     });

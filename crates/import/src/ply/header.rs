@@ -12,6 +12,8 @@ pub(super) enum Encoding {
 
 pub(super) struct Header {
     pub encoding: Encoding,
+    /// What ends a line: `\n`, also behind `\r`, or `\r` alone, as Rhinoceros writes it.
+    pub line_end: u8,
     pub elements: Vec<Element>,
     /// Number of its lines.
     pub lines: usize,
@@ -83,13 +85,15 @@ impl Kind {
 }
 
 pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
-    let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), lines: 0, pictures: Vec::new() };
+    // The first line decides: in a binary file a byte `\n` behind the header belongs to the body.
+    let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+    let mut header = Header { encoding: Encoding::Text, line_end, elements: Vec::new(), lines: 0, pictures: Vec::new() };
     let (mut at, mut number) = (0, 0);
     loop {
         number += 1;
         let place = || format!("line {number}");
         let rest = bytes.get(at..).unwrap_or_default();
-        let Some(end) = rest.iter().position(|&b| b == b'\n') else {
+        let Some(end) = rest.iter().position(|&b| b == line_end) else {
             return Err((place(), "the header does not end; the file is cut short or no PLY".into()));
         };
         let line = String::from_utf8_lossy(&rest[..end]);

@@ -49,7 +49,7 @@ pub(crate) struct PlyFile {
 pub(crate) fn read(bytes: &[u8], file: &Path, wanted: bool, meters_per_unit: f64) -> Result<PlyFile, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
-    let mut values = Values::new(header.encoding, body, header.lines);
+    let mut values = Values::new(&header, body);
     let (mut mesh, mut points, mut faces) = (Mesh::default(), Vec::new(), Faces::default());
     let (mut of_vertices, mut of_faces, mut skipped, mut unused) = (None, None, Vec::new(), Vec::new());
     let mut means = wanted.then(Means::default);
@@ -287,6 +287,22 @@ mod tests {
         let binary = read(&[binary(false), vec![1; 9]].concat(), Path::new("a.ply"), false, 1.0).unwrap();
         assert_eq!(binary.trailing.as_deref(), Some("9 bytes follow the last row that the header announces; they were left out"));
         assert_eq!(read(&[self::binary(true), vec![0, b'\n']].concat(), Path::new("a.ply"), false, 1.0).unwrap(), plain);
+    }
+
+    #[test]
+    fn lines_may_end_with_a_carriage_return_alone() {
+        let plain = text("0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n").unwrap();
+        let read = |bytes: &[u8]| read(bytes, Path::new("a.ply"), false, 1.0).map_err(|e| e.to_string());
+        let returns = |text: &str| text.replace('\n', "\r").into_bytes();
+        let header = format!("ply\nformat ascii 1.0\n{HEADER}");
+        assert_eq!(read(&returns(&format!("{header}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n"))).unwrap(), plain);
+        let error = read(&returns(&format!("{header}0 0 2 9\n1 0 2 9 255\n"))).unwrap_err();
+        assert!(error.starts_with("a.ply: line 12: found 5 values in a row"), "{error}");
+        // The first byte of the body is that of a line feed.
+        let header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n\
+                      element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+        let mesh = read(&[returns(header), b"\n\0\0\x01\0\0\x02\x03\0\x03\0\x01\x02".to_vec()].concat()).unwrap().mesh;
+        assert_eq!((mesh.positions[0], mesh.triangles), (Vec3::X * 10.0, vec![[0, 1, 2]]));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The body of a PLY file: numbers, row by row.
 
-use super::header::{Element, Encoding, Kind, Problem};
+use super::header::{Element, Encoding, Header, Kind, Problem};
 
 /// The numbers of the body, one after the other.
 ///
@@ -8,6 +8,7 @@ use super::header::{Element, Encoding, Kind, Problem};
 /// line does is refused: its file and its header disagree, and all rows behind it would shift.
 pub(super) struct Values<'b> {
     encoding: Encoding,
+    line_end: u8,
     bytes: &'b [u8],
     at: usize,
     /// Number of lines of the header.
@@ -19,9 +20,10 @@ pub(super) struct Values<'b> {
 }
 
 impl<'b> Values<'b> {
-    /// The body that follows a header of so many lines.
-    pub(super) fn new(encoding: Encoding, bytes: &'b [u8], header_lines: usize) -> Self {
-        Self { encoding, bytes, at: 0, header_lines, in_row: 0, continued: None }
+    /// The body that follows a header.
+    pub(super) fn new(header: &Header, bytes: &'b [u8]) -> Self {
+        let Header { encoding, line_end, lines, .. } = *header;
+        Self { encoding, line_end, bytes, at: 0, header_lines: lines, in_row: 0, continued: None }
     }
 
     /// What follows the last row, if anything but blanks does, for a warning.
@@ -30,7 +32,7 @@ impl<'b> Values<'b> {
         let is_something = |b: &u8| !b.is_ascii_whitespace() && *b != 0;
         rest.iter().any(is_something).then(|| match self.encoding {
             Encoding::Text => {
-                let lines = rest.split(|b| *b == b'\n').filter(|line| line.iter().any(is_something)).count();
+                let lines = rest.split(|b| *b == self.line_end).filter(|line| line.iter().any(is_something)).count();
                 format!("{lines} lines follow the last row that the header announces; they were left out")
             }
             Encoding::Little | Encoding::Big => {
@@ -42,7 +44,7 @@ impl<'b> Values<'b> {
     /// The place of a byte of the body, for messages.
     fn place(&self, at: usize) -> String {
         match self.encoding {
-            Encoding::Text => format!("line {}", self.header_lines + 1 + self.bytes[..at].iter().filter(|b| **b == b'\n').count()),
+            Encoding::Text => format!("line {}", self.header_lines + 1 + self.bytes[..at].iter().filter(|b| **b == self.line_end).count()),
             Encoding::Little | Encoding::Big => format!("byte {at} of the body"),
         }
     }
@@ -57,7 +59,7 @@ impl<'b> Values<'b> {
             return Ok(());
         }
         let rest = &self.bytes[self.at..];
-        let line = &rest[..rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len())];
+        let line = &rest[..rest.iter().position(|b| *b == self.line_end).unwrap_or(rest.len())];
         if line.iter().all(u8::is_ascii_whitespace) {
             return Ok(());
         }
@@ -102,7 +104,7 @@ impl<'b> Values<'b> {
         let rest = &self.bytes[self.at..];
         let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
         let length = rest[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len() - start);
-        if self.in_row > 0 && self.continued.is_none() && rest[..start].contains(&b'\n') {
+        if self.in_row > 0 && self.continued.is_none() && rest[..start].contains(&self.line_end) {
             let problem = format!("found {} values in the row, expected more by the header; export the file again", self.in_row);
             self.continued = Some((self.place(self.at), problem));
         }

@@ -194,9 +194,10 @@ impl<'s> Walk<'s> {
     }
 }
 
-/// True where a prim, or else what is above it, has the purpose `guide` or `proxy`.
+/// True where a prim, or else what is above it, has the purpose `guide` or `proxy`. Prims without a type have none of their own.
 pub(super) fn is_aside(prim: &Prim, inherited: bool) -> bool {
-    prim.text("purpose").map_or(inherited, |purpose| matches!(purpose, "guide" | "proxy"))
+    let own = if prim.kind().is_empty() { None } else { prim.text("purpose") };
+    own.map_or(inherited, |purpose| matches!(purpose, "guide" | "proxy"))
 }
 
 /// Types that have no place in a picture of a room and need no mention.

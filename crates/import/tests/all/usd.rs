@@ -164,6 +164,25 @@ fn the_composition_of_layers_follows_the_order_of_strength() {
 }
 
 #[test]
+fn a_purpose_without_a_type_and_inactive_instances_are_as_in_openusd() {
+    let folder = Folder::new();
+    let root = layer(
+        r#"def Xform "Room" {
+            def "Untyped" { token purpose = "guide" def Cube "Seen" { } }
+            def Xform "Typed" { uniform token purpose = "guide" def "Below" { def Cube "Aside" { } } }
+            def PointInstancer "I" ( inactiveIds = [7] ) {
+                int64[] ids = [5, 7, 9] int64[] invisibleIds = [9]
+                point3f[] positions = [(0, 0, 0), (4, 0, 0), (8, 0, 0)] int[] protoIndices = [0, 0, 0]
+                rel prototypes = </Room/I/Box>
+                def Cube "Box" { }
+            }
+        }"#,
+    );
+    folder.write("room.usda", root);
+    assert_eq!(names(&folder.load("room.usda").unwrap().scene), ["Room/Untyped/Seen", "I[0]/Room/I/Box"]);
+}
+
+#[test]
 fn references_that_lead_back_are_left_out() {
     let folder = Folder::new();
     folder.write("a.usda", layer(r#"def "World" ( references = @b.usda@ ) { }"#));

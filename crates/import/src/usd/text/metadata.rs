@@ -3,7 +3,7 @@
 use super::lexer::Token;
 use super::parser::{Parsed, Parser, add_edit};
 use crate::usd::layer::{Fields, field};
-use crate::usd::value::Value;
+use crate::usd::value::{Item, Value};
 use std::rc::Rc;
 
 impl Parser<'_> {
@@ -51,6 +51,13 @@ impl Parser<'_> {
             } else {
                 add_edit(fields, list, edit, items);
             }
+            return Ok(());
+        }
+        // A list of numbers, whose items binary layers name alike.
+        if key == "inactiveIds" {
+            let ids = self.value()?;
+            let items = ids.as_numbers(1).unwrap_or_default().iter().map(|id| Item::name(id.to_string())).collect();
+            add_edit(fields, key, edit, items);
             return Ok(());
         }
         // Their keys are paths.
