@@ -187,5 +187,5 @@ fn render(scene: &Scene, start: &StartCamera, cx: &dyn Cx) -> Result<(Frame, f64
     while !rendering.is_done() && (time.wall_s() < RENDER_S || rendering.samples() == 0.0) {
         rendering.short_pass(cx);
     }
-    Ok((rendering.frame(), f64::from(rendering.samples())))
+    Ok((rendering.frame(), rendering.samples()))
 }

@@ -37,8 +37,8 @@ fn a_scene_in_place_of_the_configuration_is_told() {
 #[test]
 fn a_long_line_is_shown_in_part() {
     let dir = folder();
-    fs::write(dir.path().join("room.json"), format!("{{\"nodes\": [{}]}}", "0, ".repeat(100_000))).unwrap();
-    let text = fail(dir.path(), &["run", "room.json"], 2, &["room.json:1:1: "]);
+    fs::write(dir.path().join("room.yaml"), format!("{{\"nodes\": [{}]}}", "0, ".repeat(100_000))).unwrap();
+    let text = fail(dir.path(), &["run", "room.yaml"], 2, &["room.yaml:1:1: "]);
     assert!(text.len() < 1000, "{} bytes", text.len());
 }
 

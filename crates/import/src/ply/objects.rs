@@ -36,7 +36,7 @@ struct Vertices {
 pub(crate) fn read_objects(bytes: &[u8], file: &Path) -> Result<Vec<ObjectMesh>, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
-    let mut values = Values::new(header.encoding, body, header.lines);
+    let mut values = Values::new(&header, body);
     let (mut vertices, mut faces) = (Vertices::default(), BTreeMap::new());
     let mut of_faces = Vec::new();
     for element in &header.elements {
