@@ -1,6 +1,6 @@
 //! `drop_doubled_faces`: of faces with the same corners only the first stays.
 
-use super::Look;
+use super::seen::Look;
 use enfilade_dataset::counted;
 use enfilade_geometry::Mesh;
 use enfilade_import::Imported;

@@ -1,6 +1,6 @@
 //! `lamps = "ceiling"`: plausible lamps for interiors that have none.
 
-use super::Look;
+use super::seen::Look;
 use enfilade_dataset::{counted, counted_as};
 use enfilade_explore::LampPlace;
 use enfilade_geometry::Mesh;

@@ -6,15 +6,15 @@
 mod doubled;
 mod lamps;
 mod remarks;
+mod seen;
 
 pub(crate) use remarks::has_light;
+pub(crate) use seen::Look;
 
 use crate::config::{FileSource, Lamps};
 use crate::error::Error;
-use enfilade_explore::{Findings, findings};
-use enfilade_geometry::Bvh;
 use enfilade_import::{ImportOptions, Imported};
-use enfilade_scene::{Cx, Scene, Warning, WorldMesh};
+use enfilade_scene::{Cx, Warning};
 use std::path::{Path, PathBuf};
 
 /// Imports `file` with the choices of `source`, as the file is; `locate` finds the other files that these name.
@@ -35,23 +35,6 @@ pub(crate) fn load_file(
         allow_missing_textures: source.allow_missing_textures,
     };
     enfilade_import::load(file, &options, cx).map_err(Error::stage)
-}
-
-/// An imported scene as rays meet it, and what a look at it found.
-pub(crate) struct Look {
-    pub world: WorldMesh,
-    pub bvh: Bvh,
-    pub findings: Findings,
-}
-
-impl Look {
-    /// Looks at a scene.
-    pub fn at(scene: &Scene) -> Self {
-        let world = WorldMesh::new(scene);
-        let bvh = Bvh::new(&world.corners, &|_| true);
-        let findings = findings(&world, &bvh);
-        Self { world, bvh, findings }
-    }
 }
 
 /// Mends what `source` asks for, and tells what a look found: `cx` hears it, and the report keeps it.

@@ -1,6 +1,6 @@
 //! What a look at a scene finds, in sentences that name the key that mends it.
 
-use super::Look;
+use super::seen::Look;
 use crate::config::FileSource;
 use enfilade_dataset::counted;
 use enfilade_scene::{PartId, Scene};
