@@ -50,7 +50,7 @@ DIGITS = 6
 
 
 def write(job: Namespace, rows: list[dict], versions: dict[str, str]) -> int:
-    """Writes `readers.md` and `readers.json`; one where a difference has no class."""
+    """Writes `readers.md`, and `readers.json` to the work folder; one where a difference has no class."""
     classes = json.loads(Path(job.explanations).read_text())
     for row in rows:
         for name, peer in row["peers"].items():
@@ -59,7 +59,7 @@ def write(job: Namespace, rows: list[dict], versions: dict[str, str]) -> int:
     job.docs.mkdir(parents=True, exist_ok=True)
     data = dict(date=date.today().isoformat(), processor=processor(), processors=os.cpu_count(), peers=versions, files=[compact(row, classes) for row in told])
     lines = ",\n".join(json.dumps(each, ensure_ascii=False, separators=(",", ":")) for each in data.pop("files"))
-    (job.docs / "readers.json").write_text(json.dumps(data, ensure_ascii=False)[:-1] + f', "files": [\n{lines}\n]}}\n')
+    (job.work / "readers.json").write_text(json.dumps(data, ensure_ascii=False)[:-1] + f', "files": [\n{lines}\n]}}\n')
     (job.docs / "readers.md").write_text("\n".join(page(job, rows, told, classes, versions)) + "\n")
     unexplained = [(row, name) for row in told for name, peer in row["peers"].items() if VERDICTS[peer["verdict"]] and peer["class"] is None]
     for row, name in unexplained:
@@ -174,7 +174,7 @@ INTRODUCTION = """
 Every file is imported by `enfilade import` in a process of its own, and read by each peer that knows its format; each has ten minutes for a
 file. Triangles are counted, and bounds are compared in metres with z up: those of the corners of triangles, the same if they are within
 0.0001 of the diagonal (and a millionth of the distance from the origin, where single precision ends). Every difference has a cause, which
-was verified on one file at least, as the table says; the program fails where one has none. `readers.json` has the numbers of every file.
+was verified on one file at least, as the table says; the program fails where one has none. `target/readers/readers.json` has the numbers of every file.
 
 - *Read* means that at least one triangle was found. *Read by neither* are files without triangles (layers of materials or cameras, clouds
   of points), and broken ones that both refuse: tests of validators and what fuzzers found.

@@ -1,7 +1,7 @@
 //! `cargo xtask readers FOLDER`: our readers of scene files beside other programs', on public files.
 //!
 //! The comparison is a Python program, `xtask/python/readers.py`, because the other readers are Python packages. It writes
-//! `docs/benchmarks/readers.md` and `readers.json`; with `--only TEXT`, for files with this in their path, below the target folder.
+//! `docs/benchmarks/readers.md`; with `--only TEXT`, for files with this in their path, below the target folder.
 
 use crate::house::House;
 use crate::python;
