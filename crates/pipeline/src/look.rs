@@ -18,20 +18,23 @@ use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, CameraView, Cx, Intrinsics, Pose, Scene, StartCamera, Warning};
 use enfilade_show::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_show::preview::{PreviewSpec, Subject};
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 /// Width and height of the picture, pixels.
 const SIZE: [u32; 2] = [640, 480];
 /// Samples per pixel, before denoising, where there is time for them.
-const SAMPLES: u32 = 24;
+const SAMPLES: u32 = 16;
 /// Wall time after which no further samples are begun, seconds.
-const RENDER_S: f64 = 9.0;
+const RENDER_S: f64 = 8.0;
 /// Horizontal field of view from a place that was found: 75 degrees, a wide lens.
 const WIDE_RAD: f64 = 75.0 * PI / 180.0;
 /// Range of that of a file's camera, for pictures that show something.
 const FOV_RAD: [f64; 2] = [20.0 * PI / 180.0, 100.0 * PI / 180.0];
-/// Headings tried at a place that was found, and how far the view is tilted down, radians.
+/// Places tried besides those that were found, in all rooms together.
+const EYES: usize = 24;
+/// Headings tried at each place, and how far the view is tilted down, radians.
 const HEADINGS: u32 = 24;
 const TILT_RAD: f64 = 0.08;
 /// Views that go farther are not better, metres.
@@ -140,24 +143,41 @@ fn with_usable_view(camera: &StartCamera) -> StartCamera {
     StartCamera { fov_x_rad: camera.fov_x_rad.clamp(FOV_RAD[0], FOV_RAD[1]), ..camera.clone() }
 }
 
-/// Of the places, with all headings, the view that shows most, not from close by: its saliency times the root of how far it goes.
+/// Of the places that were found and others in the rooms around them, with all headings, the view that shows most, not from close by:
+/// its saliency times the root of how far it goes. `None` where nothing was found.
 fn best_view(look: &Look, places: &[StartCamera]) -> Option<StartCamera> {
+    if places.is_empty() {
+        return None;
+    }
     let test = Intrinsics::from_fov_x(TEST_SIZE[0], TEST_SIZE[1], WIDE_RAD);
     let saliency = Saliency::Entropy { alpha: 1.0, beta: 2.0 };
-    let views = places.iter().flat_map(|place| (0..HEADINGS).map(move |k| heading(place, TAU * f64::from(k) / f64::from(HEADINGS))));
+    let starts = StartsConfig::default();
+    let ceilings = &look.findings.ceilings;
+    let eyes = ceilings.iter().flat_map(|ceiling| ceiling.eyes(EYES.div_ceil(ceilings.len()), starts.eye_height_m as f32));
+    let has_room = |p: &DVec3| (0..HEADINGS).all(|k| !look.bvh.occluded(&near_ray(*p, k, starts.clearance_m)));
+    let positions = places.iter().map(|place| place.position).chain(eyes.map(|eye| eye.as_dvec3()).filter(has_room));
+    let views: Vec<StartCamera> = positions.flat_map(|position| (0..HEADINGS).map(move |k| heading(position, k))).collect();
     let score = |view: &StartCamera| {
         let ray = Ray::new(view.position.as_vec3(), -view.world_from_camera.z_axis.as_vec3());
         let far_m = look.bvh.closest(&ray).map_or(0.0, |hit| f64::from(hit.t).min(FAR_M));
         saliency.score(&view_stats(&look.world, &look.bvh, &test, &view.pose(0))) * far_m.sqrt()
     };
-    let scored = views.map(|view| (score(&view), view));
-    scored.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, view)| view)
+    let scores: Vec<f64> = views.par_iter().map(score).collect();
+    views.into_iter().zip(scores).max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(view, _)| view)
 }
 
-fn heading(place: &StartCamera, angle_rad: f64) -> StartCamera {
-    let (sin, cos) = angle_rad.sin_cos();
-    let forward = DVec3::new(cos * TILT_RAD.cos(), sin * TILT_RAD.cos(), -TILT_RAD.sin());
-    looking(&place.name, place.position, forward)
+/// The level direction number `k`.
+fn level(k: u32) -> DVec3 {
+    let (sin, cos) = (TAU * f64::from(k) / f64::from(HEADINGS)).sin_cos();
+    DVec3::new(cos, sin, 0.0)
+}
+
+fn near_ray(p: DVec3, k: u32, clearance_m: f64) -> Ray {
+    Ray { t_max: clearance_m as f32, ..Ray::new(p.as_vec3(), level(k).as_vec3()) }
+}
+
+fn heading(position: DVec3, k: u32) -> StartCamera {
+    looking("found", position, level(k) * TILT_RAD.cos() - DVec3::Z * TILT_RAD.sin())
 }
 
 fn looking(name: &str, position: DVec3, forward: DVec3) -> StartCamera {

@@ -154,7 +154,7 @@ pub enum LampsArg {
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade look room.glb\n  enfilade look room.obj --meters-per-unit 0.01 --up-axis z -o room.png\n\n\
     The view is the file's first camera that stands in a room, or a place that is found. A file without light is lit by lamps below\n\
-    its ceilings and an overcast sky. Samples are taken for about 9 s; the picture is denoised. For a dataset: enfilade run.")]
+    its ceilings and an overcast sky. Samples are taken for about 8 s; the picture is denoised. For a dataset: enfilade run.")]
 pub struct LookArgs {
     /// A scene file
     #[arg(help = format!("A scene file ({})", SceneFormat::extensions()))]

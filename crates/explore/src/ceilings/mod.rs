@@ -54,6 +54,13 @@ impl Ceiling {
         self.pieces.len() as f64 * f64::from(self.spacing_m).powi(2)
     }
 
+    /// Points `eye_m` above what is below the ceiling, where that leaves headroom; at most `count`, spread over the room.
+    pub fn eyes(&self, count: usize, eye_m: f32) -> Vec<Vec3> {
+        let high: Vec<&Piece> = self.pieces.iter().filter(|piece| piece.free_m >= HEADROOM_M).collect();
+        let step = high.len().div_ceil(count.max(1)).max(1);
+        high.iter().skip(step / 2).step_by(step).map(|piece| piece.at - Vec3::Z * (piece.free_m - eye_m)).collect()
+    }
+
     /// Points half-way between the ceiling and what is below it, at most `count`, spread over the room.
     pub fn midpoints(&self, count: usize) -> Vec<Vec3> {
         let step = self.pieces.len().div_ceil(count.max(1)).max(1);

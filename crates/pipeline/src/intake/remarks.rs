@@ -3,6 +3,7 @@
 use super::seen::Look;
 use crate::config::FileSource;
 use enfilade_dataset::counted;
+use enfilade_math::Bounds3;
 use enfilade_scene::{PartId, Scene};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -56,7 +57,7 @@ pub(crate) fn has_light(scene: &Scene) -> bool {
 fn unit(source: &FileSource, look: &Look) -> Option<String> {
     let size = look.world.bounds.extent();
     let longest = size.max_element();
-    if look.world.bounds.is_empty() || BUILDINGS_M.contains(&longest) {
+    if look.world.bounds.is_empty() || BUILDINGS_M.contains(&longest) || BUILDINGS_M.contains(&longest_without_largest(look)) {
         return None;
     }
     let stated = source.meters_per_unit;
@@ -69,6 +70,20 @@ fn unit(source: &FileSource, look: &Look) -> Option<String> {
         let _ = write!(text, ". {}", proposals.join("; "));
     }
     Some(text)
+}
+
+/// The longest side of the scene without its largest part, which may be a landscape or the dome of a sky; 0 for a single part.
+fn longest_without_largest(look: &Look) -> f32 {
+    let mut parts: Vec<Bounds3> = Vec::new();
+    for (corners, source) in look.world.corners.iter().zip(&look.world.sources) {
+        parts.resize(parts.len().max(source.part as usize + 1), Bounds3::EMPTY);
+        let part = &mut parts[source.part as usize];
+        *part = corners.iter().fold(*part, |bounds, &p| bounds.include(p));
+    }
+    let size = |bounds: &Bounds3| if bounds.is_empty() { 0.0 } else { bounds.extent().max_element() };
+    let largest = (1..parts.len()).fold(0, |best, i| if size(&parts[i]) > size(&parts[best]) { i } else { best });
+    let others = parts.iter().enumerate().filter(|(i, _)| *i != largest).map(|(_, bounds)| bounds).filter(|bounds| !bounds.is_empty());
+    size(&others.fold(Bounds3::EMPTY, |all, bounds| all.include(bounds.min).include(bounds.max)))
 }
 
 fn proposal(size: [f32; 3], factor: f64, stated: f64, name: &str) -> String {
