@@ -66,7 +66,7 @@ class Verbs(unittest.TestCase):
 
     def test_a_scene_that_fails_is_an_exception_with_the_summary(self):
         settings = datasets.small_config().to_dict()
-        settings["scenes"][0]["source"] = {"file": {"file": "gone.glb", "meters_per_unit": 1.0, "up_axis": None, "environment": None, "allow_missing_textures": False}}
+        settings["scenes"][0]["source"] = {"file": {"file": "gone.glb", "meters_per_unit": 1.0}}
         with self.assertRaisesRegex(enfilade.StageError, "gone.glb") as caught:
             enfilade.run(datasets.folder() / "failed", enfilade.Config.from_dict(settings))
         self.assertEqual(caught.exception.summary["scenes"][0]["stages"], [])

@@ -116,8 +116,10 @@ pub struct FileSource {
     /// Adds lamps to the file's own.
     pub lamps: Option<Lamps>,
     /// Keeps the first of all faces with the same corners.
+    #[serde(default)]
     pub drop_doubled_faces: bool,
     /// Goes on, with a warning, where a texture file is missing.
+    #[serde(default)]
     pub allow_missing_textures: bool,
 }
 
