@@ -37,7 +37,7 @@ def kubernetes(farm, python, folder):
     spec = json.loads(manifest.read_text())["spec"]
     container = spec["template"]["spec"]["containers"][0]
     begun = time.monotonic()
-    run_indices(container["command"], container["env"], "JOB_COMPLETION_INDEX", spec["completions"], "/scratch", folder)
+    run_indices(container["command"], "JOB_COMPLETION_INDEX", spec["completions"], folder)
     farm.judge(job, folder / "dataset")
     return {**audit(job), "seconds": round(time.monotonic() - begun, 1), "version": version(python, "kubernetes-validate")}
 
@@ -51,7 +51,7 @@ def aws_batch(farm, python, folder):
     request = json.loads(path.read_text())
     overrides = request["containerOverrides"]
     begun = time.monotonic()
-    run_indices(overrides["command"], overrides["environment"], "AWS_BATCH_JOB_ARRAY_INDEX", request["arrayProperties"]["size"], "/tmp/enfilade-farm", folder)
+    run_indices(overrides["command"], "AWS_BATCH_JOB_ARRAY_INDEX", request["arrayProperties"]["size"], folder)
     farm.judge(job, folder / "dataset")
     return {**audit(job), "seconds": round(time.monotonic() - begun, 1), "version": version(python, "botocore")}
 
@@ -64,12 +64,12 @@ sys.exit(report.generate_report() if report.has_errors() else 0)
 """
 
 
-def run_indices(command, env, variable, count, scratch, folder):
+def run_indices(command, variable, count, folder):
     """Runs a container's command for every index, with a scratch folder of this test's own."""
-    words = [word.replace(f"--scratch {scratch}", f"--scratch {folder / 'scratch'}") for word in command]
+    words = [*command[:-1], str(folder / "scratch")]
+    assert command[-2] == "--scratch", command
     for index in range(count):
-        given = {each["name"]: each["value"] for each in env}
-        say(words, f"index {index}", env={"PATH": "/usr/bin:/bin", variable: str(index), **given})
+        say(words, f"index {index}", env={"PATH": "/usr/bin:/bin", variable: str(index)})
 
 
 def version(python, package):

@@ -40,15 +40,20 @@ const FLOORS: [(&str, Floor); 27] = [
     ("annotate", Floor::Number(8)),
     ("farm", Floor::Number(8)),
     ("cli", Floor::Number(9)),
-    ("python", Floor::Number(9)),
+    ("python", Floor::Number(10)),
     ("testkit", Floor::Dev),
     ("testroom", Floor::Dev),
     ("fuzz", Floor::Dev),
     ("xtask", Floor::Dev),
 ];
 
-/// What package names start with, but for the binary and this program.
+/// What package names start with, but for the program's and this one's.
 const PREFIX: &str = "enfilade-";
+
+/// The folder of a package of ours.
+fn folder_of(package: &str) -> Option<&str> {
+    if package == "enfilade" { Some("cli") } else { package.strip_prefix(PREFIX) }
+}
 
 /// The packages of the floors from the ground to `highest`.
 pub fn packages_up_to(highest: u8) -> impl Iterator<Item = String> {
@@ -101,7 +106,7 @@ fn wrong_imports(name: &str, manifest: &Table) -> Vec<String> {
     };
     let kinds = ["dependencies", "build-dependencies"];
     let packages = listed(manifest, &kinds).map(|(key, value)| value.get("package").and_then(toml::Value::as_str).unwrap_or(key));
-    packages.filter_map(|package| wrong_import(name, own, package.strip_prefix(PREFIX)?)).collect()
+    packages.filter_map(|package| wrong_import(name, own, folder_of(package)?)).collect()
 }
 
 fn wrong_import(name: &str, own: Floor, other: &str) -> Option<String> {
@@ -172,6 +177,7 @@ mod tests {
             ["`math` (floor 0) depends on `geometry` (floor 1); imports point to strictly lower floors"]
         );
         assert_eq!(wrong("render", "[target.'cfg(unix)'.dependencies]\nenfilade-dataset = { path = \"../dataset\" }").len(), 1);
+        assert_eq!(wrong("farm", "[dependencies]\nenfilade.workspace = true").len(), 1);
         assert_eq!(wrong("render", "[build-dependencies]\nhouse = { package = \"enfilade-home\", path = \"../home\" }").len(), 1);
         assert!(wrong("render", "[dependencies]\nenfilade-testkit.workspace = true")[0].contains("development dependencies only"));
     }

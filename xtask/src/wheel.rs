@@ -21,7 +21,7 @@ const PACKAGES: [(&str, &str); 7] = [
 ];
 
 /// All steps.
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 6] = [
     Step {
         name: "environment",
         about: "torch and what else the module is used with are installed",
@@ -33,6 +33,12 @@ const STEPS: [Step; 5] = [
         about: "`pip install .` builds and installs the module",
         remedy: "fix what the messages above show; it takes maturin, torch and others from PyPI, about 3 GB the first time",
         run: install,
+    },
+    Step {
+        name: "command",
+        about: "the command `enfilade` that comes with the module makes a small demo",
+        remedy: "fix crates/python/enfilade/__main__.py or what it calls",
+        run: command,
     },
     Step {
         name: "loading",
@@ -84,8 +90,18 @@ fn environment(house: &House) -> Result<PathBuf, String> {
 fn install(house: &House) -> Result<String, String> {
     let python = environment(house)?;
     let mut command = house.command(python, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "."]);
-    command.env("MATURIN_PEP517_ARGS", "--profile dev --features as-tested").env("CARGO_TARGET_DIR", house.target()?);
+    command.env("MATURIN_PEP517_ARGS", "--profile dev").env("CARGO_TARGET_DIR", house.target()?);
     finish(command)
+}
+
+fn command(house: &House) -> Result<String, String> {
+    let python = environment(house)?;
+    let program = python.with_file_name(format!("enfilade{}", std::env::consts::EXE_SUFFIX));
+    let out = house.target()?.join("python").join("command");
+    let _ = std::fs::remove_dir_all(&out); // of an earlier run, if there is one
+    let mut run = house.command(program, &["run", "--demo", "--frames", "1", "--size", "64x48", "--samples", "1", "--quiet"]);
+    run.arg(&out);
+    finish(run)
 }
 
 /// Modules of `crates/python/tests`.

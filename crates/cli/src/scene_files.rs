@@ -6,6 +6,7 @@ use crate::progress::Progress;
 use crate::verbs;
 use enfilade_export::scene_encoder;
 use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, holds_scene, scene_file_of};
+use enfilade_scene::{Cx, Warning};
 use std::path::PathBuf;
 
 /// `look`: one picture of a scene file.
@@ -58,15 +59,23 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
 fn check(source: &FileSource, quiet: bool) -> Result<Verdict, Problem> {
     let checked = {
         let progress = Progress::new(quiet);
-        progress.on(&source.file, Stage::Import, Event::Started);
-        enfilade_pipeline::check_file(source, &progress.cx(&source.file, Stage::Import))?
+        enfilade_pipeline::check_file(source, &Unwarned(&progress.begin(&source.file, "check")))?
     };
     say(&checked.summary);
-    if quiet {
-        checked.warnings.iter().for_each(|warning| say(&warning.to_string()));
-    }
+    checked.warnings.iter().for_each(|warning| say(&warning.to_string()));
     say(&format!("checked  {} warnings; nothing was written", checked.warnings.len()));
     Ok(Verdict::Done)
+}
+
+/// Progress without the warnings, which are results here.
+struct Unwarned<'a>(&'a dyn Cx);
+
+impl Cx for Unwarned<'_> {
+    fn progress(&self, what: &str, done: u64, total: u64) {
+        self.0.progress(what, done, total);
+    }
+
+    fn warn(&self, _warning: Warning) {}
 }
 
 /// A flag that is given and means nothing for a dataset, whose configuration says the same.

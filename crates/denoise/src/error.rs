@@ -11,6 +11,9 @@ pub enum DenoiseError {
         /// Each name or path with the system's answer.
         tried: Vec<String>,
     },
+    /// This program is linked statically, and a C library that is could load another only by chance.
+    #[error("this program is linked statically and cannot load the library of Open Image Denoise")]
+    Static,
     /// A library without a function that we need.
     #[error("{} is not Open Image Denoise 2: it has no function `{function}`", library.display())]
     Function {

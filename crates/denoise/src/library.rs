@@ -68,6 +68,9 @@ functions! {
 /// Loads the library from `place`, its file or the folder that it lies in, or without a place from where the system's loader
 /// looks. Gives what was loaded and its functions.
 pub(crate) fn load(place: Option<&Path>) -> Result<(PathBuf, Functions), DenoiseError> {
+    if cfg!(all(unix, target_feature = "crt-static")) {
+        return Err(DenoiseError::Static);
+    }
     let mut tried = Vec::new();
     for candidate in candidates(place) {
         // SAFETY: loading runs the library's initialisers. The user names the library or has it installed, as with every other

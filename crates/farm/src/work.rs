@@ -21,7 +21,29 @@ pub enum Assignment {
     Shard(u32, u32),
 }
 
+/// Where engines say which of the indices of a job a worker has, counted from 0.
+const INDEX_VARIABLES: [&str; 2] = ["JOB_COMPLETION_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX"];
+
 impl Assignment {
+    /// Of `tasks` the one at the place that Kubernetes or AWS Batch say in `environment`; the first where neither does, as for a job of
+    /// AWS Batch with a single task.
+    ///
+    /// # Errors
+    /// When that is no number, or there are fewer tasks.
+    pub fn nth(tasks: &Ranges, environment: impl Fn(&str) -> Option<String>) -> Result<Self, FarmError> {
+        let told = INDEX_VARIABLES.iter().find_map(|&name| Some((name, environment(name)?)));
+        let (name, text) = told.unwrap_or(("no variable of an engine", "0".into()));
+        let wrong = || {
+            let last = tasks.len().saturating_sub(1);
+            FarmError::Request(format!(
+                "the index is {text:?} ({name}); expected a number from 0 to {last}, for the {} tasks named",
+                tasks.len()
+            ))
+        };
+        let task = text.trim().parse().ok().and_then(|n| tasks.iter().nth(n)).ok_or_else(wrong)?;
+        Ok(Self::Tasks([*task].into()))
+    }
+
     /// The numbers of its tasks in a job of `count`.
     pub fn tasks(&self, count: usize) -> Ranges {
         match self {
@@ -322,12 +344,26 @@ fn place(cached: &Path, path: &Path) -> Result<(), FarmError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parse_ranges;
 
     #[test]
     fn shards_hold_every_task_once() {
         for (count, shards) in [(10, 3), (2, 5), (0, 2), (7, 1)] {
             let all: Vec<u32> = (0..shards).flat_map(|i| Assignment::Shard(i, shards).tasks(count)).collect();
             assert_eq!(all, (0..count as u32).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn an_engines_index_counts_the_tasks_named() {
+        let tasks = parse_ranges("0-2,7").unwrap();
+        let nth = |name: &'static str, index: &'static str| Assignment::nth(&tasks, move |asked| (asked == name).then(|| index.into()));
+        assert_eq!(nth("JOB_COMPLETION_INDEX", "3").unwrap(), Assignment::Tasks([7].into()));
+        assert_eq!(nth("AWS_BATCH_JOB_ARRAY_INDEX", "1").unwrap(), Assignment::Tasks([1].into()));
+        assert_eq!(nth("SLURM_ARRAY_TASK_ID", "3").unwrap(), Assignment::Tasks([0].into()));
+        for wrong in ["4", "-1", "x"] {
+            let error = nth("JOB_COMPLETION_INDEX", wrong).unwrap_err().to_string();
+            assert!(error.contains("JOB_COMPLETION_INDEX") && error.contains("0 to 3"), "{error}");
         }
     }
 }

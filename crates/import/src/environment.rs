@@ -2,7 +2,7 @@
 
 use enfilade_math::{DMat3, DVec3, Rgb};
 use enfilade_scene::sky::{Daylight, Overcast, SolarMoment};
-use enfilade_scene::{Environment, Image, Light, MapRows};
+use enfilade_scene::{Environment, Image, Light, MapRows, Scene};
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -101,8 +101,18 @@ impl EnvironmentOverride {
         Environment::Map { image, rows: MapRows::Bands, scale: Rgb::splat(self.scale), map_from_world }
     }
 
+    /// Gives the scene this sky, with its sun where it is clear, in place of its surroundings; false for a picture of a file, which changes
+    /// nothing.
+    pub fn light(&self, scene: &mut Scene) -> bool {
+        let Some((picture, environment, sun)) = self.of_sky(scene.images.len() as u32) else { return false };
+        scene.images.push(picture);
+        scene.lights.extend(sun);
+        scene.environment = Some(environment);
+        true
+    }
+
     /// The sky, its sun where it is clear, and its picture, which will have the index `image`; `None` for a picture of a file.
-    pub(crate) fn of_sky(&self, image: u32) -> Option<(Image, Environment, Option<Light>)> {
+    fn of_sky(&self, image: u32) -> Option<(Image, Environment, Option<Light>)> {
         let turned = |moment: &SolarMoment| self.turn().as_mat3() * moment.to_sun();
         match &self.source {
             EnvironmentSource::Picture(_) => None,

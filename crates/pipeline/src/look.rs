@@ -5,7 +5,7 @@
 
 use crate::config::{FileSource, Lamps, closest};
 use crate::error::Error;
-use crate::intake::{Look, has_light, load_file, settle};
+use crate::intake::{Held, Look, has_light, load_file, settle};
 use crate::report::Stopwatch;
 use crate::single::{refuse_overwriting, write_output};
 use crate::stages::describe;
@@ -65,9 +65,11 @@ pub struct Looked {
 pub fn look(source: &FileSource, camera: Option<&str>, output: &Path, cx: &dyn Cx) -> Result<Looked, Error> {
     let time = Stopwatch::start();
     let name = picture_name(output)?;
-    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    let held = Held::over(cx);
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), &held)?;
     refuse_overwriting(output, &imported.inputs)?;
-    let (light, look) = lit(source, &mut imported, cx)?;
+    let (light, look) = lit(source, &mut imported, cx);
+    drop(held);
     let scene = &imported.scene;
     let (start, view) = place(scene, &look, camera, cx)?;
     drop(look);
@@ -94,22 +96,19 @@ fn picture_name(output: &Path) -> Result<&'static str, Error> {
 }
 
 /// Gives a scene without light some; says which.
-fn lit(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Result<(Option<String>, Look), Error> {
+fn lit(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> (Option<String>, Look) {
     let is_dark = !has_light(&imported.scene) && source.lamps.is_none();
     if !is_dark {
-        return Ok((None, settle(source, imported, cx)));
+        return (None, settle(source, imported, cx));
     }
-    let sky = EnvironmentOverride::named("overcast");
-    let lamps = FileSource { lamps: Some(Lamps::Ceiling), environment: Some(sky), ..source.clone() };
-    // The sky is the importer's: the file is read again, with it. What is dark has seldom more than a mesh.
-    *imported = load_file(&lamps, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
-    let look = settle(&lamps, imported, cx);
+    EnvironmentOverride::named("overcast").light(&mut imported.scene);
+    let look = settle(&FileSource { lamps: Some(Lamps::Ceiling), ..source.clone() }, imported, cx);
     let light = if look.findings.ceilings.is_empty() {
         "nothing in the file shines: an overcast sky lights it (--environment overcast)"
     } else {
         "nothing in the file shines: lamps below its ceilings and an overcast sky light it (--lamps ceiling --environment overcast)"
     };
-    Ok((Some(light.into()), look))
+    (Some(light.into()), look)
 }
 
 /// Where to look from, and in words.

@@ -3,7 +3,7 @@
 use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::intake::{load_file, settle};
+use crate::intake::{Held, load_file, settle};
 use crate::stages::{describe, labels_by_part};
 use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
@@ -58,9 +58,11 @@ pub fn import_file(
     encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
-    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    let held = Held::over(cx);
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), &held)?;
     refuse_overwriting(output, &imported.inputs)?;
     settle(source, &mut imported, cx);
+    drop(held);
     let summary = describe(&imported.scene);
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
     let (bytes, lost) = encode(&imported.scene, labels.as_ref());
@@ -84,8 +86,10 @@ pub struct Checked {
 /// # Errors
 /// When the file cannot be imported.
 pub fn check_file(source: &FileSource, cx: &dyn Cx) -> Result<Checked, Error> {
-    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
+    let held = Held::over(cx);
+    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), &held)?;
     settle(source, &mut imported, cx);
+    drop(held);
     Ok(Checked { summary: describe(&imported.scene), warnings: imported.report.warnings })
 }
 

@@ -22,6 +22,8 @@ mod verbs;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use std::ffi::OsString;
+use std::path::PathBuf;
 
 /// 3D interiors as photorealistic datasets with dense ground truth.
 #[pymodule]
@@ -42,6 +44,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("PIX3D_CATEGORIES", enfilade_shapes::CATEGORIES)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     for function in [
+        wrap_pyfunction!(main, module)?,
         wrap_pyfunction!(verbs::run, module)?,
         wrap_pyfunction!(verbs::stage, module)?,
         wrap_pyfunction!(verbs::verify, module)?,
@@ -58,6 +61,13 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add_function(function)?;
     }
     farm::add_module(module)
+}
+
+/// Does what the words of a command line say, as the program `enfilade`, and gives the exit code. It is for the command that is installed with the
+/// package: signals end the process, and the number of threads holds for all that is done after it.
+#[pyfunction]
+fn main(py: Python<'_>, words: Vec<OsString>, program: Option<PathBuf>) -> u8 {
+    py.detach(|| enfilade_cli::main(words, program))
 }
 
 /// What each format of `export` is, by name.

@@ -68,6 +68,9 @@ pub struct FarmWorkArgs {
     /// Numbers of tasks: 7, 0-3, 0-8:2 or 1,5,9-12
     #[arg(long, value_name = "RANGES", required_unless_present = "shard", conflicts_with = "shard")]
     pub task: Option<String>,
+    /// Only one of them: the one at the place that the engine's index says (JOB_COMPLETION_INDEX, AWS_BATCH_JOB_ARRAY_INDEX), counted from 0
+    #[arg(long, requires = "task")]
+    pub nth: bool,
     /// The i-th of N shares of all tasks, counted from 0: 3/16
     #[arg(long, value_name = "I/N")]
     pub shard: Option<String>,

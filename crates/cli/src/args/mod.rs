@@ -7,6 +7,7 @@ mod pages;
 mod reading;
 mod results;
 mod scenes;
+mod shell;
 mod stages;
 mod values;
 
@@ -17,11 +18,13 @@ pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::CamerasArg;
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
 pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisArg};
+pub use shell::{CompletionsArgs, ManArgs};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
 
 use crate::vray::VrayArgs;
 use clap::{Parser, Subcommand};
+use std::path::PathBuf;
 
 /// Turns 3D interiors into photorealistic image datasets with dense ground truth, in Hypersim's layout.
 #[derive(Parser)]
@@ -37,6 +40,9 @@ pub struct Cli {
     /// Print nothing but the result and errors
     #[arg(short, long, global = true)]
     pub quiet: bool,
+    /// The file of this program.
+    #[arg(skip)]
+    pub program: Option<PathBuf>,
 }
 
 /// The verbs.
@@ -108,6 +114,10 @@ pub enum Verb {
     Suggest(SuggestArgs),
     /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
     View(ViewArgs),
+    /// What a shell needs to complete verbs and options, on standard output
+    Completions(CompletionsArgs),
+    /// The manual pages, in section 1, into a folder
+    Man(ManArgs),
 }
 
 #[cfg(test)]

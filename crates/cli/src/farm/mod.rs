@@ -16,16 +16,16 @@ use enfilade_farm::{
 };
 use enfilade_show::stats::Price;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// One of its verbs.
-pub fn farm(args: &FarmArgs, quiet: bool) -> Result<Verdict, Problem> {
+/// One of its verbs; `program` is the file that jobs of Slurm start.
+pub fn farm(args: &FarmArgs, program: Option<&Path>, quiet: bool) -> Result<Verdict, Problem> {
     match &args.verb {
         FarmVerb::Plan(args) => plan(args, quiet),
         FarmVerb::Work(args) => work(args, quiet),
         FarmVerb::Status(args) => status(args),
         FarmVerb::Collect(args) => collect(args, quiet),
-        FarmVerb::Submit(args) => submit(args),
+        FarmVerb::Submit(args) => submit(args, program),
     }
 }
 
@@ -84,6 +84,7 @@ fn say_plan(plan: &Plan, prices: &[Price]) {
 fn work(args: &FarmWorkArgs, quiet: bool) -> Result<Verdict, Problem> {
     let stop = stop_on_signals();
     let assignment = match (&args.task, &args.shard) {
+        (Some(text), _) if args.nth => Assignment::nth(&parse_ranges(text)?, |name| std::env::var(name).ok())?,
         (Some(text), _) => Assignment::Tasks(parse_ranges(text)?),
         (None, Some(text)) => parse_shard(text)?,
         (None, None) => return Err(Problem::new("no tasks are named", "give --task 0-3 or --shard 0/4")),
@@ -190,7 +191,7 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
 }
 
 /// `farm submit`: files for engines.
-fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
+fn submit(args: &FarmSubmitArgs, program: Option<&Path>) -> Result<Verdict, Problem> {
     let named = |option: &Option<String>, flag: &str| {
         option.clone().ok_or_else(|| Problem::new(format!("{flag} is not given"), "see enfilade farm submit --help"))
     };
@@ -203,7 +204,7 @@ fn submit(args: &FarmSubmitArgs) -> Result<Verdict, Problem> {
         EngineArg::Openjd => Engine::Openjd,
     };
     // Nodes of Slurm see the same folders.
-    let here = || std::env::current_exe().ok().filter(|_| args.engine == EngineArg::Slurm).map(|path| path.display().to_string());
+    let here = || program.filter(|_| args.engine == EngineArg::Slurm).map(|path| path.display().to_string());
     let options = SubmitOptions {
         program: args.program.clone().or_else(here),
         at_once: args.at_once,

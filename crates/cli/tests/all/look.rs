@@ -44,7 +44,7 @@ fn a_check_tells_what_an_import_would_and_writes_nothing() {
     let dir = folder();
     let d = dir.path();
     write_room(d, "room", Lamp::Off);
-    let text = succeed(d, &["import", "room.obj", "--check", "--quiet", "--meters-per-unit", "100"]);
+    let text = succeed(d, &["import", "room.obj", "--check", "--meters-per-unit", "100"]);
     assert!(
         text.contains("nothing in it shines") && text.contains("it is 400.00 m long") && text.contains("nothing was written"),
         "{text}"

@@ -12,6 +12,7 @@ mod look;
 mod rendering;
 mod replay;
 mod resume;
+mod shell;
 mod suggest;
 mod verbs;
 mod vray;

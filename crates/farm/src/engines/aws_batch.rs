@@ -11,21 +11,21 @@ const MAX_BYTES: usize = 6000;
 /// One request per array job. `queue` and `definition` name what the account has; the definition's image holds the program.
 pub fn aws_batch_job(submission: &Submission, queue: &str, definition: &str) -> Vec<Value> {
     let limited = Submission { array_limit: submission.array_limit.min(MAX_ARRAY), ..submission.clone() };
-    let arrays: Vec<Vec<u32>> = limited.arrays().iter().flat_map(|tasks| fitting(tasks)).collect();
+    let arrays: Vec<Vec<u32>> = limited.arrays().iter().flat_map(|tasks| fitting(&limited, tasks)).collect();
     arrays.iter().enumerate().map(|(k, tasks)| request(&limited, k, tasks, queue, definition)).collect()
 }
 
 /// The tasks, halved until their command is short enough.
-fn fitting(tasks: &[u32]) -> Vec<Vec<u32>> {
-    if look_up(tasks).len() <= MAX_BYTES || tasks.len() < 2 {
+fn fitting(submission: &Submission, tasks: &[u32]) -> Vec<Vec<u32>> {
+    if command(submission, tasks).iter().map(String::len).sum::<usize>() <= MAX_BYTES || tasks.len() < 2 {
         return vec![tasks.to_vec()];
     }
     let (low, high) = tasks.split_at(tasks.len() / 2);
-    [fitting(low), fitting(high)].concat()
+    [fitting(submission, low), fitting(submission, high)].concat()
 }
 
-fn look_up(tasks: &[u32]) -> String {
-    nth_task(tasks, "AWS_BATCH_JOB_ARRAY_INDEX", "/tmp/enfilade-farm")
+fn command(submission: &Submission, tasks: &[u32]) -> Vec<String> {
+    nth_task(submission, tasks, "/tmp/enfilade-farm")
 }
 
 fn request(submission: &Submission, k: usize, tasks: &[u32], queue: &str, definition: &str) -> Value {
@@ -34,11 +34,7 @@ fn request(submission: &Submission, k: usize, tasks: &[u32], queue: &str, defini
         "jobQueue": queue,
         "jobDefinition": definition,
         "containerOverrides": {
-            "command": ["sh", "-c", look_up(tasks), submission.program],
-            "environment": [
-                { "name": "STORE", "value": submission.store },
-                { "name": "CPUS", "value": submission.cpus.to_string() },
-            ],
+            "command": command(submission, tasks),
             "resourceRequirements": [
                 { "type": "VCPU", "value": submission.cpus.to_string() },
                 { "type": "MEMORY", "value": submission.memory_mib.to_string() },

@@ -8,8 +8,6 @@ use serde_json::{Value, json};
 pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
     let tasks: Vec<u32> = submission.tasks.iter().copied().collect();
     let count = tasks.len();
-    // The index counts the missing tasks; the shell looks up which one it is.
-    let look_up = nth_task(&tasks, "JOB_COMPLETION_INDEX", "/scratch");
     json!({
         "apiVersion": "batch/v1",
         "kind": "Job",
@@ -30,11 +28,8 @@ pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
                 "containers": [{
                     "name": "worker",
                     "image": image,
-                    "command": ["sh", "-c", look_up, submission.program],
-                    "env": [
-                        { "name": "STORE", "value": submission.store },
-                        { "name": "CPUS", "value": submission.cpus.to_string() },
-                    ],
+                    // The index counts the missing tasks.
+                    "command": nth_task(submission, &tasks, "/scratch"),
                     "resources": {
                         "requests": { "cpu": submission.cpus.to_string(), "memory": format!("{}Mi", submission.memory_mib) },
                         "limits": { "memory": format!("{}Mi", submission.memory_mib) },
@@ -58,7 +53,7 @@ mod tests {
         assert_eq!(job["spec"]["completions"], 4);
         assert_eq!(job["spec"]["parallelism"], 4);
         assert_eq!(job["spec"]["backoffLimitPerIndex"], 3);
-        let command = job["spec"]["template"]["spec"]["containers"][0]["command"][2].as_str().unwrap();
-        assert!(command.starts_with("i=${JOB_COMPLETION_INDEX:-0}; for r in 0-2 7; do "), "{command}");
+        let command = job["spec"]["template"]["spec"]["containers"][0]["command"].as_array().unwrap();
+        assert_eq!(command[6..9], ["--task", "0-2,7", "--nth"]);
     }
 }

@@ -68,14 +68,13 @@ impl Submission {
     }
 }
 
-/// A command for `sh -c` that does the task at the place `$index` among `tasks`; `$0` is the program. Tasks stand in it as ranges, since
-/// engines limit what a command may hold.
-pub(crate) fn nth_task(tasks: &[u32], index: &str, scratch: &str) -> String {
-    let ranges = print_ranges(&tasks.iter().copied().collect()).replace(',', " ");
-    format!(
-        "i=${{{index}:-0}}; for r in {ranges}; do n=$((${{r#*-}}-${{r%-*}}+1)); [ $i -ge $n ] || exec \"$0\" --threads \"$CPUS\" farm work \
-         \"$STORE\" --task $((${{r%-*}}+i)) --scratch {scratch}; i=$((i-n)); done; exit 65"
-    )
+/// The command of a container that does one of `tasks`: the one that the engine's index counts, which the program reads by itself, so that
+/// an image needs no shell. Tasks stand in it as ranges, since engines limit what a command may hold.
+pub(crate) fn nth_task(submission: &Submission, tasks: &[u32], scratch: &str) -> Vec<String> {
+    let (cpus, ranges) = (submission.cpus.to_string(), print_ranges(&tasks.iter().copied().collect()));
+    let words =
+        [&submission.program, "--threads", &cpus, "farm", "work", &submission.store, "--task", &ranges, "--nth", "--scratch", scratch];
+    words.map(String::from).to_vec()
 }
 
 #[cfg(test)]

@@ -205,11 +205,7 @@ impl<'a> Assembly<'a> {
 
     /// Puts the surroundings of the options in place of the file's own.
     fn replace_environment(&mut self, environment: &EnvironmentOverride) -> Result<(), ImportError> {
-        if let Some((sky, environment, sun)) = environment.of_sky(self.next_image()) {
-            self.push_image(sky);
-            self.scene.lights.extend(sun);
-            self.scene.environment = Some(environment);
-        }
+        environment.light(&mut self.scene);
         if let Some(file) = environment.file() {
             // The path is the caller's, not the scene file's: relative to the working directory.
             let bytes = self.read_input(file, "the import options name it as the environment; correct the path")?;

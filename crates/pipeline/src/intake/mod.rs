@@ -4,10 +4,12 @@
 //! everything else that a look finds; they join the importer's warnings, in the report.
 
 mod doubled;
+mod held;
 mod lamps;
 mod remarks;
 mod seen;
 
+pub(crate) use held::Held;
 pub(crate) use remarks::has_light;
 pub(crate) use seen::Look;
 

@@ -92,7 +92,7 @@ pub(super) fn open(job: &Job) -> Result<Denoiser, Error> {
     let Some(library) = &job.scene.denoiser else { return Ok(Denoiser::built_in()) };
     let place: PathBuf = job.config.path(library)?;
     Denoiser::open(Some(&place), rayon::current_num_threads()).map_err(|error| match error {
-        DenoiseError::NotFound { .. } | DenoiseError::Function { .. } | DenoiseError::Version { .. } => Error::scene(
+        DenoiseError::NotFound { .. } | DenoiseError::Static | DenoiseError::Function { .. } | DenoiseError::Version { .. } => Error::scene(
             error.to_string(),
             "install version 2 (`pip install pyoidn` brings it along, and openimagedenoise.org has packages) and name the file, or the folder \
              that it lies in, by denoiser in [render]; or delete that key, for the denoiser in the program",
