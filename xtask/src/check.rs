@@ -2,13 +2,13 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{circles, dependencies, floors, pictures};
+use crate::{circles, dependencies, floors, pictures, workflows};
 
 /// The last and slowest step, left out by `--no-tests` where all tests follow anyway.
 const QUICK_TESTS: &str = "tests";
 
 /// All steps.
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     Step {
         name: "format",
         about: "files are formatted",
@@ -38,6 +38,12 @@ const STEPS: [Step; 8] = [
         about: "the pictures of README are those of today's demo",
         remedy: "run `cargo xtask pictures`, look at them, and commit docs/",
         run: pictures::check,
+    },
+    Step {
+        name: "workflows",
+        about: "the forge's workflows and the scripts that they call are sound",
+        remedy: "fix what the messages above show; https://github.com/rhysd/actionlint and https://www.shellcheck.net explain each",
+        run: workflows::check,
     },
     Step {
         name: "lints",

@@ -31,6 +31,7 @@ mod step;
 mod storage;
 mod test;
 mod wheel;
+mod workflows;
 
 use house::House;
 use std::process::ExitCode;

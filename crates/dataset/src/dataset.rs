@@ -1,6 +1,6 @@
 //! A dataset as a handle: its layout, and the table of cameras that is read. What it reads and writes is in the files beside this one.
 
-use crate::{DatasetError, Layout};
+use crate::{DatasetError, Layout, refuse_newer_layout};
 use std::path::{Path, PathBuf};
 
 /// A dataset on disk.
@@ -29,9 +29,10 @@ impl Dataset {
     /// The dataset at `root`, which is made if it does not exist. What is already there is kept.
     ///
     /// # Errors
-    /// When the folder cannot be made.
+    /// When the folder cannot be made, or holds a dataset of a newer layout.
     pub fn create(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
+        refuse_newer_layout(root.as_ref())?;
         std::fs::create_dir_all(layout.scenes_dir()).map_err(DatasetError::at("create the folder", layout.scenes_dir()))?;
         Ok(Self { layout, camera_table: None })
     }
@@ -40,9 +41,10 @@ impl Dataset {
     /// under the root. Hypersim's table of cameras, which comes apart from the archives, may also lie in the folder above.
     ///
     /// # Errors
-    /// When the folder cannot be read or is no dataset.
+    /// When the folder cannot be read, is no dataset, or holds one of a newer layout.
     pub fn open(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
+        refuse_newer_layout(root.as_ref())?;
         if layout.scenes_dir().is_dir() {
             return Ok(Self { camera_table: table_nearby(&layout), layout });
         }

@@ -2,14 +2,15 @@
 
 use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
 use crate::hdf5::{ArrayView, Packing, Storage, missing_bytes, write_view};
+use crate::layout_version::newer;
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
 use crate::{ColorKind, Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Cx, Pose, Warning};
 use rayon::prelude::*;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -259,7 +260,7 @@ impl Dataset {
     /// # Errors
     /// When the record cannot be read or understood.
     pub fn frame_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<FrameRecord>, DatasetError> {
-        read_json(&self.layout().frame_record(scene, camera, frame), "delete it and render the frame again")
+        read_record(&self.layout().frame_record(scene, camera, frame), "delete it and render the frame again")
     }
 
     /// The commit record of a frame's labels; `None` when it has none.
@@ -267,7 +268,7 @@ impl Dataset {
     /// # Errors
     /// When the record cannot be read or understood.
     pub fn label_record(&self, scene: &str, camera: &str, frame: u32) -> Result<Option<LabelRecord>, DatasetError> {
-        read_json(&self.layout().label_record(scene, camera, frame), "delete it and run the label stage again")
+        read_record(&self.layout().label_record(scene, camera, frame), "delete it and run the label stage again")
     }
 
     /// Removes the temporary files that a killed run left in a camera's folders. Call it before frames are written, when no
@@ -439,11 +440,33 @@ impl FileRecord {
 
 /// Reads a JSON file that may not exist. `remedy` is what to do when it cannot be understood.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
+    read_text(path)?.map(|text| parse_json(path, &text, remedy)).transpose()
+}
+
+/// The same of a commit record, whose form may be one of a newer program.
+fn read_record<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
+    #[derive(Deserialize)]
+    struct Head {
+        format: u32,
+    }
+    let Some(text) = read_text(path)? else { return Ok(None) };
+    match serde_json::from_slice(&text) {
+        Ok(Head { format }) if format > RECORD_FORMAT => {
+            Err(newer(path, &format!("the record's form {format}"), &RECORD_FORMAT.to_string()))
+        }
+        _ => parse_json(path, &text, remedy).map(Some),
+    }
+}
+
+fn read_text(path: &Path) -> Result<Option<Vec<u8>>, DatasetError> {
     match fs::read(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(DatasetError::io("read", path, error)),
-        Ok(text) => serde_json::from_slice(&text).map(Some).map_err(|error| DatasetError::text(path, format!("{error}; {remedy}"))),
+        text => text.map(Some).map_err(DatasetError::at("read", path)),
     }
+}
+
+fn parse_json<T: DeserializeOwned>(path: &Path, text: &[u8], remedy: &str) -> Result<T, DatasetError> {
+    serde_json::from_slice(text).map_err(|error| DatasetError::text(path, format!("{error}; {remedy}")))
 }
 
 #[cfg(test)]

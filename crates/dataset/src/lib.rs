@@ -28,6 +28,7 @@ pub mod hdf5;
 mod instance_files;
 mod label_files;
 mod layout;
+mod layout_version;
 mod loader_camera;
 mod manifest;
 mod mesh_files;
@@ -61,6 +62,7 @@ pub use hdf5::{Array, Element, Elements, Number, Volume, VolumeArray, Window, im
 pub use instance_files::{AmodalMask, AmodalMasks, InstanceView, PixelArea};
 pub use label_files::{LabelColors, instance_colors, semantic_colors};
 pub use layout::{Layout, WORKDIR, check_name};
+pub use layout_version::{LAYOUT_VERSION, refuse_newer_layout};
 pub use loader_camera::{LOADER_FOCAL_PX, LOADER_SIZE, loader_depth, loader_problem};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
 pub use number_ranges::{number_runs, parse_number_ranges, print_number_ranges};

@@ -2,7 +2,8 @@
 
 use crate::camera_files::optional;
 use crate::frames::read_json;
-use crate::{ColorKind, Dataset, DatasetError, FileRecord, ViewFault, write_json};
+use crate::layout_version::format;
+use crate::{ColorKind, Dataset, DatasetError, FileRecord, ViewFault, refuse_newer_layout, write_json};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// The manifest. The same dataset always gives the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// `enfilade dataset 1`.
+    /// `enfilade dataset 1`, with the number of [`crate::LAYOUT_VERSION`]. It stands first in the manifests of all versions.
     pub format: String,
     /// Version of the program that wrote it.
     pub enfilade_version: String,
@@ -120,9 +121,6 @@ pub struct ManifestInfo {
     pub failed_frames: BTreeMap<(String, String, u32), String>,
 }
 
-/// What the manifest calls itself.
-const FORMAT: &str = "enfilade dataset 1";
-
 /// How to read the files, in one sentence per subject.
 const NOTES: [(&str, &str); 16] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
@@ -219,7 +217,7 @@ impl Dataset {
             scenes.entry(scene.clone()).or_default().failed = Some(reason.clone());
         }
         Ok(Manifest {
-            format: FORMAT.to_string(),
+            format: format(),
             enfilade_version: env!("CARGO_PKG_VERSION").to_string(),
             conventions: Conventions::default(),
             config: info.config.clone(),
@@ -266,14 +264,14 @@ impl Dataset {
     /// The manifest; `None` where there is none (Hypersim's own data).
     ///
     /// # Errors
-    /// When it cannot be read or understood.
+    /// When it cannot be read or understood, or is of a newer layout.
     pub fn read_manifest(&self) -> Result<Option<Manifest>, DatasetError> {
         let path = self.layout().manifest();
+        refuse_newer_layout(self.root())?;
         let manifest: Option<Manifest> = read_json(&path, "run again, which writes it anew")?;
         match manifest {
-            Some(manifest) if manifest.format != FORMAT => {
-                let problem =
-                    format!("its format is {:?}, but this version reads {FORMAT:?}; use the version that wrote it", manifest.format);
+            Some(manifest) if manifest.format != format() => {
+                let problem = format!("its format is {:?}, expected {:?}; run again, which writes it anew", manifest.format, format());
                 Err(DatasetError::text(&path, problem))
             }
             manifest => Ok(manifest),

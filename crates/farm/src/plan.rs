@@ -72,6 +72,12 @@ pub struct Plan {
     pub farm: FarmConfig,
 }
 
+/// What is read of a plan first.
+#[derive(Deserialize)]
+struct Planner {
+    program: String,
+}
+
 /// What a plan comes to, as one value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanStatement {
@@ -169,14 +175,16 @@ impl Job {
             FarmError::Request(format!("{place} holds no job; plan one: enfilade farm plan dataset.toml -o {into}"))
         };
         let bytes = store.get(PLAN)?.ok_or_else(missing)?;
-        let plan = Plan::from_json(&bytes).map_err(|error| FarmError::Damaged {
-            place: format!("{}/{PLAN}", store.url()),
-            problem: format!("{error}; plan the job anew in another place"),
-        })?;
-        if plan.program != program() {
-            let problem = format!("was planned by {}, this is {}; only the same version makes the same bytes", plan.program, program());
-            return Err(FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem });
+        let anew = "plan the job anew in another place";
+        let wrong = |problem: String| FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem };
+        // Before the rest, which other versions may put otherwise.
+        if let Ok(Planner { program: planner }) = serde_json::from_slice(&bytes)
+            && planner != program()
+        {
+            let problem = format!("was planned by {planner}, this is {}; only the same version makes the same bytes", program());
+            return Err(wrong(format!("{problem}: use {planner}, or {anew}")));
         }
+        let plan = Plan::from_json(&bytes).map_err(|error| wrong(format!("{error}; {anew}")))?;
         Ok(Self { store, plan })
     }
 

@@ -163,12 +163,21 @@ pub(crate) fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Err
 
 pub(crate) fn open(out: &Path) -> Result<(Workdir, Config), Error> {
     let workdir = Workdir::open(out)?;
-    let Some(RunFile { base, carried, config }) = read_json(&workdir.file(RUN)) else {
-        let message = format!("{} holds no configuration of this version", workdir.file(RUN).display());
-        return Err(Error::usage(message, "run `enfilade run` for this folder once; what is finished is kept"));
-    };
+    let path = workdir.file(RUN);
+    let text = std::fs::read(&path).map_err(|e| no_settings(&path, &e))?;
+    let RunFile { base, carried, config } = serde_json::from_slice(&text).map_err(|e| no_settings(&path, &e))?;
     let carried = carried.into_iter().map(|(written, path)| (written, out.join(path))).collect();
     Ok((workdir, Config { base, carried, ..config }))
+}
+
+/// The stored settings cannot be used: they are not there, damaged, or have keys of a newer program.
+fn no_settings(path: &Path, problem: &dyn std::fmt::Display) -> Error {
+    let message = format!(
+        "{} holds no settings that this enfilade, {}, understands ({problem}); it is damaged, or another version wrote it",
+        path.display(),
+        env!("CARGO_PKG_VERSION")
+    );
+    Error::usage(message, "use the version that wrote it, or run `enfilade run` for this folder once; what is finished is kept")
 }
 
 /// As [`open`], with `change` made to the chosen scenes; [`store_config`] makes it last.

@@ -49,7 +49,7 @@ struct KeptAssets {
 /// When the choice means nothing, `out` is no dataset that was begun here, or a file cannot be read or written.
 pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitReport, Error> {
     let workdir = Workdir::open(out)?;
-    let last: SplitConfig = read_json(&workdir.file(CHOICE)).unwrap_or_default();
+    let last = choice(&workdir)?;
     let mut config = last;
     change(&mut config);
     if let Some(problem) = config.problem() {
@@ -65,9 +65,21 @@ pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitR
     write_split(&dataset, &workdir, &manifest)
 }
 
+/// How the dataset was divided last; the usual way where nobody chose.
+fn choice(workdir: &Workdir) -> Result<SplitConfig, Error> {
+    let path = workdir.file(CHOICE);
+    let text = match std::fs::read(&path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(SplitConfig::default()),
+        text => text.map_err(Error::io("read", &path))?,
+    };
+    let unknown =
+        |e| Error::usage(format!("{}: no choice of a split ({e})", path.display()), "remove it, and choose again: enfilade split OUT");
+    serde_json::from_slice(&text).map_err(unknown)
+}
+
 /// Writes the split of what `manifest` lists.
 pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<SplitReport, Error> {
-    let config: SplitConfig = read_json(&workdir.file(CHOICE)).unwrap_or_default();
+    let config = choice(workdir)?;
     let rows = config.rows(manifest, &rejected(dataset, manifest)?);
     // A run that changes nothing touches no file.
     if dataset.read_split().ok().as_ref() != Some(&rows) {

@@ -13,7 +13,7 @@
 //! ```
 
 use crate::error::Error;
-use enfilade_dataset::{WORKDIR, remove_folder};
+use enfilade_dataset::{WORKDIR, refuse_newer_layout, remove_folder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Write};
@@ -48,10 +48,12 @@ impl Workdir {
     /// Opens or creates the work folder of `out`, and locks it.
     ///
     /// # Errors
-    /// When `out` is something other than a dataset, cannot be written or is not spelled in UTF-8, or another process works on it.
+    /// When `out` is something other than a dataset or one of a newer layout, cannot be written or is not spelled in UTF-8, or another process works on it.
     pub fn create(out: &Path) -> Result<Self, Error> {
         refuse_other_text(out)?;
-        if !out.join(WORKDIR).is_dir() {
+        if out.join(WORKDIR).is_dir() {
+            refuse_newer_layout(out)?;
+        } else {
             refuse_foreign_folder(out)?;
             fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
         }

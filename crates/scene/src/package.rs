@@ -22,15 +22,25 @@
 
 use crate::{Labels, Scene, SceneError};
 
-/// Its number rises with every change of the types in a [`Scene`]: postcard writes no names.
-const MAGIC: &[u8] = b"enfilade scene 3\n";
+/// What packages begin with, before their number.
+const NAME: &str = "enfilade scene ";
+/// Rises with every change of the types in a [`Scene`]: postcard writes no names.
+const VERSION: u32 = 3;
+/// More than the first line of any package has: as much as [`is_current_package`] looks at.
+pub const PACKAGE_HEAD_BYTES: u64 = 32;
 
 /// Why bytes are not a scene package.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// Not the magic line.
-    #[error("not a scene package of this version (expected it to begin with \"enfilade scene 3\"); import the scene again")]
+    /// Not the first line of a package.
+    #[error("not a scene package (expected it to begin with \"{NAME}{VERSION}\"); import the scene again")]
     Magic,
+    /// Of another version of the program.
+    #[error("found a scene package of version {found}, expected {VERSION}: it was written by {}; import the scene again", age(*found))]
+    Version {
+        /// The number in its first line.
+        found: u32,
+    },
     /// The bytes are not what was written.
     #[error("the package is damaged or cut short: its checksum does not match; import the scene again")]
     Checksum,
@@ -65,7 +75,28 @@ fn encoded(data: &impl serde::Serialize) -> Vec<u8> {
 }
 
 fn package(body: Vec<u8>) -> Vec<u8> {
-    [MAGIC, blake3::hash(&body).as_bytes(), &body].concat()
+    [format!("{NAME}{VERSION}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
+}
+
+/// True where bytes begin as the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
+pub fn is_current_package(head: &[u8]) -> bool {
+    split_head(head).is_ok()
+}
+
+/// What follows the first line.
+fn split_head(bytes: &[u8]) -> Result<&[u8], PackageError> {
+    let head = &bytes[..bytes.len().min(PACKAGE_HEAD_BYTES as usize)];
+    let line = head.split_inclusive(|&b| b == b'\n').next().unwrap_or_default();
+    let number = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok()?.parse().ok());
+    match number {
+        Some(VERSION) => Ok(&bytes[line.len()..]),
+        Some(found) => Err(PackageError::Version { found }),
+        None => Err(PackageError::Magic),
+    }
+}
+
+fn age(found: u32) -> &'static str {
+    if found > VERSION { "a newer enfilade" } else { "an earlier enfilade" }
 }
 
 /// The scene in a package.
@@ -81,7 +112,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Scene, PackageError> {
 /// # Errors
 /// As [`from_bytes`], and when there are not as many labels as parts.
 pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
-    let rest = bytes.strip_prefix(MAGIC).ok_or(PackageError::Magic)?;
+    let rest = split_head(bytes)?;
     let (hash, body) = rest.split_at_checked(32).ok_or(PackageError::Checksum)?;
     if blake3::hash(body).as_bytes() != hash {
         return Err(PackageError::Checksum);
@@ -116,7 +147,21 @@ mod tests {
         assert!(matches!(from_bytes(&bytes[..bytes.len() - 1]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(&bytes[..20]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(b"{}"), Err(PackageError::Magic)));
-        assert!(matches!(from_bytes(b"enfilade scene 2\n"), Err(PackageError::Magic)));
+        assert!(is_current_package(&bytes[..32]) && !is_current_package(b"") && !is_current_package(b"enfilade scene 3"));
+    }
+
+    #[test]
+    fn packages_of_other_versions_are_told_by_their_number() {
+        for (head, told) in
+            [("2", "found a scene package of version 2, expected 3: it was written by an earlier enfilade"), ("14", "a newer")]
+        {
+            let bytes = format!("enfilade scene {head}\nwhatever follows").into_bytes();
+            let message = from_bytes(&bytes).unwrap_err().to_string();
+            assert!(message.contains(told) && message.ends_with("import the scene again") && !is_current_package(&bytes), "{message}");
+        }
+        for other in ["enfilade scene \n", "enfilade scene x\n", "enfilade scene 3"] {
+            assert!(matches!(from_bytes(other.as_bytes()), Err(PackageError::Magic)), "{other}");
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! The current labels are what results from replaying the log, so nothing is lost when the program is killed. An incomplete last line
 //! is dropped.
 
-use super::log_lines::{Entry, FORMAT, Header};
+use super::log_lines::{Entry, FORMAT, Form, Header};
 use super::scene::AnnotatedScene;
 use enfilade_dataset::ANNOTATION_LOG;
 use enfilade_scene::PartLabel;
@@ -39,6 +39,18 @@ pub enum LogError {
         log: String,
         /// What is here.
         scene: String,
+    },
+    /// It is of another form, which a newer program may have written: nothing in it is to be lost.
+    #[error(
+        "{}:1: found the format {found:?}, expected {FORMAT:?}; open it with the enfilade that wrote it, or a newer one, or name another \
+        folder with --labels",
+        path.display()
+    )]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it calls itself.
+        found: String,
     },
     /// A line is not valid.
     #[error("{}:{line}: {problem}; remove this line and those after it to go on from there, or bring back a copy", path.display())]
@@ -125,10 +137,12 @@ impl Log {
         let wrong = |line: usize, problem: String| LogError::Line { path: self.path.clone(), line, problem };
         let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n').peekable();
         let first = lines.next().unwrap_or_default();
-        let header: Header = serde_json::from_slice(first).map_err(|e| wrong(1, format!("not the beginning of a log: {e}")))?;
-        if header.format != FORMAT {
-            return Err(wrong(1, format!("the format is {:?}, expected {FORMAT:?}", header.format)));
+        let no_log = |e: serde_json::Error| wrong(1, format!("not the beginning of a log: {e}"));
+        let Form { format: found } = serde_json::from_slice(first).map_err(no_log)?;
+        if found != FORMAT {
+            return Err(LogError::Format { path: self.path.clone(), found });
         }
+        let header: Header = serde_json::from_slice(first).map_err(no_log)?;
         if lines.peek().is_none() {
             return Ok((Vec::new(), Vec::new()));
         }

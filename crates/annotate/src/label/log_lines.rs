@@ -7,6 +7,12 @@ use serde::{Deserialize, Serialize};
 /// The first line names its own format.
 pub const FORMAT: &str = "enfilade annotation log 1";
 
+/// What the first lines of logs of every form have.
+#[derive(Deserialize)]
+pub struct Form {
+    pub format: String,
+}
+
 /// The first line: which scene the log is about, and the labels of its parts before the first edit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {

@@ -99,7 +99,10 @@ impl AnnotatedScene {
         if folder.join("_detail/mesh").is_dir() {
             return Self::of_mesh_folder(&folder.join("_detail/mesh"), labels, cx);
         }
-        let dataset = Dataset::open(&folder).map_err(|_| wrong("it is neither a dataset nor a mesh folder"))?;
+        let dataset = Dataset::open(&folder).map_err(|error| match error {
+            DatasetError::NotADataset { .. } => wrong("it is neither a dataset nor a mesh folder"),
+            other => other.into(),
+        })?;
         let scenes = dataset.scenes()?;
         let problem = |problem: String| SceneError::Scene { path: path.display().to_string(), problem, scenes: scenes.join(", ") };
         let name = match (scene, scenes.as_slice()) {

@@ -78,8 +78,14 @@ fn a_difference_is_told_and_so_is_what_is_missing() {
     changed(&color, &"0".repeat(64));
     fail(d, &["replay", RECORD], 1, &["DIFFERS     images/scene_cam_00_final_hdf5/frame.0001.color.hdf5", "14 of 15 files"]);
 
-    changed(&text(&parsed["recipe"]["program"]), "enfilade 0.0.1");
-    fail(d, &["replay", RECORD], 1, &["was rendered by enfilade 0.0.1", "use the program that rendered it"]);
+    // Another release will do, another version of rendering and another program will not.
+    let program = text(&parsed["recipe"]["program"]);
+    changed(&program, "enfilade 0.0.1");
+    succeed(d, &["replay", RECORD]);
+    changed(&program, "V-Ray 5.0");
+    fail(d, &["replay", RECORD], 1, &["was rendered by V-Ray 5.0 (rendering", "use the program that rendered it"]);
+    changed(&format!("\"render_version\": {}", parsed["recipe"]["render_version"]), "\"render_version\": 0");
+    fail(d, &["replay", RECORD], 1, &["(rendering 0), and this is enfilade", "use the program that rendered it"]);
     changed(&text(&parsed["recipe"]["scene_blake3"]), &"0".repeat(64));
     fail(d, &["replay", RECORD], 1, &["scene.scene has changed since", "render the frame again"]);
     changed(&text(&parsed["config_hash"]), &"0".repeat(64));

@@ -4,7 +4,7 @@
 //! same version of the code, and all its outputs are there as it wrote them. What a stage has beyond that rule stands in its row of
 //! the table, [`Exceptions`](super::Exceptions).
 
-use super::{Input, Job, Output, Record, STAGES, Stage, StageSpec, verify};
+use super::{HASHED_AS, Input, Job, Output, Record, STAGES, Stage, StageSpec, verify};
 use crate::error::Error;
 use crate::report::{Event, StageCx, StageOutcome, Stopwatch};
 use crate::workdir::{Hash, read_json};
@@ -81,7 +81,7 @@ fn vouches(record: &Record, spec: &StageSpec, job: &Job, settings: &Hash, inputs
     let is_there = |output: &Output| output.is_there(job.out()) || (exceptions.may_be_changed)(job, &output.path);
     record.key == key(spec, settings, inputs)
         && record.outputs.iter().all(is_there)
-        && (exceptions.frames_are_whole)(job)
+        && (exceptions.is_whole)(job)
         && has_its_row(record, spec, job)
 }
 
@@ -114,5 +114,5 @@ fn refuse_damaged(stage: Stage, job: &Job, inputs: &[Input]) -> Result<(), Error
 fn key(spec: &StageSpec, settings: &Hash, inputs: &[Input]) -> Hash {
     // A dataset may be moved: the contents of its files count, and where they lie does not.
     let contents: Vec<&Hash> = inputs.iter().map(|i| &i.content).collect();
-    Hash::of(&(env!("CARGO_PKG_VERSION"), spec.name, spec.stage.version(), settings, contents))
+    Hash::of(&(HASHED_AS, spec.name, spec.stage.version(), settings, contents))
 }

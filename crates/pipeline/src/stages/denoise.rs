@@ -1,7 +1,7 @@
 //! `denoise`: what `color`, `diffuse_illumination` and `residual` of finished frames hold, denoised or as rendered. It goes from one to the
 //! other and back; nothing is rendered for it.
 
-use super::{Inputs, Job, Outcome, Record, Stage};
+use super::{HASHED_AS, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
@@ -117,7 +117,7 @@ pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Deno
 /// Names what denoises. What was denoised stands in the record too. A library's version does not count, so that a finished dataset does
 /// not ask for the library.
 fn denoise_hash(job: &Job) -> String {
-    Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Denoise.version(), &job.scene.denoiser)).0
+    Hash::of(&(HASHED_AS, Stage::Denoise.version(), &job.scene.denoiser)).0
 }
 
 fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {

@@ -10,7 +10,9 @@ use crate::workdir::Hash;
 use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportedLabel, scene_in_folder};
-use enfilade_scene::{Labels, PartLabel, Scene, WorldMesh};
+use enfilade_scene::{Labels, PACKAGE_HEAD_BYTES, PartLabel, Scene, WorldMesh, is_current_package};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -55,6 +57,13 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     }
     // A file that cannot be read makes the stage run, and its error says why.
     Ok(record.inputs.iter().map(|input| Input::of_any(&input.path)).collect::<Result<_, _>>().ok())
+}
+
+/// Whether the scene package is one that this version of the program reads.
+pub(super) fn package_is_current(job: &Job) -> bool {
+    let mut head = Vec::new();
+    let file = job.package().ok().and_then(|path| File::open(path).ok());
+    file.is_some_and(|file| file.take(PACKAGE_HEAD_BYTES).read_to_end(&mut head).is_ok() && is_current_package(&head))
 }
 
 /// The file that is imported of a path: of a folder the scene of a collection in it.

@@ -4,7 +4,7 @@
 //! A note in the work folder, `.enfilade/SCENE/made/CAMERA/FRAME.json`, names what the files were made from. They count as long as that is
 //! so and they are there; otherwise, and without a note, the stages make them.
 
-use super::{Job, Output, Stage};
+use super::{HASHED_AS, Job, Output, Stage};
 use crate::error::Error;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{BoxKind, InstanceView, write_json};
@@ -116,7 +116,7 @@ fn note_path(job: &Job, camera: &str, frame: u32) -> Result<PathBuf, Error> {
 fn instances_from(job: &Job, camera: &str, frame: u32) -> Result<Hash, Error> {
     let labelled = Hash::of_file(&job.dataset.layout().label_record(&job.scene.name, camera, frame))?;
     let rendered = job.rendered_record(camera, frame)?.content;
-    Ok(Hash::of(&(env!("CARGO_PKG_VERSION"), Stage::Boxes.version(), rendered, labelled)))
+    Ok(Hash::of(&(HASHED_AS, Stage::Boxes.version(), rendered, labelled)))
 }
 
 /// Hash of what a frame's pictures are made from.

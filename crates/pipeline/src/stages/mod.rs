@@ -35,6 +35,7 @@ use std::path::{Path, PathBuf};
 
 pub use finisher::FinishedFrame;
 pub use shift::Part;
+use stage::HASHED_AS;
 pub use stage::Stage;
 
 pub(crate) use advance::{advance, is_up_to_date};
@@ -72,9 +73,9 @@ pub struct StageSpec {
 struct Exceptions {
     /// Whether this output may differ from what the stage wrote, because people have changed it with another verb.
     may_be_changed: fn(&Job, &Path) -> bool,
-    /// Whether the stage's layers of every frame are there in full length, under a record that is about this frame. The stage's own
-    /// record has too many files to say so: it has no contents of them.
-    frames_are_whole: fn(&Job) -> bool,
+    /// Whether all is well with outputs in ways that the stage's record does not tell. Of frames it has too many files to have their
+    /// contents: layers are there in full length, under a record that is about this frame. A scene package is one that is read here.
+    is_whole: fn(&Job) -> bool,
     /// A row that the stage writes into a table which scenes share.
     shared_row: Option<SharedRow>,
     /// Whether what it makes takes the place of finished frames: then inputs are refused that an earlier stage did not write so.
@@ -95,7 +96,7 @@ struct SharedRow {
 impl Exceptions {
     /// Of a stage that follows the rule.
     const NONE: Self =
-        Self { may_be_changed: |_, _| false, frames_are_whole: |_| true, shared_row: None, replaces_frames: false, is_verified: true };
+        Self { may_be_changed: |_, _| false, is_whole: |_| true, shared_row: None, replaces_frames: false, is_verified: true };
     /// Of one that comes before frames are finished.
     const BEFORE_FRAMES: Self = Self { replaces_frames: true, ..Self::NONE };
 }
@@ -109,7 +110,7 @@ pub const STAGES: [StageSpec; 10] = [
         settings: import::settings,
         inputs: import::inputs,
         run: import::run,
-        exceptions: Exceptions { may_be_changed: import::is_annotated, ..Exceptions::BEFORE_FRAMES },
+        exceptions: Exceptions { may_be_changed: import::is_annotated, is_whole: import::package_is_current, ..Exceptions::BEFORE_FRAMES },
     },
     StageSpec {
         stage: Stage::Carve,
@@ -148,11 +149,7 @@ pub const STAGES: [StageSpec; 10] = [
         settings: render::settings,
         inputs: render::inputs,
         run: render::run,
-        exceptions: Exceptions {
-            frames_are_whole: render::frames_are_whole,
-            may_be_changed: render::is_chosen_later,
-            ..Exceptions::BEFORE_FRAMES
-        },
+        exceptions: Exceptions { is_whole: render::frames_are_whole, may_be_changed: render::is_chosen_later, ..Exceptions::BEFORE_FRAMES },
     },
     StageSpec {
         stage: Stage::Denoise,
@@ -161,7 +158,7 @@ pub const STAGES: [StageSpec; 10] = [
         settings: denoise::settings,
         inputs: denoise::inputs,
         run: denoise::run,
-        exceptions: Exceptions { frames_are_whole: denoise::frames_are_chosen, ..Exceptions::NONE },
+        exceptions: Exceptions { is_whole: denoise::frames_are_chosen, ..Exceptions::NONE },
     },
     StageSpec {
         stage: Stage::Label,
@@ -170,7 +167,7 @@ pub const STAGES: [StageSpec; 10] = [
         settings: label::settings,
         inputs: label::inputs,
         run: label::run,
-        exceptions: Exceptions { frames_are_whole: label::frames_are_whole, ..Exceptions::NONE },
+        exceptions: Exceptions { is_whole: label::frames_are_whole, ..Exceptions::NONE },
     },
     StageSpec {
         stage: Stage::Boxes,

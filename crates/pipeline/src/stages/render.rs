@@ -1,7 +1,7 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
 //! that its values depend on; and within a frame, see `progressive`.
 
-use super::{FramesByTrajectory, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, progressive};
+use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
@@ -221,7 +221,7 @@ pub(crate) fn config_hash(
     trajectory: &Trajectory,
     pose: &Pose,
 ) -> String {
-    let version = (env!("CARGO_PKG_VERSION"), Stage::Render.version());
+    let version = (HASHED_AS, Stage::Render.version());
     Hash::of(&(version, package, config, time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0
 }
 

@@ -2,6 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Stands in the hashes by which outputs are known to be up to date, where the program's version stood until 0.1.0: a release makes
+/// nothing again but what the versions of its stages ask for.
+pub(crate) const HASHED_AS: &str = "0.1.0";
+
 /// A stage by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -37,7 +41,7 @@ impl Stage {
     }
 
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
-    pub(crate) const fn version(self) -> u32 {
+    pub const fn version(self) -> u32 {
         match self {
             Self::Import => 13,
             Self::Carve => 5,

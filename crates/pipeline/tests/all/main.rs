@@ -10,5 +10,6 @@ mod intake;
 mod places;
 mod presets;
 mod rooms;
+mod stored;
 mod trajectories;
 mod vray;
