@@ -212,6 +212,10 @@ impl Dataset {
         Ok((PyTuple::new(py, [&self.root])?, named))
     }
 
+    fn _repr_html_<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        this.py().import("enfilade._display")?.call_method1("dataset_html", (this, &this.get().root))
+    }
+
     fn __repr__(&self) -> String {
         let layers = self.layers().join(", ");
         format!("<enfilade.Dataset {:?}: {} samples of {layers}>", self.arguments.path, self.samples.len())
