@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What is installed beside the module.
-const PACKAGES: [(&str, &str); 7] = [
+const PACKAGES: [(&str, &str); 8] = [
     ("numpy", "2.4.6"),
     ("h5py", "3.16.0"),
     ("pillow", "13.0.0"),
@@ -18,10 +18,11 @@ const PACKAGES: [(&str, &str); 7] = [
     ("torch", "2.15.0"),
     ("torchvision", "0.29.2"),
     ("tensorboard", "2.21.0"),
+    ("mypy", "2.4.1"),
 ];
 
 /// All steps.
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 6] = [
     Step {
         name: "environment",
         about: "torch and what else the module is used with are installed",
@@ -33,6 +34,12 @@ const STEPS: [Step; 5] = [
         about: "`pip install .` builds and installs the module",
         remedy: "fix what the messages above show; it takes maturin, torch and others from PyPI, about 3 GB the first time",
         run: install,
+    },
+    Step {
+        name: "types",
+        about: "mypy finds nothing in the examples and notebooks, and its stubtest nothing that the stubs say otherwise than the module",
+        remedy: "fix crates/python/enfilade/*.pyi, or what uses them; `python crates/python/tests/check_types.py` checks again",
+        run: types,
     },
     Step {
         name: "loading",
@@ -92,6 +99,14 @@ fn install(house: &House) -> Result<String, String> {
 fn unittest(house: &House, folder: &str, modules: &[&str]) -> Result<String, String> {
     let mut command = interpreter(house, folder, &house.root.join("crates/python/tests"))?;
     command.args(["-m", "unittest"]).args(modules);
+    finish(command)
+}
+
+fn types(house: &House) -> Result<String, String> {
+    let tests = house.root.join("crates/python/tests");
+    let mut command = interpreter(house, "types", &tests)?;
+    // Stubs of the sources would be those of another module than the installed one.
+    command.env_remove("PYTHONPATH").arg(tests.join("check_types.py"));
     finish(command)
 }
 

@@ -52,7 +52,8 @@ def render(
     progress: shows how far it has come; unless given, in notebooks and terminals.
 
     Gives a `Frame`: a dictionary of numpy arrays as `Dataset` gives them. The same arguments give the same bytes, whatever the number of threads;
-    and those that a run writes for the same scene, settings and trajectory, where `seed` is the seed in the frame's record.
+    and those that a run writes for the same scene, settings and trajectory, where `seed` is the seed in the frame's record. Only the sign of zeros in
+    `normal_cam` and `normal_bump_cam` may differ, which OpenCV's form of the pose does not keep.
     """
     single = isinstance(camera, _native.Camera)
     cameras = [camera] if single else list(camera)

@@ -66,8 +66,12 @@ fn matrix<const R: usize, const C: usize>(name: &str, value: &Bound<'_, PyAny>) 
     let array = value.py().import("numpy")?.call_method1("asarray", (value, "float64"))?;
     let array: PyReadonlyArrayDyn<f64> = array.extract()?;
     let array = array.as_array();
-    if array.shape() != [R, C] || !array.iter().all(|v| v.is_finite()) {
-        return Err(PyValueError::new_err(format!("{name} is {array}, of shape {:?}; expected {R} x {C} finite numbers", array.shape())));
+    let wrong = |found: String| Err(PyValueError::new_err(format!("{name} {found}; expected {R} x {C} finite numbers")));
+    if array.shape() != [R, C] {
+        return wrong(format!("has the shape {:?}", array.shape()));
+    }
+    if let Some(v) = array.iter().find(|v| !v.is_finite()) {
+        return wrong(format!("has the entry {v}"));
     }
     Ok(std::array::from_fn(|i| std::array::from_fn(|j| array[[i, j]])))
 }

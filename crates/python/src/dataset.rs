@@ -3,7 +3,7 @@
 use crate::arguments::{CropPosition, Names, layers, split};
 use crate::errors::IntoPy;
 use crate::loader::Loader;
-use crate::map_style::{MapStyle, item, items, layer_names};
+use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
 use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -151,6 +151,10 @@ impl Dataset {
 
     fn __len__(&self) -> usize {
         self.samples.len()
+    }
+
+    fn __iter__(this: &Bound<'_, Self>) -> SampleIterator {
+        SampleIterator::over(this.as_any().clone())
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {

@@ -9,7 +9,6 @@ import sys
 import threading
 import types
 import unittest
-from pathlib import Path
 from unittest import mock
 
 import enfilade
@@ -47,7 +46,7 @@ class Rendered(unittest.TestCase):
     def test_frames_are_those_of_a_run_bit_by_bit(self):
         samples = list(enfilade.Dataset(datasets.made()))
         settings = datasets.small_config().to_dict()["scenes"][0]
-        scene = enfilade.Scene.home(**homes_arguments(settings["source"]["home"]))
+        scene = enfilade.Scene.home(**settings["source"]["home"])
         cameras = [enfilade.Camera(s["K"], datasets.SIZE, s["world_from_camera"], name=s["camera"]) for s in samples]
         frames = enfilade.render(scene, cameras, samples=2, seed=record(samples[0])["seed"], progress=False)
         for frame, sample in zip(frames, samples, strict=True):
@@ -55,7 +54,9 @@ class Rendered(unittest.TestCase):
             for key, value in sample.items():
                 if isinstance(value, np.ndarray):
                     self.assertEqual((frame[key].dtype, frame[key].shape), (value.dtype, value.shape), key)
-                    self.assertEqual(frame[key].tobytes(), value.tobytes(), key)
+                    # OpenCV's axes do not keep the sign of a zero in the rotation.
+                    found, expected = (v + v.dtype.type(0) if key.endswith("_cam") else v for v in (frame[key], value))
+                    self.assertTrue(found.tobytes() == expected.tobytes(), key)
                 else:
                     self.assertEqual(frame[key], value, key)
 
@@ -154,7 +155,7 @@ class Cameras(unittest.TestCase):
     def test_cameras_that_are_none_are_refused_with_what_is_wrong(self):
         pose, k = np.eye(4), [[50, 0, 31], [0, 50, 23], [0, 0, 1]]
         cases = [
-            (lambda: enfilade.Camera(np.eye(4), (64, 48), pose), "K is .*expected 3 x 3"),
+            (lambda: enfilade.Camera(np.eye(4), (64, 48), pose), "K has the shape .*expected 3 x 3"),
             (lambda: enfilade.Camera(np.transpose(k), (64, 48), pose), "transposed"),
             (lambda: enfilade.Camera(k, (64, 48), 2 * pose), "expected a rotation"),
             (lambda: enfilade.Camera(k, (64, 48), pose @ np.diag([1, 1, -1, 1])), "expected a rotation"),
@@ -227,13 +228,6 @@ class Shown(unittest.TestCase):
             self.assertIsNone(_progress.bar(None, "render"))
             self.assertIsNone(_progress.bar(False, "render"))
         self.assertEqual(said.getvalue(), "")
-
-
-def homes_arguments(settings):
-    """The arguments of `Scene.home` for the home of a configuration."""
-    lights = ("moment",)
-    taken = {key: value for key, value in settings.items() if value is not None}
-    return {key: value for key, value in taken.items() if key not in lights or isinstance(value, str)}
 
 
 if __name__ == "__main__":
