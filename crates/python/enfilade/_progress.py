@@ -25,7 +25,7 @@ def _in_notebook():
 class _Bar:
     """One of tqdm, which starts again with each part of the work."""
 
-    FORMAT = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"
+    FORMAT = "{desc}{percentage:3.0f}%|{bar}| {elapsed}<{remaining}"
 
     def __init__(self, tqdm, title):
         self._title = title
