@@ -68,7 +68,14 @@ impl ExportFolder {
         let aside = beside(target, ".", ".partial")?;
         remove(&aside)?;
         fs::create_dir_all(&aside).map_err(ExportError::at("create the folder", &aside))?;
-        Ok(Self { target: target.into(), aside, existing, files: AtomicUsize::new(0), bytes: AtomicU64::new(0), front_matter: OnceLock::new() })
+        Ok(Self {
+            target: target.into(),
+            aside,
+            existing,
+            files: AtomicUsize::new(0),
+            bytes: AtomicU64::new(0),
+            front_matter: OnceLock::new(),
+        })
     }
 
     /// Writes a file; `name` has forward slashes.

@@ -202,6 +202,9 @@ impl Camera {
     fn __repr__(&self) -> String {
         let ([width, height], [x, y, z]) = (self.camera.size(), self.pose.position.to_array());
         let fov_deg = self.camera.projection.fov_x_rad(std::f64::consts::TAU).to_degrees();
-        format!("<enfilade.Camera {:?}: {} of {width} x {height}, {fov_deg:.1} degrees wide, at ({x:.2}, {y:.2}, {z:.2}) m>", self.name, self.model)
+        format!(
+            "<enfilade.Camera {:?}: {} of {width} x {height}, {fov_deg:.1} degrees wide, at ({x:.2}, {y:.2}, {z:.2}) m>",
+            self.name, self.model
+        )
     }
 }

@@ -46,10 +46,8 @@ impl Scene {
     ) -> PyResult<Self> {
         let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
         let own_name = || enfilade_pipeline::scene_file_of(&file).with_extension("").to_string_lossy().into_owned();
-        let labels = labels.map(|table| LabelSource {
-            table: table.to_string_lossy().into_owned(),
-            scene: label_scene.unwrap_or_else(own_name),
-        });
+        let labels =
+            labels.map(|table| LabelSource { table: table.to_string_lossy().into_owned(), scene: label_scene.unwrap_or_else(own_name) });
         let bar = Bar::new(py, progress, "read")?;
         watched(py, &bar, |cx: &Interrupt| LoadedScene::read(&source, labels.as_ref(), cx)).map(Self)
     }

@@ -42,8 +42,10 @@ mod tests {
         // Along x at y = 1, four metres long and three high, over a floor of four by two.
         let wall = [[0.0, 1.0, 0.0], [4.0, 1.0, 0.0], [4.0, 1.0, 3.0], [0.0, 1.0, 3.0]];
         let floor = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
-        let mesh = |corners: [[f32; 3]; 4]| {
-            Mesh { positions: corners.map(Vec3::from).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
+        let mesh = |corners: [[f32; 3]; 4]| Mesh {
+            positions: corners.map(Vec3::from).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Mesh::default()
         };
         let part = |name: &str, mesh| Part { name: name.into(), mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let scene = Scene {
