@@ -39,7 +39,7 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directions, dependency policy, docs, quick tests
        cargo xtask test [--all] [STEP...]         tests, then the demo; --all: searches over all their seeds
-       cargo xtask python [STEP...]               the module as pip installs it: torch's loader, notebooks, training
+       cargo xtask python [STEP...]               the module as pip installs it: types, torch's loader, notebooks, training
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
        cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
        cargo xtask pictures                       the pictures of README, by the demo

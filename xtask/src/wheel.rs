@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What is installed beside the module.
-const PACKAGES: [(&str, &str); 7] = [
+const PACKAGES: [(&str, &str); 8] = [
     ("numpy", "2.4.6"),
     ("h5py", "3.16.0"),
     ("pillow", "13.0.0"),
@@ -18,10 +18,11 @@ const PACKAGES: [(&str, &str); 7] = [
     ("torch", "2.15.0"),
     ("torchvision", "0.29.2"),
     ("tensorboard", "2.21.0"),
+    ("mypy", "2.4.1"),
 ];
 
 /// All steps.
-const STEPS: [Step; 6] = [
+const STEPS: [Step; 7] = [
     Step {
         name: "environment",
         about: "torch and what else the module is used with are installed",
@@ -39,6 +40,12 @@ const STEPS: [Step; 6] = [
         about: "the command `enfilade` that comes with the module makes a small demo",
         remedy: "fix crates/python/enfilade/__main__.py or what it calls",
         run: command,
+    },
+    Step {
+        name: "types",
+        about: "mypy finds nothing in the examples and notebooks, and its stubtest nothing that the stubs say otherwise than the module",
+        remedy: "fix crates/python/enfilade/*.pyi, or what uses them; `python crates/python/tests/check_types.py` checks again",
+        run: types,
     },
     Step {
         name: "loading",
@@ -108,6 +115,14 @@ fn command(house: &House) -> Result<String, String> {
 fn unittest(house: &House, folder: &str, modules: &[&str]) -> Result<String, String> {
     let mut command = interpreter(house, folder, &house.root.join("crates/python/tests"))?;
     command.args(["-m", "unittest"]).args(modules);
+    finish(command)
+}
+
+fn types(house: &House) -> Result<String, String> {
+    let tests = house.root.join("crates/python/tests");
+    let mut command = interpreter(house, "types", &tests)?;
+    // Stubs of the sources would be those of another module than the installed one.
+    command.env_remove("PYTHONPATH").arg(tests.join("check_types.py"));
     finish(command)
 }
 

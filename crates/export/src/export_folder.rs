@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// What to do with a folder that is at the target and is no export.
@@ -52,6 +53,8 @@ pub(crate) struct ExportFolder {
     existing: Existing,
     files: AtomicUsize,
     bytes: AtomicU64,
+    /// What stands before the page for people.
+    front_matter: OnceLock<String>,
 }
 
 impl ExportFolder {
@@ -65,7 +68,14 @@ impl ExportFolder {
         let aside = beside(target, ".", ".partial")?;
         remove(&aside)?;
         fs::create_dir_all(&aside).map_err(ExportError::at("create the folder", &aside))?;
-        Ok(Self { target: target.into(), aside, existing, files: AtomicUsize::new(0), bytes: AtomicU64::new(0) })
+        Ok(Self {
+            target: target.into(),
+            aside,
+            existing,
+            files: AtomicUsize::new(0),
+            bytes: AtomicU64::new(0),
+            front_matter: OnceLock::new(),
+        })
     }
 
     /// Writes a file; `name` has forward slashes.
@@ -97,9 +107,15 @@ impl ExportFolder {
         self.bytes.fetch_add(bytes, Ordering::Relaxed);
     }
 
+    /// Puts data for programs before the page for people.
+    pub fn set_front_matter(&self, text: String) {
+        self.front_matter.get_or_init(|| text);
+    }
+
     /// Adds the page for people and the record, and puts the export in its place.
     pub fn finish(self, format: Format, selected: &SelectedFrames<'_>) -> Result<Exported, ExportError> {
-        self.write("README.md", format.spec().readme.as_bytes())?;
+        let front_matter = self.front_matter.get().map_or("", String::as_str);
+        self.write("README.md", [front_matter, format.spec().readme].concat().as_bytes())?;
         let mut frames: BTreeMap<String, BTreeMap<String, Vec<u32>>> = BTreeMap::new();
         for view in selected.views() {
             frames.entry(view.track.scene.clone()).or_default().entry(view.track.name.clone()).or_default().push(view.frame());

@@ -26,6 +26,7 @@ pub enum Format {
     Croissant,
     Opencv,
     Pix3d,
+    Huggingface,
 }
 
 /// A row of the table of formats.
@@ -56,7 +57,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 12] = [
+pub const FORMATS: [FormatSpec; 13] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -152,6 +153,14 @@ pub const FORMATS: [FormatSpec; 12] = [
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(SHAPED),
         readme: include_str!("readmes/pix3d.md"),
+    },
+    FormatSpec {
+        format: Format::Huggingface,
+        name: "huggingface",
+        about: "Hugging Face: Parquet files for `datasets.load_dataset`, with pictures of colour, depth and labels, cameras, and a card",
+        needs: &[],
+        takes: Some(LABELLED),
+        readme: include_str!("readmes/huggingface.md"),
     },
 ];
 

@@ -1,5 +1,5 @@
 //! A dataset in the layouts that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset,
-//! Croissant, OpenCV's cameras and Pix3D.
+//! Croissant, OpenCV's cameras, Pix3D and Hugging Face's Parquet files.
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
@@ -48,7 +48,8 @@ pub struct ExportConfig {
     pub format: Format,
     /// Which scenes, cameras, frames and layers.
     pub selection: Selection,
-    /// Largest size of a WebDataset shard, bytes; a sample that is larger has a shard of its own. One gigabyte unless said otherwise.
+    /// Largest size of a WebDataset shard, or of a Parquet file, bytes; a sample that is larger has one of its own. One gigabyte unless said
+    /// otherwise.
     pub shard_bytes: u64,
 }
 
@@ -80,6 +81,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Croissant => formats::croissant::write(&selected, &out),
         Format::Opencv => formats::opencv::write(&selected, &out),
         Format::Pix3d => formats::pix3d::write(&selected, &out),
+        Format::Huggingface => formats::huggingface::write(&selected, &out, config.shard_bytes),
     }?;
     out.finish(config.format, &selected)
 }

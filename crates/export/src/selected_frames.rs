@@ -221,6 +221,11 @@ impl<'d> SelectedFrames<'d> {
         views.par_iter().map(one).collect()
     }
 
+    /// Tells the caller of something that is left out.
+    pub fn warn(&self, warning: Warning) {
+        self.cx.warn(warning);
+    }
+
     /// An error of the dataset's content.
     pub fn unsuitable(&self, place: impl Into<String>, problem: impl Into<String>) -> ExportError {
         ExportError::Unsuitable { place: place.into(), format: self.format, problem: problem.into() }

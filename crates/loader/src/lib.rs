@@ -39,6 +39,7 @@
 
 pub mod confusion;
 mod error;
+mod in_memory;
 mod nyuv2;
 mod options;
 mod order;
@@ -49,6 +50,7 @@ mod stream;
 mod tone;
 
 pub use error::LoaderError;
+pub use in_memory::sample_of;
 pub use nyuv2::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2, PUBLISHED_IMAGES, nyu13_of_nyu40, side_of};
 pub use options::{Choice, Crop, CropPlace, Options};
 pub use order::shuffled;

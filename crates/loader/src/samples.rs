@@ -368,7 +368,7 @@ impl Samples {
     }
 }
 
-fn mask_of(layers: &[(Layer, Image)], pixels: usize) -> Vec<u8> {
+pub(crate) fn mask_of(layers: &[(Layer, Image)], pixels: usize) -> Vec<u8> {
     let mut mask = vec![1; pixels];
     layers.iter().for_each(|(layer, image)| mask_out(&mut mask, *layer, image));
     mask

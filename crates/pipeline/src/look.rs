@@ -111,16 +111,19 @@ fn lit(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> (Option<Str
     (Some(light.into()), look)
 }
 
+/// A camera of the file, by its name.
+pub(crate) fn named_camera<'s>(scene: &'s Scene, name: &str) -> Result<&'s StartCamera, Error> {
+    let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+    let proposal = || closest(name, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
+    let found = scene.cameras.iter().find(|camera| camera.name == name);
+    found.ok_or_else(|| Error::usage(format!("the scene has no camera {name:?}"), format!("{}its cameras: {names:?}", proposal())))
+}
+
 /// Where to look from, and in words.
-fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
+pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
     let of_file = |camera: &StartCamera| (with_usable_view(camera), format!("camera {:?} of the file", camera.name));
     if let Some(name) = name {
-        let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
-        let proposal = || closest(name, &names).map_or(String::new(), |n| format!("did you mean {n:?}? "));
-        let found = scene.cameras.iter().find(|camera| camera.name == name);
-        return found
-            .map(of_file)
-            .ok_or_else(|| Error::usage(format!("the scene has no camera {name:?}"), format!("{}its cameras: {names:?}", proposal())));
+        return named_camera(scene, name).map(of_file);
     }
     if let Some(inside) = scene.cameras.iter().find(|camera| camera.position.is_finite() && is_indoors(&look.bvh, camera.position)) {
         return Ok(of_file(inside));

@@ -8,11 +8,17 @@
     for batch in frames.loader(batch_size=4, shuffle=True):
         ...
 
+Without a dataset on disk: `render` makes pictures of a `Scene` through a `Camera`, with every layer.
+
+    scene = enfilade.Scene.home(seed=7)
+    frame = enfilade.render(scene, scene.camera(), quality="draft")
+
 `Dataset` opens enfilade's datasets and Hypersim's release alike, `NyuV2` that dataset's published file. The other functions are the verbs of the command line;
 those of `enfilade farm`, which makes a dataset on many machines, are in `enfilade.farm`.
 """
 
 from . import farm
+from ._frames import Frame, render
 from ._native import (
     FORMATS,
     LAYERS,
@@ -22,6 +28,7 @@ from ._native import (
     NYU40_COLORS,
     PIX3D_CATEGORIES,
     STAGES,
+    Camera,
     Config,
     Confusion,
     DamagedFileError,
@@ -29,6 +36,7 @@ from ._native import (
     Loader,
     LoaderIterator,
     NyuV2,
+    Scene,
     StageError,
     __version__,
     compare_meshes,
@@ -54,13 +62,16 @@ __all__ = [
     "NYU40_COLORS",
     "PIX3D_CATEGORIES",
     "STAGES",
+    "Camera",
     "Config",
     "Confusion",
     "DamagedFileError",
     "Dataset",
+    "Frame",
     "Loader",
     "LoaderIterator",
     "NyuV2",
+    "Scene",
     "StageError",
     "__version__",
     "compare_meshes",
@@ -70,6 +81,7 @@ __all__ = [
     "import_scene",
     "judge_shapes",
     "read_voxels",
+    "render",
     "repack",
     "run",
     "shape_precision",

@@ -1,10 +1,11 @@
 """The types of the module `enfilade`. What each function and class does is in its doc string: `help(enfilade.Dataset)`."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal, TypedDict, final
+from typing import Any, Literal, TypedDict, final, overload
 
 import numpy
+from numpy.typing import ArrayLike, NDArray
 
 from . import farm as farm
 
@@ -59,7 +60,8 @@ class Dataset:
         camera_table: Path | None = None,
     ) -> Dataset: ...
     def __len__(self) -> int: ...
-    def __getitem__(self, index: int) -> Sample: ...
+    def __iter__(self) -> Iterator[Sample]: ...
+    def __getitem__(self, index: int, /) -> Sample: ...
     def __getitems__(self, indices: Sequence[int]) -> list[Sample]: ...
     def place(self, index: int) -> tuple[str, str, int]: ...
     @property
@@ -67,6 +69,7 @@ class Dataset:
     @property
     def epoch(self) -> int: ...
     def set_epoch(self, epoch: int) -> None: ...
+    def _repr_html_(self) -> str: ...
     def loader(
         self,
         batch_size: int | None = None,
@@ -119,8 +122,152 @@ class Config:
     @property
     def scenes(self) -> list[str]: ...
 
-def run(output: Path, config: Config | None = None, *, scenes: Names | None = None) -> dict[str, Any]: ...
-def stage(name: str, dataset: Path, *, scenes: Names | None = None, force: bool = False) -> dict[str, Any]: ...
+class Lens(TypedDict, total=False):
+    aperture_radius_m: float
+    f_number: float
+    focal_length_mm: float
+    focus_distance_m: float
+    blades: int
+    focus_tilt_deg: Sequence[float]
+
+CameraModel = Literal["pinhole", "radial_tangential", "fisheye", "equirectangular"]
+
+@final
+class Camera:
+    def __new__(
+        cls,
+        K: ArrayLike | None,
+        size: Sequence[int],
+        world_from_camera: ArrayLike,
+        *,
+        model: CameraModel = "pinhole",
+        distortion: Sequence[float] | None = None,
+        lens: Lens | None = None,
+        name: str = "camera",
+    ) -> Camera: ...
+    @staticmethod
+    def look_at(
+        position: Sequence[float],
+        target: Sequence[float],
+        size: Sequence[int] = ...,
+        fov_x_deg: float = 60.0,
+        *,
+        up: Sequence[float] = ...,
+        name: str = "camera",
+    ) -> Camera: ...
+    @property
+    def K(self) -> NDArray[numpy.float64] | None: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    @property
+    def world_from_camera(self) -> NDArray[numpy.float64]: ...
+    @property
+    def position(self) -> NDArray[numpy.float64]: ...
+    @property
+    def model(self) -> CameraModel: ...
+    @property
+    def distortion(self) -> list[float]: ...
+    @property
+    def name(self) -> str: ...
+
+@final
+class Scene:
+    @staticmethod
+    def read(
+        file: Path,
+        *,
+        meters_per_unit: float = 1.0,
+        up_axis: Literal["y", "z"] | None = None,
+        environment: Path | None = None,
+        lamps: Literal["ceiling"] | None = None,
+        drop_doubled_faces: bool = False,
+        allow_missing_textures: bool = False,
+        labels: Path | None = None,
+        label_scene: str | None = None,
+        progress: bool | None = None,
+    ) -> Scene: ...
+    @staticmethod
+    def home(
+        *,
+        rooms: Names | None = None,
+        seed: int = 0,
+        layout: int | None = None,
+        furniture: int | None = None,
+        materials: int | None = None,
+        realism: float = 1.0,
+        light: int | None = None,
+        moment: Literal["day", "evening", "night"] | None = None,
+        clutter: float = 1.0,
+        assets: Names | None = None,
+        assets_share: float = 1.0,
+        allow_broken_assets: bool = False,
+    ) -> Scene: ...
+    def camera(self, name: str | None = None, *, size: Sequence[int] = ..., fov_x_deg: float | None = None) -> Camera: ...
+    def save(self, file: Path) -> list[str]: ...
+    def plan_svg(self, width: int = 400) -> str: ...
+    def _repr_html_(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def summary(self) -> str: ...
+    @property
+    def bounds(self) -> NDArray[numpy.float64]: ...
+    @property
+    def triangles(self) -> int: ...
+    @property
+    def parts(self) -> list[str]: ...
+    @property
+    def labels(self) -> NDArray[numpy.int16]: ...
+    @property
+    def materials(self) -> list[str]: ...
+    @property
+    def cameras(self) -> list[str]: ...
+    @property
+    def warnings(self) -> list[dict[str, str]]: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+
+class Frame(dict[str, Any]):
+    def png(self, layer: str = "display") -> bytes: ...
+    def _repr_png_(self) -> bytes | None: ...
+    def _repr_html_(self) -> str: ...
+
+@overload
+def render(
+    scene: Scene,
+    camera: Camera,
+    *,
+    quality: Quality | None = None,
+    samples: int | None = None,
+    layers: Names | None = None,
+    denoise: bool | None = None,
+    seed: int = 0,
+    noise: float | None = None,
+    max_bounces: int | None = None,
+    clamp: float | None = None,
+    progress: bool | None = None,
+) -> Frame: ...
+@overload
+def render(
+    scene: Scene,
+    camera: Iterable[Camera],
+    *,
+    quality: Quality | None = None,
+    samples: int | None = None,
+    layers: Names | None = None,
+    denoise: bool | None = None,
+    seed: int = 0,
+    noise: float | None = None,
+    max_bounces: int | None = None,
+    clamp: float | None = None,
+    progress: bool | None = None,
+) -> list[Frame]: ...
+def run(
+    output: Path, config: Config | None = None, *, scenes: Names | None = None, progress: bool | None = None
+) -> dict[str, Any]: ...
+def stage(
+    name: str, dataset: Path, *, scenes: Names | None = None, force: bool = False, progress: bool | None = None
+) -> dict[str, Any]: ...
 def verify(dataset: Path, *, scenes: Names | None = None) -> dict[str, Any]: ...
 def split(dataset: Path, *, seed: int | None = None, shares: Sequence[float] | None = None) -> dict[str, Any]: ...
 def repack(dataset: Path, output: Path, *, layers: Names | None = None) -> dict[str, int]: ...
@@ -136,6 +283,7 @@ def export(
     shard_mb: int = 1000,
     force: bool = False,
     camera_table: Path | None = None,
+    progress: bool | None = None,
 ) -> dict[str, int]: ...
 def import_scene(
     file: Path,
@@ -176,7 +324,8 @@ class NyuV2:
         partial: bool = False,
     ) -> NyuV2: ...
     def __len__(self) -> int: ...
-    def __getitem__(self, index: int) -> Sample: ...
+    def __iter__(self) -> Iterator[Sample]: ...
+    def __getitem__(self, index: int, /) -> Sample: ...
     def __getitems__(self, indices: Sequence[int]) -> list[Sample]: ...
     def frame(self, index: int) -> int: ...
     @property
@@ -202,7 +351,7 @@ class Confusion:
     @property
     def pixel_accuracy(self) -> float | None: ...
 
-Mesh = tuple[numpy.ndarray, numpy.ndarray]
+Mesh = tuple[NDArray[Any], NDArray[Any]]
 
 class MeshComparison(TypedDict):
     chamfer_l2: float
@@ -215,7 +364,7 @@ class MeshComparison(TypedDict):
 class ShapeObject(TypedDict):
     category: int
     box: Sequence[float]
-    mask: numpy.ndarray
+    mask: NDArray[Any]
     mesh: Mesh
 
 class ShapeDetection(ShapeObject):
@@ -253,4 +402,4 @@ def judge_shapes(
     seed: int = 0,
 ) -> list[JudgedShape]: ...
 def shape_precision(rows: Sequence[JudgedShape], truths: dict[int, int]) -> dict[str, Any]: ...
-def read_voxels(file: Path) -> numpy.ndarray: ...
+def read_voxels(file: Path) -> NDArray[Any]: ...

@@ -15,6 +15,20 @@ use std::path::PathBuf;
 #[derive(Clone)]
 pub struct Config(pub enfilade_pipeline::Config);
 
+/// The quality of that name.
+pub fn quality(name: Option<&str>) -> PyResult<Option<Quality>> {
+    Ok(Some(match name {
+        None => return Ok(None),
+        Some("draft") => Quality::Draft,
+        Some("normal") => Quality::Normal,
+        Some("high") => Quality::High,
+        Some("reference") => Quality::Reference,
+        Some(other) => {
+            return Err(PyValueError::new_err(format!("quality is {other:?}; expected \"draft\", \"normal\", \"high\" or \"reference\"")));
+        }
+    }))
+}
+
 fn overrides(
     seed: Option<u64>,
     frames: Option<u32>,
@@ -22,16 +36,7 @@ fn overrides(
     quality: Option<&str>,
     samples: Option<u32>,
 ) -> PyResult<Overrides> {
-    let quality = match quality {
-        None => None,
-        Some("draft") => Some(Quality::Draft),
-        Some("normal") => Some(Quality::Normal),
-        Some("high") => Some(Quality::High),
-        Some("reference") => Some(Quality::Reference),
-        Some(other) => {
-            return Err(PyValueError::new_err(format!("quality is {other:?}; expected \"draft\", \"normal\", \"high\" or \"reference\"")));
-        }
-    };
+    let quality = self::quality(quality)?;
     Ok(Overrides { seed, frames, size, quality, render: RenderChoices { samples, ..RenderChoices::default() } })
 }
 

@@ -3,7 +3,7 @@
 use crate::arguments::{CropPosition, Names, layers, split};
 use crate::errors::IntoPy;
 use crate::loader::Loader;
-use crate::map_style::{MapStyle, item, items, layer_names};
+use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
 use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -153,6 +153,10 @@ impl Dataset {
         self.samples.len()
     }
 
+    fn __iter__(this: &Bound<'_, Self>) -> SampleIterator {
+        SampleIterator::over(this.as_any().clone())
+    }
+
     fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {
         item(py, self, index)
     }
@@ -210,6 +214,10 @@ impl Dataset {
         named.del_item("path")?;
         named.set_item("epoch", self.epoch())?;
         Ok((PyTuple::new(py, [&self.root])?, named))
+    }
+
+    fn _repr_html_<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        this.py().import("enfilade._display")?.call_method1("dataset_html", (this, &this.get().root))
     }
 
     fn __repr__(&self) -> String {

@@ -1,6 +1,7 @@
-//! Ctrl-C during long work: the work runs on another thread, while Python's own thread looks for signals.
+//! Ctrl-C during long work, and how far it has come: the work runs on another thread, while Python's own thread looks for signals.
 
 use crate::errors::IntoPy;
+use crate::progress::{Bar, Heard};
 use enfilade_pipeline::{Event, Reporter, Stage};
 use enfilade_scene::{Cx, Warning};
 use pyo3::prelude::*;
@@ -14,30 +15,39 @@ const INTERVAL: Duration = Duration::from_millis(100);
 
 /// Ends interrupted work when it next reports progress. What is finished by then stays, as when a run is killed.
 #[derive(Default)]
-pub struct Interrupt(AtomicBool);
+pub struct Interrupt {
+    interrupted: AtomicBool,
+    heard: Heard,
+}
 
 impl Interrupt {
     /// Rises with the interruption: for work that is ended by a flag, in good order.
     pub fn flag(&self) -> &AtomicBool {
-        &self.0
+        &self.interrupted
     }
 
     fn check(&self) {
-        if self.0.load(Ordering::Relaxed) {
+        if self.interrupted.load(Ordering::Relaxed) {
             resume_unwind(Box::new("interrupted"));
         }
     }
 }
 
 impl Reporter for Interrupt {
-    fn on(&self, _scene: &str, _stage: Stage, _event: Event) {
+    fn on(&self, scene: &str, stage: Stage, event: Event) {
         self.check();
+        match event {
+            Event::Started => self.heard.hear(&format!("{scene}: {}", stage.name()), 0, 1),
+            Event::Progress { what, done, total } => self.heard.hear(&format!("{scene}: {}, {what}", stage.name()), done, total),
+            _ => {}
+        }
     }
 }
 
 impl Cx for Interrupt {
-    fn progress(&self, _what: &str, _done: u64, _total: u64) {
+    fn progress(&self, what: &str, done: u64, total: u64) {
         self.check();
+        self.heard.hear(what, done, total);
     }
 
     fn warn(&self, _warning: Warning) {}
@@ -45,6 +55,15 @@ impl Cx for Interrupt {
 
 /// Runs `work` on another thread, while Python checks for signals.
 pub fn interruptible<T: Send, E: IntoPy + Send>(py: Python<'_>, work: impl FnOnce(&Interrupt) -> Result<T, E> + Send) -> PyResult<T> {
+    watched(py, &Bar::none(), work)
+}
+
+/// As [`interruptible`], and shows in `bar` how far it has come.
+pub fn watched<T: Send, E: IntoPy + Send>(
+    py: Python<'_>,
+    bar: &Bar<'_>,
+    work: impl FnOnce(&Interrupt) -> Result<T, E> + Send,
+) -> PyResult<T> {
     let interrupt = Interrupt::default();
     std::thread::scope(|scope| {
         let (alive, ended) = channel::<()>();
@@ -57,14 +76,18 @@ pub fn interruptible<T: Send, E: IntoPy + Send>(py: Python<'_>, work: impl FnOnc
         let still_works = || ended.lock().is_ok_and(|ended| ended.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout));
         let mut signal = Ok(());
         while py.detach(still_works) {
-            if let Err(raised) = py.check_signals() {
-                interrupt.0.store(true, Ordering::Relaxed);
+            // After a first error nothing more is shown: it may have come from the bar.
+            let shown = if signal.is_ok() { bar.show(&interrupt.heard) } else { Ok(()) };
+            if let Err(raised) = py.check_signals().and(shown) {
+                interrupt.interrupted.store(true, Ordering::Relaxed);
                 signal = signal.and(Err(raised));
             }
         }
-        match py.detach(|| worker.join()) {
+        let done = match py.detach(|| worker.join()) {
             Ok(done) => signal.and(done.map_err(IntoPy::into_py)),
             Err(panic) => signal.and_then(|()| resume_unwind(panic)),
-        }
+        };
+        let closed = bar.close(done.is_ok());
+        done.and_then(|done| closed.map(|()| done))
     })
 }

@@ -6,6 +6,7 @@
 
 mod arguments;
 mod arrays;
+mod camera;
 mod config;
 mod dataset;
 mod errors;
@@ -16,6 +17,9 @@ mod loader;
 mod map_style;
 mod metrics;
 mod nyu;
+mod progress;
+mod rendering;
+mod scene;
 mod scene_files;
 mod shapes;
 mod verbs;
@@ -35,6 +39,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<nyu::NyuV2>()?;
     module.add_class::<metrics::Confusion>()?;
     module.add_class::<config::Config>()?;
+    module.add_class::<camera::Camera>()?;
+    module.add_class::<scene::Scene>()?;
     module.add("DamagedFileError", py.get_type::<errors::DamagedFileError>())?;
     module.add("StageError", py.get_type::<errors::StageError>())?;
     module.add("LAYERS", layers(py)?)?;
@@ -57,6 +63,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(shapes::judge_shapes, module)?,
         wrap_pyfunction!(shapes::shape_precision, module)?,
         wrap_pyfunction!(shapes::read_voxels, module)?,
+        wrap_pyfunction!(rendering::render, module)?,
+        wrap_pyfunction!(rendering::pictures, module)?,
     ] {
         module.add_function(function)?;
     }

@@ -47,6 +47,36 @@ where
     indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
 }
 
+/// The samples one after the other, as `dataset[0]`, `dataset[1]`, … give them, those of a subclass too.
+#[pyclass(module = "enfilade")]
+pub struct SampleIterator {
+    dataset: Py<PyAny>,
+    next: usize,
+}
+
+impl SampleIterator {
+    /// From the first on.
+    pub fn over(dataset: Bound<'_, PyAny>) -> Self {
+        Self { dataset: dataset.unbind(), next: 0 }
+    }
+}
+
+#[pymethods]
+impl SampleIterator {
+    fn __iter__(this: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        this
+    }
+
+    fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let dataset = self.dataset.bind(py);
+        if self.next >= dataset.len()? {
+            return Ok(None);
+        }
+        self.next += 1;
+        dataset.get_item(self.next - 1).map(Some)
+    }
+}
+
 /// Names of layers.
 pub fn layer_names(layers: impl IntoIterator<Item = Layer>) -> Vec<&'static str> {
     layers.into_iter().map(|layer| layer.spec().name).collect()

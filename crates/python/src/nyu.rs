@@ -2,7 +2,7 @@
 
 use crate::arguments::{Names, layers};
 use crate::errors::IntoPy;
-use crate::map_style::{MapStyle, item, items, layer_names};
+use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
 use enfilade_loader::{LoaderError, NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, Sample, nyu13_of_nyu40};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -86,6 +86,10 @@ impl NyuV2 {
 
     fn __len__(&self) -> usize {
         self.images.len()
+    }
+
+    fn __iter__(this: &Bound<'_, Self>) -> SampleIterator {
+        SampleIterator::over(this.as_any().clone())
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {

@@ -9,7 +9,7 @@ use enfilade_pipeline::{EnvironmentOverride, FileSource, HomeConfig, Lamps, Mome
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .json, .house, .semantic.txt, .scene)
 /// to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
@@ -38,21 +38,8 @@ pub fn import_scene<'py>(
     drop_doubled_faces: bool,
     allow_missing_textures: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let up_axis = match up_axis {
-        None => None,
-        Some("y") => Some(UpAxis::Y),
-        Some("z") => Some(UpAxis::Z),
-        Some(other) => return Err(PyValueError::new_err(format!("up_axis is {other:?}; expected \"y\" or \"z\""))),
-    };
-    let lamps = match lamps {
-        None => None,
-        Some("ceiling") => Some(Lamps::Ceiling),
-        Some(other) => return Err(PyValueError::new_err(format!("lamps is {other:?}; expected \"ceiling\""))),
-    };
-    let environment = environment.map(|written| EnvironmentOverride::named(&written.to_string_lossy()));
     let output = output.unwrap_or_else(|| scene_file_of(&file));
-    let file = FileSource::of(file.to_string_lossy());
-    let source = FileSource { meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures, ..file };
+    let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
     let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
     let imported = interruptible(py, |cx: &Interrupt| enfilade_pipeline::import_file(&source, &output, encode, cx))?;
     let done = json!({ "scene": output, "report": imported.report, "summary": imported.summary, "warnings": imported.warnings, "lost": imported.lost });
@@ -90,6 +77,52 @@ pub fn home<'py>(
     assets_share: f32,
     allow_broken_assets: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let seeds = [layout, furniture, materials, light];
+    let config = home_config(rooms, seed, seeds, realism, moment, clutter, assets, assets_share, allow_broken_assets)?;
+    let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
+    let made = interruptible(py, |cx: &Interrupt| enfilade_pipeline::make_home(&config, &output, encode, cx))?;
+    let done = json!({ "scene": output, "summary": made.summary, "rooms": made.rooms, "lost": made.lost, "credits": made.credits });
+    json::to_python(py, &done)
+}
+
+/// The file with what it does not say itself.
+pub fn file_source(
+    file: &Path,
+    meters_per_unit: f64,
+    up_axis: Option<&str>,
+    environment: Option<PathBuf>,
+    lamps: Option<&str>,
+    drop_doubled_faces: bool,
+    allow_missing_textures: bool,
+) -> PyResult<FileSource> {
+    let up_axis = match up_axis {
+        None => None,
+        Some("y") => Some(UpAxis::Y),
+        Some("z") => Some(UpAxis::Z),
+        Some(other) => return Err(PyValueError::new_err(format!("up_axis is {other:?}; expected \"y\" or \"z\""))),
+    };
+    let lamps = match lamps {
+        None => None,
+        Some("ceiling") => Some(Lamps::Ceiling),
+        Some(other) => return Err(PyValueError::new_err(format!("lamps is {other:?}; expected \"ceiling\""))),
+    };
+    let environment = environment.map(|written| EnvironmentOverride::named(&written.to_string_lossy()));
+    let file = FileSource::of(file.to_string_lossy());
+    Ok(FileSource { meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures, ..file })
+}
+
+/// What a home is made by; `seeds` are those of layout, furniture, materials and light.
+pub fn home_config(
+    rooms: Option<Names>,
+    seed: u64,
+    [layout, furniture, materials, light]: [Option<u64>; 4],
+    realism: f32,
+    moment: Option<&str>,
+    clutter: f32,
+    assets: Option<Names>,
+    assets_share: f32,
+    allow_broken_assets: bool,
+) -> PyResult<HomeConfig> {
     let (rooms, moment) = (rooms.map_or(Ok(Vec::new()), |names| kinds(&names))?, moment.map(self::moment).transpose()?);
     let assets = assets.map_or_else(Vec::new, |names| names.list());
     let config = HomeConfig {
@@ -109,10 +142,7 @@ pub fn home<'py>(
     if let Some(problem) = config.problem() {
         return Err(PyValueError::new_err(problem));
     }
-    let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
-    let made = interruptible(py, |cx: &Interrupt| enfilade_pipeline::make_home(&config, &output, encode, cx))?;
-    let done = json!({ "scene": output, "summary": made.summary, "rooms": made.rooms, "lost": made.lost, "credits": made.credits });
-    json::to_python(py, &done)
+    Ok(config)
 }
 
 fn kinds(names: &Names) -> PyResult<Vec<RoomKind>> {

@@ -3,8 +3,9 @@
 use crate::arguments::{Frames, Names, layers};
 use crate::config::Config;
 use crate::errors::{IntoPy, StageError};
-use crate::interrupt::{Interrupt, interruptible};
+use crate::interrupt::{Interrupt, interruptible, watched};
 use crate::json;
+use crate::progress::Bar;
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
@@ -20,32 +21,48 @@ use std::path::PathBuf;
 ///
 /// config: an `enfilade.Config`; the demo unless given.
 /// scenes: only these; `*` stands for any run of characters.
+/// progress: shows how far it has come; unless given, in notebooks and terminals.
 ///
 /// Gives what was done, as a dictionary. Raises StageError when a scene fails.
 #[pyfunction]
-#[pyo3(signature = (output, config=None, *, scenes=None))]
-pub fn run<'py>(py: Python<'py>, output: PathBuf, config: Option<Config>, scenes: Option<Names>) -> PyResult<Bound<'py, PyAny>> {
+#[pyo3(signature = (output, config=None, *, scenes=None, progress=None))]
+pub fn run<'py>(
+    py: Python<'py>,
+    output: PathBuf,
+    config: Option<Config>,
+    scenes: Option<Names>,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
     let config = match config {
         Some(config) => config.0,
         None => enfilade_pipeline::Config::demo(&Default::default()).map_err(IntoPy::into_py)?,
     };
     let pattern = scenes.map(|scenes| scenes.pattern());
-    let summary = interruptible(py, |reporter| enfilade_pipeline::run(&config, &output, pattern.as_deref(), reporter))?;
+    let bar = Bar::new(py, progress, "run")?;
+    let summary = watched(py, &bar, |reporter| enfilade_pipeline::run(&config, &output, pattern.as_deref(), reporter))?;
     conclude(py, &summary)
 }
 
 /// Runs one stage of a dataset again with the configuration stored there: a name of `enfilade.STAGES`.
 ///
-/// scenes: only these. force: also where it is up to date.
+/// scenes: only these. force: also where it is up to date. progress: shows how far it has come; unless given, in notebooks and terminals.
 #[pyfunction]
-#[pyo3(signature = (name, dataset, *, scenes=None, force=false))]
-pub fn stage<'py>(py: Python<'py>, name: &str, dataset: PathBuf, scenes: Option<Names>, force: bool) -> PyResult<Bound<'py, PyAny>> {
+#[pyo3(signature = (name, dataset, *, scenes=None, force=false, progress=None))]
+pub fn stage<'py>(
+    py: Python<'py>,
+    name: &str,
+    dataset: PathBuf,
+    scenes: Option<Names>,
+    force: bool,
+    progress: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
     let found: Option<Stage> = STAGES.iter().find(|spec| spec.name == name).map(|spec| spec.stage);
     let names = || STAGES.map(|spec| spec.name).join(", ");
     let stage = found.ok_or_else(|| PyValueError::new_err(format!("there is no stage {name:?}; the stages are: {}", names())))?;
     let pattern = scenes.map(|scenes| scenes.pattern());
     let run = |reporter: &Interrupt| enfilade_pipeline::run_stage(&dataset, stage, pattern.as_deref(), force, reporter);
-    conclude(py, &interruptible(py, run)?)
+    let bar = Bar::new(py, progress, name)?;
+    conclude(py, &watched(py, &bar, run)?)
 }
 
 /// Checks a dataset, ours or Hypersim's, against laws that every dataset must obey, and gives the report as a dictionary: `passed`, `laws`, `gates` and
@@ -110,13 +127,15 @@ pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: O
 /// scenes, cameras: only these; `*` stands for any run of characters.
 /// frames: only these numbers: one, or a range such as range(0, 10).
 /// layers: only these, of those that the format can hold.
-/// shard_mb: with "webdataset", the largest size of a shard in megabytes.
+/// shard_mb: with "webdataset" and "huggingface", the largest size of a file in megabytes.
 /// force: if `output` exists and is no export, renames it to `output`.old.
 /// camera_table: another metadata_camera_parameters.csv.
+/// progress: shows how far it has come; unless given, in notebooks and terminals.
 ///
 /// Gives numbers of `frames`, `files` and `bytes`.
 #[pyfunction]
-#[pyo3(signature = (dataset, format, output, *, scenes=None, cameras=None, frames=None, layers=None, shard_mb=1000, force=false, camera_table=None))]
+#[pyo3(signature = (dataset, format, output, *, scenes=None, cameras=None, frames=None, layers=None, shard_mb=1000, force=false, camera_table=None,
+    progress=None))]
 pub fn export<'py>(
     py: Python<'py>,
     dataset: PathBuf,
@@ -129,6 +148,7 @@ pub fn export<'py>(
     shard_mb: u64,
     force: bool,
     camera_table: Option<PathBuf>,
+    progress: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let known = || FORMATS.map(|spec| spec.name).join(", ");
     let unknown = || PyValueError::new_err(format!("there is no format {format:?}; the formats are: {}", known()));
@@ -153,7 +173,8 @@ pub fn export<'py>(
     let config =
         ExportConfig { format, selection: Selection { scenes, cameras, frames, layers }, shard_bytes: shard_mb.saturating_mul(1_000_000) };
     let existing = if force { Existing::SetAside } else { Existing::Refuse };
-    let exported = interruptible(py, |cx: &Interrupt| enfilade_export::export(&opened, &config, &output, existing, cx))?;
+    let bar = Bar::new(py, progress, "export")?;
+    let exported = watched(py, &bar, |cx: &Interrupt| enfilade_export::export(&opened, &config, &output, existing, cx))?;
     json::to_python(py, &json!({ "frames": exported.frames, "files": exported.files, "bytes": exported.bytes }))
 }
 

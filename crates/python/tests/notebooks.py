@@ -44,7 +44,7 @@ def evaluate(source, place, names):
 
 
 def shown(value):
-    """What Jupyter would show of a value: pictures of Pillow and figures of matplotlib as PNG, everything as text."""
+    """What Jupyter would show of a value: pictures of Pillow, frames and figures of matplotlib as PNG, everything as text."""
     data = {}
     png = io.BytesIO()
     if hasattr(value, "savefig"):
@@ -53,6 +53,9 @@ def shown(value):
     elif hasattr(value, "getbands"):
         value.save(png, "png", optimize=True)
         text = f"<Image of {value.width} x {value.height}>"
+    elif hasattr(value, "_repr_png_"):
+        png.write(value._repr_png_() or b"")
+        text = f"<{type(value).__name__}>"
     else:
         text = repr(value)
     if png.getvalue():

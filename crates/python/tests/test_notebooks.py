@@ -10,7 +10,14 @@ import datasets
 import notebooks
 
 FOLDER = Path(__file__).parents[3] / "examples/notebooks"
-NAMES = ["1-first-dataset", "2-train-and-visualise", "3-camera-conventions", "4-render-your-own-scene", "5-from-hypersim-to-enfilade"]
+NAMES = [
+    "1-first-dataset",
+    "2-train-and-visualise",
+    "3-camera-conventions",
+    "4-render-your-own-scene",
+    "5-from-hypersim-to-enfilade",
+    "6-render-in-memory",
+]
 # What they import beside enfilade and numpy; `cargo xtask python` has all of it.
 MISSING = [package for package in ("PIL", "h5py", "torch", "matplotlib") if importlib.util.find_spec(package) is None]
 

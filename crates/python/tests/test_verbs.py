@@ -170,10 +170,10 @@ class Announced(unittest.TestCase):
         body = ast.parse(text).body
         stubs = {node.name: node for node in body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
         values = {node.target.id for node in body if isinstance(node, ast.AnnAssign)}
-        dictionaries = {"Layer", "MeshComparison", "ShapeObject", "ShapeDetection", "JudgedShape"}
+        dictionaries = {"Layer", "Lens", "MeshComparison", "ShapeObject", "ShapeDetection", "JudgedShape"}
         modules = {alias.name for node in body if isinstance(node, ast.ImportFrom) and node.level for alias in node.names}
         self.assertEqual(set(enfilade.__all__), (set(stubs) - dictionaries) | values | modules)
-        for name in ("Dataset", "Loader", "LoaderIterator", "Config"):
+        for name in ("Dataset", "Loader", "LoaderIterator", "Config", "Camera", "Scene"):
             announced = {node.name for node in stubs[name].body if isinstance(node, ast.FunctionDef)}
             there = {key for key in vars(getattr(enfilade, name)) if not key.startswith("__")}
             self.assertEqual({key for key in announced if not key.startswith("__")}, there, name)

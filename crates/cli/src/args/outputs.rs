@@ -34,7 +34,7 @@ pub struct ExportArgs {
     /// Only these layers, of those that the format can hold
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
     pub layers: Option<Vec<enfilade_frame::Layer>>,
-    /// With webdataset: largest size of a shard in megabytes
+    /// With webdataset and huggingface: largest size of a file in megabytes
     #[arg(long, value_name = "MB", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
     pub shard_mb: u64,
     /// If OUT exists and is no export, rename it to OUT.old

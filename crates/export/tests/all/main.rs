@@ -4,6 +4,7 @@ mod bop;
 mod coco;
 mod common;
 mod export_folder;
+mod huggingface;
 mod incomplete;
 mod pix3d;
 mod readers;

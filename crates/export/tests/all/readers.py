@@ -427,6 +427,31 @@ def pix3d():
     return f"{len(coco.anns)} annotations, {len(excluded)} excluded with a model, {whole} seen whole"
 
 
+def huggingface():
+    """By the library that it is for, from the folder alone; values are those of the dataset."""
+    import tempfile
+
+    import datasets
+
+    with tempfile.TemporaryDirectory() as cache:
+        loaded = datasets.load_dataset(EXPORT, cache_dir=cache)
+        assert set(loaded) == {"train"}, loaded
+        frames = loaded["train"]
+        assert isinstance(frames.features["image"], datasets.Image) and isinstance(frames.features["depth"], datasets.Image)
+        assert [(row["scene"], row["camera"], row["frame"]) for row in frames.remove_columns(["image", "depth", "semantic", "instance"])] == record()
+        for row in frames:
+            at = row["scene"], row["camera"], row["frame"]
+            size = row["height"], row["width"]
+            assert np.asarray(row["image"]).shape == (*size, 3) and row["image"].mode == "RGB"
+            for name, of in (("semantic", "semantic"), ("instance", "semantic_instance")):
+                assert np.array_equal(np.asarray(row[name]), np.maximum(layer(*at, of), 0)), name
+            depth = np.asarray(row["depth"]).astype(np.uint16)
+            assert depth.shape == size and row["model"] == "pinhole" and row["depth_kind"] == "planar"
+            check_points(*at, depth, np.array(row["K"]), np.array(row["world_from_camera"]))
+        del frames, loaded
+    return f"{len(record())} frames"
+
+
 def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 

@@ -46,7 +46,11 @@ fn a_tilted_image_plane_becomes_a_turned_pinhole() {
     let tilted = TiltedPinhole::new(40, 30, DMat3::from_rotation_x(0.15) * k.cam_from_uv()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let dataset = crate::common::write(&folder.path().join("dataset"), &Projection::TiltedPinhole(tilted).into());
-    export_all(&dataset, folder.path(), FORMATS.iter().filter(|spec| ["depth-png", "scannet", "bop", "webdataset"].contains(&spec.name)));
+    export_all(
+        &dataset,
+        folder.path(),
+        FORMATS.iter().filter(|spec| ["depth-png", "scannet", "bop", "webdataset", "huggingface"].contains(&spec.name)),
+    );
 }
 
 #[test]

@@ -130,6 +130,18 @@ impl CameraConfig {
         (!has_form).then(|| "`K` should have the rows [fx, skew, cx], [0, fy, cy], [0, 0, 1]; is it transposed, or scaled?".to_string())
     }
 
+    /// The camera of pictures of this size, 60 degrees wide where nothing says how wide they are. The file of a grid is a path as it stands.
+    ///
+    /// # Errors
+    /// When a key is missing or does not go with the model, or a value is out of its range.
+    pub fn make(&self, size: [u32; 2]) -> Result<Camera, Error> {
+        let hint = "docs/cameras.md has the models and what each needs";
+        if let Some(problem) = self.problem(size) {
+            return Err(Error::usage(problem, hint));
+        }
+        self.camera(size, 60f64.to_radians(), |written| Ok(written.into()))
+    }
+
     /// The camera of pictures of this size and horizontal field of view. `locate` finds the file of a grid.
     ///
     /// # Errors

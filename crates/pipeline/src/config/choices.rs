@@ -4,7 +4,7 @@ use super::checks::{Section, check_rendering};
 use super::settings::{SceneConfig, save_every_s};
 use crate::error::Error;
 use enfilade_dataset::ColorKind;
-use enfilade_render::RenderConfig;
+use enfilade_render::{RenderConfig, RenderError};
 use serde::{Deserialize, Serialize};
 
 /// How good pictures become, by one word. README and `docs/benchmarks/render.md` tell the error that each leaves.
@@ -38,13 +38,32 @@ impl Quality {
 
     /// Lays this over a scene whose quality was `below`, with the choices that a reference leaves no other way.
     pub(super) fn lay_over(self, scene: &mut SceneConfig, below: Self) {
-        scene.render.samples = self.samples();
+        self.lay_over_settings(&mut scene.render, &mut scene.color, below);
+    }
+
+    /// The same over the settings alone.
+    fn lay_over_settings(self, render: &mut RenderConfig, color: &mut ColorKind, below: Self) {
+        render.samples = self.samples();
         if self == Self::Reference {
-            (scene.render.noise, scene.color) = (Some(REFERENCE_NOISE), ColorKind::Rendered);
-            (scene.render.max_bounces, scene.render.clamp) = (None, None);
+            (render.noise, *color) = (Some(REFERENCE_NOISE), ColorKind::Rendered);
+            (render.max_bounces, render.clamp) = (None, None);
         } else if below == Self::Reference {
-            (scene.render.noise, scene.color) = (None, ColorKind::Denoised);
+            (render.noise, *color) = (None, ColorKind::Denoised);
         }
+    }
+
+    /// What a scene of this quality is rendered with where nothing else is said but `choices`, which have no time limit here: transport with
+    /// seed 0, and what its colour layers hold.
+    ///
+    /// # Errors
+    /// When a number is out of its range.
+    pub(crate) fn settings(self, choices: &RenderChoices) -> Result<(RenderConfig, ColorKind), Error> {
+        let (mut render, mut color) = (RenderConfig::default(), ColorKind::Denoised);
+        self.lay_over_settings(&mut render, &mut color, self);
+        choices.apply_to_transport(&mut render);
+        let wrong = |error: RenderError| Error::usage(error.to_string(), "give another number, or leave it out");
+        render.validate().map_err(wrong)?;
+        Ok((render, choices.color.unwrap_or(color)))
     }
 }
 

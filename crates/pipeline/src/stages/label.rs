@@ -151,10 +151,18 @@ fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Err
         let labels = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten().unwrap_or_else(none);
         return Ok((labels, serde_json::Value::Null));
     };
-    let path = job.config.path(&source.table)?;
-    let (labels, report) = read_table(&path)?.assign(&source.scene, &part_names(&scene));
-    warn_about(&report, &path.display().to_string(), &source.scene, cx);
+    let (labels, report) = assign_table(&job.config.path(&source.table)?, &source.scene, &scene, cx)?;
     Ok((labels, serde_json::to_value(&report).unwrap_or_default()))
+}
+
+/// Labels from the rows of the table at `path` that are about the scene called `name` there; `cx` hears what does not match.
+///
+/// # Errors
+/// When the table cannot be read.
+pub(crate) fn assign_table(path: &Path, name: &str, scene: &Scene, cx: &dyn Cx) -> Result<(Labels, LabelReport), Error> {
+    let (labels, report) = read_table(path)?.assign(name, &part_names(scene));
+    warn_about(&report, &path.display().to_string(), name, cx);
+    Ok((labels, report))
 }
 
 /// Reads a table of labels.
@@ -166,7 +174,7 @@ pub(crate) fn read_table(path: &Path) -> Result<LabelTable, Error> {
     LabelTable::parse(&bytes, &path.display().to_string()).map_err(Error::stage)
 }
 
-fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &StageCx) {
+fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &dyn Cx) {
     let warn = |place: String, message| cx.warn(Warning { place, message });
     if report.labelled_parts == 0 {
         warn(table.into(), format!("no row labels any part of scene {scene:?}; if the table names it otherwise, set label_scene"));

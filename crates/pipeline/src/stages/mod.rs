@@ -43,11 +43,11 @@ pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::{describe, labels_by_part};
 pub(crate) use job::{FramesByTrajectory, Job, World};
-pub(crate) use label::read_table;
+pub(crate) use label::{assign_table, read_table};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
-pub(crate) use render::{add_extra, config_hash, missing_frames, program, render_frames, views};
+pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program, render_frames, views};
 pub(crate) use shift::Shift;
 pub(crate) use verify::CARD;
 

@@ -282,10 +282,12 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
 }
 
 /// Places the progress within a frame in that of all frames.
-struct FrameCx<'a> {
-    outer: &'a StageCx<'a>,
-    done: usize,
-    total: usize,
+pub(crate) struct FrameCx<'a> {
+    pub outer: &'a dyn Cx,
+    /// Frames before this one.
+    pub done: usize,
+    /// All frames.
+    pub total: usize,
 }
 
 impl Cx for FrameCx<'_> {

@@ -1,0 +1,257 @@
+//! A scene in memory, and pictures of it without a dataset: what `import`, `render`, `denoise` and `label` do, without files between them.
+//!
+//! A frame has the values that a run writes for the same scene, views, settings and seed, the seed being that of the frame's record. What
+//! rays need is prepared for the first picture and serves all others.
+
+use crate::assets;
+use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
+use crate::error::Error;
+use crate::intake::{Look, load_file, settle};
+use crate::look::{named_camera, place};
+use crate::single::write_output;
+use crate::stages::{FrameCx, add_extra, assign_table, describe, labels_by_part};
+use enfilade_dataset::ColorKind;
+use enfilade_denoise::{Denoiser, denoise};
+use enfilade_frame::{DENOISED, Frame, Layer, Values};
+use enfilade_home::HomeConfig;
+use enfilade_import::scene_name;
+use enfilade_label::join;
+use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
+use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, Pose, Scene, StartCamera, Warning, WorldMesh};
+use enfilade_show::planview::floor_plan_svg;
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+self_cell::self_cell!(
+    /// A scene with what rays need of it.
+    struct Prepared {
+        owner: Arc<Scene>,
+        #[covariant]
+        dependent: RenderScene,
+    }
+);
+
+/// A scene in memory.
+pub struct LoadedScene {
+    name: String,
+    scene: Arc<Scene>,
+    labels: Labels,
+    warnings: Vec<Warning>,
+    report: serde_json::Value,
+    /// Made for the first picture.
+    prepared: Mutex<Option<Arc<Prepared>>>,
+    /// The view that was found when one was first asked for.
+    found: OnceLock<(StartCamera, String)>,
+}
+
+/// How pictures of a [`LoadedScene`] are made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shot {
+    /// Transport.
+    pub render: RenderConfig,
+    /// What the colour layers hold. Denoised ones have what was rendered beside them.
+    pub color: ColorKind,
+}
+
+impl Shot {
+    /// As a run makes them with this quality and these choices, but for the seed, which is taken as it is. A time limit does not count.
+    ///
+    /// # Errors
+    /// When a number is out of its range.
+    pub fn new(quality: Quality, choices: &RenderChoices, seed: u64) -> Result<Self, Error> {
+        let (render, color) = quality.settings(choices)?;
+        Ok(Self { render: RenderConfig { seed, ..render }, color })
+    }
+}
+
+impl LoadedScene {
+    /// Reads the file of `source` (a path as it stands), with the labels of a table (a path too) or those that come with it.
+    ///
+    /// # Errors
+    /// When the file cannot be imported, or the table not be read.
+    pub fn read(source: &FileSource, labels: Option<&LabelSource>, cx: &dyn Cx) -> Result<Self, Error> {
+        let file = Path::new(&source.file);
+        let mut imported = load_file(source, file, &|path| Ok(path.into()), cx)?;
+        settle(source, &mut imported, cx);
+        let scene = imported.scene;
+        let labels = match (labels, imported.labels) {
+            (Some(table), _) => assign_table(Path::new(&table.table), &table.scene, &scene, cx)?.0,
+            (None, Some(labels)) => labels_by_part(&scene, &labels),
+            (None, None) => Labels { parts: vec![PartLabel::NONE; scene.parts.len()] },
+        };
+        let report = serde_json::to_value(&imported.report).unwrap_or_default();
+        Ok(Self::new(scene_name(file), scene, labels, imported.report.warnings, report))
+    }
+
+    /// Makes the home of `config`, whose libraries are paths as they stand.
+    ///
+    /// # Errors
+    /// When a library of models cannot be used, see [`HomeConfig::assets`].
+    pub fn home(config: &HomeConfig, cx: &dyn Cx) -> Result<Self, Error> {
+        let home = assets::home(config, &|path| Ok(path.into()), cx)?;
+        let rooms = home.plan.rooms.iter().map(|room| {
+            let (kind, area_m2) = (room.kind.name(), room.size.x * room.size.y);
+            serde_json::json!({ "kind": kind, "area_m2": area_m2 })
+        });
+        let report = serde_json::json!({ "rooms": rooms.collect::<Vec<_>>(), "credits": home.credits });
+        Ok(Self::new("home".into(), home.scene, home.labels, Vec::new(), report))
+    }
+
+    fn new(name: String, scene: Scene, labels: Labels, warnings: Vec<Warning>, report: serde_json::Value) -> Self {
+        Self { name, scene: Arc::new(scene), labels, warnings, report, prepared: Mutex::default(), found: OnceLock::new() }
+    }
+
+    /// Its name: that of the file, without what tells the format.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What its parts are.
+    pub fn labels(&self) -> &Labels {
+        &self.labels
+    }
+
+    /// Everything that was dropped, guessed or fixed.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// The report of the import, or rooms and credits of a home.
+    pub fn report(&self) -> &serde_json::Value {
+        &self.report
+    }
+
+    /// One line about it.
+    pub fn summary(&self) -> String {
+        describe(&self.scene)
+    }
+
+    /// The walls and whatever else stands there, cut at two fifths of the scene's height, as a drawing in SVG of this many pixels across.
+    pub fn plan_svg(&self, width: u32) -> String {
+        floor_plan_svg(&WorldMesh::new(&self.scene), width)
+    }
+
+    /// The camera of that name; without one, the view that `look` takes: a camera of the file that stands in a room, else a place that is
+    /// found, which takes seconds the first time. Says in words which.
+    ///
+    /// # Errors
+    /// When there is no camera of that name.
+    pub fn view(&self, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
+        if let Some(name) = name {
+            return named_camera(&self.scene, name).map(|camera| (camera.clone(), format!("camera {name:?} of the file")));
+        }
+        if let Some(found) = self.found.get() {
+            return Ok(found.clone());
+        }
+        let found = place(&self.scene, &Look::at(&self.scene), None, cx)?;
+        Ok(self.found.get_or_init(|| found).clone())
+    }
+
+    /// Renders the views, which are the frames of one trajectory: light is learned from all of them, flow leads from one to the next, and
+    /// their poses have ascending frame numbers. A frame has every layer that a run writes, labels included.
+    ///
+    /// # Errors
+    /// When the scene has no light or too many parts, or a camera is not usable.
+    pub fn render(&self, views: &[(Camera, Pose)], shot: &Shot, cx: &dyn Cx) -> Result<Vec<Frame>, Error> {
+        let prepared = self.prepared(cx)?;
+        let scene = prepared.borrow_dependent();
+        let views: Vec<CameraView> = views.iter().map(|(camera, pose)| CameraView::still(camera, pose)).collect();
+        cx.progress("learning where light comes from", 0, views.len() as u64);
+        let guide = Guide::learn(scene, &views, &shot.render);
+        let frame = |index: usize| {
+            let frame_cx = FrameCx { outer: cx, done: index, total: views.len() };
+            let mut rendering = FrameRender::new(scene, &guide, &views[index], &shot.render).map_err(Error::stage)?;
+            while !rendering.is_done() {
+                rendering.pass(&frame_cx);
+            }
+            let mut frame = rendering.frame();
+            add_extra(scene, &views, index, &shot.render, &mut frame);
+            self.finish(frame, shot.color)
+        };
+        (0..views.len()).map(frame).collect()
+    }
+
+    /// Denoises where that is asked for, and joins the labels.
+    fn finish(&self, mut frame: Frame, color: ColorKind) -> Result<Frame, Error> {
+        if color == ColorKind::Denoised {
+            let denoised = denoise(&frame, |noisy| Denoiser::built_in().filter(noisy)).map_err(Error::stage)?;
+            for (plain, kept) in DENOISED {
+                let rendered = frame.get(plain).cloned();
+                rendered.into_iter().for_each(|values| frame.insert(kept, values));
+            }
+            denoised.iter().for_each(|(layer, values)| frame.insert(layer, values.clone()));
+        }
+        if let Some(Values::I16(ids)) = frame.get(Layer::RenderEntityId) {
+            let (semantic, instance) = join(ids, &self.labels).map_err(Error::stage)?;
+            frame.insert(Layer::Semantic, Values::I16(semantic));
+            frame.insert(Layer::SemanticInstance, Values::I16(instance));
+        }
+        Ok(frame)
+    }
+
+    /// Writes the scene to `output`, as `encode` gives its bytes and what they cannot hold.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn save(
+        &self,
+        output: &Path,
+        encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+    ) -> Result<Vec<String>, Error> {
+        let (bytes, lost) = encode(&self.scene, Some(&self.labels));
+        write_output(output, &bytes)?;
+        Ok(lost)
+    }
+
+    fn prepared(&self, cx: &dyn Cx) -> Result<Arc<Prepared>, Error> {
+        // One that was interrupted while it prepared has left nothing.
+        let mut prepared = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(prepared) = &*prepared {
+            return Ok(prepared.clone());
+        }
+        let made = Prepared::try_new(self.scene.clone(), |scene| RenderScene::new(scene, cx)).map_err(Error::stage)?;
+        Ok(prepared.insert(Arc::new(made)).clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_home::RoomKind;
+    use enfilade_scene::{Intrinsics, Quiet};
+
+    fn bathroom() -> LoadedScene {
+        LoadedScene::home(&HomeConfig { rooms: vec![RoomKind::Bathroom], ..HomeConfig::default() }, &Quiet).unwrap()
+    }
+
+    #[test]
+    fn what_rays_need_is_prepared_once_and_pictures_repeat() {
+        let scene = bathroom();
+        let (start, how) = scene.view(None, &Quiet).unwrap();
+        assert_eq!(scene.view(None, &Quiet).unwrap(), (start.clone(), how));
+        let view = (Camera::from(Intrinsics::from_fov_x(16, 12, start.fov_x_rad)), start.pose(0));
+        let choices = RenderChoices { samples: Some(2), ..RenderChoices::default() };
+        let shot = Shot::new(Quality::Draft, &choices, 7).unwrap();
+        let [first, second] = [0, 1].map(|_| scene.render(std::slice::from_ref(&view), &shot, &Quiet).unwrap().remove(0));
+        let rendered = |frame: &Frame| frame.iter().map(|(layer, values)| (layer, values.as_bytes().to_vec())).collect::<Vec<_>>();
+        assert!(rendered(&first) == rendered(&second), "the same bytes");
+        assert!(first.get(Layer::Semantic).is_some() && first.get(Layer::ColorRendered).is_some());
+        let kept = scene.prepared(&Quiet).unwrap();
+        assert!(Arc::ptr_eq(&kept, &scene.prepared(&Quiet).unwrap()));
+        assert!(first != scene.render(&[view], &Shot { color: ColorKind::Rendered, ..shot }, &Quiet).unwrap()[0]);
+    }
+
+    #[test]
+    fn numbers_out_of_range_and_unknown_cameras_are_usage() {
+        let choices = RenderChoices { samples: Some(0), ..RenderChoices::default() };
+        let error = Shot::new(Quality::Normal, &choices, 0).unwrap_err();
+        assert!(error.is_usage() && error.to_string().contains("samples must be at least 1"), "{error}");
+        let error = bathroom().view(Some("nobody"), &Quiet).unwrap_err();
+        assert!(error.is_usage() && error.to_string().contains("no camera \"nobody\""), "{error}");
+    }
+}
