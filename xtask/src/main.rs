@@ -43,7 +43,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
        cargo xtask docs [STEP...]                 the documentation site, below target/docs/site
        cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
-       cargo xtask pictures                       the pictures of README, by the demo
+       cargo xtask pictures                       the pictures of README and of layers, by the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask readers FOLDER [--only TEXT]   our readers of scene files beside other programs', on public files

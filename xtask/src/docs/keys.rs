@@ -164,7 +164,9 @@ const GROUPS: [Group; 19] = [
     ),
     Group {
         heading: "`saliency = { kind = \"texture\", … }`",
-        about: "Of `[plan]`. The other kinds have the same keys without `weight`.",
+        about: "Of `[plan]`: poses are chosen in proportion to n^`alpha` · (1 − e)^`beta`, where e is the share of pixels without a \
+                surface. n counts the `triangles` in view, or the `parts`, or parts by their areas (`entropy`), or that with the contrast of \
+                textures (`texture`). The other kinds have the same keys without `weight`.",
         of: "Saliency::texture",
         file: "[plan.saliency]\nkind = \"texture\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
         at: &["/scenes/0/plan/saliency/§"],

@@ -103,9 +103,10 @@ pub fn tables(house: &House) -> Result<String, String> {
     Ok(page)
 }
 
-/// The picture of a layer, by its file's name.
+/// The picture of a layer, by its file's name, where there is one.
 pub fn picture(house: &House, layer: &str) -> Option<String> {
-    ["jpg", "png"].map(|extension| format!("{layer}.{extension}")).into_iter().find(|file| house.root.join(PICTURES).join(file).is_file())
+    let file = format!("{layer}.jpg");
+    house.root.join(PICTURES).join(&file).is_file().then_some(file)
 }
 
 #[cfg(test)]

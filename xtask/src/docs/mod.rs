@@ -51,7 +51,9 @@ const STEPS: [Step; 5] = [
 /// With the step that failed.
 pub fn run(house: &House, names: &[&str]) -> Result<(), String> {
     choose(&STEPS, names)?.iter().try_for_each(|step| step.take(house))?;
-    println!("\ndocs: open {}", site(house)?.join("index.html").display());
+    if names.is_empty() {
+        println!("\ndocs: open {}", site(house)?.join("index.html").display());
+    }
     Ok(())
 }
 
@@ -103,8 +105,7 @@ fn own_after_title(text: &str, own: &str) -> String {
 }
 
 fn build(house: &House) -> Result<String, String> {
-    let site = Site::new(house)?;
-    let mut command = house.command(mdbook(house)?, &["build", "--dest-dir", "site"]);
-    command.arg(&site.folder);
+    let mut command = house.command(mdbook(house)?, &["build", "--dest-dir"]);
+    command.arg(site(house)?).arg(Site::new(house)?.folder);
     finish(command)
 }

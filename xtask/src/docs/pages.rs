@@ -140,11 +140,12 @@ impl<'h> Site<'h> {
     }
 }
 
-/// Where the site has a file of the repository, relative to its own sources.
+/// Where the site has a file of the repository, relative to its own sources. mdBook would rename a README.
 pub fn place(file: &str) -> String {
     match (file.strip_prefix("docs/"), file.rsplit_once('.')) {
         (Some(page), _) => page.into(),
-        (None, Some((_, "md"))) => format!("repository/{file}"),
+        (None, Some(("README", "md"))) => "index.md".into(),
+        (None, Some((name, "md"))) => format!("repository/{}.md", name.strip_suffix("/README").unwrap_or(name)),
         (None, Some((_, "ipynb"))) => format!("notebooks/{}.md", stem(file)),
         _ => format!("files/{file}.txt"),
     }
@@ -253,8 +254,8 @@ mod tests {
             led("docs/farm.md", "[a](homes.md#checks) [b](https://b.c) `[c](d)`").unwrap(),
             "[a](homes.md#checks) [b](https://b.c) `[c](d)`"
         );
-        assert_eq!(led("README.md", "[![a](docs/home.jpg)](docs/farm.md)").unwrap(), "[![a](../home.jpg)](../farm.md)");
-        assert_eq!(led("docs/farm.md", "[a](../examples/farm/README.md)").unwrap(), "[a](repository/examples/farm/README.md)");
+        assert_eq!(led("README.md", "[![a](docs/home.jpg)](docs/farm.md)").unwrap(), "[![a](home.jpg)](farm.md)");
+        assert_eq!(led("docs/farm.md", "[a](../examples/farm/README.md)").unwrap(), "[a](repository/examples/farm.md)");
         assert_eq!(led("docs/farm.md", "[a](../examples/farm/missing.sh)").unwrap(), "[a](files/examples/farm/missing.sh.txt)");
         assert_eq!(led("docs/farm.md", "\n[a](b.md)").unwrap_err(), "docs/farm.md:2: there is no docs/b.md to link to");
     }

@@ -21,6 +21,12 @@ struct Declared<'s> {
     stub: String,
 }
 
+impl Declared<'_> {
+    fn has_functions(&self) -> bool {
+        self.stub.contains("def ")
+    }
+}
+
 /// The page's headings, each with a signature and what is said about it.
 ///
 /// # Errors
@@ -31,8 +37,14 @@ pub fn page(house: &House) -> Result<String, String> {
     for (module, stub, source) in MODULES {
         let (stub, source) = (house.read(stub)?, house.read(source)?);
         let short = module.strip_prefix("enfilade.").map_or(String::new(), |name| format!("{name}."));
-        for declared in declarations(&stub) {
+        let (explained, plain): (Vec<Declared>, Vec<Declared>) = declarations(&stub).into_iter().partition(Declared::has_functions);
+        page += &format!("## {module}\n\n");
+        for declared in explained {
             page += &entry(module, &short, &declared, &docs, &source);
+        }
+        if !plain.is_empty() {
+            let stubs: Vec<&str> = plain.iter().map(|declared| declared.stub.as_str()).collect();
+            page += &format!("### Constants, errors and types\n\n```python\n{}\n```\n\n", stubs.join("\n"));
         }
     }
     Ok(page)
@@ -179,7 +191,7 @@ mod tests {
             let (stub, source) = (house.read(stub).unwrap(), house.read(source).unwrap());
             let short = module.strip_prefix("enfilade").unwrap().trim_start_matches('.');
             let key = |name: &str| if short.is_empty() { name.to_string() } else { format!("{short}.{name}") };
-            for Declared { name, stub } in declarations(&stub).iter().filter(|declared| declared.stub.contains("def ")) {
+            for Declared { name, stub } in declarations(&stub).iter().filter(|declared| declared.has_functions()) {
                 assert!(docs.contains_key(&key(name)) || written_in_python(&source, name).is_some(), "{module}.{name}: {stub}");
             }
         }

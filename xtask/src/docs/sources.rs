@@ -141,7 +141,7 @@ impl Sources {
                 Some("bool") => "true or false".into(),
                 Some("String" | "PathBuf") => "text".into(),
                 Some("Vec") => argument(of).map_or("list".into(), |element| match self.in_words(element) {
-                    words if words.contains('"') => format!("list of {words}"),
+                    words if words.contains('"') || words == "text" => format!("list of {words}"),
                     words => format!("list of {words}s"),
                 }),
                 Some("CamerasKey") => "list, or `\"found\"`".into(),

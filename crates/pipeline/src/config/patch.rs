@@ -62,7 +62,7 @@ section!(RenderPatch => RenderConfig {
     save_every_s: f64,
     /// What `color`, `diffuse_illumination` and `residual` hold.
     color: ColorKind,
-    /// Where they are denoised, keeps what was rendered beside them, as layers named `*_rendered`.
+    /// Where color is denoised, keeps what was rendered beside it, as layers named `*_rendered`.
     keep_rendered: bool,
     /// A library of Open Image Denoise 2, its file or folder, instead of the denoiser in the program.
     denoiser: String,
