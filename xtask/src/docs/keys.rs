@@ -262,10 +262,10 @@ struct Program {
 
 impl Program {
     fn start(house: &House) -> Result<Self, String> {
-        let mut command = house.cargo(&["run", "--quiet", "--locked", "--package", "enfilade-pipeline", "--example", "resolve"]);
+        let mut command = house.command(house.tested("examples/resolve")?, &[]);
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut child = command.spawn().map_err(|error| format!("cannot run cargo: {error}"))?;
-        let (questions, answers) = (child.stdin.take(), child.stdout.take().ok_or("cargo has no output")?);
+        let mut child = command.spawn().map_err(|error| format!("cannot run the example `resolve`: {error}"))?;
+        let (questions, answers) = (child.stdin.take(), child.stdout.take().ok_or("the example `resolve` has no output")?);
         Ok(Self { child, questions, answers: BufReader::new(answers).lines() })
     }
 

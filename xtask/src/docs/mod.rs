@@ -22,12 +22,18 @@ const MDBOOK: &str = "0.5.4";
 const NBCONVERT: &str = "nbconvert==7.17.2";
 
 /// All steps, in their order.
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 6] = [
     Step {
         name: "tools",
         about: "mdBook and nbconvert are installed",
         remedy: "see what cargo or pip says above; both are taken from the network the first time",
         run: |house| mdbook(house).and_then(|_| nbconvert(house)).map(|_| String::new()),
+    },
+    Step {
+        name: "programs",
+        about: "what describes itself is built, with the features that the tests are built with",
+        remedy: "fix what the compiler says above",
+        run: |house| finish(house.cargo(&["build", "--locked", "--workspace", "--bin", "enfilade", "--example", "resolve"])),
     },
     Step {
         name: "pages",
