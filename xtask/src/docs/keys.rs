@@ -285,16 +285,17 @@ impl Program {
         let without = self.ask(&group.with(name, None))?;
         let Some(config) = without.get("config") else { return Err(format!("`{name}` cannot be left out: {}", without["error"])) };
         if let Some(value) = group.at.iter().find_map(|at| config.pointer(&at.replace('§', name))) {
-            return Ok(if value.is_null() { "none".into() } else { format!("`{}`", toml(value)) });
+            let is_empty = value.is_null() || value.as_array().is_some_and(Vec::is_empty);
+            return Ok(if is_empty { "none".into() } else { format!("`{}`", toml(value)) });
         }
         // Not written because it is the default: the value that changes nothing.
-        let none = ["true", "false", "[]", "[-90, 90]"].map(String::from).to_vec();
+        let none = ["true", "false", "1", "[-90, 90]"].map(String::from).to_vec();
         for value in sources.values(&key.of).unwrap_or(none) {
             if self.ask(&group.with(name, Some(&value)))? == without {
-                return Ok(if value == "[]" { "none".into() } else { format!("`{value}`") });
+                return Ok(format!("`{value}`"));
             }
         }
-        Ok(String::new())
+        Ok("none".into())
     }
 
     /// What the program expects, where it refuses values that a type could have.
@@ -302,7 +303,7 @@ impl Program {
         let mut ranges: Vec<String> = Vec::new();
         for value in doubtful(of) {
             let answer = self.ask(&group.with(&key.name, Some(&value)))?;
-            let range = answer["error"].as_str().and_then(expected);
+            let range = answer["error"].as_str().and_then(|message| expected(message, &key.name));
             ranges.extend(range.filter(|range| !ranges.contains(range)));
         }
         Ok(ranges.join("; "))
@@ -332,10 +333,12 @@ fn doubtful(of: &str) -> Vec<String> {
     }
 }
 
-/// "between 0 and 1" of "noise must lie between 0 and 1, found 2", and "1 or more" of "rays = 0: expected 1 or more".
-fn expected(message: &str) -> Option<String> {
-    if let Some((_, range)) = message.split_once("expected ") {
-        return Some(range.into());
+/// "between 0 and 1" of "noise must lie between 0 and 1, found 2", and "1 or more" of "rays = 0: expected 1 or more"; `None` where the
+/// message is about another key.
+fn expected(message: &str, key: &str) -> Option<String> {
+    if let Some((found, range)) = message.split_once("expected ") {
+        let named = found.split_once(" = ").and_then(|(before, _)| before.rsplit(' ').next());
+        return named.is_none_or(|named| named == key).then(|| range.into());
     }
     let range = message.split_once(" must ")?.1.split(", found").next()?;
     Some(["lie ", "be "].iter().find_map(|verb| range.strip_prefix(verb)).unwrap_or(range).into())
@@ -349,7 +352,8 @@ fn toml(value: &Value) -> String {
         }
         Value::Array(values) => format!("[{}]", values.iter().map(toml).collect::<Vec<_>>().join(", ")),
         Value::Object(table) => {
-            let pairs: Vec<String> = table.iter().map(|(key, value)| format!("{key} = {}", toml(value))).collect();
+            let (kind, others): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| *key == "kind");
+            let pairs: Vec<String> = kind.iter().chain(&others).map(|(key, value)| format!("{key} = {}", toml(value))).collect();
             format!("{{ {} }}", pairs.join(", "))
         }
         other => other.to_string(),
@@ -387,8 +391,9 @@ mod tests {
             ("in `home`: clutter must lie between 0 and 4, found 9", "between 0 and 4"),
             ("a length must be 0 or more metres, found -1", "0 or more metres"),
         ] {
-            assert_eq!(expected(message).unwrap(), range);
+            assert_eq!(expected(message, "rays").unwrap(), range);
         }
-        assert_eq!(expected("two scenes have the name"), None);
+        assert_eq!(expected("two scenes have the name", "name"), None);
+        assert_eq!(expected("in `carve`: extent_m = 30: expected a length of at least one voxel", "voxel_m"), None);
     }
 }
