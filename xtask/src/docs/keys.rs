@@ -20,13 +20,16 @@ struct Group {
     more: &'static [&'static str],
     /// Not in the table.
     without: &'static [&'static str],
-    /// A file in which `§` stands for the key.
+    /// A file in which `§` stands for the key; [`SCENE`] is added where it has no scene.
     file: &'static str,
     /// Where the resolved configuration has them: JSON pointers, in which `§` is the key.
     at: &'static [&'static str],
 }
 
 const NOTHING: Group = Group { heading: "", about: "", of: "", more: &[], without: &[], file: "", at: &[] };
+
+/// A scene that is not looked for.
+const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 
 /// Sections, and the keys that have a table of their own.
 const SECTIONS: [&str; 8] = ["import", "render", "camera", "plan", "carve", "gate", "farm", "scene"];
@@ -38,7 +41,7 @@ const GROUPS: [Group; 19] = [
         about: "All but `name` may also stand in a `[[scene]]`, for that scene alone.",
         of: "Document",
         without: &SECTIONS,
-        file: "§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "§\n",
         at: &["/scenes/0/plan/§", "/scenes/0/§"],
         ..NOTHING
     },
@@ -72,7 +75,7 @@ const GROUPS: [Group; 19] = [
         heading: "`[import]`",
         about: "What the scene files do not say themselves.",
         of: "ImportKeys",
-        file: "[import]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[import]\n§\n",
         at: &["/scenes/0/source/file/§"],
         ..NOTHING
     },
@@ -80,7 +83,7 @@ const GROUPS: [Group; 19] = [
         heading: "`environment = { … }`",
         about: "Of `[import]` or a scene. `date`, `hour` and `latitude_deg` go with `sky`.",
         of: "Keys",
-        file: "[import.environment]\nsky = \"clear\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[import.environment]\nsky = \"clear\"\n§\n",
         at: &["/scenes/0/source/file/environment/§"],
         ..NOTHING
     },
@@ -97,7 +100,7 @@ const GROUPS: [Group; 19] = [
         about: "How light is traced, and which layers are kept.",
         of: "RenderPatch",
         more: &["RenderConfig"],
-        file: "[render]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[render]\n§\n",
         at: &["/scenes/0/render/§", "/scenes/0/§"],
         ..NOTHING
     },
@@ -106,7 +109,7 @@ const GROUPS: [Group; 19] = [
         about: "What pictures are taken with: [cameras](cameras.md).",
         of: "CameraConfig",
         without: &["lens", "shutter", "stereo"],
-        file: "[camera]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[camera]\n§\n",
         at: &["/scenes/0/camera/§"],
         ..NOTHING
     },
@@ -114,7 +117,7 @@ const GROUPS: [Group; 19] = [
         heading: "`lens = { … }`",
         about: "Of `[camera]`, for depth of field: with `focus_distance_m`, and `aperture_radius_m` or `f_number` and `focal_length_mm`.",
         of: "LensConfig",
-        file: "[camera.lens]\naperture_radius_m = 0.01\nfocus_distance_m = 2\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[camera.lens]\naperture_radius_m = 0.01\nfocus_distance_m = 2\n§\n",
         at: &["/scenes/0/camera/lens/§"],
         ..NOTHING
     },
@@ -122,7 +125,7 @@ const GROUPS: [Group; 19] = [
         heading: "`shutter = { … }`",
         about: "Of `[camera]`, for motion blur and rolling shutter.",
         of: "Shutter",
-        file: "[camera.shutter]\nexposure_s = 0\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[camera.shutter]\nexposure_s = 0\n§\n",
         at: &["/scenes/0/camera/shutter/§"],
         ..NOTHING
     },
@@ -130,7 +133,7 @@ const GROUPS: [Group; 19] = [
         heading: "`stereo = { … }`",
         about: "Of `[camera]`: a second camera beside each.",
         of: "StereoConfig",
-        file: "[camera.stereo]\nbaseline_m = 0.1\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[camera.stereo]\nbaseline_m = 0.1\n§\n",
         ..NOTHING
     },
     Group {
@@ -138,37 +141,21 @@ const GROUPS: [Group; 19] = [
         about: "Where pictures are taken from: [trajectories](trajectories.md).",
         of: "PlanPatch",
         more: &["PlanConfig"],
-        file: "[plan]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[plan]\n§\n",
         at: &["/scenes/0/plan/§"],
         ..NOTHING
     },
-    mode(
-        "`mode = { kind = \"video\", … }`",
-        "VideoConfig",
-        "[plan.mode]\nkind = \"video\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
-    ),
-    mode(
-        "`mode = { kind = \"stills\", … }`",
-        "StillsConfig",
-        "[plan.mode]\nkind = \"stills\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
-    ),
-    mode(
-        "`mode = { kind = \"coverage\", … }`",
-        "CoverageConfig",
-        "[plan.mode]\nkind = \"coverage\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
-    ),
-    mode(
-        "`mode = { kind = \"keyframes\", … }`",
-        "KeyframesConfig",
-        "[plan.mode]\nkind = \"keyframes\"\nfiles = [\"a.csv\"]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
-    ),
+    mode("`mode = { kind = \"video\", … }`", "VideoConfig", "[plan.mode]\nkind = \"video\"\n§\n"),
+    mode("`mode = { kind = \"stills\", … }`", "StillsConfig", "[plan.mode]\nkind = \"stills\"\n§\n"),
+    mode("`mode = { kind = \"coverage\", … }`", "CoverageConfig", "[plan.mode]\nkind = \"coverage\"\n§\n"),
+    mode("`mode = { kind = \"keyframes\", … }`", "KeyframesConfig", "[plan.mode]\nkind = \"keyframes\"\nfiles = [\"a.csv\"]\n§\n"),
     Group {
         heading: "`saliency = { kind = \"texture\", … }`",
         about: "Of `[plan]`: poses are chosen in proportion to n^`alpha` · (1 − e)^`beta`, where e is the share of pixels without a \
                 surface. n counts the `triangles` in view, or the `parts`, or parts by their areas (`entropy`), or that with the contrast of \
                 textures (`texture`). The other kinds have the same keys without `weight`.",
         of: "Saliency::texture",
-        file: "[plan.saliency]\nkind = \"texture\"\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[plan.saliency]\nkind = \"texture\"\n§\n",
         at: &["/scenes/0/plan/saliency/§"],
         ..NOTHING
     },
@@ -177,7 +164,7 @@ const GROUPS: [Group; 19] = [
         about: "How free space is found.",
         of: "CarvePatch",
         more: &["CarveConfig"],
-        file: "[carve]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[carve]\n§\n",
         at: &["/scenes/0/carve/§"],
         ..NOTHING
     },
@@ -186,7 +173,7 @@ const GROUPS: [Group; 19] = [
         about: "Which views are rendered: [gates](trajectories.md#gates-before-rendering).",
         of: "GatePatch",
         more: &["GateConfig"],
-        file: "[gate]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[gate]\n§\n",
         at: &["/scenes/0/gate/§"],
         ..NOTHING
     },
@@ -195,7 +182,7 @@ const GROUPS: [Group; 19] = [
         about: "What nodes of a [farm](farm.md) do besides; at the top of the file alone.",
         of: "FarmKeys",
         more: &["FarmConfig"],
-        file: "[farm]\nafter_frame = [\"true\"]\n§\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n",
+        file: "[farm]\nafter_frame = [\"true\"]\n§\n",
         at: &["/farm/§"],
         ..NOTHING
     },
@@ -224,7 +211,8 @@ impl Group {
     fn with(&self, key: &str, value: Option<&str>) -> String {
         let given = value.map_or(String::new(), |value| format!("{key} = {value}"));
         let needed = |line: &&str| value.is_none() || !line.starts_with(&format!("{key} = "));
-        self.file.lines().filter(needed).collect::<Vec<_>>().join("\n").replace('§', &given)
+        let text = self.file.lines().filter(needed).collect::<Vec<_>>().join("\n").replace('§', &given);
+        if text.contains("[[scene]]") { text } else { text + SCENE }
     }
 
     /// Whether a file needs the key.
@@ -303,7 +291,9 @@ impl Program {
         let mut ranges: Vec<String> = Vec::new();
         for value in doubtful(of) {
             let answer = self.ask(&group.with(&key.name, Some(&value)))?;
-            let range = answer["error"].as_str().and_then(|message| expected(message, &key.name));
+            let range = answer["error"]
+                .as_str()
+                .and_then(|message| expected(message, |named| named == key.name || group.file.contains(&format!(".{named}]"))));
             ranges.extend(range.filter(|range| !ranges.contains(range)));
         }
         Ok(ranges.join("; "))
@@ -334,11 +324,11 @@ fn doubtful(of: &str) -> Vec<String> {
 }
 
 /// "between 0 and 1" of "noise must lie between 0 and 1, found 2", and "1 or more" of "rays = 0: expected 1 or more"; `None` where the
-/// message is about another key.
-fn expected(message: &str, key: &str) -> Option<String> {
+/// message is about a key that is not `meant`.
+fn expected(message: &str, meant: impl Fn(&str) -> bool) -> Option<String> {
     if let Some((found, range)) = message.split_once("expected ") {
         let named = found.split_once(" = ").and_then(|(before, _)| before.rsplit(' ').next());
-        return named.is_none_or(|named| named == key).then(|| range.into());
+        return named.is_none_or(meant).then(|| range.into());
     }
     let range = message.split_once(" must ")?.1.split(", found").next()?;
     Some(["lie ", "be "].iter().find_map(|verb| range.strip_prefix(verb)).unwrap_or(range).into())
@@ -391,9 +381,9 @@ mod tests {
             ("in `home`: clutter must lie between 0 and 4, found 9", "between 0 and 4"),
             ("a length must be 0 or more metres, found -1", "0 or more metres"),
         ] {
-            assert_eq!(expected(message, "rays").unwrap(), range);
+            assert_eq!(expected(message, |key| key == "rays").unwrap(), range);
         }
-        assert_eq!(expected("two scenes have the name", "name"), None);
-        assert_eq!(expected("in `carve`: extent_m = 30: expected a length of at least one voxel", "voxel_m"), None);
+        assert_eq!(expected("two scenes have the name", |_| true), None);
+        assert_eq!(expected("in `carve`: extent_m = 30: expected a length of at least one voxel", |key| key == "voxel_m"), None);
     }
 }
