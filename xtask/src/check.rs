@@ -35,7 +35,7 @@ const STEPS: [Step; 9] = [
     },
     Step {
         name: "pictures",
-        about: "the pictures of README are those of today's demo",
+        about: "the pictures of README and of layers are those of today's demo",
         remedy: "run `cargo xtask pictures`, look at them, and commit docs/",
         run: pictures::check,
     },

@@ -1,8 +1,8 @@
-//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `fuzz`, `pictures`, `bench`, `oracle`, `readers` and
-//! `cluster`.
+//! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `docs`, `fuzz`, `pictures`, `bench`, `oracle`, `readers`
+//! and `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
-//! Python module as it is installed; [`browser`] tests the pages; [`fuzz`] searches for bytes that break what reads them;
+//! Python module as it is installed; [`browser`] tests the pages; [`docs`](mod@docs) makes the documentation site; [`fuzz`] searches for bytes that break what reads them;
 //! [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what
 //! to do.
 
@@ -14,6 +14,7 @@ mod circles;
 mod cluster;
 mod cycles;
 mod dependencies;
+mod docs;
 mod embree;
 mod floors;
 mod fuzz;
@@ -41,8 +42,9 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask test [--all] [STEP...]         tests, then the demo; --all: searches over all their seeds
        cargo xtask python [STEP...]               the module as pip installs it: types, torch's loader, notebooks, training
        cargo xtask browser [STEP...]              the pages: types, bundle, tests in a browser
+       cargo xtask docs [STEP...]                 the documentation site, below target/docs/site
        cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
-       cargo xtask pictures                       the pictures of README, by the demo
+       cargo xtask pictures                       the pictures of README and of layers, by the demo
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask readers FOLDER [--only TEXT]   our readers of scene files beside other programs', on public files
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         ["test", rest @ ..] => test::run(&house, rest),
         ["python", rest @ ..] => wheel::run(&house, rest),
         ["browser", rest @ ..] => browser::run(&house, rest),
+        ["docs", rest @ ..] => docs::run(&house, rest),
         ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
         ["bench", "cycles", rest @ ..] => cycles::run(&house, rest),

@@ -1,38 +1,69 @@
-//! `cargo xtask pictures`: the pictures of README, made by the demo that README tells to run; `check` tells when they are old.
+//! `cargo xtask pictures`: the pictures of README and of the pages about the demo and about layers, made by the demo that README tells to
+//! run; `check` tells when they are old.
 //!
 //! Beside them `docs/pictures.txt` says what they were made from: the demo's choices and the version of every stage, which rises whenever
 //! the same inputs give other bytes. They are old when either has changed since.
 
+use crate::docs::layers;
 use crate::house::House;
+use crate::python;
 use crate::step::finish;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The demo's choices, and the versions of stages.
 const MAKERS: [&str; 2] = ["crates/pipeline/src/config/demo.rs", "crates/pipeline/src/stages/stage.rs"];
 /// What the pictures were made from, as text.
 const STAMP: &str = "docs/pictures.txt";
-/// The pictures, by their place in the demo's dataset.
-const PICTURES: [(&str, &str); 2] = [
-    ("docs/home.jpg", "scenes/home/images/scene_cam_00_final_preview/frame.0000.display.jpg"),
-    ("docs/demo.jpg", "scenes/home/images/scene_cam_00_contact_sheet.jpg"),
+
+/// A run of the demo, and a picture that is taken from it as it is.
+struct Shot {
+    /// Beside those of every run.
+    arguments: &'static [&'static str],
+    picture: &'static str,
+    /// In the demo's dataset.
+    place: &'static str,
+}
+
+/// As users run it, and its first view larger and cleaner.
+const SHOTS: [Shot; 2] = [
+    Shot { arguments: &[], picture: "docs/demo.jpg", place: "scenes/home/images/scene_cam_00_contact_sheet.jpg" },
+    Shot {
+        arguments: &["--frames", "1", "--size", "1280x960", "--quality", "normal"],
+        picture: "docs/home.jpg",
+        place: "scenes/home/images/scene_cam_00_final_preview/frame.0000.display.jpg",
+    },
 ];
+
+/// The run with every layer: two frames, since flow leads from one to the next, as small as they are shown.
+const LAYERS: [&str; 8] = ["--frames", "2", "--size", "192x144", "--quality", "high", "--extra", "--splits"];
 
 /// Makes the demo as users do, and takes its pictures to `docs`.
 ///
 /// # Errors
 /// When the demo cannot be made or a file cannot be written.
 pub fn make(house: &House) -> Result<(), String> {
+    for Shot { arguments, picture, place } in SHOTS {
+        let from = demo(house, arguments)?.join(place);
+        std::fs::copy(from, house.root.join(picture)).map_err(|error| format!("cannot copy {place} to {picture}: {error}"))?;
+    }
+    let images = demo(house, &LAYERS)?.join("scenes/home/images");
+    let python = python::made(house, "venv-pictures", "import PIL", &["pillow"])?;
+    let mut shrink = house.command(python, &["xtask/python/layer_pictures.py"]);
+    shrink.arg(images).arg(layers::PICTURES).args(layers::read(house)?.into_iter().map(|layer| layer.name));
+    finish(shrink)?;
+    std::fs::write(house.root.join(STAMP), stamp(house)?).map_err(|error| format!("cannot write {STAMP}: {error}"))
+}
+
+/// The demo made anew with these arguments; gives its folder.
+fn demo(house: &House, arguments: &[&str]) -> Result<PathBuf, String> {
     let out = house.target()?.join("pictures");
     if out.exists() {
         std::fs::remove_dir_all(&out).map_err(|error| format!("cannot remove the pictures made before: {error}"))?;
     }
     let mut run = house.cargo(&["run", "--release", "--locked", "--", "run", "--demo"]);
-    run.arg(&out);
+    run.arg(&out).args(arguments);
     finish(run)?;
-    for (picture, place) in PICTURES {
-        std::fs::copy(out.join(place), house.root.join(picture)).map_err(|error| format!("cannot copy {place} to {picture}: {error}"))?;
-    }
-    std::fs::write(house.root.join(STAMP), stamp(house)?).map_err(|error| format!("cannot write {STAMP}: {error}"))
+    Ok(out)
 }
 
 /// Compares what the pictures were made from with what they would be made from today.
@@ -40,14 +71,16 @@ pub fn make(house: &House) -> Result<(), String> {
 /// # Errors
 /// With what differs.
 pub fn check(house: &House) -> Result<String, String> {
-    let missing: Vec<&Path> = PICTURES.iter().map(|(picture, _)| Path::new(picture)).filter(|p| !house.root.join(p).is_file()).collect();
+    let layers = layers::read(house)?.into_iter().filter(|layer| layers::picture(house, &layer.name).is_none());
+    let shots = SHOTS.iter().map(|shot| shot.picture.to_string()).filter(|picture| !house.root.join(picture).is_file());
+    let missing: Vec<String> = shots.chain(layers.map(|layer| format!("{}/{}.jpg", layers::PICTURES, layer.name))).collect();
     if !missing.is_empty() {
-        return Err(format!("{missing:?} are not there"));
+        return Err(format!("{} are not there", missing.join(", ")));
     }
     let (then, now) = (house.read(STAMP)?, stamp(house)?);
     let changed: Vec<&str> = now.lines().filter(|line| !then.lines().any(|old| old == *line)).collect();
     match changed.is_empty() && then == now {
-        true => Ok(format!("{} pictures", PICTURES.len())),
+        true => Ok(String::new()),
         false => Err(format!("{STAMP} differs from today's: {}", changed.join("; "))),
     }
 }

@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 pub struct HomeConfig {
     /// Decides everything that has no seed of its own. Zero is the home on the cover, with palette and light chosen by hand.
     pub seed: u64,
-    /// One to [`HomeConfig::MOST_ROOMS`] rooms. None: four to eight rooms, equally often, of the usual programme of that number.
+    /// The kinds of its rooms; empty for four to eight rooms, equally often, of the usual programme of that number. At most
+    /// [`HomeConfig::MOST_ROOMS`].
     pub rooms: Vec<RoomKind>,
     /// Floor plan: areas uniform over what is usual for each kind of room, shape of the whole, doors, windows.
     pub layout: Option<u64>,
@@ -22,15 +23,15 @@ pub struct HomeConfig {
     pub furniture: Option<u64>,
     /// Colours, woods, cloths, and the pictures that surfaces show.
     pub materials: Option<u64>,
-    /// Share of the colours that go together, 1 for all: see [`crate::palette::DecorConfig`].
+    /// Share of the colours that go together, 1 for all. See [`crate::palette::DecorConfig`].
     pub realism: f32,
     /// Place, date, hour, weather, surroundings, and which lamps are lit.
     pub light: Option<u64>,
-    /// Part of the day. None: day for three of five homes, evening or night for the others.
+    /// Part of the day; none: day for three of five homes, evening or night for the others.
     pub moment: Option<Moment>,
     /// Density of small things on surfaces: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
     pub clutter: f32,
-    /// Folders and files of models that stand in for our own furniture, as written; the caller reads them.
+    /// Folders and files of models that stand in for our own furniture. As written; the caller reads them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assets: Vec<String>,
     /// Share of the things for which a model fits that are models.

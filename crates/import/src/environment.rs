@@ -139,20 +139,25 @@ impl From<EnvironmentSource> for EnvironmentOverride {
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Keys {
+    /// An equirectangular picture (HDR, EXR, PFM, or an eight-bit one); its upper edge is straight up, its middle −y.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<PathBuf>,
+    /// Instead of a picture, a sky; its light is in kilo-candela per square metre, and north is +y.
     #[serde(skip_serializing_if = "Option::is_none")]
     sky: Option<Kind>,
-    /// Month and day; a year before them is not looked at.
+    /// Month and day, as in `"06-21"`; a year before them is not looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     date: Option<String>,
-    /// Of solar time.
+    /// Hour of solar time.
     #[serde(skip_serializing_if = "Option::is_none")]
     hour: Option<f64>,
+    /// Degrees, north positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     latitude_deg: Option<f64>,
+    /// Multiplies its radiance.
     #[serde(skip_serializing_if = "Option::is_none")]
     scale: Option<f32>,
+    /// Turns it about the up axis, counter-clockwise seen from above, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     rotation_deg: Option<f32>,
 }

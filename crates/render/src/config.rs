@@ -64,14 +64,14 @@ pub struct RenderConfig {
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
-    /// Adds further layers of geometry and material: [`crate::add_extra_layers`]. Changes no other layer. Default false.
+    /// Adds further layers of geometry and material. Changes no other layer: see [`crate::add_extra_layers`]. Default false.
     pub extra: bool,
     /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
     pub filter: Filter,
-    /// Radius of the reconstruction filter, in pixels, up to [`RenderConfig::LARGEST_FILTER_RADIUS`]; what is below 0.001 counts as that.
-    /// Default 1, as Mitsuba's `tent`.
+    /// Radius of the reconstruction filter, in pixels; what is below 0.001 counts as that. Up to
+    /// [`RenderConfig::LARGEST_FILTER_RADIUS`]. Default 1, as Mitsuba's `tent`.
     pub filter_radius: f32,
     /// Seed of all random numbers. A frame depends on the scene, the camera, all views that the guide has learned from, the frame's
     /// number and this configuration, and on nothing else.

@@ -38,7 +38,7 @@ pub struct PlanConfig {
     /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres. Where
     /// `camera_height_m` is given, it is about the target of a walk alone, which goes up and down with the camera.
     pub height_range_m: f64,
-    /// The minimum and maximum height of the camera above the floor, metres; `None` leaves it free. The floor is the lowest of the
+    /// The minimum and maximum height of the camera above the floor, metres; free unless given. The floor is the lowest of the
     /// first surfaces below the camera and below eight places half a metre around it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera_height_m: Option<[f64; 2]>,
@@ -59,15 +59,16 @@ pub struct PlanConfig {
     pub overlap: Option<[f64; 2]>,
     /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
     pub max_void_share: f64,
-    /// So are views that show the back of things in more than this share. Parts that are seen from behind around the start camera too
+    /// Views that show the back of things in more than this share of the pixels are taken only when nothing better is found. Parts that are seen from behind around the start camera too
     /// (thin ones with two sides, ones modelled inside out) do not count.
     pub max_back_face_share: f64,
     /// Something nearer than this is too near, metres.
     pub min_depth_m: f64,
     /// Views that show something too near in more than this share of the pixels are taken only when nothing better is found.
     pub max_near_share: f64,
-    /// So are views from positions around which more than this share of the level or of the upward directions meets no surface, or only
-    /// the back of one: outside of a building at least half of the level ones do, and in one with a ceiling few of the upward ones.
+    /// Views from positions around which more than this share of the level or of the upward directions meets no surface, or only the
+    /// back of one, are taken only when nothing better is found. Outside of a building at least half of the level ones do, and in one
+    /// with a ceiling few of the upward ones.
     /// Where the start camera itself stands more open, that counts instead.
     pub max_open_share: f64,
     /// Horizontal field of view of the test images, radians.
@@ -147,9 +148,9 @@ impl Default for VideoConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StillsConfig {
-    /// Two stills are at least this far apart, metres, ...
+    /// Two stills are at least this far apart, metres, or look in directions that differ by `min_angle_deg`.
     pub min_distance_m: f64,
-    /// ... or look in directions that differ by at least this, degrees; 0 asks for the distance alone.
+    /// Stills that are nearer look in directions that differ by at least this, degrees; 0 asks for the distance alone.
     pub min_angle_deg: f64,
 }
 
@@ -169,7 +170,7 @@ pub struct CoverageConfig {
     pub min_angle_deg: f64,
     /// A surface farther away than this does not count as seen, metres.
     pub max_distance_m: f64,
-    /// Nor does one that is seen at a greater angle from its normal than this, degrees (less than 90).
+    /// A surface that is seen at a greater angle from its normal than this does not count as seen, degrees (less than 90).
     pub max_incidence_deg: f64,
     /// Poses considered; half as many more go to what those leave unseen.
     pub poses: u32,
@@ -187,7 +188,7 @@ impl Default for CoverageConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeyframesConfig {
-    /// Files of poses, CSV or JSON as [`crate::parse_keyframes`] reads them; each is one trajectory. Whoever plans reads them.
+    /// Files of poses, CSV or JSON; each is one trajectory. Whoever plans reads them, by [`crate::parse_keyframes`].
     pub files: Vec<String>,
 }
 

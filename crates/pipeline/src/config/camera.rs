@@ -15,11 +15,11 @@ use std::path::PathBuf;
 pub struct CameraConfig {
     /// Which direction belongs to which image point.
     pub model: CameraModel,
-    /// OpenCV's camera matrix in pixels, row by row (pixel centres at whole numbers); `None` takes the field of view and
-    /// `principal_point`.
+    /// OpenCV's camera matrix in pixels, row by row, with pixel centres at whole numbers; without it the field of view and
+    /// `principal_point` count.
     #[serde(rename = "K")]
     pub k: Option<[[f64; 3]; 3]>,
-    /// Width and height of the images that `K` is of; `None` is the size of `[render]`. `K` is scaled where the pictures differ.
+    /// Width and height of the images that `K` is of; without it that of `[render]`. `K` is scaled where the pictures differ.
     #[serde(rename = "K_size")]
     pub k_size: Option<[u32; 2]>,
     /// Where the viewing axis meets the image, as shares of width and height from the upper left corner: a shifted lens.
@@ -28,7 +28,7 @@ pub struct CameraConfig {
     pub distortion: Option<Vec<f64>>,
     /// Hypersim's `M_cam_from_uv`, row by row, for `tilted_pinhole`.
     pub cam_from_uv: Option<[[f64; 3]; 3]>,
-    /// File of rows × columns × 3 rays in Hypersim's form, for `ray_grid`; as written.
+    /// File of rows × columns × 3 rays in Hypersim's form, for `ray_grid`.
     pub ray_grid: Option<String>,
     /// Depth of field.
     pub lens: Option<LensConfig>,
@@ -66,7 +66,7 @@ pub struct LensConfig {
     pub focus_distance_m: Option<f64>,
     /// Straight edges of the aperture; 0 is a circle.
     pub blades: u32,
-    /// Turns the plane of focus about the camera's x and y axis.
+    /// Turns the plane of focus about the camera's x and y axis, degrees.
     pub focus_tilt_deg: [f64; 2],
 }
 

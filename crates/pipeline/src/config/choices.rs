@@ -7,7 +7,7 @@ use enfilade_dataset::ColorKind;
 use enfilade_render::{RenderConfig, RenderError};
 use serde::{Deserialize, Serialize};
 
-/// How good pictures become, by one word. README and `docs/benchmarks/render.md` tell the error that each leaves.
+/// How good pictures become, by one word. `docs/benchmarks.md` tells the error that each leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {

@@ -19,11 +19,18 @@ use toml::Spanned;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Document {
+    /// Name of the dataset, and of the output folder unless `-o` gives one; the name of the file's folder unless it is given.
     pub name: Option<Spanned<String>>,
+    /// Decides everything random.
     pub seed: Option<u64>,
+    /// Poses of each trajectory.
     pub frames: Option<Spanned<u32>>,
+    /// Whose rules: `default` ours, `paper` those of Hypersim's paper, `hypersim` those of its programs. It sets carving, walks, gates
+    /// and camera; every key wins over it.
     pub preset: Option<Preset>,
+    /// How good pictures become, in one word: it sets `samples` of `[render]`, and `reference` all that makes a picture unbiased.
     pub quality: Option<Quality>,
+    /// Label table, a CSV file; without it labels are those that come with the scene.
     pub labels: Option<Spanned<String>>,
     #[serde(default)]
     pub import: ImportKeys,
@@ -46,11 +53,18 @@ pub(super) struct Document {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ImportKeys {
+    /// Metres per unit of the file; where the file states its unit this multiplies it.
     pub meters_per_unit: Option<Spanned<f64>>,
+    /// The axis that points up, where the file does not say; without it the format's own.
     pub up_axis: Option<UpAxis>,
+    /// What surrounds the scene instead of the file's own surroundings: a table, as below, or one of the words `"sky"` and
+    /// `"overcast"`.
     pub environment: Option<Spanned<EnvironmentOverride>>,
+    /// Hangs lamps below the ceiling of every room.
     pub lamps: Option<Lamps>,
+    /// Of faces with the same corners the first stays.
     pub drop_doubled_faces: Option<bool>,
+    /// Goes on with grey, and a warning, where a texture is missing.
     pub allow_missing_textures: Option<bool>,
 }
 
@@ -58,10 +72,14 @@ pub(super) struct ImportKeys {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneKeys {
+    /// Name of the scene in the dataset; it becomes a folder.
     pub name: Option<Spanned<String>>,
+    /// The scene file.
     pub file: Option<Spanned<String>>,
-    /// A pattern: each file that it means is a scene.
+    /// Instead of name and file, a pattern such as `"hssd/scenes/*.scene_instance.json"`: each file that it means is a scene, named
+    /// after its file.
     pub files: Option<Spanned<String>>,
+    /// Instead of a file, a generated home: a table, as below.
     pub home: Option<Spanned<toml::Table>>,
     pub meters_per_unit: Option<Spanned<f64>>,
     pub up_axis: Option<UpAxis>,
@@ -70,7 +88,10 @@ pub(super) struct SceneKeys {
     pub drop_doubled_faces: Option<bool>,
     pub allow_missing_textures: Option<bool>,
     pub labels: Option<Spanned<String>>,
+    /// Name of the scene in the label table; its own name unless it is given.
     pub label_scene: Option<String>,
+    /// Where trajectories begin: names of cameras in the file, or `{ position = [x, y, z], look_at = [x, y, z] }` in metres; or
+    /// `"found"`. Without it they begin at the file's cameras that stand in a building, else at places that are found.
     #[serde(default)]
     pub cameras: CamerasKey,
     pub seed: Option<u64>,

@@ -19,7 +19,7 @@ pub struct FarmConfig {
     /// The program that a node runs after every frame, and its arguments; empty where there is none.
     #[serde(default)]
     pub after_frame: Vec<String>,
-    /// Seconds on the wall clock after which it is ended, which is a failure.
+    /// Seconds on the wall clock after which that program is ended, which is a failure.
     #[serde(default = "timeout_s")]
     pub after_frame_timeout_s: f64,
 }

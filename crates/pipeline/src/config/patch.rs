@@ -52,19 +52,19 @@ section!(RenderPatch => RenderConfig {
     filter: Filter,
     filter_radius: f32,
 } with {
-    /// Width and height in pixels.
+    /// Width and height of the pictures, pixels.
     size: [u32; 2],
-    /// Horizontal field of view.
+    /// Horizontal field of view, degrees; without it that of the first start camera.
     fov_x_deg: f64,
-    /// How long a frame may take.
+    /// Wall-clock seconds that a frame may take; it then ends with the samples that it has.
     time_limit_s: f64,
-    /// How often a frame in the making is kept.
+    /// Wall-clock seconds between the moments when a frame in the making is saved.
     save_every_s: f64,
-    /// What the colour layers hold.
+    /// What `color`, `diffuse_illumination` and `residual` hold.
     color: ColorKind,
-    /// Whether what was rendered is kept where they are denoised.
+    /// Where color is denoised, keeps what was rendered beside it, as layers named `*_rendered`.
     keep_rendered: bool,
-    /// The library that denoises.
+    /// A library of Open Image Denoise 2, its file or folder, instead of the denoiser in the program.
     denoiser: String,
 });
 
