@@ -385,6 +385,19 @@ mod tests {
     }
 
     #[test]
+    fn a_job_of_another_version_is_refused_by_its_name_whatever_else_it_holds() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(PLAN), r#"{"format": 2, "program": "enfilade 9.0.0", "tasks": "in a file of their own"}"#)
+            .unwrap();
+        let store = Store::open(folder.path().to_str().unwrap(), std::iter::empty()).unwrap();
+        let message = Job::open(store).unwrap_err().to_string();
+        assert!(
+            message.contains("was planned by enfilade 9.0.0") && message.contains("use enfilade 9.0.0, or plan the job anew"),
+            "{message}"
+        );
+    }
+
+    #[test]
     fn a_plan_is_told_with_what_it_will_cost() {
         let expected = |mean, deviation| Expected { mean, deviation };
         let planned = PlannedScene {

@@ -1,11 +1,11 @@
 //! Makes the stored dataset of a version, which the versions after it must read: `crates/pipeline/tests/all/stored` has the tests.
 //!
-//! `store_dataset ROOM ARCHIVE` runs `ROOM/dataset.toml` and packs the room, the dataset `out`, and `stored.json` into the ZIP file
-//! ARCHIVE. `stored.json` has the versions of the stages, and checksums of the values of all layers. Pictures and statistics are left out:
+//! `store_dataset ROOM ARCHIVE` runs `ROOM/dataset.toml` and packs the room, the dataset `out`, and `stored.json` into the file
+//! ARCHIVE, a `.tar.gz`. `stored.json` has the versions of the stages, and checksums of the values of all layers. Pictures and statistics are left out:
 //! they are made from the rest, and would be most of it.
 //!
 //! ```text
-//! cd crates/pipeline && cargo run --example store_dataset -- tests/data/room tests/data/dataset-0.1.0.zip
+//! cd crates/pipeline && cargo run --example store_dataset -- tests/data/room tests/data/dataset-0.1.0.tar.gz
 //! ```
 
 #[path = "../tests/all/stored/values.rs"]
@@ -14,12 +14,12 @@ mod values;
 use anyhow::{Context, Result, ensure};
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::{Config, Overrides, STAGES, Silent, WORKDIR, run};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use zip::write::{SimpleFileOptions, ZipWriter};
 
 /// What stands in the archive for the folder that it was made in; the tests put theirs in its place.
 const FOLDER: &str = "{FOLDER}";
@@ -45,7 +45,7 @@ fn main() -> Result<()> {
 /// Packs what is kept of the files of `folder`, without its own path.
 fn pack(folder: &Path, archive: &Path) -> Result<u64> {
     let written = folder.to_str().context("the temporary folder's path is not UTF-8")?;
-    let mut zip = ZipWriter::new(File::create(archive)?);
+    let mut tar = tar::Builder::new(GzEncoder::new(File::create(archive)?, Compression::best()));
     for path in files(folder)? {
         let name = path.strip_prefix(folder)?.to_str().context("a name is not UTF-8")?.replace('\\', "/");
         if !is_kept(&name) {
@@ -56,10 +56,12 @@ fn pack(folder: &Path, archive: &Path) -> Result<u64> {
             bytes = String::from_utf8(bytes)?.replace(written, FOLDER).into_bytes();
         }
         ensure!(!bytes.windows(written.len()).any(|part| part == written.as_bytes()), "{name} names the folder that it was made in");
-        zip.start_file(name, SimpleFileOptions::default())?;
-        zip.write_all(&bytes)?;
+        let mut header = tar::Header::new_gnu();
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        tar.append_data(&mut header, name, bytes.as_slice())?;
     }
-    Ok(zip.finish()?.metadata()?.len())
+    Ok(tar.into_inner()?.finish()?.metadata()?.len())
 }
 
 fn is_kept(name: &str) -> bool {

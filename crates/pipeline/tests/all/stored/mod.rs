@@ -1,6 +1,6 @@
 //! Datasets that earlier versions made are read, verified and gone on with, as docs/layout-versions.md promises.
 //!
-//! `tests/data/dataset-VERSION.zip` is one that VERSION made of `tests/data/room`. A release adds its own with
+//! `tests/data/dataset-VERSION.tar.gz` is one that VERSION made of `tests/data/room`. A release adds its own with
 //! `examples/store_dataset.rs`, whose head has the command, and none is ever made anew.
 
 mod values;
@@ -12,12 +12,12 @@ use enfilade_frame::{LAYERS, Layer, Values};
 use enfilade_loader::{Choice, Options, Samples};
 use enfilade_pipeline::{Config, Overrides, STAGES, Silent, Stage, Summary, replay, run, run_stage, split, verify};
 use enfilade_scene::Quiet;
+use flate2::read::GzDecoder;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
-use zip::ZipArchive;
 
 /// What `stored.json` tells of the program that made the dataset.
 #[derive(Deserialize)]
@@ -38,7 +38,7 @@ struct Stored {
 impl Stored {
     fn unpack(archive: &Path) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        ZipArchive::new(File::open(archive).unwrap()).unwrap().extract(folder.path()).unwrap();
+        tar::Archive::new(GzDecoder::new(File::open(archive).unwrap())).unpack(folder.path()).unwrap();
         // Where it lay then is told as it would be here.
         let here = serde_json::to_string(folder.path().to_str().unwrap()).unwrap();
         for (path, text) in files(&folder.path().join("out/.enfilade")) {
@@ -84,7 +84,7 @@ impl Stored {
 fn all() -> Vec<Stored> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let mut archives: Vec<PathBuf> = fs::read_dir(data).unwrap().map(|entry| entry.unwrap().path()).collect();
-    archives.retain(|path| path.extension().is_some_and(|end| end == "zip"));
+    archives.retain(|path| path.extension().is_some_and(|end| end == "gz"));
     archives.sort();
     assert!(!archives.is_empty());
     archives.iter().map(|archive| Stored::unpack(archive)).collect()
@@ -170,13 +170,13 @@ fn stored_settings_are_read_by_every_verb() {
 }
 
 #[test]
-fn a_stored_dataset_that_was_moved_is_imported_again_and_nothing_else() {
+fn a_stored_dataset_that_was_moved_is_imported_and_verified_again_and_nothing_else() {
     for stored in all() {
         let record = stored.out().join(".enfilade/room/import.json");
         let here = serde_json::to_string(stored.folder.path().to_str().unwrap()).unwrap();
         fs::write(&record, fs::read_to_string(&record).unwrap().replace(here.trim_matches('"'), "/elsewhere")).unwrap();
         let done = done(&stored.run());
-        let may_be_done = |stage: &Stage| *stage == Stage::Import || !stored.kept().contains(stage);
+        let may_be_done = |stage: &Stage| [Stage::Import, Stage::Verify].contains(stage) || !stored.kept().contains(stage);
         assert!(done.contains(&Stage::Import) && done.iter().all(may_be_done), "{}: {done:?}", stored.name);
     }
 }
@@ -296,7 +296,7 @@ fn a_scene_package_of_another_version_is_imported_again() {
     // As if a version with that form had written it.
     let [then, now] = [&other, &whole].map(|bytes| blake3::hash(bytes).to_hex().to_string());
     change(&stored.out().join(".enfilade/room/import.json"), &now, &then);
-    assert_eq!(done(&stored.run()), [Stage::Import]);
+    assert_eq!(done(&stored.run()), [Stage::Import, Stage::Verify]);
     assert!(stored.run().nothing_done());
     assert!(fs::read(&package).unwrap() == whole);
 }
