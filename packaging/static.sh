@@ -8,8 +8,9 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$(dirname "$0")/.."
 host=$(rustc -vV | sed -n 's/^host: //p')
-# With --target the flag is for the program alone and not for macros and build scripts, which cannot be static.
-CARGO_ENCODED_RUSTFLAGS='-Ctarget-feature=+crt-static' cargo build --release --locked --package enfilade --target "$host"
+# With --target the flag is for the program alone and not for macros and build scripts, which cannot be static. It joins those of
+# .cargo/config.toml, which RUSTFLAGS would replace.
+cargo build --release --locked --package enfilade --target "$host" --config "target.'cfg(all())'.rustflags = ['-Ctarget-feature=+crt-static']"
 mkdir -p "$folder/usr/bin" "$folder/etc/ssl/certs" "$folder/data"
 install -d -m 1777 "$folder/tmp"
 install -m 755 "${CARGO_TARGET_DIR:-target}/$host/release/enfilade" "$folder/usr/bin/enfilade"
