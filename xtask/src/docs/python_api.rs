@@ -5,9 +5,9 @@ use crate::house::House;
 use std::collections::HashMap;
 use syn::{Attribute, ImplItem, Item, LitStr, Type};
 
-/// A module, its stub and its own source.
+/// A module, its stub, and where what is written in Python stands.
 const MODULES: [(&str, &str, &str); 2] = [
-    ("enfilade", "crates/python/enfilade/__init__.pyi", "crates/python/enfilade/__init__.py"),
+    ("enfilade", "crates/python/enfilade/__init__.pyi", "crates/python/enfilade/_frames.py"),
     ("enfilade.farm", "crates/python/enfilade/farm.pyi", "crates/python/enfilade/farm.py"),
 ];
 
