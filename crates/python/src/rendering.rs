@@ -52,12 +52,13 @@ pub fn render<'py>(
     let views: Vec<(enfilade_scene::Camera, Pose)> = (0..).zip(&cameras).map(|(frame, camera)| view(camera, frame)).collect();
     let (bar, loaded) = (Bar::new(py, progress, "render")?, &scene.get().0);
     let frames = watched(py, &bar, |cx: &Interrupt| loaded.render(&views, &shot, cx))?;
-    let sample = |(index, ((frame, (camera, pose)), of)): (usize, ((Frame, &(enfilade_scene::Camera, Pose)), &PyRef<'_, Camera>))| {
-        let sample = sample_of(&frame, layers.as_deref(), camera, pose, [loaded.name(), of.name.as_str()]);
-        let missing = |layer: Layer| PyValueError::new_err(format!("{:?} has no layer {}: its model has none", of.name, layer.spec().name));
+    let sample = |(index, frame): (usize, Frame)| {
+        let ((camera, pose), name) = (&views[index], cameras[index].name.as_str());
+        let sample = sample_of(&frame, layers.as_deref(), camera, pose, [loaded.name(), name]);
+        let missing = |layer: Layer| PyValueError::new_err(format!("{name:?} has no layer {}: its model has none", layer.spec().name));
         arrays::sample(py, index, sample.map_err(missing)?)
     };
-    frames.into_iter().zip(&views).zip(&cameras).enumerate().map(sample).collect()
+    frames.into_iter().enumerate().map(sample).collect()
 }
 
 fn view(camera: &Camera, frame: u32) -> (enfilade_scene::Camera, Pose) {

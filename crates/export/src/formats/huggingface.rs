@@ -4,7 +4,7 @@
 //! without one everything is `train`. Pictures are PNG files in the layout of the feature `Image`: tone-mapped colour, depth in millimetres
 //! (16 bits, 0 for none), classes and instances (0 for none). K is OpenCV's, poses are camera to world in OpenCV's axes, metres.
 
-use super::parquet_file::{COLUMNS, Column, PICTURES, ParquetFile, Row};
+use super::parquet_file::{COLUMNS, Column, NamedPicture, PICTURES, ParquetFile, Row};
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};
 use crate::depth::{DEPTH, distance_m, millimetres, planar_m};
@@ -113,7 +113,7 @@ fn pictures(
     view: View<'_>,
     frame: &Frame,
     planar: Option<&Calibration>,
-) -> Result<[Option<(Vec<u8>, String)>; 4], ExportError> {
+) -> Result<[Option<NamedPicture>; 4], ExportError> {
     let named = |what: &str, bytes: Vec<u8>| (bytes, format!("{}/{:04}.{what}.png", view.track.folder(), view.frame()));
     let grey = |values: &[u16]| grey16_png(frame.width, frame.height, values);
     let color = frame.get(Layer::Color).map(|_| color_png(selected, view, frame)).transpose()?;

@@ -19,6 +19,9 @@ pub(super) const PICTURES: [&str; 4] = ["image", "depth", "semantic", "instance"
 /// A group of rows ends with this many bytes of pictures, so that readers need not hold more.
 const GROUP_BYTES: u64 = 64 << 20;
 
+/// The bytes of a picture's file, and its name.
+pub(super) type NamedPicture = (Vec<u8>, String);
+
 /// One frame.
 pub(super) struct Row {
     pub scene: String,
@@ -26,7 +29,7 @@ pub(super) struct Row {
     pub frame: u32,
     pub size: [u32; 2],
     /// Bytes of PNG files and their names, in the order of [`PICTURES`].
-    pub pictures: [Option<(Vec<u8>, String)>; 4],
+    pub pictures: [Option<NamedPicture>; 4],
     pub depth_kind: &'static str,
     pub model: &'static str,
     pub k: Option<[[f64; 3]; 3]>,
