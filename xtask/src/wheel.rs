@@ -106,7 +106,7 @@ fn command(house: &House) -> Result<String, String> {
     let program = python.with_file_name(format!("enfilade{}", std::env::consts::EXE_SUFFIX));
     let out = house.target()?.join("python").join("command");
     let _ = std::fs::remove_dir_all(&out); // of an earlier run, if there is one
-    let mut run = house.command(program, &["run", "--demo", "--frames", "1", "--size", "64x48", "--samples", "1", "--quiet"]);
+    let mut run = house.command(program, &["run", "--quiet", "--frames", "1", "--size", "64x48", "--samples", "1", "--demo"]);
     run.arg(&out);
     finish(run)
 }
