@@ -35,6 +35,8 @@ use std::path::PathBuf;
 /// Does what the words of a command line say, of which the first is the program's name, and gives the exit code. `program` is the file to start
 /// again as this program, for jobs of Slurm; `None` takes `enfilade` from the PATH of the nodes.
 pub fn main(words: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
+    words.iter().take(1).for_each(|word| summary::called(word));
     let code = match Cli::try_parse_from(words) {
         Ok(cli) => code_of(start(&Cli { program, ..cli })),
         // `--help` and `--version` come here too.

@@ -4,7 +4,9 @@ use crate::outcome::{Problem, say};
 use enfilade_dataset::{Dataset, DatasetError, counted, quoted};
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_pipeline::{SceneOutcome, Summary};
+use std::ffi::OsStr;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// One line per scene on standard output, then each failure with what to do on standard error.
 pub fn print_table(summary: &Summary) {
@@ -93,9 +95,17 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
     Ok(())
 }
 
+/// What the program was called by.
+static CALLED: OnceLock<String> = OnceLock::new();
+
+/// Keeps the first word of the command line, which advice begins with. Of an interpreter's process it is not the first.
+pub fn called(word: &OsStr) {
+    let _ = CALLED.set(word.to_string_lossy().into_owned()); // the first call counts
+}
+
 /// This program, as a command names it.
 fn program() -> String {
-    quoted(std::env::args().next().unwrap_or_else(|| "enfilade".into()))
+    quoted(CALLED.get().map_or("enfilade", String::as_str))
 }
 
 /// What to try after the demo.

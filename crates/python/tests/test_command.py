@@ -34,6 +34,11 @@ class Command(unittest.TestCase):
             (script,) = Path(folder).glob("*.sbatch")
             self.assertIn("\nenfilade --threads ", script.read_text())
 
+    def test_its_advice_names_the_command_and_not_the_interpreter(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = command("run", "--demo", "out", "--frames", "1", "--size", "32x24", "--samples", "1", cwd=folder)
+            self.assertIn(" enfilade run --demo out2 ", done.stdout)
+
     @unittest.skipIf(os.name == "nt", "Windows has no signal that a process can send to another so")
     def test_ctrl_c_ends_it_at_once(self):
         with tempfile.TemporaryDirectory() as folder:
