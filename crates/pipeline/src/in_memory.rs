@@ -6,7 +6,7 @@
 use crate::assets;
 use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
 use crate::error::Error;
-use crate::intake::{Look, load_file, settle};
+use crate::intake::{self, Look};
 use crate::look::{named_camera, place};
 use crate::single::write_output;
 use crate::stages::{FrameCx, add_extra, assign_table, describe, labels_by_part};
@@ -71,8 +71,7 @@ impl LoadedScene {
     /// When the file cannot be imported, or the table not be read.
     pub fn read(source: &FileSource, labels: Option<&LabelSource>, cx: &dyn Cx) -> Result<Self, Error> {
         let file = Path::new(&source.file);
-        let mut imported = load_file(source, file, &|path| Ok(path.into()), cx)?;
-        settle(source, &mut imported, cx);
+        let imported = intake::read(source, file, &|path| Ok(path.into()), cx)?;
         let scene = imported.scene;
         let labels = match (labels, imported.labels) {
             (Some(table), _) => assign_table(Path::new(&table.table), &table.scene, &scene, cx)?.0,

@@ -3,7 +3,7 @@
 use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::intake::{Held, load_file, settle};
+use crate::intake::{self, Held, load_file, settle};
 use crate::stages::{describe, labels_by_part};
 use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
@@ -86,10 +86,7 @@ pub struct Checked {
 /// # Errors
 /// When the file cannot be imported.
 pub fn check_file(source: &FileSource, cx: &dyn Cx) -> Result<Checked, Error> {
-    let held = Held::over(cx);
-    let mut imported = load_file(source, Path::new(&source.file), &|path| Ok(path.into()), &held)?;
-    settle(source, &mut imported, cx);
-    drop(held);
+    let imported = intake::read(source, Path::new(&source.file), &|path| Ok(path.into()), cx)?;
     Ok(Checked { summary: describe(&imported.scene), warnings: imported.report.warnings })
 }
 

@@ -19,6 +19,19 @@ use enfilade_import::{ImportOptions, Imported};
 use enfilade_scene::{Cx, Warning};
 use std::path::{Path, PathBuf};
 
+/// [`load_file`] and [`settle`], where nothing comes between: what the look finds is told before the importer's warnings.
+pub(crate) fn read(
+    source: &FileSource,
+    file: &Path,
+    locate: &dyn Fn(&str) -> Result<PathBuf, Error>,
+    cx: &dyn Cx,
+) -> Result<Imported, Error> {
+    let held = Held::over(cx);
+    let mut imported = load_file(source, file, locate, &held)?;
+    settle(source, &mut imported, cx);
+    Ok(imported)
+}
+
 /// Imports `file` with the choices of `source`, as the file is; `locate` finds the other files that these name.
 pub(crate) fn load_file(
     source: &FileSource,

@@ -4,7 +4,7 @@ use super::{Input, Inputs, Job, Outcome, Record};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
-use crate::intake::{Held, load_file, settle};
+use crate::intake;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
@@ -88,10 +88,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);
-            let held = Held::over(cx);
-            let mut imported = load_file(source, &job.config.path(&source.file)?, &|path| job.config.path(path), &held)?;
-            settle(source, &mut imported, cx);
-            drop(held);
+            let imported = intake::read(source, &job.config.path(&source.file)?, &|path| job.config.path(path), cx)?;
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
             let inputs = watch.inputs(&[imported.inputs, imported.missing].concat())?;
