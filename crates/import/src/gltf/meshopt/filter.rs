@@ -59,7 +59,7 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [i16; 4] {
     let w = (1.0 - x * x - y * y - z * z).max(0.0).sqrt();
     let mut rotation = [0; 4];
     for (i, v) in [w, x, y, z].into_iter().enumerate() {
-        rotation[(last as usize + i) % 4] = (v * 32_767.0).round() as i16;
+        rotation[((last & 3) as usize + i) % 4] = (v * 32_767.0).round() as i16;
     }
     rotation
 }
@@ -107,6 +107,8 @@ mod tests {
             let rotation = quaternion([last | 3, 0, 0, last]);
             assert!(rotation.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1), "{rotation:?} {expected:?}");
         }
+        // What stands for one is negative in no file that was written well; the place is read from the lowest bits all the same.
+        assert_eq!(quaternion([0, 0, 0, -1]), [0, 0, 0, 32_767]);
     }
 
     #[test]
