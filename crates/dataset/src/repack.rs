@@ -6,11 +6,11 @@ use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
 use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes, write_json};
 use enfilade_frame::{LAYERS, Layer};
+use enfilade_scene::{Counted, Cx};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a copy came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,14 +62,13 @@ const RECORDS: &str = "This is a copy for fast reading: a frame counts when it h
 impl Dataset {
     /// Copies the frames, cameras and tables of this dataset to `out`, with images as [`Storage::Fast`] and otherwise the same values, types
     /// and names. `layers` restricts it to some. Frames have no commit records in the copy, as in Hypersim's release; the manifest, where
-    /// there is one, lists the files of the copy. Geometry and previews are left out. `done` hears of every image: how many are copied, of
-    /// how many.
+    /// there is one, lists the files of the copy. Geometry and previews are left out. `cx` hears of every image.
     ///
     /// An earlier copy at `out` is replaced as a whole, when all of the new one is there; anything else there is refused.
     ///
     /// # Errors
     /// When a file cannot be read or written, `out` holds something else than a copy, or it or the dataset lies in the other.
-    pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, done: &(dyn Fn(u64, u64) + Sync)) -> Result<Repacked, DatasetError> {
+    pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, cx: &dyn Cx) -> Result<Repacked, DatasetError> {
         let growing = Growing::prepare(out, self.root())?;
         let copy = &growing.copy;
         let mut images = Vec::new();
@@ -83,19 +82,12 @@ impl Dataset {
                 self.list(copy.layout(), &scene, &camera, layers, &mut images)?;
             }
         }
-        let (finished, total) = (AtomicU64::new(0), images.len() as u64);
-        let sizes: Vec<[u64; 2]> = images
-            .par_iter()
-            .map(|image| {
-                let sizes = image.run()?;
-                done(finished.fetch_add(1, Ordering::Relaxed) + 1, total);
-                Ok(sizes)
-            })
-            .collect::<Result<_, DatasetError>>()?;
+        let counted = Counted::new(cx, "images", images.len());
+        let sizes: Vec<[u64; 2]> = images.par_iter().map(|image| counted.unit(|| image.run())).collect::<Result<_, DatasetError>>()?;
         self.copy_manifest(copy)?;
         growing.take_place()?;
         let sum = |which: usize| sizes.iter().map(|sizes| sizes[which]).sum();
-        Ok(Repacked { files: total, bytes_before: sum(0), bytes_after: sum(1) })
+        Ok(Repacked { files: images.len() as u64, bytes_before: sum(0), bytes_after: sum(1) })
     }
 
     /// The images of a camera's complete frames.

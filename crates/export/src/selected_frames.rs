@@ -3,10 +3,9 @@
 use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::{Dataset, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{Camera, CameraView, Cx, Labels, Pose, Warning};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Warning};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Which part of a dataset to export.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -212,13 +211,8 @@ impl<'d> SelectedFrames<'d> {
         views: &[View<'_>],
         work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync,
     ) -> Result<Vec<T>, ExportError> {
-        let done = AtomicU64::new(0);
-        let one = |&view: &View<'_>| {
-            let result = work(view);
-            self.cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, views.len() as u64);
-            result
-        };
-        views.par_iter().map(one).collect()
+        let counted = Counted::new(self.cx, "frames", views.len());
+        views.par_iter().map(|&view| counted.unit(|| work(view))).collect()
     }
 
     /// Tells the caller of something that is left out.

@@ -9,7 +9,6 @@ use crate::progress::Bar;
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
-use enfilade_scene::Cx;
 use enfilade_show::report_card::write_report;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -115,7 +114,7 @@ pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: O
     let layers = self::layers(layers.as_ref())?;
     let copied = interruptible(py, |cx: &Interrupt| {
         let dataset = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
-        dataset.repack(&output, layers.as_deref(), &|done, total| cx.progress("images", done, total)).map_err(IntoPy::into_py)
+        dataset.repack(&output, layers.as_deref(), cx).map_err(IntoPy::into_py)
     })?;
     let counts = json!({ "files": copied.files, "bytes_before": copied.bytes_before, "bytes_after": copied.bytes_after });
     json::to_python(py, &counts)

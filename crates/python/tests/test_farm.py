@@ -108,7 +108,7 @@ class Farm(unittest.TestCase):
     @unittest.skipIf(os.name == "nt", "Windows has no signal that a process can send to itself so")
     def test_a_worker_that_is_interrupted_keeps_its_frame(self):
         job = datasets.folder() / "interrupted-job"
-        farm.plan(job, enfilade.Config.demo(frames=1, size=(64, 48), samples=65536))
+        farm.plan(job, enfilade.Config.demo(frames=1, size=(64, 48), samples=4096))
 
         def interrupt():
             while not list(job.glob("attempts/*.json")):

@@ -87,7 +87,7 @@ class Verbs(unittest.TestCase):
         shutil.copytree(datasets.as_hypersim(), root)
         first = datasets.file_of(root, enfilade.Dataset(root, layers=layer)[0], layer)
         first.unlink()
-        # Images of zeros are small in the file, and cost 8 MB of memory to copy.
+        # Images of zeros are small in the file, and take long to copy.
         with h5py.File(first, "w") as file:
             file.create_dataset("dataset", data=np.zeros((2000, 2000), dtype=np.int16), compression="gzip")
         count = 3000
@@ -102,7 +102,7 @@ class Verbs(unittest.TestCase):
         threading.Thread(target=interrupt, daemon=True).start()
         with self.assertRaises(KeyboardInterrupt):
             enfilade.repack(root, out, layers=layer)
-        self.assertLess(len(list(out.rglob(f"frame.*.{layer}.hdf5"))), count)
+        self.assertFalse(list(out.rglob(f"frame.*.{layer}.hdf5")))
 
     def test_the_split_covers_the_dataset(self):
         report = enfilade.split(datasets.made(), seed=1, shares=(1, 0, 0))

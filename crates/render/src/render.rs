@@ -208,6 +208,8 @@ impl<'a, 's> FrameRender<'a, 's> {
         let in_pass = |tiles: u64| (u64::from(begun) * count + u64::from(goal.saturating_sub(begun)) * tiles) / u64::from(whole);
         let (finished, before, total) = (AtomicU64::new(0), u64::from(pass) * count, u64::from(schedule.passes) * count);
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
+            // Also before it: whoever ends the work here ends every thread before its next tile.
+            cx.progress("rendering", before + in_pass(finished.load(Ordering::Relaxed)), total);
             let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
             let goal =
                 |(&(x, y), sum): (&(u32, u32), &PixelSum)| schedule.goal(pass, sum.samples(), wanted[(y * width + x) as usize]).min(max);

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Something that was dropped, guessed or fixed: the work went on, and the stage's report shows it.
@@ -26,6 +27,32 @@ pub trait Cx: Sync {
 
     /// Records a warning for the stage's report.
     fn warn(&self, warning: Warning);
+}
+
+/// Tells a [`Cx`] how many units of parallel work are finished.
+///
+/// It is told before each unit as well as after it. A caller may end the work by unwinding from [`Cx::progress`], which ends what one thread
+/// does; the other threads take over what that one leaves, and end at their next unit before they have begun it.
+pub struct Counted<'a> {
+    cx: &'a dyn Cx,
+    what: &'a str,
+    total: u64,
+    done: AtomicU64,
+}
+
+impl<'a> Counted<'a> {
+    /// None of `total` units of `what` is finished.
+    pub fn new(cx: &'a dyn Cx, what: &'a str, total: usize) -> Self {
+        Self { cx, what, total: total as u64, done: AtomicU64::new(0) }
+    }
+
+    /// Does one of the units.
+    pub fn unit<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.cx.progress(self.what, self.done.load(Ordering::Relaxed), self.total);
+        let result = work();
+        self.cx.progress(self.what, self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
+        result
+    }
 }
 
 /// A [`Cx`] that keeps the warnings, in the order in which they come, for tests.
@@ -53,4 +80,34 @@ pub struct Quiet;
 impl Cx for Quiet {
     fn progress(&self, _what: &str, _done: u64, _total: u64) {}
     fn warn(&self, _warning: Warning) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+    /// Keeps what is told, and ends the work when a number of units is finished.
+    struct Ending(Mutex<Vec<(u64, u64)>>, u64);
+
+    impl Cx for Ending {
+        fn progress(&self, _what: &str, done: u64, total: u64) {
+            self.0.lock().unwrap().push((done, total));
+            if done == self.1 {
+                resume_unwind(Box::new("ended"));
+            }
+        }
+
+        fn warn(&self, _warning: Warning) {}
+    }
+
+    #[test]
+    fn units_are_told_before_and_after_and_do_not_begin_once_the_work_has_ended() {
+        let (cx, begun) = (Ending(Mutex::default(), 2), AtomicU64::new(0));
+        let counted = Counted::new(&cx, "units", 5);
+        let ended: Vec<bool> =
+            (0..5).map(|_| catch_unwind(AssertUnwindSafe(|| counted.unit(|| begun.fetch_add(1, Ordering::Relaxed)))).is_err()).collect();
+        assert_eq!((ended, begun.into_inner()), (vec![false, true, true, true, true], 2));
+        assert_eq!(cx.0.into_inner().unwrap(), [(0, 5), (1, 5), (1, 5), (2, 5), (2, 5), (2, 5), (2, 5)]);
+    }
 }

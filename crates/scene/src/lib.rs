@@ -26,7 +26,7 @@ pub use camera::{
     Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
     TiltedPinhole,
 };
-pub use cx::{Cx, Heard, Quiet, Warning};
+pub use cx::{Counted, Cx, Heard, Quiet, Warning};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};

@@ -17,9 +17,8 @@ use enfilade_dataset::{
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Cx, NYU40, Pose, Trajectory};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Trajectory};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a violation, not as
 /// an error.
@@ -41,12 +40,8 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let facts = SceneFacts::read(dataset, scene, &mut card);
     facts.check(dataset, &mut card);
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
-    let done = AtomicU64::new(0);
-    let check = |&(filmed, index): &(&Filmed, usize)| {
-        let found = facts.check_frame(dataset, filmed, index);
-        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
-        found
-    };
+    let counted = Counted::new(cx, "frames", frames.len());
+    let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {

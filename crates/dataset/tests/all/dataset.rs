@@ -3,7 +3,7 @@
 use crate::analytic::{CAMERA, SCENE};
 use enfilade_dataset::{ColorKind, Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Values, f16};
-use enfilade_scene::{Heard, Intrinsics};
+use enfilade_scene::{Cx, Heard, Intrinsics, Quiet, Warning};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,6 +11,17 @@ use std::process::Command;
 
 fn small() -> Intrinsics {
     Intrinsics { width: 97, height: 64, fx: 80.0, fy: 81.0, cx: 50.0, cy: 30.5, skew: 0.0 }
+}
+
+/// Does something whenever progress is told.
+struct Told<F>(F);
+
+impl<F: Fn() + Sync> Cx for Told<F> {
+    fn progress(&self, _what: &str, _done: u64, _total: u64) {
+        (self.0)();
+    }
+
+    fn warn(&self, _warning: Warning) {}
 }
 
 /// Relative path and content of every file below `root`.
@@ -130,7 +141,7 @@ fn a_repacked_copy_is_still_ours_and_its_manifest_is_about_its_own_files() {
     crate::analytic::write(&dataset, &small(), 3);
     let repacked = |name: &str| {
         let out = folder.path().join(name);
-        dataset.repack(&out, None, &|_, _| ()).unwrap();
+        dataset.repack(&out, None, &Quiet).unwrap();
         Dataset::open(out).unwrap()
     };
     let copy = repacked("unlisted");
@@ -157,31 +168,31 @@ fn a_repacked_copy_takes_the_place_of_an_earlier_one_whole() {
     let (out, fresh) = (folder.path().join("copy"), folder.path().join("fresh"));
     // What a copy left that was killed.
     fs::create_dir_all(out.join(".repack.partial/scenes/attic/_detail")).unwrap();
-    dataset.repack(&out, None, &|_, _| ()).unwrap();
+    dataset.repack(&out, None, &Quiet).unwrap();
     let whole = files(&out);
     assert_eq!(Dataset::open(&out).unwrap().frame_numbers(SCENE, CAMERA).unwrap(), [0, 1]);
 
     // One that is interrupted leaves the earlier one as it was.
     fs::remove_file(dataset.layout().frame_record(SCENE, CAMERA, 0)).unwrap();
-    let interrupted = || dataset.repack(&out, None, &|_, _| std::panic::resume_unwind(Box::new("interrupted")));
+    let interrupted = || dataset.repack(&out, None, &Told(|| std::panic::resume_unwind(Box::new("interrupted"))));
     assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(interrupted)).is_err());
     assert_eq!(files(&out), whole);
 
-    dataset.repack(&out, Some(&[Layer::Color]), &|_, _| ()).unwrap();
-    dataset.repack(&fresh, Some(&[Layer::Color]), &|_, _| ()).unwrap();
+    dataset.repack(&out, Some(&[Layer::Color]), &Quiet).unwrap();
+    dataset.repack(&fresh, Some(&[Layer::Color]), &Quiet).unwrap();
     let copy = Dataset::open(&out).unwrap();
     assert_eq!(copy.frame_numbers(SCENE, CAMERA).unwrap(), [1]);
     assert!(copy.has_layer(SCENE, CAMERA, 1, Layer::Color) && !copy.has_layer(SCENE, CAMERA, 1, Layer::Position));
     assert_eq!(files(&out), files(&fresh));
 
     // What another one at work there has done so far is left to it.
-    let second = |_, _| {
-        let error = dataset.repack(&out, None, &|_, _| ()).unwrap_err();
+    let second = Told(|| {
+        let error = dataset.repack(&out, None, &Quiet).unwrap_err();
         assert!(error.to_string().contains("another `repack` is at work there"), "{error}");
-    };
+    });
     dataset.repack(&out, None, &second).unwrap();
     fs::create_dir(fresh.join("lost+found")).unwrap();
-    dataset.repack(&fresh, None, &|_, _| ()).unwrap();
+    dataset.repack(&fresh, None, &Quiet).unwrap();
     assert!(fresh.join("lost+found").is_dir());
     fs::remove_dir(fresh.join("lost+found")).unwrap();
     assert_eq!(files(&out), files(&fresh));
@@ -194,7 +205,7 @@ fn what_is_no_copy_is_not_replaced_by_one() {
     crate::analytic::write(&dataset, &small(), 3);
     crate::analytic::write(&other, &small(), 2);
     let before = files(folder.path());
-    let refused = |out: &Path| dataset.repack(out, None, &|_, _| ()).unwrap_err().to_string();
+    let refused = |out: &Path| dataset.repack(out, None, &Quiet).unwrap_err().to_string();
     let message = refused(other.root());
     assert!(message.contains("other") && message.contains("not made by `repack`"), "{message}");
     assert!(refused(&dataset.root().join("scenes")).contains("in the dataset itself"));

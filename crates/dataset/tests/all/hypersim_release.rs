@@ -4,7 +4,7 @@ use enfilade_dataset::hdf5::{Storage, write_array};
 use enfilade_dataset::{Array, Dataset, Elements, Window};
 use enfilade_frame::{Layer, Values, f16};
 use enfilade_math::DMat3;
-use enfilade_scene::Projection;
+use enfilade_scene::{Projection, Quiet};
 use std::fs;
 use std::path::Path;
 
@@ -131,7 +131,7 @@ fn a_repacked_release_is_still_one_and_is_not_said_to_be_in_metres() {
     release(&root.join("ai_001_007"));
     fs::write(folder.path().join(TABLE), table("ai_001_007")).unwrap();
     let dataset = Dataset::open(&root).unwrap();
-    dataset.repack(&folder.path().join("copy"), None, &|_, _| ()).unwrap();
+    dataset.repack(&folder.path().join("copy"), None, &Quiet).unwrap();
     let copy = Dataset::open(folder.path().join("copy")).unwrap();
     assert!(copy.is_released("ai_001_007"));
     let position = |dataset: &Dataset| dataset.read_layer("ai_001_007", "cam_00", 1, Layer::Position).unwrap();

@@ -3,11 +3,10 @@
 use super::{Solid, frame_instances};
 use enfilade_dataset::{Dataset, DatasetError, InstanceView};
 use enfilade_frame::Layer;
-use enfilade_scene::{CameraView, Cx};
+use enfilade_scene::{CameraView, Counted, Cx};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files. What
 /// [`view_instances`] has found of frames stands in `made`, and is not looked for again.
@@ -22,14 +21,12 @@ pub fn write_instances(
     solids: &[Solid],
     cx: &dyn Cx,
 ) -> Result<Vec<PathBuf>, DatasetError> {
-    let done = AtomicU64::new(0);
-    let one = |&number: &u32| -> Result<Vec<InstanceView>, DatasetError> {
-        let views = match made.get(&number) {
-            Some(views) => views.clone(),
-            None => view_instances(dataset, [scene, camera], number, solids)?,
-        };
-        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
-        Ok(views)
+    let counted = Counted::new(cx, "frames", frames.len());
+    let one = |&number: &u32| {
+        counted.unit(|| match made.get(&number) {
+            Some(views) => Ok(views.clone()),
+            None => view_instances(dataset, [scene, camera], number, solids),
+        })
     };
     dataset.remove_amodal_masks(scene, camera, made.keys().copied())?;
     let numbers: Vec<u32> = frames.iter().copied().collect();

@@ -11,10 +11,9 @@ use crate::stretch::{Stretch, is_stretched, shown_values};
 use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_frame::tonemap::ToneMap;
-use enfilade_scene::Cx;
+use enfilade_scene::{Counted, Cx};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Pictures per second of trajectories that are no videos, as in the toolkit's animations.
 const STILLS_PER_SECOND: f64 = 5.0;
@@ -136,7 +135,7 @@ pub fn animate_camera(
     let first = shot.first(&numbers)?;
     let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
     let fps = config.fps.map_or_else(|| shot.pictures_per_second(), Ok)?;
-    let done = AtomicU64::new(0);
+    let counted = Counted::new(cx, "animations", films.len());
     let one = |film: &Film| -> Result<Result<Animated, NoFrames>, AnimateError> {
         let path = folder.join(format!("{scene}_{camera}_{}.{}", film.name, config.format.name()));
         let there = shot.numbers_with(&numbers, &film.layers());
@@ -147,10 +146,9 @@ pub fn animate_camera(
         let bytes = shot.encode(*film, (first, &there), display, config.format, fps)?;
         let animated = Animated { path, frames: there.len(), fps, bytes: bytes.len() as u64 };
         write_bytes(&animated.path, bytes)?;
-        cx.progress("animations", done.fetch_add(1, Ordering::Relaxed) + 1, films.len() as u64);
         Ok(Ok(animated))
     };
-    films.par_iter().map(one).collect()
+    films.par_iter().map(|film| counted.unit(|| one(film))).collect()
 }
 
 impl Shot<'_> {

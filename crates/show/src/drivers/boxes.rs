@@ -11,10 +11,9 @@ use enfilade_frame::{Frame, Layer, Pass, Values};
 use enfilade_label::class_name;
 use enfilade_label::instances::visible_areas;
 use enfilade_math::OrientedBox;
-use enfilade_scene::{CameraView, Cx, Labels};
+use enfilade_scene::{CameraView, Counted, Cx, Labels};
 use rayon::prelude::*;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Instances that show fewer pixels than this share of the image are drawn without text.
 const TEXT_SHARE: f64 = 1e-3;
@@ -36,7 +35,7 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         return Ok(Vec::new());
     };
     let labels = optional(dataset.read_label_tables(scene))?.unwrap_or_default();
-    let done = AtomicU64::new(0);
+    let counted = Counted::new(cx, "overlays", frames.len());
     let one = |&number: &u32| -> Result<Vec<PathBuf>, DatasetError> {
         let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
         let view = CameraView::of_frame(&with, &trajectory.poses, index);
@@ -50,10 +49,9 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
             write_bytes(&path, picture)?;
             files.push(path);
         }
-        cx.progress("overlays", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
         Ok(files)
     };
-    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
+    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(|number| counted.unit(|| one(number))).collect::<Result<_, _>>()?;
     Ok(files.into_iter().flatten().collect())
 }
 

@@ -18,12 +18,11 @@ use crate::sheet::{MOST_TILES, OverviewTile, OverviewTitle, SheetConfig, SheetTi
 use enfilade_dataset::{Dataset, DatasetError, counted, write_bytes};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{CameraView, Cx};
+use enfilade_scene::{CameraView, Counted, Cx};
 use present::read_present;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Writes every preview that the layers of the given frames allow, and returns the files. The exposures are those of the same frames.
 /// Of the frames `made`, where [`preview_frame_alone`] has been, only those that need the whole trajectory.
@@ -38,12 +37,10 @@ pub fn preview_camera(
     made: &BTreeSet<u32>,
     cx: &dyn Cx,
 ) -> Result<Vec<PathBuf>, DatasetError> {
-    let done = AtomicU64::new(0);
+    let count = Counted::new(cx, "frames", frames.len());
     let one = |(index, &number): (usize, &u32)| {
-        let files =
-            preview_frame(dataset, [scene, camera], number, exposures.of(index), |spec| spec.of_trajectory() || !made.contains(&number));
-        cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, frames.len() as u64);
-        files
+        let wanted = |spec: &PreviewSpec| spec.of_trajectory() || !made.contains(&number);
+        count.unit(|| preview_frame(dataset, [scene, camera], number, exposures.of(index), wanted))
     };
     let files: Vec<Vec<PathBuf>> = frames.par_iter().enumerate().map(one).collect::<Result<_, _>>()?;
     Ok(files.into_iter().flatten().collect())

@@ -3,11 +3,10 @@
 use super::measure::{Counts, Image, WANTED, measure};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError};
 use enfilade_frame::Layer;
-use enfilade_scene::{Cx, Labels, PartLabel, Projection};
+use enfilade_scene::{Counted, Cx, Labels, PartLabel, Projection};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// An image by its names.
@@ -51,16 +50,12 @@ pub fn gather(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Gathe
             filmed.push(Filmed { scene, camera, frames, projection });
         }
     }
-    let (done, total) = (AtomicU64::new(0), filmed.iter().map(|filmed| filmed.frames.len() as u64).sum::<u64>());
+    let counted = Counted::new(cx, "frames", filmed.iter().map(|filmed| filmed.frames.len()).sum());
     let mut gathered = Gathered::default();
     for scene in scenes {
         // Counts are whole numbers, so the order in which threads add theirs changes nothing.
         let shared = Mutex::new((Counts::default(), BTreeSet::new()));
-        let one = |&(filmed, frame): &(&Filmed<'_>, u32)| -> Result<Option<NamedImage>, DatasetError> {
-            let named = measure_frame(dataset, filmed, frame, &shared)?;
-            cx.progress("frames", done.fetch_add(1, Ordering::Relaxed) + 1, total);
-            Ok(named)
-        };
+        let one = |&(filmed, frame): &(&Filmed<'_>, u32)| counted.unit(|| measure_frame(dataset, filmed, frame, &shared));
         let cameras = filmed.iter().filter(|filmed| filmed.scene == scene);
         let frames: Vec<(&Filmed<'_>, u32)> = cameras.flat_map(|filmed| filmed.frames.iter().map(move |&frame| (filmed, frame))).collect();
         let images: Vec<Option<NamedImage>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
