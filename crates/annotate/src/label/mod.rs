@@ -22,6 +22,7 @@ mod options;
 mod pieces;
 mod planned;
 mod progress;
+mod review;
 mod routes;
 mod save;
 mod scene;
@@ -31,6 +32,7 @@ mod shape;
 mod split;
 mod stroke;
 mod suggestions;
+mod viewpoint;
 mod worklog;
 
 pub use app::{App, OpenError};
