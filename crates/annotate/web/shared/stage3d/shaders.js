@@ -115,7 +115,7 @@ uint marksOf(uint piece) {
     return texelFetch(pieceMarks, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).r;
 }
 
-bool markedAt(ivec2 at) { return (marksOf(pieceAt(at)) & ${SELECTED | PREVIEWED}u) != 0u; }
+bool isMarked(uint piece) { return (marksOf(piece) & ${SELECTED | PREVIEWED}u) != 0u; }
 
 bool hoveredAt(ivec2 at) { return pieceAt(at) == hovered + 1u; }
 
@@ -133,10 +133,12 @@ vec3 surface(uvec2 here, bool marked) {
     return rgb;
 }
 
-// True when a place so far away, in samples, is marked otherwise.
-bool borders(ivec2 at, ivec2 size, int reach, bool marked) {
-    for (int y = -1; y <= 1; y++) for (int x = -1; x <= 1; x++) {
-        if (markedAt(clamp(at + ivec2(x, y) * reach, ivec2(0), size - 1)) != marked) return true;
+// True when a place so far away, in samples, is of another piece that is marked otherwise.
+bool borders(ivec2 at, ivec2 size, int reach, uint piece, bool marked) {
+    for (int i = 0; i < 4; i++) {
+        ivec2 way = i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5);
+        uint other = pieceAt(clamp(at + way * reach, ivec2(0), size - 1));
+        if (other != piece && isMarked(other) != marked) return true;
     }
     return false;
 }
@@ -144,12 +146,12 @@ bool borders(ivec2 at, ivec2 size, int reach, bool marked) {
 vec3 colorAt(ivec2 at, ivec2 size) {
     uvec2 here = texelFetch(seen, at, 0).rg;
     uint piece = here.r >> 8;
-    bool marked = anyMarked && (marksOf(piece) & ${SELECTED | PREVIEWED}u) != 0u;
+    bool marked = anyMarked && isMarked(piece);
     vec3 rgb = piece == 0u ? background : surface(here, marked);
     int thin = samples * int(scale + 0.5);
     // What is marked has a line of two pixels within, and a dark one around it.
-    if (marked && borders(at, size, 2 * thin, true)) return accent;
-    if (anyMarked && !marked && borders(at, size, thin, false)) return vec3(0.06);
+    if (marked && borders(at, size, 2 * thin, piece, true)) return accent;
+    if (anyMarked && !marked && borders(at, size, thin, piece, false)) return vec3(0.06);
     ivec2 right = min(at + ivec2(thin, 0), size - 1);
     ivec2 above = min(at + ivec2(0, thin), size - 1);
     if (hovered != ${0xffffffff}u) {
