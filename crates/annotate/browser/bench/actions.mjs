@@ -5,10 +5,11 @@
 // The truth are the labels that the scene comes with, or those that TABLE (columns scene, material, nyu40_id) has for the materials of
 // scene NAME. Pieces without a true class are left alone.
 //
-// A group is the pieces of one name, numbers aside, and one class. It costs: next unlabelled (1 key), same name (1, where there are
-// several), the digits of the class (1 or 2), Enter (1). Pieces whose name stands for several classes are groups of their own. With
+// A group is the pieces of one name, numbers aside, and one class. It costs: same name (1 key, where there are several), the digits of the
+// class (1 or 2), Enter (1), which goes on to the next. Pieces whose name stands for several classes are groups of their own. With
 // suggestions three keys come first (the tab, the slider, confirm), and wrong ones are labelled like unlabelled ones; finding the wrong
-// ones is not counted. Times are those of the keystroke-level model (Card, Moran & Newell, CACM 1980): 0.28 s per key, and 1.35 s of
+// ones is not counted. "One by one" looks at each group: a right suggestion is confirmed (1 key), and every decision counts. Things are
+// pieces that get a class and an instance of their own: the digits, and Shift+Enter (2). Times are those of the keystroke-level model (Card, Moran & Newell, CACM 1980): 0.28 s per key, and 1.35 s of
 // thought per group.
 
 import { spawn } from "node:child_process";
@@ -52,8 +53,8 @@ function classesByMaterial() {
     return new Map(rows.filter((row) => row[sceneAt] === name).map((row) => [row[materialAt], Number(row[classAt])]));
 }
 
-/** Keys and decisions to label these pieces. */
-function cost(which, bare, truth) {
+/** Keys and decisions to label these pieces; with `right`, right suggestions are confirmed group by group. */
+function cost(which, bare, truth, right = false) {
     const classes = new Map();
     for (const i of truth.keys()) if (truth[i] >= 1) classes.set(bare[i], (classes.get(bare[i]) ?? new Set()).add(truth[i]));
     const groups = new Map();
@@ -62,7 +63,10 @@ function cost(which, bare, truth) {
         groups.set(key, [...(groups.get(key) ?? []), i]);
     }
     let keys = 0;
-    for (const members of groups.values()) keys += 2 + String(truth[members[0]]).length + Number(members.length > 1);
+    for (const members of groups.values()) {
+        const isRight = right && members.every((i) => pieces.suggestions[i]?.semantic === truth[i]);
+        keys += Number(members.length > 1) + (isRight ? 1 : 1 + String(truth[members[0]]).length);
+    }
     return { keys, groups: groups.size };
 }
 
@@ -71,13 +75,15 @@ const byMaterial = table ? classesByMaterial() : null;
 const truth = byMaterial ? pieces.materials.map((material) => byMaterial.get(material) ?? -1) : pieces.semantic;
 const bare = pieces.names.map(stem);
 const all = truth.flatMap((one, i) => (one >= 1 ? [i] : []));
-const single = all.reduce((keys, i) => keys + 2 + String(truth[i]).length, 0);
+const digits = all.reduce((keys, i) => keys + String(truth[i]).length, 0);
 const minutes = ({ keys, groups }) => ((keys * KEY_S + groups * THOUGHT_S) / 60).toFixed(1);
 console.log(`${all.length} of ${truth.length} pieces have a true class`);
 console.log("| | suggested | wrong | keys | decisions | minutes |\n|---|---|---|---|---|---|");
-console.log(`| piece by piece | | | ${single} | ${all.length} | ${minutes({ keys: single, groups: all.length })} |`);
+for (const [row, keys] of [["piece by piece", digits + all.length], ["piece by piece, each a thing", digits + 2 * all.length]]) console.log(`| ${row} | | | ${keys} | ${all.length} | ${minutes({ keys, groups: all.length })} |`);
 const plain = cost(all, bare, truth);
 console.log(`| by names | | | ${plain.keys} | ${plain.groups} | ${minutes(plain)} |`);
+const shown = cost(all, bare, truth, true);
+console.log(`| by names, right suggestions one by one | | | ${shown.keys} | ${shown.groups} | ${minutes(shown)} |`);
 for (const least of [0.95, 0.9, 0.8, 0.5]) {
     const suggested = all.filter((i) => pieces.suggestions[i]?.confidence >= least);
     const right = new Set(suggested.filter((i) => pieces.suggestions[i].semantic === truth[i]));

@@ -78,9 +78,9 @@ export function enlarge(path) {
     rmSync(join(bare, "_detail", "mesh"), { recursive: true });
 }
 
-/** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] @param {string} [verb] */
-export async function serve(t, file, port = 0, verb = "annotate") {
-    const child = spawn(program(), [verb, file, "--no-open", "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
+/** Starts the program; resolves when it tells its address. @param {import("node:test").TestContext} t @param {string} file @param {number} [port] @param {string} [verb] @param {string[]} [more] options */
+export async function serve(t, file, port = 0, verb = "annotate", more = []) {
+    const child = spawn(program(), [verb, file, "--no-open", "--port", String(port), ...more], { stdio: ["ignore", "pipe", "pipe"] });
     t.after(() => child.kill("SIGKILL"));
     let said = "";
     const url = await new Promise((resolve, reject) => {
@@ -140,17 +140,44 @@ export function pixelOf(page, name) {
     }, name);
 }
 
-/** Draws from one pixel to another with Shift held. */
-export async function draw(page, [x0, y0], [x1, y1]) {
-    await page.keyboard.down("Shift");
+/** Drags from one pixel to another. */
+export async function drag(page, [x0, y0], [x1, y1]) {
     await page.mouse.move(x0, y0);
     await page.mouse.down();
     await page.mouse.move((x0 + x1) / 2, (y0 + y1) / 2);
     await page.mouse.move(x1, y1);
     await page.mouse.up();
-    await page.keyboard.up("Shift");
+}
+
+/** Draws from one pixel to another with the tool, or with Shift held if none is chosen. */
+export async function draw(page, from, to) {
+    const shift = await page.evaluate(() => !window.annotate.state.drawMode);
+    if (shift) await page.keyboard.down("Shift");
+    await drag(page, from, to);
+    if (shift) await page.keyboard.up("Shift");
     await saved(page);
 }
+
+/** Selects the first piece whose name has this word. */
+export const select = (page, name) =>
+    page.evaluate((wanted) => {
+        const { state } = window.annotate;
+        state.select([state.pieces.names.findIndex((one) => one.includes(wanted))]);
+    }, name);
+
+/** Names of what is selected. */
+export const selected = (page) => page.evaluate(() => [...window.annotate.state.selection].map((piece) => window.annotate.state.name(piece)).sort());
+
+/** What the view shows around a pixel of the window: red, green and blue of each pixel. */
+export const pictureAt = (page, [x, y], side = 24) =>
+    page.evaluate(([left, top, size]) => {
+        const { stage } = window.annotate;
+        const box = stage.element.getBoundingClientRect();
+        stage.drawPicture();
+        const bytes = new Uint8Array(size * size * 4);
+        stage.gl.readPixels(left - box.left - size / 2, box.bottom - top - size / 2, size, size, stage.gl.RGBA, stage.gl.UNSIGNED_BYTE, bytes);
+        return Array.from({ length: size * size }, (_, i) => [...bytes.subarray(4 * i, 4 * i + 3)]);
+    }, [x, y, side]);
 
 /** Waits until every edit is acknowledged. */
 export async function saved(page) {

@@ -47,7 +47,7 @@ pub struct Look {
     filters: Filters,
 }
 
-/// Which label to give.
+/// Which label to give: a class, an instance, or a class with a new instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Apply {
@@ -101,6 +101,22 @@ impl Refusal {
     pub fn conflict(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { conflict: true, error: error.into(), help: help.into() }
     }
+}
+
+/// The forms of [`Apply`].
+const APPLIES: &str = "apply is none of {layer: \"semantic\", value}, the same with new: true or unique: true, {layer: \"instance\", value}, \
+                       {layer: \"instance\", unique: true} and {layer: \"instance\", new: true}";
+
+/// Instance numbers that were never given out.
+struct NewInstances {
+    /// That of the first piece.
+    first: i16,
+    /// How much larger that of each next piece is: 0 where all get the same.
+    step: i16,
+    /// What giving them is called.
+    what: String,
+    /// The first number that is free after them.
+    next: i32,
 }
 
 /// The state in which an action is decided.
@@ -161,7 +177,11 @@ impl Context<'_> {
         Ok(visible.meet(&camera, x, y).map(|picked| (visible.piece_of_face[picked.face as usize], picked)))
     }
 
-    fn check_pieces(&self, field: &str, pieces: &[u32]) -> Result<(), Refusal> {
+    /// Refuses numbers that are no pieces.
+    ///
+    /// # Errors
+    /// Which field names which number.
+    pub fn check_pieces(&self, field: &str, pieces: &[u32]) -> Result<(), Refusal> {
         let count = self.pieces.list().len();
         match pieces.iter().find(|&&piece| piece as usize >= count) {
             Some(piece) => Err(Refusal::request(format!("{field} names piece {piece}, but there are {count} (0 to {})", count.max(1) - 1))),
@@ -174,37 +194,52 @@ impl Context<'_> {
         let set = |of: &dyn Fn(usize, PartLabel) -> PartLabel| {
             pieces.iter().enumerate().map(|(i, &piece)| of(i, before(piece))).collect::<Vec<PartLabel>>()
         };
-        let mut next = self.next_instance;
-        let (labels, what) = match *apply {
-            Apply { layer: LayerName::Semantic, value: Some(id), unique: false, new: false } => {
-                let semantic = self.classes.check(id).map_err(Refusal::request)?;
-                let what = if semantic == -1 { "No class".into() } else { format!("Class {}", self.classes.name(semantic)) };
-                (set(&|_, label| PartLabel { semantic, ..label }), what)
+        let Apply { layer, value, unique, new } = *apply;
+        let (labels, what, next) = match (layer, value) {
+            (LayerName::Semantic, Some(id)) if !unique && !new => {
+                let (semantic, what) = self.class(id)?;
+                (set(&|_, label| PartLabel { semantic, ..label }), what, self.next_instance)
             }
-            Apply { layer: LayerName::Instance, value: Some(id), unique: false, new: false } => {
-                let known = i16::try_from(id).ok().filter(|&id| id == -1 || id >= 1 && i32::from(id) <= next);
-                let instance =
-                    known.ok_or_else(|| Refusal::request(format!("there is no instance {id}; expected 1 to {next}, or -1 for none")))?;
-                next = next.max(i32::from(instance) + 1);
-                let what = if instance == -1 { "No instance".into() } else { format!("Instance {instance}") };
-                (set(&|_, label| PartLabel { instance, ..label }), what)
+            (LayerName::Semantic, Some(id)) if unique != new => {
+                let (semantic, class) = self.class(id)?;
+                let NewInstances { first, step, what, next } = self.new_instances(pieces.len(), unique)?;
+                let label = |i: usize, _: PartLabel| PartLabel { semantic, instance: first + step * i as i16 };
+                (set(&label), format!("{class}, {}", what.to_lowercase()), next)
             }
-            Apply { layer: LayerName::Instance, value: None, unique, new } if unique != new => {
-                let wanted = if unique { pieces.len() } else { usize::from(!pieces.is_empty()) };
-                let first = self.instances(wanted)?;
-                next += wanted as i32;
-                let own = |i: usize| first + if unique { i as i16 } else { 0 };
-                let what = if unique { "Instances of their own".into() } else { format!("New instance {first}") };
-                (set(&|i, label| PartLabel { instance: own(i), ..label }), what)
+            (LayerName::Instance, Some(id)) if !unique && !new => {
+                let (instance, what, next) = self.known_instance(id)?;
+                (set(&|_, label| PartLabel { instance, ..label }), what, next)
             }
-            _ => {
-                return Err(Refusal::request(
-                    "apply is none of {layer: \"semantic\", value}, {layer: \"instance\", value}, {layer: \"instance\", unique: true} and \
-                     {layer: \"instance\", new: true}",
-                ));
+            (LayerName::Instance, None) if unique != new => {
+                let NewInstances { first, step, what, next } = self.new_instances(pieces.len(), unique)?;
+                (set(&|i, label| PartLabel { instance: first + step * i as i16, ..label }), what, next)
             }
+            _ => return Err(Refusal::request(APPLIES)),
         };
         Ok(self.edit(what, pieces, &labels, next))
+    }
+
+    /// A class, and what giving it is called.
+    fn class(&self, id: i64) -> Result<(i16, String), Refusal> {
+        let semantic = self.classes.check(id).map_err(Refusal::request)?;
+        Ok((semantic, if semantic == -1 { "No class".into() } else { format!("Class {}", self.classes.name(semantic)) }))
+    }
+
+    /// An instance number that was given out, the next one, or −1; what giving it is called; and the number that is free after it.
+    fn known_instance(&self, id: i64) -> Result<(i16, String, i32), Refusal> {
+        let next = self.next_instance;
+        let known = i16::try_from(id).ok().filter(|&id| id == -1 || id >= 1 && i32::from(id) <= next);
+        let instance = known.ok_or_else(|| Refusal::request(format!("there is no instance {id}; expected 1 to {next}, or -1 for none")))?;
+        let what = if instance == -1 { "No instance".into() } else { format!("Instance {instance}") };
+        Ok((instance, what, next.max(i32::from(instance) + 1)))
+    }
+
+    /// One instance for so many pieces that was never given out, or one for each of them.
+    fn new_instances(&self, pieces: usize, unique: bool) -> Result<NewInstances, Refusal> {
+        let wanted = if unique { pieces } else { pieces.min(1) };
+        let first = self.instances(wanted)?;
+        let what = if unique { "Instances of their own".into() } else { format!("New instance {first}") };
+        Ok(NewInstances { first, step: i16::from(unique), what, next: self.next_instance + wanted as i32 })
     }
 
     /// The first of `wanted` instance numbers that were never given out.

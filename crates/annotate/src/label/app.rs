@@ -9,6 +9,7 @@ use super::events::Events;
 use super::log::LogError;
 use super::options::AnnotateOptions;
 use super::progress::Seen;
+use super::review::{REVIEW_LOG, Review, ReviewState, Reviews};
 use super::save::Snapshot;
 use super::scene::{AnnotatedScene, SceneError};
 use super::session::{ActionError, Session};
@@ -36,6 +37,8 @@ pub enum OpenError {
     Log(#[from] LogError),
     #[error("{0}")]
     WorkLog(String),
+    #[error("{0}")]
+    Reviews(String),
     #[error(transparent)]
     File(#[from] DatasetError),
 }
@@ -49,6 +52,7 @@ pub struct App {
     session: RwLock<Session>,
     events: Events,
     worklog: Mutex<WorkLog>,
+    reviews: RwLock<Reviews>,
     seen: OnceLock<Seen>,
     suggestions: OnceLock<Vec<Option<Suggestion>>>,
     saved: Mutex<Saved>,
@@ -89,11 +93,13 @@ impl App {
             cx.warn(Warning { place: scene.name.clone(), message });
         }
         let worklog = WorkLog::open(folder).map_err(OpenError::WorkLog)?;
+        let reviews = Reviews::open(folder).map_err(OpenError::Reviews)?;
         let revision = session.standing().revision;
         let app = Self {
             events: Events::new(revision),
             session: RwLock::new(session),
             worklog: Mutex::new(worklog),
+            reviews: RwLock::new(reviews),
             seen: OnceLock::new(),
             suggestions: OnceLock::new(),
             saved: Mutex::default(),
@@ -191,6 +197,39 @@ impl App {
         self.session().pick(camera, pixel, hidden)
     }
 
+    /// Records how far pieces are, and why.
+    ///
+    /// # Errors
+    /// When a piece number is wrong, or the log cannot be written; then nothing has changed.
+    pub fn review(&self, client: &str, pieces: &[u32], state: ReviewState, note: &str) -> Result<(), ActionError> {
+        let names = {
+            let session = self.session();
+            let list = session.pieces().list();
+            let name = |&piece: &u32| list.get(piece as usize).map(|found| found.name.clone()).ok_or(piece);
+            pieces
+                .iter()
+                .map(name)
+                .collect::<Result<Vec<String>, u32>>()
+                .map_err(|piece| Refusal::request(format!("pieces names piece {piece}, but there are {}", list.len())))?
+        };
+        let review = Review { time: clock::iso(clock::now_s()), client: client.into(), pieces: names, state, note: note.into() };
+        self.reviews.write().unwrap_or_else(PoisonError::into_inner).add(review).map_err(ActionError::Review)?;
+        self.write_reviews().map_err(ActionError::Review)?;
+        self.worklog().input(clock::now_s());
+        Ok(())
+    }
+
+    /// Writes the table of reviews, if there are any.
+    fn write_reviews(&self) -> Result<Option<PathBuf>, DatasetError> {
+        let session = self.session();
+        self.reviews().write(session.pieces().list().iter().map(|piece| piece.name.as_str()))
+    }
+
+    /// How the reviews stand.
+    pub fn reviews(&self) -> RwLockReadGuard<'_, Reviews> {
+        self.reviews.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Records that somebody worked at this moment, seconds since 1970.
     ///
     /// # Errors
@@ -220,10 +259,13 @@ impl App {
         let objects = snapshot.objects_hash();
         let folder = self.scene.labels_folder.as_path();
         let mut files = snapshot.write(&MeshFiles::new(folder), &self.classes, saved.objects != Some(objects))?;
+        files.extend(self.write_reviews()?);
         *saved = Saved { revision, objects: Some(objects) };
         let worklog = self.worklog();
         worklog.write()?;
-        files.extend([ANNOTATION_LOG, TOOL_LOG, WORK_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()));
+        files.extend(
+            [ANNOTATION_LOG, TOOL_LOG, WORK_LOG, REVIEW_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()),
+        );
         Ok(files)
     }
 

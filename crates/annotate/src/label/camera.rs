@@ -22,6 +22,9 @@ pub struct CameraRequest {
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     #[serde(default)]
     near_m: f64,
+    /// Cut: what lies higher is not seen, metres above the origin.
+    #[serde(default)]
+    cut_z_m: Option<f64>,
 }
 
 /// A pinhole camera in world space, with the size of its image.
@@ -37,6 +40,8 @@ pub struct PageCamera {
     pub height: u32,
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     pub near_m: f64,
+    /// Cut: what lies higher is not seen, metres above the origin; infinity for none.
+    pub cut_z_m: f32,
 }
 
 impl CameraRequest {
@@ -67,14 +72,29 @@ impl CameraRequest {
             return wrong("near_m", self.near_m.to_string(), "zero or more metres");
         }
         let camera = PageCamera::new(position, m, self.fov_y_deg, [self.width, self.height]);
-        Ok(PageCamera { near_m: self.near_m, ..camera })
+        let cut_z_m = self.cut_z_m.unwrap_or(f64::INFINITY) as f32;
+        Ok(PageCamera { near_m: self.near_m, cut_z_m, ..camera })
     }
 }
 
 impl PageCamera {
     /// A pinhole at `position` with a vertical field of view.
     pub fn new(position: DVec3, world_from_camera: DMat3, fov_y_deg: f64, [width, height]: [u32; 2]) -> Self {
-        Self { position, world_from_camera, half_height: (0.5 * fov_y_deg.to_radians()).tan(), width, height, near_m: 0.0 }
+        Self {
+            position,
+            world_from_camera,
+            half_height: (0.5 * fov_y_deg.to_radians()).tan(),
+            width,
+            height,
+            near_m: 0.0,
+            cut_z_m: f32::INFINITY,
+        }
+    }
+
+    /// Half of the smaller field of view, radians.
+    pub fn half_angle(&self) -> f32 {
+        let aspect = f64::from(self.width) / f64::from(self.height);
+        (self.half_height * aspect.min(1.0)).atan() as f32
     }
 
     /// The rays of the pixels from column `x` and row `y` on.

@@ -6,7 +6,8 @@
 //! The way of an edit: a page sends an action (`action.rs`). Rays find the visible faces, filters and expansion the selected pieces, and the
 //! action becomes an edit that needs no further decision (`edit.rs`). The edit is appended to the log and flushed to disk (`log.rs`), applied to
 //! the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever happens to the page
-//! or the program; Hypersim's files are written from it shortly after (`save.rs`).
+//! or the program; Hypersim's files are written from it shortly after (`save.rs`). What reviewers say of pieces is no label and has a log of
+//! its own (`review.rs`).
 
 mod action;
 mod app;
@@ -22,6 +23,7 @@ mod options;
 mod pieces;
 mod planned;
 mod progress;
+mod review;
 mod routes;
 mod save;
 mod scene;
@@ -31,6 +33,7 @@ mod shape;
 mod split;
 mod stroke;
 mod suggestions;
+mod viewpoint;
 mod worklog;
 
 pub use app::{App, OpenError};

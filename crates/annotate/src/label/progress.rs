@@ -6,6 +6,7 @@ use super::planned::{PlannedCamera, PlannedFrame, rows, upright};
 use super::scene::AnnotatedScene;
 use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
 use enfilade_math::{DVec3, Ray, Vec3};
+use enfilade_scene::PartLabel;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -67,18 +68,7 @@ impl Seen {
     /// How far the work is, as JSON.
     pub fn progress(&self, pieces: &Pieces) -> Value {
         let list = pieces.list();
-        let mut pixels = vec![0u64; list.len()];
-        let mut best: Vec<(u32, usize)> = vec![(0, usize::MAX); list.len()];
-        for (number, view) in self.views.iter().enumerate() {
-            let mut here: HashMap<u32, u32> = HashMap::new();
-            view.faces.iter().for_each(|&(face, count)| *here.entry(pieces.of_face()[face as usize]).or_default() += count);
-            for (piece, count) in here {
-                pixels[piece as usize] += u64::from(count);
-                if count > best[piece as usize].0 {
-                    best[piece as usize] = (count, number);
-                }
-            }
-        }
+        let (pixels, best) = self.pixels(pieces);
         let seen = pixels.iter().sum::<u64>() as f64;
         let area: f64 = list.iter().map(|piece| piece.measure.area_m2).sum();
         // The sum of no floats is −0; adding 0 makes it 0.
@@ -92,16 +82,19 @@ impl Seen {
             })
         };
         let (semantic, instance) = (layer(&|i| list[i].label.semantic >= 1), layer(&|i| list[i].label.instance >= 1));
-        let mut unlabelled: Vec<usize> = (0..list.len()).filter(|&i| list[i].label.semantic < 1).collect();
-        unlabelled
-            .sort_by(|&a, &b| pixels[b].cmp(&pixels[a]).then(list[b].measure.area_m2.total_cmp(&list[a].measure.area_m2)).then(a.cmp(&b)));
         let best_view = |i: usize| {
-            let view = self.views.get(best[i].1)?;
+            let view = self.views.get(best[i])?;
             Some(json!({ "camera": self.cameras[view.camera].name, "frame": view.frame }))
         };
         let row = |&i: &usize| {
             let piece = &list[i];
             json!({ "piece": i, "name": piece.name, "pixels": pixels[i], "area_m2": piece.measure.area_m2, "best_view": best_view(i) })
+        };
+        let listed = |wanted: &dyn Fn(PartLabel) -> bool| {
+            let mut found: Vec<usize> = (0..list.len()).filter(|&i| wanted(list[i].label)).collect();
+            let area = |i: usize| list[i].measure.area_m2;
+            found.sort_by(|&a, &b| pixels[b].cmp(&pixels[a]).then(area(b).total_cmp(&area(a))).then(a.cmp(&b)));
+            found.iter().map(row).collect::<Vec<Value>>()
         };
         json!({
             "pieces": list.len(),
@@ -109,10 +102,29 @@ impl Seen {
             "area_share": semantic["area_share"],
             "visible": { "pixels_labelled_share": semantic["visible_share"], "views": self.views.len(), "views_of": self.views_of },
             "by_layer": { "semantic": semantic, "instance": instance },
-            "unlabelled": unlabelled.iter().map(row).collect::<Vec<_>>(),
+            "unlabelled": listed(&|label| label.semantic < 1),
+            "without_instance": listed(&|label| label.semantic >= 1 && label.instance < 1),
             "classes": classes(pieces),
             "conflicts": conflicts(pieces),
         })
+    }
+
+    /// The pixels of each piece in all views, and the view that shows most of it; `usize::MAX` where none does.
+    fn pixels(&self, pieces: &Pieces) -> (Vec<u64>, Vec<usize>) {
+        let count = pieces.list().len();
+        let mut pixels = vec![0u64; count];
+        let mut best: Vec<(u32, usize)> = vec![(0, usize::MAX); count];
+        for (number, view) in self.views.iter().enumerate() {
+            let mut here: HashMap<u32, u32> = HashMap::new();
+            view.faces.iter().for_each(|&(face, count)| *here.entry(pieces.of_face()[face as usize]).or_default() += count);
+            for (piece, count) in here {
+                pixels[piece as usize] += u64::from(count);
+                if count > best[piece as usize].0 {
+                    best[piece as usize] = (count, number);
+                }
+            }
+        }
+        (pixels, best.into_iter().map(|(_, view)| view).collect())
     }
 }
 

@@ -7,7 +7,9 @@ use super::change::material_name;
 use super::clock;
 use super::planned::PlannedFrame;
 use super::progress::views;
+use super::review::ReviewState;
 use super::session::ActionError;
+use super::viewpoint::Viewpoint;
 use crate::serve::{ApiProblem, beside, reply};
 use axum::body::Bytes;
 use axum::extract::{Query, State};
@@ -24,6 +26,10 @@ use std::time::Duration;
 
 /// Files are written this long after an edit.
 const SAVE_AFTER: Duration = Duration::from_secs(2);
+/// So many edits are told of.
+const MAX_HISTORY: usize = 300;
+/// Longer notes are a mistake, characters.
+const MAX_NOTE: usize = 2000;
 /// Clients and edits are named by random ids; longer ones are a mistake.
 const MAX_NAME: usize = 100;
 
@@ -40,8 +46,12 @@ pub fn routes(app: Arc<App>) -> Router {
         .route("/api/annotate/edit", post(edit))
         .route("/api/annotate/select", post(select))
         .route("/api/annotate/pick", post(pick))
+        .route("/api/annotate/viewpoint", post(viewpoint))
         .route("/api/annotate/events", get(events))
         .route("/api/annotate/progress", get(progress))
+        .route("/api/annotate/history", get(history))
+        .route("/api/annotate/reviews", get(reviews))
+        .route("/api/annotate/review", post(review))
         .route("/api/annotate/activity", post(activity))
         .route("/api/annotate/worklog", get(worklog))
         .route("/api/annotate/save", post(save))
@@ -52,6 +62,17 @@ impl From<Refusal> for ApiProblem {
     fn from(refusal: Refusal) -> Self {
         let Refusal { conflict, error, help } = refusal;
         if conflict { Self::conflict(error, help) } else { Self::bad_request(error, help) }
+    }
+}
+
+impl From<ActionError> for ApiProblem {
+    fn from(error: ActionError) -> Self {
+        let failed = |error: String| Self::failed(error, "nothing was changed; make room on the disk or check the folder");
+        match error {
+            ActionError::Refused(refusal) => refusal.into(),
+            ActionError::Log(error) => failed(error.to_string()),
+            ActionError::Review(error) => failed(error.to_string()),
+        }
     }
 }
 
@@ -155,25 +176,63 @@ struct EditRequest {
 
 async fn edit(State(app): Shared, body: Bytes) -> Answer {
     let EditRequest { client, id, action } = parse(&body)?;
-    for (what, name) in [("client", Some(&client)), ("id", id.as_ref())] {
-        if name.is_some_and(|name| name.is_empty() || name.chars().count() > MAX_NAME || name.chars().any(char::is_control)) {
-            let error = format!("{what} is no name; expected 1 to {MAX_NAME} characters");
-            return Err(ApiProblem::bad_request(error, "send a random id, one of the page as client, one of the edit as id"));
-        }
-    }
+    check_names(&[("client", Some(&client)), ("id", id.as_ref())])?;
     let change = beside(move || {
-        let change = app.act(&action, &client, id.as_deref()).map_err(|error| match error {
-            ActionError::Refused(refusal) => ApiProblem::from(refusal),
-            ActionError::Log(error) => {
-                ApiProblem::failed(error.to_string(), "nothing was changed; make room on the disk or check the folder")
-            }
-        })?;
+        let change = app.act(&action, &client, id.as_deref())?;
         // Spawned here: code after the `await` below does not run if the page disconnects meanwhile.
         tokio::spawn(save_later(Arc::downgrade(&app)));
         Ok(change)
     })
     .await?;
     Ok(Json(change).into_response())
+}
+
+/// Refuses what is no name of a page or an edit.
+fn check_names(names: &[(&str, Option<&String>)]) -> Result<(), ApiProblem> {
+    for (what, name) in names {
+        if name.is_some_and(|name| name.is_empty() || name.chars().count() > MAX_NAME || name.chars().any(char::is_control)) {
+            let error = format!("{what} is no name; expected 1 to {MAX_NAME} characters");
+            return Err(ApiProblem::bad_request(error, "send a random id, one of the page as client, one of the edit as id"));
+        }
+    }
+    Ok(())
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReviewRequest {
+    client: String,
+    pieces: Vec<u32>,
+    state: ReviewState,
+    #[serde(default)]
+    note: String,
+}
+
+async fn review(State(app): Shared, body: Bytes) -> Answer {
+    let ReviewRequest { client, pieces, state, note } = parse(&body)?;
+    check_names(&[("client", Some(&client))])?;
+    if note.chars().count() > MAX_NOTE {
+        return Err(ApiProblem::bad_request(format!("note is longer than {MAX_NOTE} characters"), "say it in fewer words"));
+    }
+    beside(move || {
+        app.review(&client, &pieces, state, &note)?;
+        Ok(Json(reviewed(&app)).into_response())
+    })
+    .await
+}
+
+async fn reviews(State(app): Shared) -> Answer {
+    beside(move || Ok(Json(reviewed(&app)).into_response())).await
+}
+
+/// The pieces that something was said of.
+fn reviewed(app: &App) -> Vec<Value> {
+    let (session, reviews) = (app.session(), app.reviews());
+    let row = |(number, piece): (usize, &super::pieces::Piece)| {
+        let (state, note) = reviews.of(&piece.name)?;
+        Some(json!({ "piece": number, "state": state, "note": note }))
+    };
+    session.pieces().list().iter().enumerate().filter_map(row).collect()
 }
 
 /// Writes the files a moment after an edit. If that fails nothing is lost, because the edit is in the log; the next save reports it.
@@ -233,6 +292,24 @@ async fn pick(State(app): Shared, body: Bytes) -> Answer {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ViewpointRequest {
+    camera: CameraRequest,
+    pieces: Vec<u32>,
+    #[serde(default)]
+    hidden: Vec<u32>,
+}
+
+async fn viewpoint(State(app): Shared, body: Bytes) -> Answer {
+    let ViewpointRequest { camera, pieces, hidden } = parse(&body)?;
+    beside(move || {
+        let found = app.session().viewpoint(&camera, &pieces, &hidden)?;
+        Ok(Json(found.map(|Viewpoint { from, to }| json!({ "from": from.to_array(), "to": to.to_array() }))).into_response())
+    })
+    .await
+}
+
+#[derive(Deserialize)]
 struct Since {
     since: Option<String>,
 }
@@ -256,7 +333,18 @@ async fn progress(State(app): Shared) -> Answer {
         let session = app.session();
         let mut progress: Value = seen.progress(session.pieces());
         progress["revision"] = json!(session.standing().revision);
+        drop(session);
+        progress["reviews"] = json!(reviewed(&app));
         Ok(Json(progress).into_response())
+    })
+    .await
+}
+
+async fn history(State(app): Shared) -> Answer {
+    beside(move || {
+        let session = app.session();
+        let [done, undone] = session.history(MAX_HISTORY);
+        Ok(Json(json!({ "done": done, "undone": undone, "revision": session.standing().revision })).into_response())
     })
     .await
 }

@@ -10,9 +10,11 @@ use super::log_lines::Entry;
 use super::pieces::Pieces;
 use super::scene::AnnotatedScene;
 use super::stroke::Picked;
+use super::viewpoint::Viewpoint;
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
 use enfilade_scene::PartLabel;
+use serde::Serialize;
 use std::collections::{HashMap, VecDeque};
 use std::path::Path;
 use std::sync::Arc;
@@ -28,7 +30,7 @@ pub struct Session {
     next_instance: i32,
     log: Log,
     done: Vec<Done>,
-    undone: Vec<Edit>,
+    undone: Vec<Undone>,
     revision: u64,
     /// Revisions of the edits that have an id.
     known: HashMap<String, u64>,
@@ -41,6 +43,24 @@ struct Done {
     edit: Edit,
     /// Labels of the pieces of a [`Edit::Label`] before.
     before: Vec<PartLabel>,
+    /// When, in UTC.
+    time: String,
+}
+
+/// An edit that was undone.
+struct Undone {
+    edit: Edit,
+    /// When it was done, in UTC.
+    time: String,
+}
+
+/// An edit in the history of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct HistoryRow {
+    /// For people.
+    pub description: String,
+    /// When it was done, in UTC.
+    pub time: String,
 }
 
 /// Why an action was not done.
@@ -50,6 +70,8 @@ pub enum ActionError {
     Refused(Refusal),
     /// The log cannot be written.
     Log(LogError),
+    /// The log of reviews cannot be written.
+    Review(enfilade_dataset::DatasetError),
 }
 
 impl From<Refusal> for ActionError {
@@ -102,9 +124,17 @@ impl Session {
         Standing {
             revision: self.revision,
             undo_description: self.done.last().map(|done| done.edit.description()),
-            redo_description: self.undone.last().map(Edit::description),
+            redo_description: self.undone.last().map(|undone| undone.edit.description()),
             next_instance: self.next_instance,
         }
+    }
+
+    /// The last edits that were done, at most `most`, and those that can be done again; what undo and redo take next comes first.
+    pub fn history(&self, most: usize) -> [Vec<HistoryRow>; 2] {
+        let row = |edit: &Edit, time: &str| HistoryRow { description: edit.description().into(), time: time.into() };
+        let done = self.done.iter().rev().take(most).map(|done| row(&done.edit, &done.time));
+        let undone = self.undone.iter().rev().take(most).map(|undone| row(&undone.edit, &undone.time));
+        [done.collect(), undone.collect()]
     }
 
     /// The visible faces and the pieces that a stroke would select.
@@ -121,6 +151,14 @@ impl Session {
     /// When the camera or a piece number is wrong, or the point is not in the image.
     pub fn pick(&self, camera: &CameraRequest, pixel: [f64; 2], hidden: &[u32]) -> Result<Option<(u32, Picked)>, Refusal> {
         self.context().pick(camera, pixel, hidden)
+    }
+
+    /// From where these pieces are seen well; `None` for pieces without faces.
+    ///
+    /// # Errors
+    /// When the camera or a piece number is wrong.
+    pub fn viewpoint(&self, camera: &CameraRequest, pieces: &[u32], hidden: &[u32]) -> Result<Option<Viewpoint>, Refusal> {
+        self.context().viewpoint(camera, pieces, hidden)
     }
 
     /// Does what a page asks for. On success the change is on the disk; on failure nothing has changed.
@@ -192,13 +230,13 @@ impl Session {
         let change = match &entry.edit {
             Edit::Undo => self.done.pop().map(|done| {
                 let change = self.revert(&done);
-                self.undone.push(done.edit);
+                self.undone.push(Undone { edit: done.edit, time: done.time });
                 change
             }),
-            Edit::Redo => self.undone.pop().map(|edit| self.apply(edit)),
+            Edit::Redo => self.undone.pop().map(|undone| self.apply(undone.edit, &entry.time)),
             edit => {
                 self.undone.clear();
-                Some(self.apply(edit.clone()))
+                Some(self.apply(edit.clone(), &entry.time))
             }
         };
         let change = change.unwrap_or_default().told(Some(&entry.edit), &entry.client, &self.standing());
@@ -212,7 +250,7 @@ impl Session {
         change
     }
 
-    fn apply(&mut self, edit: Edit) -> Change {
+    fn apply(&mut self, edit: Edit, time: &str) -> Change {
         let mut before = Vec::new();
         let change = match &edit {
             Edit::Label { pieces, semantic, instance, next_instance, .. } => {
@@ -231,7 +269,7 @@ impl Session {
             }
             Edit::Undo | Edit::Redo => Change::default(),
         };
-        self.done.push(Done { edit, before });
+        self.done.push(Done { edit, before, time: time.into() });
         change
     }
 

@@ -1,8 +1,8 @@
 //! From a stroke over the image to the faces that it touches: the pixels that it covers, and the faces that are visible in them.
 
 use super::camera::PageCamera;
-use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
-use enfilade_math::Vec3;
+use enfilade_geometry::{Bvh, Hit, NOTHING, VisibilityBuffer};
+use enfilade_math::{Ray, Vec3};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeSet, HashSet};
@@ -125,8 +125,8 @@ impl VisibleScene<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 pixels.par_iter().filter_map(centre).collect()
             }
-            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces.
-            Covered::Rectangle(first, last) if !self.hidden.is_empty() => {
+            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is cut away.
+            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.cut_z_m.is_finite() => {
                 let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
                 let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
@@ -159,12 +159,17 @@ impl VisibleScene<'_> {
     /// What the ray through an image point meets first.
     pub fn meet(&self, camera: &PageCamera, x: f64, y: f64) -> Option<Picked> {
         let ray = camera.ray(x, y);
-        let hit = if self.hidden.is_empty() {
-            self.bvh.closest(&ray)
-        } else {
-            self.bvh.closest_filtered(&ray, |hit| !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
-        }?;
+        let hit = self.first(&ray, camera.cut_z_m)?;
         Some(Picked { face: hit.triangle, point: ray.at(hit.t), distance_m: hit.t })
+    }
+
+    /// What a ray meets first below the cut.
+    pub fn first(&self, ray: &Ray, cut_z_m: f32) -> Option<Hit> {
+        if self.hidden.is_empty() && cut_z_m.is_infinite() {
+            return self.bvh.closest(ray);
+        }
+        self.bvh
+            .closest_filtered(ray, |hit| ray.at(hit.t).z <= cut_z_m && !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
     }
 }
 

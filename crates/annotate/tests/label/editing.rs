@@ -3,6 +3,7 @@
 use crate::room::{PARTS, Page, assign, camera, class, package, stroke};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, MeshFiles};
+use enfilade_math::DVec3;
 use enfilade_scene::PartLabel;
 use serde_json::{Value, json};
 
@@ -78,6 +79,29 @@ async fn what_is_behind_is_not_touched_unless_what_hides_it_is_hidden() {
 }
 
 #[tokio::test]
+async fn a_viewpoint_sees_what_it_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    // From the front `behind` is hidden by `near`, and the wall is seen squarely.
+    for piece in 0..6 {
+        let (_, place) = page.post("viewpoint", json!({ "camera": camera(), "pieces": [piece] }).to_string()).await;
+        let point = |name: &str| [0, 1, 2].map(|axis| place[name][axis].as_f64().unwrap());
+        let [from, to] = ["from", "to"].map(|name| DVec3::from_array(point(name)));
+        let back = (from - to).normalize();
+        let right = DVec3::Z.cross(back).normalize();
+        let up = back.cross(right);
+        let orientation: Vec<f64> = (0..3).flat_map(|axis| [right[axis], up[axis], back[axis]]).collect();
+        let seen = json!({ "position": from.to_array(), "orientation": orientation, "fov_y_deg": 60, "width": 100, "height": 100 });
+        let look = json!({ "camera": seen, "shape": { "rectangle": [0, 0, 100, 100] } });
+        let (_, selected) = page.post("select", look.to_string()).await;
+        assert!(selected["pieces"].as_array().unwrap().contains(&json!(piece)), "{piece}: {place} {selected}");
+    }
+    let (status, refused) = page.post("viewpoint", json!({ "camera": camera(), "pieces": [6] }).to_string()).await;
+    assert!(status == 400 && refused["error"].as_str().unwrap().contains("piece 6"), "{refused}");
+    assert_eq!(page.post("viewpoint", json!({ "camera": camera(), "pieces": [] }).to_string()).await.1, Value::Null);
+}
+
+#[tokio::test]
 async fn what_lies_before_the_near_plane_is_not_touched() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));
@@ -98,6 +122,21 @@ async fn what_lies_before_the_near_plane_is_not_touched() {
     camera["near_m"] = json!(-1);
     let (status, refused) = page.post("pick", json!({ "camera": camera, "pixel": [50, 50] }).to_string()).await;
     assert!(status == 400 && refused["error"].as_str().unwrap().contains("near_m"), "{refused}");
+}
+
+#[tokio::test]
+async fn what_lies_above_the_cut_is_not_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let mut camera = camera();
+    // The boxes of `pair` are at 2.75 to 3.25 m, and the cut leaves the wall behind them only below.
+    for (cut, expected) in [(10.0, json!([0, 1, 3, 4, 5])), (2.5, json!([0, 1, 3, 4])), (-20.0, json!([]))] {
+        camera["cut_z_m"] = json!(cut);
+        let look = json!({ "camera": camera, "shape": { "rectangle": [0, 0, 100, 100] } });
+        assert_eq!(page.post("select", look.to_string()).await.1["pieces"], expected, "{cut}");
+    }
+    let (_, picked) = page.post("pick", json!({ "camera": camera, "pixel": [50, 50] }).to_string()).await;
+    assert_eq!(picked, json!({ "piece": -1 }));
 }
 
 #[tokio::test]
@@ -158,6 +197,22 @@ async fn erasing_and_unique_ids() {
     assert_eq!((change["instance"].clone(), change["next_instance"].as_i64()), (json!([-1, -1]), Some(8)));
     let same = page.act(assign(&[0], json!({ "layer": "instance", "value": 1 }))).await;
     assert_eq!((same["revision"].as_u64(), same["description"].as_str()), (Some(4), Some("Nothing to change")));
+}
+
+#[tokio::test]
+async fn a_class_and_a_new_instance_are_one_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let thing = |more: &str| json!({ "layer": "semantic", "value": 5, more: true });
+    let change = page.act(assign(&[1, 2], thing("new"))).await;
+    assert_eq!((&change["semantic"], &change["instance"]), (&json!([5, 5]), &json!([1, 1])));
+    assert_eq!(change["description"], "Class chair, new instance 1 on 2 parts");
+    let change = page.act(assign(&[3, 4], thing("unique"))).await;
+    assert_eq!((&change["semantic"], &change["instance"]), (&json!([5, 5]), &json!([2, 3])));
+    let change = page.act(json!({ "type": "undo" })).await;
+    assert_eq!((&change["semantic"], &change["instance"]), (&json!([-1, -1]), &json!([-1, -1])));
+    let (status, error) = page.refused(assign(&[1], json!({ "layer": "semantic", "value": 5, "new": true, "unique": true }))).await;
+    assert!(status == 400 && error.contains("apply is none of"), "{error}");
 }
 
 #[tokio::test]

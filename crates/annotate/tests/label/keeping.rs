@@ -238,3 +238,30 @@ async fn a_list_of_the_users_is_used_saved_and_found_again() {
     assert!(!files.file("labels.csv").exists());
     assert_eq!(Page::open(&path).get("scene").await["classes"][1]["name"].as_str(), Some("hard"));
 }
+
+#[tokio::test]
+async fn reviews_are_kept_beside_the_edits_and_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = package(folder.path());
+    let page = Page::open(&path);
+    let ask =
+        |pieces: &[u32], state: &str, note: &str| json!({ "client": "test", "pieces": pieces, "state": state, "note": note }).to_string();
+    assert_eq!(page.get("reviews").await, json!([]));
+    page.post("review", ask(&[0, 1], "done", "")).await;
+    let (status, reviews) = page.post("review", ask(&[1], "question", "near, or far?")).await;
+    let expected = json!([{ "piece": 0, "state": "done", "note": "" }, { "piece": 1, "state": "question", "note": "near, or far?" }]);
+    assert_eq!((status.as_u16(), &reviews), (200, &expected));
+    for (body, problem) in
+        [(ask(&[9], "done", ""), "piece 9"), (ask(&[0], "fine", ""), "unknown variant"), (ask(&[0], "done", &"x".repeat(2001)), "note")]
+    {
+        let (status, answer) = page.post("review", body).await;
+        assert!(status == 400 && answer["error"].as_str().unwrap().contains(problem), "{answer}");
+    }
+    let table = std::fs::read_to_string(folder.path().join("room.scene.labels/metadata_object_review.csv")).unwrap();
+    assert_eq!(table, "object_name,state,note\nwall,done,\nnear,question,\"near, or far?\"\n");
+    // No edit was made, and undoing leaves reviews alone.
+    assert_eq!(page.get("scene").await["revision"].as_u64(), Some(0));
+    drop(page);
+    let again = Page::open(&path);
+    assert_eq!(again.get("progress").await["reviews"], expected);
+}

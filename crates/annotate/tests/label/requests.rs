@@ -177,6 +177,8 @@ async fn progress_counts_what_is_seen_and_names_what_is_missing() {
     // Of 100² pixels left and right have 2 × 19.2² in front and 2 × 90 at the side, and both of pair 2 × 9.1² and somewhat more.
     assert!((share - 0.885).abs() < 0.02, "{share}");
     assert_eq!((after["labelled_pieces"].as_u64(), after["unlabelled"].as_array().unwrap().len()), (Some(2), 4));
+    let without: Vec<&str> = after["without_instance"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(without, ["wall"]);
     assert_eq!((after["classes"][0]["pieces"].as_u64(), after["classes"][0]["instances"].as_u64()), (Some(2), Some(1)));
     assert_eq!(after["conflicts"], json!([{ "instance": 1, "classes": [-1, 1] }]));
     // Without cameras there are viewpoints all the same.
@@ -184,6 +186,21 @@ async fn progress_counts_what_is_seen_and_names_what_is_missing() {
     let bare = Page::open(&folder.path().join("bare.scene")).get("progress").await;
     assert_eq!(bare["visible"]["views_of"].as_str(), Some("generated viewpoints"));
     assert!(bare["unlabelled"][0]["pixels"].as_u64().unwrap() > 0);
+}
+
+#[tokio::test]
+async fn the_history_has_what_can_be_undone_and_done_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    page.act(assign(&[0], class(1))).await;
+    page.act(assign(&[1], class(5))).await;
+    page.act(json!({ "type": "undo" })).await;
+    let history = page.get("history").await;
+    let told = |which: &str| history[which].as_array().unwrap().iter().map(|row| row["description"].as_str().unwrap()).collect::<Vec<_>>();
+    assert_eq!((told("done"), told("undone")), (vec!["Class wall on wall"], vec!["Class chair on near"]));
+    assert!(history["done"][0]["time"].as_str().unwrap().ends_with('Z'), "{history}");
+    page.act(json!({ "type": "redo" })).await;
+    assert_eq!(page.get("history").await["done"][0]["description"], "Class chair on near");
 }
 
 #[tokio::test]

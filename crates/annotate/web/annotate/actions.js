@@ -1,10 +1,13 @@
-// What the commands of the annotation page do.
+// What the commands of the annotation page do with labels and the selection.
 
 import { getJson, postJson } from "../shared/api.js";
-import { byId } from "../shared/dom.js";
 import { toast, toastError } from "../shared/toast.js";
+import { Digits } from "./digits.js";
+import { Looking } from "./looking.js";
 import { stem } from "./names.js";
 import { newInstance } from "./state.js";
+
+/** @typedef {{ piece: number, best_view: { camera: string, frame: number } | null, pixels: number, name: string }} Missing */
 
 /** The actions of the page, for commands, panels and pointer alike. */
 export class Actions {
@@ -17,19 +20,21 @@ export class Actions {
         this.state = state;
         this.stage = stage;
         this.edits = edits;
+        this.digits = new Digits(state);
+        this.looking = new Looking(state, stage);
         /** Edits with the current label that the server has not answered yet. @type {Set<any>} */
         this.giving = new Set();
-        /** @type {{ piece: number, best_view: { camera: string, frame: number } | null, pixels: number, name: string }[]} */
-        this.unlabelled = [];
-        this.wireframe = false;
-        this.outlines = true;
-        this.camera = -1;
+        /** What lacks a class, and what has a class but lacks an instance; most pixels first. @type {Record<import("./state.js").Layer, Missing[]>} */
+        this.missing = { semantic: [], instance: [] };
+        /** What is to be done: what lacks a label, or what has this state of review. @type {import("./state.js").Layer | "done" | "question"} */
+        this.lacking = "semantic";
         this.openHelp = () => {};
         this.openPalette = () => {};
         this.openSettings = () => {};
+        this.openQuestion = (/** @type {string} */ _about) => {};
         this.showTab = (/** @type {string} */ _name) => {};
-        /** All planned frames, in order. */
-        this.frames = state.scene.cameras.flatMap((/** @type {any} */ camera) => camera.frames.map((/** @type {any} */ frame) => ({ ...frame, camera: camera.name })));
+        /** Gives up the stroke that is being drawn; false if there is none. */
+        this.giveUpStroke = () => false;
         // This runs before the next edit of the queue is sent, which may have to use the same new instance number.
         edits.addEventListener("change", (event) => {
             const answered = [...this.giving].find((edit) => !edits.queue.some(({ action }) => action === edit));
@@ -37,11 +42,24 @@ export class Actions {
         });
     }
 
-    /** Sends an edit that gives the current label. @param {any} action the edit without `apply` */
+    /** Sends an edit that gives the current label. Resolves with the change; null if there is none. @param {any} action the edit without `apply` */
     async give(action) {
-        const edit = { ...action, apply: this.state.apply };
+        const { apply } = this.state;
+        if (!apply) return this.tellNoClass();
+        const edit = { ...action, apply };
         this.giving.add(edit);
-        this.given(edit, await this.edits.send(edit));
+        const change = await this.edits.send(edit);
+        this.given(edit, change);
+        const { layer, value } = apply;
+        if (change?.pieces.length > 0 && layer === "semantic" && value !== undefined && value >= 1) this.state.remember(value);
+        return change;
+    }
+
+    /** Says that there is no class to give. @returns {null} */
+    tellNoClass() {
+        const { refused } = this.state;
+        toast(refused === null ? "There is no class to give." : `No class has the number ${refused}, so nothing was labelled.`, "Type another number, or click a class.");
+        return null;
     }
 
     /** Takes the answer to an edit: if it asked for a new instance and changed something, the answer has the number. @param {any} edit @param {any} change null where it was refused */
@@ -59,7 +77,25 @@ export class Actions {
     async assign() {
         if (this.state.painting) return void (await this.paint());
         const pieces = this.chosen();
-        if (pieces) await this.give({ type: "assign", pieces });
+        if (pieces && (await this.give({ type: "assign", pieces })) && this.state.goesOn) this.goOn(pieces);
+    }
+
+    /** Makes the selection one thing: the current class and a new instance in one step. Then goes on to the next unlabelled piece. */
+    async makeThing() {
+        const { currentClass } = this.state;
+        const pieces = this.chosen();
+        if (!pieces) return;
+        if (currentClass === null) return this.tellNoClass();
+        const change = await this.edits.send({ type: "assign", pieces, apply: { layer: "semantic", value: currentClass, new: true } });
+        if (!change) return;
+        this.state.remember(currentClass);
+        this.state.set({ fresh: null, currentInstance: change.instance[0] ?? this.state.currentInstance });
+        this.goOn(pieces);
+    }
+
+    /** Goes on from these pieces, unless something else is selected. @param {number[]} pieces */
+    goOn(pieces) {
+        if (pieces.length === this.state.selection.size && pieces.every((piece) => this.state.selection.has(piece))) this.step(1);
     }
 
     async clearLabel() {
@@ -69,10 +105,11 @@ export class Actions {
 
     /** Confirms suggestions, in one step. @param {number[]} pieces */
     async confirm(pieces) {
-        const known = pieces.filter((piece) => this.state.pieces.suggestions[piece]);
+        const known = pieces.filter((piece) => this.state.suggestion(piece));
         if (known.length === 0) return toast("There is no suggestion for these pieces.", "Choose a class and press Enter.");
-        const semantic = known.map((piece) => this.state.pieces.suggestions[piece].semantic);
-        await this.edits.send({ type: "assign_each", pieces: known, semantic });
+        const semantic = known.map((piece) => this.state.suggestion(piece)?.semantic);
+        const change = await this.edits.send({ type: "assign_each", pieces: known, semantic });
+        if (change && this.state.goesOn) this.goOn(known);
     }
 
     confirmSelection() {
@@ -80,13 +117,47 @@ export class Actions {
         if (pieces) void this.confirm(pieces);
     }
 
+    /** Says how far the selection is. @param {import("./state.js").ReviewState} state @param {string} [note] */
+    async review(state, note = "") {
+        const pieces = this.chosen();
+        if (!pieces) return;
+        try {
+            this.state.takeReviews(await postJson("/api/annotate/review", { client: this.edits.client, pieces, state, note }));
+            if (this.state.goesOn) this.goOn(pieces);
+        } catch (error) {
+            toastError(error);
+        }
+    }
+
     newInstance() {
         this.state.set({ layer: "instance", fresh: newInstance(), erase: false });
     }
 
-    /** @param {number} id */
-    classByNumber(id) {
-        if (this.state.classById.has(id)) this.state.set({ layer: "semantic", currentClass: id, erase: false });
+    /** A class that was chosen by name: the selection gets it, and what is labelled next. @param {number} id */
+    chooseClass(id) {
+        this.state.setClass(id);
+        if (this.state.selection.size > 0 && !this.state.painting) void this.assign();
+    }
+
+    /** Chooses a tool, which then draws by a plain drag; the eyedropper for one use. @param {import("./state.js").Tool} tool */
+    chooseTool(tool) {
+        const { state } = this;
+        if (tool === "eyedropper" && state.tool !== "eyedropper") state.afterEyedropper = { tool: state.tool, drawMode: state.drawMode };
+        state.set({ tool, drawMode: true });
+    }
+
+    /** Switches between drawing by a plain drag, and selecting and moving the camera. */
+    toggleDrawing() {
+        const { state } = this;
+        if (state.tool === "eyedropper") state.set({ ...state.afterEyedropper, drawMode: false });
+        else state.set({ drawMode: !state.drawMode });
+    }
+
+    /** Switches erasing: of labels, or while faces are painted, of the paint. */
+    toggleErase() {
+        const { painting, erase } = this.state;
+        if (!painting) return this.state.set({ erase: !erase });
+        this.state.set({ painting: { ...painting, erase: !painting.erase } });
     }
 
     /** Adds all pieces that have the key of a selected one. @param {(piece: number) => unknown} key */
@@ -117,10 +188,10 @@ export class Actions {
         return pieces?.length === 1 ? pieces[0] : null;
     }
 
-    /** @param {"component" | "material"} by */
+    /** Splits the selected piece; what was split off is selected. @param {"component" | "material"} by */
     async split(by) {
         const piece = this.single();
-        if (piece !== null) this.selectParts(piece, await this.edits.send({ type: "split", piece, by }));
+        if (piece !== null) this.selectAdded(await this.edits.send({ type: "split", piece, by }));
     }
 
     /** Begins to paint faces of the selected piece; if painting already, splits the painted faces off. */
@@ -128,19 +199,19 @@ export class Actions {
         const { painting } = this.state;
         if (!painting) {
             const piece = this.single();
-            if (piece !== null) this.state.set({ painting: { piece, faces: new Set() } });
+            if (piece !== null) this.state.set({ painting: { piece, faces: new Set(), erase: false } });
             return;
         }
         if (painting.faces.size === 0) return toast("No face is painted.", "Drag over the faces that are to become a piece of their own, or press Escape.");
         const change = await this.edits.send({ type: "split", piece: painting.piece, by: { faces: [...painting.faces] } });
         if (!change) return;
         this.endPainting();
-        this.selectParts(painting.piece, change);
+        this.selectAdded(change);
     }
 
-    /** @param {number} piece @param {any} change */
-    selectParts(piece, change) {
-        if (change) this.state.select([piece, ...change.added.map((/** @type {any} */ one) => one.piece)]);
+    /** @param {any} change */
+    selectAdded(change) {
+        if (change) this.state.select(change.added.map((/** @type {any} */ one) => one.piece));
     }
 
     endPainting() {
@@ -148,97 +219,46 @@ export class Actions {
         this.stage.setPaintedFaces(new Set());
     }
 
+    /** Steps back: from the stroke, from painting, from drawing, from the selection. */
     cancel() {
+        if (this.giveUpStroke()) return;
         if (this.state.painting) this.endPainting();
+        else if (this.state.drawMode) this.toggleDrawing();
         else this.state.select([]);
     }
 
-    /** Goes to the next unlabelled piece, most pixels first. @param {number} by */
-    async step(by) {
-        const { semantic } = this.state.pieces;
+    /** What is to be done, most pixels first. */
+    get unlabelled() {
+        if (this.lacking === "semantic" || this.lacking === "instance") return this.missing[this.lacking];
+        const { reviews } = this.state;
+        return [...reviews.keys()].filter((piece) => this.isMissing(piece)).map((piece) => ({ piece, best_view: null, pixels: 0, name: this.state.name(piece) }));
+    }
+
+    /** True when a piece is still to be done. @param {number} piece */
+    isMissing(piece) {
+        const { semantic, instance } = this.state.pieces;
+        if (this.lacking === "semantic") return semantic[piece] < 1;
+        if (this.lacking === "instance") return semantic[piece] >= 1 && instance[piece] < 1;
+        return this.state.reviews.get(piece)?.state === this.lacking;
+    }
+
+    /** Goes to the next piece that is to be done. @param {number} by */
+    step(by) {
         const [selected] = this.state.selection;
         const place = this.unlabelled.findIndex((one) => one.piece === selected);
         const { length } = this.unlabelled;
         for (let i = 1; i <= length; i++) {
             const one = this.unlabelled[(((place < 0 && by < 0 ? 0 : place) + by * i) % length + length) % length];
-            if (semantic[one.piece] < 1) return this.goToPiece(one.piece, one.best_view);
+            if (this.isMissing(one.piece)) return this.looking.goToPiece(one.piece, one.best_view);
         }
-        toast("Every piece has a class.", "", "good");
+        const all = { semantic: "Every piece has a class.", instance: "Everything with a class has an instance.", done: "Nothing waits to be approved.", question: "No question is open." };
+        toast(all[this.lacking], "", "good");
     }
 
-    /** Selects a piece and looks at it. @param {number} piece @param {{ camera: string, frame: number } | null} [view] */
-    goToPiece(piece, view = null) {
-        this.state.select([piece]);
-        const frame = view && this.frames.find((/** @type {any} */ one) => one.camera === view.camera && one.frame === view.frame);
-        if (frame) this.goToFrame(this.frames.indexOf(frame));
-        else this.frameSelection();
-    }
-
-    frameSelection() {
+    /** Does something with the selection, if there is one. @param {(pieces: number[]) => unknown} act */
+    withSelection(act) {
         const pieces = this.chosen();
-        if (!pieces) return;
-        const { mins, maxs } = this.state.pieces;
-        /** @param {number[][]} corners @param {(...values: number[]) => number} pick */
-        const extreme = (corners, pick) => [0, 1, 2].map((axis) => pieces.reduce((best, piece) => pick(best, corners[piece][axis]), corners[pieces[0]][axis]));
-        this.stage.frameBox(extreme(mins, Math.min), extreme(maxs, Math.max));
-    }
-
-    /** @param {number} index */
-    goToFrame(index) {
-        const frame = this.frames[index];
-        if (!frame) return;
-        this.camera = index;
-        byId("cameras").value = String(index);
-        history.replaceState(null, "", `#camera=${encodeURIComponent(frame.camera)}:${frame.frame}`);
-        this.stage.goTo(frame);
-    }
-
-    /** @param {number} by */
-    stepCamera(by) {
-        if (this.frames.length > 0) this.goToFrame((this.camera + by + this.frames.length) % this.frames.length);
-    }
-
-    xray() {
-        const { state } = this;
-        const pieces = this.chosen();
-        if (!pieces) return;
-        const all = pieces.every((piece) => state.xray.has(piece));
-        const xray = new Set(state.xray);
-        for (const piece of pieces) all ? xray.delete(piece) : xray.add(piece);
-        state.setVisibility(state.hidden, xray, state.isolated);
-    }
-
-    isolate() {
-        const { state } = this;
-        if (state.isolated) return state.setVisibility([], state.xray);
-        const pieces = this.chosen();
-        if (pieces) state.setVisibility([...Array(state.count).keys()].filter((piece) => !state.selection.has(piece)), state.xray, true);
-    }
-
-    hide() {
-        const { state } = this;
-        const pieces = this.chosen();
-        if (pieces) state.setVisibility([...state.hidden, ...pieces], state.xray, state.isolated);
-        state.select([]);
-    }
-
-    toggleWireframe() {
-        this.wireframe = !this.wireframe;
-        this.stage.setWireframe(this.wireframe);
-        this.state.tell("view");
-    }
-
-    toggleOutlines() {
-        this.outlines = !this.outlines;
-        this.stage.setOutlines(this.outlines);
-        this.state.tell("view");
-    }
-
-    /** @param {number} factor */
-    speed(factor) {
-        const { controls } = this.stage;
-        controls.speed = Math.min(20, Math.max(0.1, controls.speed * factor));
-        this.state.tell("view");
+        if (pieces) void act(pieces);
     }
 
     toggleTheme() {
@@ -267,7 +287,8 @@ export class Actions {
     /** Asks the server for the progress. */
     async progress() {
         const progress = await getJson("/api/annotate/progress");
-        this.unlabelled = progress.unlabelled;
+        this.missing = { semantic: progress.unlabelled, instance: progress.without_instance };
+        this.state.takeReviews(progress.reviews);
         this.state.dispatchEvent(new CustomEvent("progress", { detail: progress }));
     }
 }

@@ -1,18 +1,21 @@
 // The pointer on the view: strokes of pen, line, rectangle and eyedropper, selecting by click, and painting faces to split off.
 
 import { postJson } from "../shared/api.js";
-import { toastError } from "../shared/toast.js";
+import { toast, toastError } from "../shared/toast.js";
 import { byId } from "../shared/dom.js";
+import { filtersOn, passes } from "./filters.js";
 
 /** A press that moves less than this is a click, CSS pixels. */
 const CLICK_PX = 4;
+/** A stroke is looked up at about so many places, to say why it labelled nothing. */
+const PLACES = 60;
 
 /** What the pointer does on the view, beside moving the camera. */
 export class Draw {
     /**
      * @param {import("../shared/stage3d/stage.js").Stage3d} stage
      * @param {import("./state.js").State} state
-     * @param {{ newInstance: () => void, give: (action: any) => Promise<void>, hovered: (piece: number) => void }} hooks
+     * @param {{ newInstance: () => void, give: (action: any) => Promise<any>, hovered: (piece: number) => void }} hooks
      */
     constructor(stage, state, hooks) {
         this.stage = stage;
@@ -98,6 +101,13 @@ export class Draw {
         this.pressed = null;
     }
 
+    /** Gives up the stroke that is being drawn; false if there is none. */
+    giveUp() {
+        const drawing = this.points !== null;
+        this.cancel();
+        return drawing;
+    }
+
     cancel() {
         this.points = null;
         byId("strokes").replaceChildren();
@@ -130,7 +140,7 @@ export class Draw {
         this.hooks.hovered(piece);
     }
 
-    /** The shape of these points, as the server takes it. @param {[number, number][]} points */
+    /** The shape of these points, as the server takes it. @param {[number, number][]} points @returns {Record<string, any>} */
     shape(points) {
         const [first, last] = [points[0], points[points.length - 1]];
         if (Math.hypot(last[0] - first[0], last[1] - first[1]) < 1 && points.length < 3) return { click: first };
@@ -149,30 +159,59 @@ export class Draw {
         try {
             if (state.painting) await this.paint(points);
             else if (state.tool === "eyedropper") await this.takeLabel(points[points.length - 1]);
-            else await this.hooks.give({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters });
+            else await this.label(points);
         } catch (error) {
             toastError(error);
         }
     }
 
-    /** Makes the label of the piece at a pixel the current label. @param {[number, number]} pixel */
+    /** Gives the current label to what these points touch, and says so when that is nothing. @param {[number, number][]} points */
+    async label(points) {
+        const { state } = this;
+        const touched = this.touched(points);
+        const left = touched.filter((piece) => !passes(state, piece)).map((piece) => state.name(piece));
+        const change = await this.hooks.give({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters });
+        if (!change || change.pieces.length > 0) return;
+        if (touched.length === 0) toast("The stroke met nothing.");
+        else if (left.length === 0) toast("Nothing has changed: it has this label already.", "", "good");
+        else toast(`Nothing was labelled: ${left.slice(0, 3).join(", ")}${left.length > 3 ? " and more" : ""} left out.`, `Only faces ${filtersOn(state)} are labelled; the filters are at the left.`);
+    }
+
+    /** The pieces under a stroke, as they are shown. @param {[number, number][]} points */
+    touched(points) {
+        const shape = this.shape(points);
+        if (shape.rectangle) return [...this.stage.seenIn(shape.rectangle)];
+        const path = /** @type {[number, number][]} */ (shape.line ?? points);
+        const places = path.flatMap(([x, y], i) => {
+            const [x0, y0] = path[Math.max(0, i - 1)];
+            const steps = Math.max(1, Math.round(PLACES / path.length));
+            return Array.from({ length: steps }, (_, k) => [x0 + ((x - x0) * (k + 1)) / steps, y0 + ((y - y0) * (k + 1)) / steps]);
+        });
+        return [...new Set(places.map(([x, y]) => this.stage.seenAt(x, y).piece))].filter((piece) => piece >= 0);
+    }
+
+    /** Makes the label of the piece at a pixel the current label, and goes back to the tool before. @param {[number, number]} pixel */
     async takeLabel(pixel) {
+        const { state } = this;
         const { piece } = await postJson("/api/annotate/pick", { ...this.look(), pixel });
+        state.set(state.afterEyedropper);
         if (piece < 0) return;
-        const { semantic, instance } = this.state.pieces;
-        if (this.state.layer === "semantic" && semantic[piece] >= 1) this.state.set({ currentClass: semantic[piece], erase: false });
-        if (this.state.layer === "instance" && instance[piece] >= 1) this.state.set({ fresh: null, currentInstance: instance[piece], erase: false, unique: false });
+        const { semantic, instance } = state.pieces;
+        const bySemantic = state.layer === "semantic";
+        if (bySemantic && semantic[piece] >= 1) state.setClass(semantic[piece]);
+        else if (!bySemantic && instance[piece] >= 1) state.set({ fresh: null, currentInstance: instance[piece], erase: false, unique: false });
+        else toast(`${state.name(piece)} has no ${bySemantic ? "class" : "instance"} to take.`);
     }
 
     /** Adds the visible faces of the piece to what is to be split off; erase takes them out. @param {[number, number][]} points */
     async paint(points) {
-        const { painting, erase } = this.state;
+        const { painting } = this.state;
         const { mesh } = this.stage;
         if (!painting || !mesh) return;
         const { faces } = await postJson("/api/annotate/select", { ...this.look(), shape: this.shape(points), faces: true });
         for (const face of faces) {
             if (mesh.geometry.pieceOfFace[mesh.place(face)] !== painting.piece) continue;
-            if (erase) painting.faces.delete(face);
+            if (painting.erase) painting.faces.delete(face);
             else painting.faces.add(face);
         }
         this.stage.setPaintedFaces(painting.faces);
@@ -182,12 +221,8 @@ export class Draw {
     /** Highlights what the rectangle would select, judged by the picture. */
     preview() {
         if (!this.points) return;
-        const { filters, pieces } = this.state;
         const [a, b] = [this.points[0], this.points[this.points.length - 1]];
-        const seen = [...this.stage.seenIn([...a, ...b])].filter((piece) => {
-            const [labelled, instanced] = [pieces.semantic[piece] >= 1, pieces.instance[piece] >= 1];
-            return !(filters.only_without_class && labelled) && !(filters.only_with_class && !labelled) && !(filters.only_without_instance && instanced) && !(filters.only_with_instance && !instanced);
-        });
+        const seen = [...this.stage.seenIn([...a, ...b])].filter((piece) => passes(this.state, piece));
         this.stage.setMarks([], seen);
     }
 

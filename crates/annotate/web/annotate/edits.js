@@ -1,4 +1,5 @@
-// The queue of edits for the server. They are sent one at a time and in order. Unacknowledged edits are kept and sent again, also after a
+// The queue of edits for the server. They are sent one at a time and in order. An edit leaves the queue when the server has answered it;
+// while the server cannot be reached, or answers for reasons that are not the edit's, the edit waits and is sent again, also after a
 // reload. Each has an id, by which the server recognises an edit that it has done already.
 
 import { ApiError, getJson, postJson } from "../shared/api.js";
@@ -6,9 +7,14 @@ import { toast, toastError } from "../shared/toast.js";
 
 const RETRY_MS = 1500;
 const STORE = "enfilade.annotate.unsent";
+/** Answers that are about the edit: sent again, it would be refused again. */
+const ABOUT_THE_EDIT = new Set([400, 404, 409, 413, 415, 422]);
 
 /** A unique id. Browsers have `randomUUID` only for https and for pages of this machine. */
 const newId = () => crypto.randomUUID?.() ?? Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(36)).join("-");
+
+/** "1 edit", "2 edits". @param {number} count */
+export const counted = (count) => `${count} ${count === 1 ? "edit" : "edits"}`;
 
 /** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a change. */
 export class Edits extends EventTarget {
@@ -19,19 +25,45 @@ export class Edits extends EventTarget {
         this.store = `${STORE}:${scene}`;
         /** @type {{ id: string, action: any, done: (change: any) => void }[]} */
         this.queue = [];
-        this.offline = false;
+        /** Why the first edit of the queue waits. @type {ApiError | null} */
+        this.stuck = null;
+        /** True while changes of other pages are not heard. */
+        this.deaf = false;
+        /** True when the last edit was refused for good. */
+        this.refused = false;
         this.busy = false;
+        /** True when the page is loaded anew, which keeps the queue. */
+        this.reloading = false;
         for (const kept of JSON.parse(sessionStorage.getItem(this.store) ?? "[]")) this.queue.push({ ...kept, done: () => {} });
-        if (this.queue.length > 0) toast(`${this.queue.length} edits were not acknowledged by the server; they are sent again.`, "", "good");
+        if (this.queue.length > 0) toast(`The server had not answered ${counted(this.queue.length)}, sent again now.`, "", "good");
+        window.addEventListener("beforeunload", (event) => {
+            if (this.queue.length > 0 && !this.reloading) event.preventDefault();
+        });
     }
 
-    /** @returns {"saved" | "saving" | "offline"} */
+    /** True while edits cannot be sent or changes cannot be heard. */
+    get offline() {
+        return this.stuck !== null || this.deaf;
+    }
+
+    /** @returns {"saved" | "saving" | "offline" | "refused"} */
     get state() {
-        return this.offline ? "offline" : this.queue.length > 0 ? "saving" : "saved";
+        if (this.offline) return "offline";
+        if (this.queue.length > 0) return "saving";
+        return this.refused ? "refused" : "saved";
+    }
+
+    /** What is wrong, what that means for the edits, and what to do; empty when nothing is wrong. */
+    get trouble() {
+        if (!this.offline) return "";
+        const silent = !this.stuck || this.stuck.status === 0;
+        const kept = this.queue.length === 0 ? "Nothing is lost" : `${counted(this.queue.length)} kept here`;
+        const help = silent ? "Start `enfilade annotate` on the same port to go on." : this.stuck?.help ?? "";
+        return `${silent ? "The server does not answer." : `The server refuses edits: ${this.stuck?.message}.`} ${kept}; trying again. ${help}`;
     }
 
     /**
-     * Sends an edit. Resolves with the change, or with null if it was refused, which the user is told.
+     * Sends an edit. Resolves with the change, or with null if it was refused for good, which the user is told.
      *
      * @param {any} action
      * @returns {Promise<any>}
@@ -46,6 +78,10 @@ export class Edits extends EventTarget {
 
     keep() {
         sessionStorage.setItem(this.store, JSON.stringify(this.queue.map(({ id, action }) => ({ id, action }))));
+        this.tell();
+    }
+
+    tell() {
         this.dispatchEvent(new Event("state"));
     }
 
@@ -53,18 +89,11 @@ export class Edits extends EventTarget {
         if (this.busy) return;
         this.busy = true;
         while (this.queue.length > 0) {
-            const { id, action, done } = this.queue[0];
-            let change = null;
-            try {
-                change = await postJson("/api/annotate/edit", { client: this.client, id, action });
-                this.offline = false;
-            } catch (error) {
-                if (error instanceof ApiError && error.status === 0) {
-                    this.setOffline(true);
-                    await new Promise((resume) => setTimeout(resume, RETRY_MS));
-                    continue;
-                }
-                toastError(error);
+            const { done } = this.queue[0];
+            const change = await this.answered(this.queue[0]);
+            if (change === undefined) {
+                await new Promise((resume) => setTimeout(resume, RETRY_MS));
+                continue;
             }
             this.queue.shift();
             if (change) this.dispatchEvent(new CustomEvent("change", { detail: change }));
@@ -74,42 +103,67 @@ export class Edits extends EventTarget {
         this.busy = false;
     }
 
-    /** @param {boolean} offline */
-    setOffline(offline) {
-        if (this.offline === offline) return;
-        this.offline = offline;
-        this.dispatchEvent(new Event("state"));
+    /**
+     * Sends one edit: the change, null where the edit is refused for good, undefined where it has to be sent again.
+     *
+     * @param {{ id: string, action: any }} edit
+     */
+    async answered({ id, action }) {
+        try {
+            const change = await postJson("/api/annotate/edit", { client: this.client, id, action });
+            [this.stuck, this.refused] = [null, false];
+            return change;
+        } catch (error) {
+            const forGood = !(error instanceof ApiError) || ABOUT_THE_EDIT.has(error.status);
+            this.stuck = forGood ? null : error;
+            this.refused ||= forGood;
+            if (forGood) toastError(error);
+            this.tell();
+            return forGood ? null : undefined;
+        }
+    }
+
+    /** @param {boolean} deaf */
+    setDeaf(deaf) {
+        if (this.deaf === deaf) return;
+        this.deaf = deaf;
+        this.tell();
+    }
+
+    /** Takes everything anew. */
+    reload() {
+        this.reloading = true;
+        location.reload();
     }
 
     /**
      * Listens to changes. After a lost connection the server repeats what was missed, or asks for a reload.
      *
      * @param {() => number} revision the last one that is known
-     * @param {() => void} reload takes everything anew
      */
-    listen(revision, reload) {
+    listen(revision) {
         const source = new EventSource(`/api/annotate/events?since=${revision()}`);
         source.addEventListener("message", (event) => {
             this.dispatchEvent(new CustomEvent("change", { detail: JSON.parse(event.data) }));
         });
-        source.addEventListener("reload", reload);
-        source.addEventListener("open", () => this.setOffline(false));
+        source.addEventListener("reload", () => this.reload());
+        source.addEventListener("open", () => this.setDeaf(false));
         source.addEventListener("error", () => {
-            this.setOffline(true);
+            this.setDeaf(true);
             source.close();
-            setTimeout(() => void this.resume(revision, reload), RETRY_MS);
+            setTimeout(() => void this.resume(revision), RETRY_MS);
         });
     }
 
-    /** @param {() => number} revision @param {() => void} reload */
-    async resume(revision, reload) {
+    /** @param {() => number} revision */
+    async resume(revision) {
         try {
             const scene = await getJson("/api/annotate/scene");
-            if (scene.revision < revision()) reload();
+            if (scene.revision < revision()) this.reload();
         } catch {
-            setTimeout(() => void this.resume(revision, reload), RETRY_MS);
+            setTimeout(() => void this.resume(revision), RETRY_MS);
             return;
         }
-        this.listen(revision, reload);
+        this.listen(revision);
     }
 }

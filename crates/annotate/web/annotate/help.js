@@ -2,6 +2,7 @@
 
 import { el } from "../shared/dom.js";
 import { GESTURES, keyName } from "./commands.js";
+import { matches } from "./names.js";
 
 /** @typedef {import("./commands.js").Command} Command */
 
@@ -32,13 +33,12 @@ export function palette(table) {
     let found = [];
     let at = 0;
     function draw() {
-        list.replaceChildren(...found.map((command, i) => el("div", { role: "option", id: `palette-${i}`, "aria-selected": i === at, onclick: () => run(command) }, el("span", {}, command.name), written(command.keys))));
+        list.replaceChildren(...found.map((command, i) => el("div", { role: "option", id: `palette-${i}`, "aria-selected": i === at, onclick: () => run(command) }, el("span", {}, command.group === "Class" ? `Class ${command.name}` : command.name), written(command.keys))));
         input.setAttribute("aria-activedescendant", `palette-${at}`);
         list.children[at]?.scrollIntoView({ block: "nearest" });
     }
     function search() {
-        const words = input.value.toLowerCase().split(/\s+/);
-        found = table.filter(({ name, group }) => words.every((/** @type {string} */ word) => `${name} ${group}`.toLowerCase().includes(word)));
+        found = table.filter(({ name, group }) => matches(`${name} ${group}`, input.value));
         at = 0;
         draw();
     }
@@ -54,6 +54,10 @@ export function palette(table) {
             at = Math.min(found.length - 1, Math.max(0, at + by));
             draw();
             event.preventDefault();
+        } else if (event.key === "Escape") {
+            // The browser's own way is to empty the field first.
+            event.preventDefault();
+            dialog.close();
         } else if (event.key === "Enter" && found[at]) {
             event.preventDefault();
             run(found[at]);

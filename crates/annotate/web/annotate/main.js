@@ -8,17 +8,21 @@ import { toastError } from "../shared/toast.js";
 import { Actions } from "./actions.js";
 import { classesPanel } from "./classes_panel.js";
 import { pieceColors } from "./colors.js";
-import { commands, listenToKeys } from "./commands.js";
+import { classCommands, commands, listenToKeys } from "./commands.js";
 import { Draw } from "./draw.js";
-import { Edits } from "./edits.js";
+import { counted, Edits } from "./edits.js";
+import { focusReturnsTo } from "./focus.js";
 import { helpOverlay, palette } from "./help.js";
+import { historyPanel } from "./history_panel.js";
 import { tabs } from "./panels.js";
 import { piecesPanel } from "./pieces_panel.js";
 import { progressPanel, unlabelledPanel } from "./progress_panel.js";
+import { selectionBox } from "./selection_box.js";
+import { questionDialog } from "./question_dialog.js";
 import { State } from "./state.js";
 import { settingsDialog } from "./settings.js";
 import { suggestionsPanel } from "./suggestions_panel.js";
-import { selectionBox, toolbar, topBar } from "./toolbar.js";
+import { toolbar, topBar } from "./toolbar.js";
 
 /** How often activity is reported to the server, milliseconds. */
 const ACTIVITY_MS = 15_000;
@@ -29,36 +33,47 @@ const PROGRESS_AFTER_MS = 700;
 function takeTheme(stage) {
     const style = getComputedStyle(document.documentElement);
     const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
-    stage.setTheme({ background: color("--ground"), accent: color("--accent"), paint: color("--warn") });
+    stage.setTheme({ background: color("--ground"), accent: color("--select"), paint: color("--warn") });
 }
 
 /** Shows colours, marks and what is hidden as the state says. @param {Stage3d} stage @param {State} state */
 function showState(stage, state) {
-    state.on(["labels", "layer", "pieces"], () => stage.setPieceColors(pieceColors(state)));
+    state.on(["labels", "layer", "pieces", "proposed"], () => {
+        const { rgb, hatched } = pieceColors(state);
+        stage.setPieceColors(rgb, hatched);
+    });
     state.on(["selection"], () => stage.setMarks(state.selection));
     state.on(["visibility"], () => stage.setVisibility(state.hidden, state.xray));
     state.on(["theme"], () => takeTheme(stage));
     matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => takeTheme(stage));
     state.on(["drawMode", "painting"], () => stage.element.classList.toggle("drawing", state.drawMode || state.painting !== null));
-    state.on(["painting"], () => {
-        byId("mode").hidden = state.painting === null;
-        if (state.painting) byId("mode").textContent = `${state.painting.faces.size} faces of ${state.name(state.painting.piece)} painted. Drag to add (E takes out), Enter splits them off, Escape ends.`;
+    state.on(["tools", "painting"], () => {
+        const words = modeWords(state);
+        byId("mode").hidden = words === "";
+        byId("mode").textContent = words;
     });
-    state.on(["tools"], () => {
-        if (state.tool === "eyedropper") byId("stage").title = "Eyedropper: draw on what has the label to take";
-        else byId("stage").removeAttribute("title");
-    });
+}
+
+/** What a drag on the view does, where it is not the camera's. @param {State} state */
+function modeWords(state) {
+    if (state.painting) {
+        const { piece, faces, erase } = state.painting;
+        return `${faces.size} faces of ${state.name(piece)} painted. Drag to ${erase ? "take out" : "add"} (E: ${erase ? "add" : "take out"}), Enter splits them off, Escape ends.`;
+    }
+    if (!state.drawMode) return "";
+    if (state.tool === "eyedropper") return "Click what has the label to take. Escape ends.";
+    return `Drag to ${state.erase ? "erase" : "label"} with the ${state.tool}; Shift+drag moves the camera, Escape ends.`;
 }
 
 /** Shows whether edits are saved, and applies changes. @param {State} state @param {Edits} edits @param {Stage3d} stage @param {Actions} act */
 function followEdits(state, edits, stage, act) {
     const saved = byId("save-state");
     const show = () => {
-        const words = { saved: "All saved", saving: "Saving", offline: "Not connected" };
+        const words = { saved: "All saved", saving: "Saving", offline: edits.queue.length > 0 ? `${counted(edits.queue.length)} unsaved` : "Not connected", refused: "Last edit refused" };
         if (saved.textContent !== words[edits.state]) saved.textContent = words[edits.state];
-        saved.className = { saved: "good", saving: "quiet", offline: "bad" }[edits.state];
+        saved.className = { saved: "good", saving: "quiet", offline: "bad", refused: "bad" }[edits.state];
         byId("offline").hidden = !edits.offline;
-        byId("offline").textContent = `The server does not answer. ${edits.queue.length === 0 ? "Nothing is lost" : `${edits.queue.length} edits are kept here`}; trying again. Start \`enfilade annotate\` on the same port to go on.`;
+        byId("offline").textContent = edits.trouble;
     };
     edits.addEventListener("state", show);
     show();
@@ -69,14 +84,15 @@ function followEdits(state, edits, stage, act) {
     };
     edits.addEventListener("change", (event) => {
         const change = /** @type {CustomEvent} */ (event).detail;
-        if (change.revision > state.revision + 1) return void location.reload();
+        if (change.revision > state.revision + 1) return edits.reload();
         if (!state.takeChange(change)) return;
         const [faces, pieces] = change.moved_faces ?? [[], []];
         if (faces.length > 0) stage.moveFaces(faces, pieces);
+        if ([...change.resized, ...change.removed].some((one) => (one.piece ?? one) === state.painting?.piece)) act.endPainting();
         byId("live").textContent = change.description;
         progressSoon();
     });
-    edits.listen(() => state.revision, () => location.reload());
+    edits.listen(() => state.revision);
     void edits.work();
     progressSoon();
 }
@@ -100,25 +116,47 @@ function readOuts(stage, state) {
     };
     stage.addEventListener("camera", write);
     state.on(["view"], write);
+    let hovered = -1;
+    const name = () => {
+        if (hovered >= state.count) hovered = -1;
+        byId("hover").hidden = hovered < 0;
+        if (hovered >= 0) byId("hover").textContent = [state.name(hovered), state.className(hovered) || "no class", state.pieces.instance[hovered] >= 1 ? `instance ${state.pieces.instance[hovered]}` : ""].filter(Boolean).join(" · ");
+    };
+    state.on(["labels", "pieces"], name);
     return (/** @type {number} */ piece) => {
-        byId("hover").hidden = piece < 0;
-        if (piece < 0) return;
-        const { instance } = state.pieces;
-        byId("hover").textContent = [state.name(piece), state.className(piece) || "no class", instance[piece] >= 1 ? `instance ${instance[piece]}` : ""].filter(Boolean).join(" · ");
+        hovered = piece;
+        name();
     };
 }
 
-/** Goes where the address says: `#camera=NAME:FRAME&piece=NUMBER`, else to the first planned camera. @param {Actions} act @param {Stage3d} stage @param {State} state */
-function followAddress(act, stage, state) {
+/** Goes where the address says: `#camera=NAME:FRAME&piece=NUMBER`, else to the first planned camera. @param {import("./looking.js").Looking} looking @param {Stage3d} stage @param {State} state */
+function followAddress(looking, stage, state) {
     const words = new URLSearchParams(location.hash.slice(1));
     const [camera, frame] = (words.get("camera") ?? "").split(":");
-    const planned = act.frames.findIndex((/** @type {any} */ one) => one.camera === camera && String(one.frame) === (frame ?? "0"));
-    if (planned >= 0) act.goToFrame(planned);
+    const planned = looking.frames.findIndex((/** @type {any} */ one) => one.camera === camera && String(one.frame) === (frame ?? "0"));
+    if (planned >= 0) looking.goToFrame(planned);
     else if (state.scene.start_camera) stage.goTo(state.scene.start_camera, { instant: true });
     const piece = Number(words.get("piece") ?? -1);
     if (!words.has("piece") || !(piece < state.count)) return;
     if (planned >= 0) state.select([piece]);
-    else act.goToPiece(piece);
+    else looking.goToPiece(piece);
+}
+
+/** The panels at the side, and the dialogs. @param {Actions} act @param {import("./commands.js").Command[]} table @param {Map<string, import("./commands.js").Command>} byName */
+function panelsAndDialogs(act, table, byName) {
+    const { state, stage, edits } = act;
+    act.showTab = tabs([
+        { name: "classes", title: "Classes", element: classesPanel(state, act) },
+        { name: "pieces", title: "Pieces", element: piecesPanel(state, act) },
+        { name: "suggestions", title: "Suggested", element: suggestionsPanel(state, act) },
+        { name: "unlabelled", title: "To do", element: unlabelledPanel(state, act, byName) },
+        { name: "history", title: "History", element: historyPanel(state, edits) },
+        { name: "progress", title: "Progress", element: progressPanel(state) },
+    ]);
+    act.openHelp = helpOverlay(table);
+    act.openSettings = settingsDialog(state, stage);
+    act.openQuestion = questionDialog((note) => void act.review("question", note));
+    act.openPalette = palette([...table, ...classCommands(act)]);
 }
 
 async function start() {
@@ -136,26 +174,20 @@ async function start() {
     const table = commands(act);
     const byName = new Map(table.map((command) => [command.id, command]));
     stage.setGeometry(readGeometry(bytes));
-    stage.setOutlines(act.outlines);
+    stage.setOutlines(act.looking.outlines);
+    stage.controls.arrowsTurn = true;
     stage.addEventListener("lost", () => toastError(new Error("The browser has taken the graphics away. Reload the page.")));
     toolbar(state, byName);
-    topBar(state, byName, act);
-    selectionBox(state, byName);
-    act.showTab = tabs([
-        { name: "classes", title: "Classes", element: classesPanel(state, act) },
-        { name: "pieces", title: "Pieces", element: piecesPanel(state, act) },
-        { name: "suggestions", title: "Suggested", element: suggestionsPanel(state, act) },
-        { name: "unlabelled", title: "To do", element: unlabelledPanel(state, act) },
-        { name: "progress", title: "Progress", element: progressPanel(state) },
-    ]);
-    act.openHelp = helpOverlay(table);
-    act.openSettings = settingsDialog(state, stage);
-    act.openPalette = palette(table);
+    topBar(state, byName, act.looking);
+    selectionBox(state, byName, act);
+    panelsAndDialogs(act, table, byName);
     listenToKeys(table, act);
     showState(stage, state);
-    new Draw(stage, state, { newInstance: () => act.newInstance(), give: (action) => act.give(action), hovered: readOuts(stage, state) });
-    followAddress(act, stage, state);
-    window.addEventListener("hashchange", () => followAddress(act, stage, state));
+    const draw = new Draw(stage, state, { newInstance: () => act.newInstance(), give: (action) => act.give(action), hovered: readOuts(stage, state) });
+    act.giveUpStroke = () => draw.giveUp();
+    focusReturnsTo(stage.element);
+    followAddress(act.looking, stage, state);
+    window.addEventListener("hashchange", () => followAddress(act.looking, stage, state));
     followEdits(state, edits, stage, act);
     reportActivity();
     byId("loading").hidden = true;

@@ -3,7 +3,7 @@
 import { el, byId } from "../shared/dom.js";
 
 /**
- * Puts panels behind tabs. The tabs are one tab stop; arrows move between them.
+ * Puts panels behind tabs. The tabs are one tab stop; arrows move between them. A panel hears `shown` and `left`.
  *
  * @param {{ name: string, title: string, element: HTMLElement }[]} panels
  * @returns {(name: string) => void} shows one
@@ -21,6 +21,7 @@ export function tabs(panels) {
     byId("tabs").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
         const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
         if (by === 0) return;
+        event.preventDefault();
         const at = panels.findIndex(({ element }) => !element.hidden);
         const next = (at + by + panels.length) % panels.length;
         show(panels[next].name);
@@ -30,6 +31,7 @@ export function tabs(panels) {
     function show(name) {
         panels.forEach((panel, i) => {
             const on = panel.name === name;
+            if (!on && !panel.element.hidden) panel.element.dispatchEvent(new Event("left"));
             panel.element.hidden = !on;
             buttons[i].setAttribute("aria-selected", String(on));
             buttons[i].tabIndex = on ? 0 : -1;

@@ -3,6 +3,7 @@
 import { el, spaced } from "../shared/dom.js";
 import { css } from "./colors.js";
 import { PieceList } from "./list.js";
+import { matches } from "./names.js";
 
 /** A class with its colour. @param {import("./state.js").State} state @param {number} id */
 export function classCell(state, id) {
@@ -40,7 +41,7 @@ export function piecesPanel(state, act) {
         },
         isSelected: (piece) => state.selection.has(piece),
         select: selecting(state),
-        open: (piece) => act.goToPiece(piece),
+        open: (piece) => act.looking.goToPiece(piece),
     });
     const heads = Object.entries({ name: "Name", class: "Class", instance: "Inst.", area: "Area m²" }).map(([key, title]) =>
         el("button", { "data-column": key, title: `Sort by ${key}`, onclick: () => sort(key) }, title),
@@ -52,8 +53,7 @@ export function piecesPanel(state, act) {
         refresh();
     }
     function refresh() {
-        const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-        const found = [...Array(state.count).keys()].filter((piece) => !state.removed.has(piece) && words.every((/** @type {string} */ word) => state.name(piece).toLowerCase().includes(word)));
+        const found = [...Array(state.count).keys()].filter((piece) => !state.removed.has(piece) && matches(state.name(piece), search.value));
         const values = found.map((piece) => ({ piece, value: keys[column](piece) }));
         values.sort((a, b) => (a.value < b.value ? -1 : a.value > b.value ? 1 : a.piece - b.piece) * (descending ? -1 : 1));
         list.show(values.map(({ piece }) => piece));

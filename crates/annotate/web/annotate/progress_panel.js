@@ -1,36 +1,68 @@
-// The panels "To do" and "Progress": unlabelled pieces, shares of what is labelled, and the work log.
+// The panels "To do" and "Progress": pieces that lack a label, shares of what is labelled, and the work log.
 
 import { getJson } from "../shared/api.js";
 import { byId, el, spaced } from "../shared/dom.js";
 import { PieceList } from "./list.js";
-import { selecting } from "./pieces_panel.js";
+import { oneTabStop } from "./focus.js";
+import { classCell, selecting } from "./pieces_panel.js";
+import { commandButton } from "./toolbar.js";
 
-/** The list of what has no class, by pixels. @param {import("./state.js").State} state @param {import("./actions.js").Actions} act */
-export function unlabelledPanel(state, act) {
-    const byPiece = new Map();
+/** What the list "To do" may have. */
+const LISTS = [["semantic", "without a class"], ["instance", "with a class, without an instance"], ["done", "done, to be approved"], ["question", "with a question"]];
+
+/**
+ * The list of what lacks a label, by pixels, or what is to be reviewed, and how far the selection is.
+ *
+ * @param {import("./state.js").State} state
+ * @param {import("./actions.js").Actions} act
+ * @param {Map<string, import("./commands.js").Command>} table
+ */
+export function unlabelledPanel(state, act, table) {
+    /** @type {Map<number, import("./actions.js").Missing>} */
+    let byPiece = new Map();
     const words = el("p", { class: "quiet words" });
-    const list = new PieceList("Unlabelled pieces", "Every piece has a class.", {
+    const which = el("select", { "aria-label": "What is missing" }, ...LISTS.map(([value, text]) => el("option", { value }, text)));
+    const count = el("span", { class: "quiet number" });
+    const list = new PieceList("To do", "Nothing is left to do here.", {
         row: (piece) => {
             const pixels = byPiece.get(piece)?.pixels ?? 0;
-            return { piece, label: `${state.name(piece)}, ${pixels} pixels`, cells: [state.name(piece), "", "", spaced(pixels)] };
+            const review = state.reviewOf(piece);
+            return { piece, label: [state.name(piece), review || `${spaced(pixels)} pixels`].join(", "), cells: [state.name(piece), classCell(state, state.pieces.semantic[piece]), review || spaced(pixels)] };
         },
         isSelected: (piece) => state.selection.has(piece),
         select: selecting(state),
-        open: (piece) => act.goToPiece(piece, byPiece.get(piece)?.best_view),
+        open: (piece) => act.looking.goToPiece(piece, byPiece.get(piece)?.best_view),
     });
-    const refresh = () => list.show(act.unlabelled.map((one) => one.piece).filter((piece) => piece < state.count && state.pieces.semantic[piece] < 1));
+    const refresh = () => {
+        byPiece = new Map(act.unlabelled.map((one) => [one.piece, one]));
+        list.show([...byPiece.keys()].filter((piece) => piece < state.count && act.isMissing(piece)));
+        count.textContent = spaced(list.pieces.length);
+    };
+    which.addEventListener("change", () => {
+        act.lacking = which.value;
+        refresh();
+    });
     state.addEventListener("progress", (event) => {
-        const { unlabelled, visible } = /** @type {CustomEvent} */ (event).detail;
-        byPiece.clear();
-        for (const one of unlabelled) byPiece.set(one.piece, one);
+        const { visible } = /** @type {CustomEvent} */ (event).detail;
         words.textContent = `Pixels over ${visible.views} ${visible.views_of ?? "views"}. Double click, or the dot key, goes there.`;
         refresh();
     });
-    state.on(["labels"], refresh);
+    state.on(["labels", "reviews"], refresh);
     state.on(["selection"], () => list.draw());
-    const panel = el("div", { class: "todo" }, words, list.element);
+    const panel = el("div", { class: "todo" }, el("div", { class: "head" }, which, count), list.element, reviewButtons(state, table), words);
     panel.addEventListener("shown", () => list.draw());
     return panel;
+}
+
+/** What is said of the selection. @param {import("./state.js").State} state @param {Map<string, import("./commands.js").Command>} table */
+function reviewButtons(state, table) {
+    const buttons = [["done", "Done"], ["approve", "Approve"], ["question", "Question"], ["to-do", "To do"]].map(([id, text]) => commandButton(state, table, id, text));
+    const row = el("div", { class: "review", role: "group", "aria-label": "How far the selection is" }, ...buttons);
+    state.on(["selection"], () => {
+        for (const button of buttons) button.disabled = state.selection.size === 0;
+    });
+    oneTabStop(row);
+    return row;
 }
 
 /** @param {number} seconds */
@@ -51,6 +83,7 @@ export function progressPanel(state) {
             ...bar("Area with a class", area_share),
             ...bar("Pieces with a class", labelled_pieces / Math.max(1, pieces)),
             ...bar("Area with an instance", instance.area_share ?? 0),
+            ...bar("Pieces done or approved", [...state.reviews.values()].filter(({ state: one }) => one === "done" || one === "approved").length / Math.max(1, pieces)),
             ...mixed.slice(0, 8).map((/** @type {any} */ one) => el("p", {}, `Instance ${one.instance} has pieces of different classes.`)),
         );
         byId("progress-line").textContent = `${percent(visible.pixels_labelled_share)} of visible pixels, ${labelled_pieces} of ${pieces} pieces`;

@@ -1,6 +1,9 @@
-// The dialog "Camera and scene": flying speed, near plane, and numbers of the scene.
+// The dialog "Camera and scene": flying speed, near plane, faces while moving, and numbers of the scene.
 
 import { el, spaced } from "../shared/dom.js";
+
+/** Faces that are drawn while the camera moves: the value, and its name. */
+const PACES = [["", "as many as flow"], ["50000", "50 000"], ["200000", "200 000"], ["1000000", "1 000 000"], ["Infinity", "all"]];
 
 /**
  * The dialog, and what opens it.
@@ -26,6 +29,8 @@ export function settingsDialog(state, stage) {
         stage.cameraMoved();
     });
     const near = number("Nothing nearer than", "m", { min: "0", max: "1000", step: "any" }, () => stage.near, (value) => stage.setNear(value));
+    const pace = el("select", {}, ...PACES.map(([value, text]) => el("option", { value }, text)));
+    pace.addEventListener("change", () => (stage.pace.fixed = pace.value === "" ? null : Number(pace.value)));
     const { bounds, faces, vertices } = state.scene;
     const size = bounds.max.map((/** @type {number} */ v, /** @type {number} */ axis) => (v - bounds.min[axis]).toFixed(2)).join(" × ");
     const pieces = el("dd", { class: "number" });
@@ -33,7 +38,8 @@ export function settingsDialog(state, stage) {
         el("dt", {}, "Faces"), el("dd", { class: "number" }, spaced(faces)), el("dt", {}, "Vertices"), el("dd", { class: "number" }, spaced(vertices)),
         el("dt", {}, "Pieces"), pieces, el("dt", {}, "Size"), el("dd", { class: "number" }, `${size} m`), el("dt", {}, "Drawn by"), el("dd", {}, stage.graphics));
     const dialog = el("dialog", { class: "settings", "aria-label": "Camera and scene" }, el("h2", {}, "Camera and scene"), speed.row, near.row,
-        el("p", { class: "quiet" }, "What is nearer is neither drawn nor touched: so one looks into closed rooms."), facts, el("form", { method: "dialog" }, el("button", { autofocus: true }, "Close")));
+        el("p", { class: "quiet" }, "What is nearer is neither drawn nor touched: so one looks into closed rooms."),
+        el("label", { class: "setting" }, el("span", {}, "Faces while moving"), pace), el("p", { class: "quiet" }, "At rest all faces are drawn."), facts, el("form", { method: "dialog" }, el("button", { autofocus: true }, "Close")));
     document.body.append(dialog);
     return () => {
         speed.show();

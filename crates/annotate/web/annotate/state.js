@@ -1,5 +1,7 @@
 // The state of the annotation page: the scene, its pieces and their labels, the selection, the tools. An event "change" says what changed.
 
+import { CONTRARY } from "./filters.js";
+
 /**
  * @typedef {{ id: number, name: string, color: [number, number, number] }} LabelClass
  * @typedef {{ semantic: number, confidence: number, alternatives: [number, number][], reason?: string }} Suggestion
@@ -7,16 +9,15 @@
  * @typedef {{ layer: Layer, value?: number, unique?: boolean, new?: boolean }} Apply
  * @typedef {"pen" | "line" | "rectangle" | "eyedropper"} Tool
  * @typedef {"piece" | "instance" | "class"} Expand
- * @typedef {"only_without_instance" | "only_with_instance" | "only_without_class" | "only_with_class"} Filter
+ * @typedef {import("./filters.js").Filter} Filter
+ * @typedef {"to_do" | "done" | "approved" | "question"} ReviewState
  */
 
-/** Filters that contradict each other. @type {Record<Filter, Filter>} */
-const CONTRARY = {
-    only_without_instance: "only_with_instance",
-    only_with_instance: "only_without_instance",
-    only_without_class: "only_with_class",
-    only_with_class: "only_without_class",
-};
+/** Where rejected suggestions are kept, with the scene's source. */
+const REJECTED = "enfilade.annotate.rejected:";
+const GOES_ON = "enfilade.annotate.goes_on";
+/** So many classes count as recent. */
+const RECENT = 6;
 
 /** Asks the server for the next instance number: if pages chose numbers, two pages might choose the same. @returns {Apply} */
 export const newInstance = () => ({ layer: "instance", new: true });
@@ -50,19 +51,35 @@ export class State extends EventTarget {
         this.tool = "rectangle";
         this.erase = false;
         this.unique = false;
+        /** True when a plain drag draws with the tool. */
         this.drawMode = false;
+        /** True when the next piece that is to be done follows on each label. */
+        this.goesOn = localStorage.getItem(GOES_ON) === "true";
+        /** What the eyedropper gives way to after its use. @type {{ tool: Tool, drawMode: boolean }} */
+        this.afterEyedropper = { tool: "rectangle", drawMode: false };
         /** @type {Expand} */
         this.expand = "piece";
         /** @type {Record<Filter, boolean>} */
         this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
+        /** The class to give; null after a number that is no class. @type {number | null} */
         this.currentClass = this.classes[0]?.id ?? 1;
+        /** Classes that were given last, the last one first. @type {number[]} */
+        this.recent = [];
+        /** The number that is no class. @type {number | null} */
+        this.refused = null;
         /** Asks for a new instance until its number is known. Edits that get the same number share this object. @type {Apply | null} */
         this.fresh = newInstance();
         /** The instance to give, where it is not a new one. */
         this.currentInstance = 1;
-        /** @type {{ piece: number, faces: Set<number> } | null} painted faces to split off */
+        /** Painted faces to split off; with `erase` a drag takes faces out. @type {{ piece: number, faces: Set<number>, erase: boolean } | null} */
         this.painting = null;
         this.isolated = false;
+        /** How far pieces are that something was said of. @type {Map<number, { state: ReviewState, note: string }>} */
+        this.reviews = new Map();
+        /** Pieces that show what is suggested for them. @type {Set<number>} */
+        this.proposed = new Set();
+        /** Pieces whose suggestion was rejected in this browser. @type {Set<number>} */
+        this.rejected = new Set(JSON.parse(localStorage.getItem(REJECTED + scene.source) ?? "[]"));
     }
 
     get count() {
@@ -84,6 +101,30 @@ export class State extends EventTarget {
         return this.classById.get(this.pieces.semantic[piece])?.name ?? "";
     }
 
+    /** What is suggested for a piece and was not rejected. @param {number} piece @returns {Suggestion | null} */
+    suggestion(piece) {
+        return this.rejected.has(piece) ? null : (this.pieces.suggestions[piece] ?? null);
+    }
+
+    /** Rejects what is suggested for these pieces. @param {Iterable<number>} pieces */
+    reject(pieces) {
+        for (const piece of pieces) this.rejected.add(piece);
+        localStorage.setItem(REJECTED + this.scene.source, JSON.stringify([...this.rejected]));
+        this.tell("labels");
+    }
+
+    /** How far the pieces are, in words; empty where nothing was said. @param {number} piece */
+    reviewOf(piece) {
+        const review = this.reviews.get(piece);
+        return review ? [review.state.replace("_", " "), review.note].filter(Boolean).join(": ") : "";
+    }
+
+    /** @param {{ piece: number, state: ReviewState, note: string }[]} rows */
+    takeReviews(rows) {
+        this.reviews = new Map(rows.map(({ piece, state, note }) => [piece, { state, note }]));
+        this.tell("reviews");
+    }
+
     /** Tells listeners that these aspects have changed. @param {...string} aspects */
     tell(...aspects) {
         this.dispatchEvent(new CustomEvent("change", { detail: new Set(aspects) }));
@@ -101,6 +142,23 @@ export class State extends EventTarget {
     set(fields) {
         Object.assign(this, fields);
         this.tell("tools", ...Object.keys(fields));
+    }
+
+    /** Makes a class the one to give, or none if no class has this number. @param {number} id */
+    setClass(id) {
+        const known = this.classById.has(id);
+        this.set({ layer: "semantic", erase: false, currentClass: known ? id : null, refused: known ? null : id });
+    }
+
+    toggleGoingOn() {
+        localStorage.setItem(GOES_ON, String(!this.goesOn));
+        this.set({ goesOn: !this.goesOn });
+    }
+
+    /** A class was given. @param {number} id */
+    remember(id) {
+        this.recent = [id, ...this.recent.filter((one) => one !== id)].slice(0, RECENT);
+        this.tell("recent");
     }
 
     /** Switches a filter on or off. Switching it on switches its contrary off. @param {Filter} filter @param {boolean} on */
@@ -129,9 +187,10 @@ export class State extends EventTarget {
         return [...new Set([...this.hidden, ...this.xray])].filter((piece) => piece < this.count && !this.removed.has(piece));
     }
 
-    /** What a stroke or an assignment does now. @returns {Apply} */
+    /** What a stroke or an assignment does now; null while there is no class to give. @returns {Apply | null} */
     get apply() {
-        if (this.layer === "semantic") return { layer: "semantic", value: this.erase ? -1 : this.currentClass };
+        if (this.layer === "semantic" && this.erase) return { layer: "semantic", value: -1 };
+        if (this.layer === "semantic") return this.currentClass === null ? null : { layer: "semantic", value: this.currentClass };
         if (this.erase) return { layer: "instance", value: -1 };
         if (this.unique) return { layer: "instance", unique: true };
         return this.fresh ?? { layer: "instance", value: this.currentInstance };

@@ -1,44 +1,83 @@
-// The panel "Suggested": classes proposed from names, to confirm one by one, or all above a confidence.
+// The panel "Suggested": classes proposed from names, in groups of one name and class, to confirm or reject. While it is open the scene shows
+// them, hatched, in the colours of their classes.
 
 import { el, spaced } from "../shared/dom.js";
 import { PieceList } from "./list.js";
-import { classCell, selecting } from "./pieces_panel.js";
+import { stem } from "./names.js";
+import { classCell } from "./pieces_panel.js";
+
+/**
+ * Open suggestions of at least this confidence, in groups; the surest first.
+ *
+ * @param {import("./state.js").State} state
+ * @param {number} least
+ * @returns {number[][]} pieces
+ */
+export function groups(state, least) {
+    /** @type {Map<string, number[]>} */
+    const found = new Map();
+    for (let piece = 0; piece < state.count; piece++) {
+        const suggestion = state.suggestion(piece);
+        if (!suggestion || suggestion.confidence < least || state.pieces.semantic[piece] >= 1 || state.removed.has(piece)) continue;
+        const key = `${suggestion.semantic} ${stem(state.name(piece))}`;
+        found.set(key, [...(found.get(key) ?? []), piece]);
+    }
+    const sure = (/** @type {number[]} */ pieces) => Math.min(...pieces.map((piece) => state.suggestion(piece)?.confidence ?? 0));
+    return [...found.values()].sort((a, b) => sure(b) - sure(a) || b.length - a.length || a[0] - b[0]);
+}
 
 /** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act */
 export function suggestionsPanel(state, act) {
     const slider = el("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.9", "aria-label": "Minimum confidence" });
     const threshold = el("output", { class: "number" });
-    const confirm = el("button", { class: "primary", id: "confirm-all", onclick: () => void act.confirm(list.pieces) });
+    const all = () => [...groupOf.values()].flat();
+    const confirm = el("button", { id: "confirm-all", onclick: () => void act.confirm(all()) });
+    /** The pieces of each group, by its first piece. @type {Map<number, number[]>} */
+    let groupOf = new Map();
+    const of = (/** @type {number} */ first) => groupOf.get(first) ?? [];
     const list = new PieceList("Suggestions", "Nothing without a class is suggested with this confidence.", {
-        row: (piece) => {
-            const { semantic, confidence, reason } = state.pieces.suggestions[piece];
-            const name = state.classById.get(semantic)?.name ?? "";
-            const yes = el("button", { class: "plain", tabindex: "-1", "aria-label": `Confirm ${name} for ${state.name(piece)}`, onclick: (/** @type {Event} */ event) => confirmOne(event, piece) }, "✓");
-            return { piece, label: `${state.name(piece)}: ${name}, ${Math.round(confidence * 100)} %${reason ? `, ${reason}` : ""}`, cells: [state.name(piece), classCell(state, semantic), `${Math.round(confidence * 100)} %`, yes] };
-        },
-        isSelected: (piece) => state.selection.has(piece),
-        select: selecting(state),
-        open: (piece) => act.goToPiece(piece),
+        row: (first) => suggestionRow(state, act, first, of(first)),
+        isSelected: (first) => of(first).every((piece) => state.selection.has(piece)),
+        select: (first, more) => state.select([...(more ? state.selection : []), ...of(first)]),
+        open: (first) => void act.looking.lookAt(of(first)),
     });
-    /** @param {Event} event @param {number} piece */
-    function confirmOne(event, piece) {
-        event.stopPropagation();
-        void act.confirm([piece]);
-    }
     function refresh() {
-        const { suggestions, semantic } = state.pieces;
-        const min = Number(slider.value);
-        const open = [...Array(state.count).keys()].filter((piece) => !state.removed.has(piece) && suggestions[piece] && suggestions[piece].confidence >= min && semantic[piece] < 1);
-        list.show(open.sort((a, b) => suggestions[b].confidence - suggestions[a].confidence || a - b));
-        threshold.textContent = `≥ ${Math.round(min * 100)} %`;
-        confirm.textContent = `Confirm ${spaced(open.length)}`;
-        confirm.disabled = open.length === 0;
+        const least = Number(slider.value);
+        groupOf = new Map(groups(state, least).map((pieces) => [pieces[0], pieces]));
+        list.show([...groupOf.keys()]);
+        const count = all().length;
+        threshold.textContent = `≥ ${Math.round(least * 100)} %`;
+        confirm.textContent = `Confirm all ${spaced(count)}`;
+        confirm.disabled = count === 0;
+        if (!panel.hidden) propose();
     }
+    const propose = () => state.set({ proposed: new Set(all()) });
     slider.addEventListener("input", refresh);
+    const note = el("p", { class: "quiet words" }, state.scene.has_suggestions ? "Learned from names of parts and materials. Y confirms and Shift+Y rejects what is selected." : "No name of this scene is known, so there is nothing to suggest.");
+    const panel = el("div", { class: "suggested" }, el("div", { class: "head" }, slider, threshold, confirm), list.element, note);
+    panel.addEventListener("shown", () => {
+        list.draw();
+        propose();
+    });
+    panel.addEventListener("left", () => state.set({ proposed: new Set() }));
     state.on(["labels", "pieces"], refresh);
     state.on(["selection"], () => list.draw());
-    const note = el("p", { class: "quiet words" }, state.scene.has_suggestions ? "Learned from names of parts and materials. Y confirms the selection; a wrong one is corrected by giving another class." : "No name of this scene is known, so there is nothing to suggest.");
-    const panel = el("div", {}, el("div", { class: "head" }, slider, threshold, confirm), list.element, note);
-    panel.addEventListener("shown", () => list.draw());
     return panel;
+}
+
+/** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act @param {number} first @param {number[]} pieces */
+function suggestionRow(state, act, first, pieces) {
+    const semantic = state.suggestion(first)?.semantic ?? -1;
+    const className = state.classById.get(semantic)?.name ?? "";
+    const name = pieces.length === 1 ? state.name(first) : `${stem(state.name(first))} × ${pieces.length}`;
+    const sure = Math.round(100 * Math.min(...pieces.map((piece) => state.suggestion(piece)?.confidence ?? 0)));
+    const button = (/** @type {string} */ sign, /** @type {string} */ verb, /** @type {() => void} */ run) => {
+        const pressed = (/** @type {Event} */ event) => {
+            event.stopPropagation();
+            run();
+        };
+        return el("button", { class: "plain", tabindex: "-1", title: `${verb} ${className} for ${name}`, "aria-label": `${verb} ${className} for ${name}`, onclick: pressed, ondblclick: (/** @type {Event} */ event) => event.stopPropagation() }, sign);
+    };
+    const buttons = el("span", {}, button("✓", "Confirm", () => void act.confirm(pieces)), button("✗", "Reject", () => state.reject(pieces)));
+    return { piece: first, label: `${name}: ${className}, ${sure} %`, cells: [name, classCell(state, semantic), `${sure} %`, buttons] };
 }

@@ -17,7 +17,7 @@ use tower::ServiceExt;
 
 const LOG: &str = "annotation_log.jsonl";
 
-/// Opens a scene beside whose log, list of classes or times of work the bytes lie, by what they begin with. What does not begin like a
+/// Opens a scene beside whose log, list of classes, times of work or reviews the bytes lie, by what they begin with. What does not begin like a
 /// log goes behind the first line of one.
 pub fn log(folder: &Path) -> Run {
     let (options, header) = fresh(folder);
@@ -28,6 +28,7 @@ pub fn log(folder: &Path) -> Run {
         let (name, content) = match bytes {
             [b's', ..] => ("semantic_label_descs.csv", bytes.to_vec()),
             [b't', ..] => ("annotation_time.csv", bytes.to_vec()),
+            bytes if bytes.starts_with(b"{\"time") => ("annotation_review.jsonl", bytes.to_vec()),
             bytes if bytes.starts_with(b"{\"format") => (LOG, bytes.to_vec()),
             _ => (LOG, [&header, bytes].concat()),
         };

@@ -20,6 +20,13 @@ const FLY = /** @type {Record<string, [number, number, number]>} */ ({
     KeyF: [0, -1, 0],
 });
 
+/** Turning by key code: to the left and up. */
+const TURN = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
+/** Radians per second of turning by keys. */
+const TURN_RAD_PER_S = 1.2;
+/** A key that is pressed shortly turns as far as one that is held for this long, seconds. */
+const SHORT_TURN_S = 0.05;
+
 /** Moves a camera by pointer and keys, and calls `changed`. It draws nothing. */
 export class Controls {
     /**
@@ -37,8 +44,14 @@ export class Controls {
         this.speed = 1.5;
         /** True for a press of a button that the page uses for something else, such as drawing. @type {(event: PointerEvent) => boolean} */
         this.claimed = () => false;
+        /** The camera stays this near to a point, metres. */
+        this.bounds = { centre: new Vector3(), radius: Infinity };
         /** @type {Set<string>} */
         this.held = new Set();
+        /** True when arrow keys turn the camera; else the page has them. */
+        this.arrowsTurn = false;
+        /** True when keys turn the camera on the spot, and not about the look-at point. */
+        this.onTheSpot = false;
         /** @type {{ id: number, kind: "orbit" | "pan", x: number, y: number } | null} */
         this.drag = null;
         this.abort = new AbortController();
@@ -88,16 +101,37 @@ export class Controls {
         this.dolly(MathUtils.clamp(pixels, -300, 300) * (event.ctrlKey ? 0.01 : 0.002));
     }
 
+    /** Keeps the wheel from taking the camera farther than this from a point. @param {Vector3} centre @param {number} radius metres */
+    bound(centre, radius) {
+        this.bounds = { centre, radius };
+    }
+
     /**
-     * Takes a key of flying. True when it is one.
+     * Takes a key of flying or turning. True when it is one.
      *
      * @param {KeyboardEvent} event
      */
     key(event) {
-        if (!(event.code in FLY) || event.ctrlKey || event.metaKey || event.altKey) return false;
+        const turns = this.arrowsTurn && event.code in TURN;
+        if (event.ctrlKey || event.metaKey || event.altKey || !(turns || event.code in FLY)) return false;
+        if (turns) {
+            this.onTheSpot = event.shiftKey;
+            if (!this.held.has(event.code)) this.turn(TURN[event.code], SHORT_TURN_S);
+        }
         this.held.add(event.code);
         this.changed();
         return true;
+    }
+
+    /** Turns by keys. @param {[number, number]} way to the left, and up @param {number} seconds */
+    turn([left, up], seconds) {
+        const [yaw, pitch] = [left * TURN_RAD_PER_S * seconds, up * TURN_RAD_PER_S * seconds];
+        if (!this.onTheSpot) return this.orbit(-yaw, -pitch);
+        const eye = this.camera.position.clone();
+        // The point goes around the camera, and the camera stays.
+        const arm = this.lookAt.clone().sub(eye);
+        this.lookAt.copy(eye).add(turned(arm, yaw, -pitch));
+        this.aim();
     }
 
     /**
@@ -107,12 +141,16 @@ export class Controls {
      */
     fly(seconds) {
         if (this.held.size === 0) return;
+        const time = Math.min(seconds, 0.1);
         const step = new Vector3();
-        for (const code of this.held) step.add(new Vector3(...FLY[code]));
+        for (const code of this.held) {
+            if (code in TURN) this.turn(TURN[code], time);
+            else step.add(new Vector3(...FLY[code]));
+        }
         const ahead = forward(this.camera.quaternion);
         const right = new Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
         const move = ahead.multiplyScalar(step.z).addScaledVector(right, step.x).add(new Vector3(0, 0, step.y));
-        if (move.lengthSq() > 0) this.shift(move.setLength(this.speed * Math.min(seconds, 0.1)));
+        if (move.lengthSq() > 0) this.shift(move.setLength(this.speed * time));
     }
 
     /**
@@ -123,13 +161,7 @@ export class Controls {
      */
     orbit(yaw, pitch) {
         const arm = this.camera.position.clone().sub(this.lookAt);
-        const distance = arm.length();
-        const guard = MathUtils.degToRad(POLE_GUARD_DEG);
-        const polar = MathUtils.clamp(Math.acos(MathUtils.clamp(arm.z / distance, -1, 1)) + pitch, guard, Math.PI - guard);
-        const azimuth = Math.atan2(arm.y, arm.x) + yaw;
-        const flat = Math.sin(polar) * distance;
-        arm.set(Math.cos(azimuth) * flat, Math.sin(azimuth) * flat, Math.cos(polar) * distance);
-        this.camera.position.copy(this.lookAt).add(arm);
+        this.camera.position.copy(this.lookAt).add(turned(arm, yaw, pitch));
         this.aim();
     }
 
@@ -155,7 +187,10 @@ export class Controls {
         const arm = this.camera.position.clone().sub(this.lookAt);
         const distance = arm.length();
         const wanted = distance * Math.exp(amount);
-        this.camera.position.addScaledVector(arm.normalize(), wanted - distance);
+        const { centre, radius } = this.bounds;
+        const to = this.camera.position.clone().addScaledVector(arm.normalize(), wanted - distance);
+        if (amount > 0 && to.distanceTo(centre) > radius) return;
+        this.camera.position.copy(to);
         if (wanted < NEAREST_M) this.lookAt.copy(this.camera.position).addScaledVector(arm, -NEAREST_M);
         this.changed();
     }
@@ -181,4 +216,20 @@ export class Controls {
     dispose() {
         this.abort.abort();
     }
+}
+
+/**
+ * An arm that is turned about the vertical, and up or down, but not over the poles.
+ *
+ * @param {Vector3} arm metres
+ * @param {number} yaw radians, counter-clockwise from above
+ * @param {number} pitch radians, downward
+ */
+function turned(arm, yaw, pitch) {
+    const length = arm.length();
+    const guard = MathUtils.degToRad(POLE_GUARD_DEG);
+    const polar = MathUtils.clamp(Math.acos(MathUtils.clamp(arm.z / length, -1, 1)) + pitch, guard, Math.PI - guard);
+    const azimuth = Math.atan2(arm.y, arm.x) + yaw;
+    const flat = Math.sin(polar) * length;
+    return new Vector3(Math.cos(azimuth) * flat, Math.sin(azimuth) * flat, Math.cos(polar) * length);
 }

@@ -7,6 +7,9 @@ import { numbers } from "./tables.js";
 /** Faces of a block: 6 MB of positions, which are uploaded in a short time. */
 const BLOCK_FACES = FACE_WIDTH * 512;
 
+/** The height of a cut that cuts nothing away, metres. */
+export const NO_CUT = 3e38;
+
 /** The mesh in a three.js scene of its own, because it is drawn into a target of integers. */
 export class SceneMesh {
     /**
@@ -23,6 +26,7 @@ export class SceneMesh {
             pieceFlags: { value: tables.flagTexture },
             upInView: { value: new Vector3() },
             wireframe: { value: false },
+            cut: { value: NO_CUT },
         };
         /** @type {Mesh<BufferGeometry, RawShaderMaterial>[]} */
         this.blocks = [];

@@ -63,7 +63,9 @@ export class Picture {
             faceMarks: { value: tables.noFaces },
             hasFaceMarks: { value: false },
             outlines: { value: false },
+            anyMarked: { value: false },
             samples: { value: 1 },
+            scale: { value: 1 },
             hovered: { value: NONE },
             background: { value: new Color(0.1, 0.1, 0.1) },
             accent: { value: new Color(0.4, 0.65, 1) },
@@ -98,6 +100,7 @@ export class Picture {
         uniforms.pieceMarks.value = tables.markTexture;
         uniforms.faceMarks.value = tables.faceMarks ?? tables.noFaces;
         uniforms.hasFaceMarks.value = tables.faceMarks !== null;
+        uniforms.scale.value = renderer.getPixelRatio();
         renderer.render(this.scene, this.camera);
     }
 

@@ -33,6 +33,7 @@ flat out uint vFace;
 flat out uint vFlags;
 out vec3 vView;
 out vec3 vCorner;
+out float vHeight;
 
 void main() {
     int face = gl_VertexID / 3;
@@ -42,7 +43,9 @@ void main() {
     vFace = texelFetch(faceNumbers, at, 0).r;
     vFlags = texelFetch(pieceFlags, ivec2(vPiece % ${PIECE_WIDTH}u, vPiece / ${PIECE_WIDTH}u), 0).r;
     vCorner = vec3(corner == 0, corner == 1, corner == 2);
-    vec4 view = modelViewMatrix * vec4(boundsMin + position.xyz * boundsSize, 1.0);
+    vec3 world = boundsMin + position.xyz * boundsSize;
+    vHeight = world.z;
+    vec4 view = modelViewMatrix * vec4(world, 1.0);
     vView = view.xyz;
     // A hidden piece lies beyond the far plane.
     gl_Position = (vFlags & ${HIDDEN}u) != 0u ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * view;
@@ -56,11 +59,14 @@ flat in uint vFace;
 flat in uint vFlags;
 in vec3 vView;
 in vec3 vCorner;
+in float vHeight;
+uniform float cut;
 uniform vec3 upInView;
 uniform bool wireframe;
 layout(location = 0) out uvec2 seen;
 
 void main() {
+    if (vHeight > cut) discard;
     // One pixel of four of a piece that is seen through: four samples make a quarter of its colour.
     if ((vFlags & ${XRAY}u) != 0u && ((int(gl_FragCoord.x) | int(gl_FragCoord.y)) & 1) != 0) discard;
     vec3 normal = cross(dFdx(vView), dFdy(vView));
@@ -92,7 +98,9 @@ uniform usampler2D pieceMarks;
 uniform usampler2D faceMarks;
 uniform bool hasFaceMarks;
 uniform bool outlines;
+uniform bool anyMarked;
 uniform int samples;
+uniform float scale;
 uniform uint hovered;
 uniform vec3 background;
 uniform vec3 accent;
@@ -104,29 +112,53 @@ uint pieceAt(ivec2 at) { return texelFetch(seen, at, 0).r >> 8; }
 uint marksOf(uint piece) {
     if (piece == 0u) return 0u;
     uint i = piece - 1u;
-    uint marks = texelFetch(pieceMarks, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).r;
-    return i == hovered ? marks | 4u : marks;
+    return texelFetch(pieceMarks, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).r;
+}
+
+bool isMarked(uint piece) { return (marksOf(piece) & ${SELECTED | PREVIEWED}u) != 0u; }
+
+bool hoveredAt(ivec2 at) { return pieceAt(at) == hovered + 1u; }
+
+// True on lines of a pattern over the picture, not over the scene; lengths are CSS pixels.
+bool onLine(float across, float period, float width) { return mod(across, period * scale) < width * scale; }
+
+// The colour of what is seen there. Hatching says that it has no label in this layer, or is marked; its own colour stays between the lines.
+vec3 surface(uvec2 here, bool marked) {
+    uint i = (here.r >> 8) - 1u;
+    vec4 own = texelFetch(pieceColors, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0);
+    vec3 rgb = own.rgb * (float(here.r & 255u) / 255.0);
+    if (own.a < 0.9 && onLine(gl_FragCoord.x + gl_FragCoord.y, 10.0, own.a < 0.25 ? 1.5 : 2.5)) rgb = own.a < 0.25 ? rgb * 0.88 : mix(rgb, vec3(1.0), 0.5);
+    if (hasFaceMarks && texelFetch(faceMarks, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).r != 0u) rgb = mix(rgb, paint, 0.65);
+    if (marked && onLine(gl_FragCoord.x - gl_FragCoord.y, 12.0, 2.0)) rgb = mix(rgb, accent, 0.75);
+    return rgb;
+}
+
+// True when a place so far away, in samples, is of another piece that is marked otherwise.
+bool borders(ivec2 at, ivec2 size, int reach, uint piece, bool marked) {
+    for (int i = 0; i < 4; i++) {
+        ivec2 way = i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5);
+        uint other = pieceAt(clamp(at + way * reach, ivec2(0), size - 1));
+        if (other != piece && isMarked(other) != marked) return true;
+    }
+    return false;
 }
 
 vec3 colorAt(ivec2 at, ivec2 size) {
     uvec2 here = texelFetch(seen, at, 0).rg;
     uint piece = here.r >> 8;
-    uint marks = marksOf(piece);
-    vec3 rgb = background;
-    if (piece != 0u) {
-        uint i = piece - 1u;
-        rgb = texelFetch(pieceColors, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0).rgb;
-        rgb *= float(here.r & 255u) / 255.0;
-        if (hasFaceMarks && texelFetch(faceMarks, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).r != 0u) rgb = mix(rgb, paint, 0.65);
-        if ((marks & ${SELECTED | PREVIEWED}u) != 0u) rgb = mix(rgb, accent, 0.35);
-        else if (marks != 0u) rgb = mix(rgb, accent, 0.16);
+    bool marked = anyMarked && isMarked(piece);
+    vec3 rgb = piece == 0u ? background : surface(here, marked);
+    int thin = samples * int(scale + 0.5);
+    // What is marked has a line of two pixels within, and a dark one around it.
+    if (marked && borders(at, size, 2 * thin, piece, true)) return accent;
+    if (anyMarked && !marked && borders(at, size, thin, piece, false)) return vec3(0.06);
+    ivec2 right = min(at + ivec2(thin, 0), size - 1);
+    ivec2 above = min(at + ivec2(0, thin), size - 1);
+    if (hovered != ${0xffffffff}u) {
+        bool over = piece == hovered + 1u;
+        if (hoveredAt(right) != over || hoveredAt(above) != over) return vec3(onLine(gl_FragCoord.x - gl_FragCoord.y, 8.0, 4.0) ? 1.0 : 0.0);
     }
-    uint right = pieceAt(min(at + ivec2(1, 0), size - 1));
-    uint above = pieceAt(min(at + ivec2(0, 1), size - 1));
-    if (right != piece || above != piece) {
-        if (((marks ^ marksOf(right)) | (marks ^ marksOf(above))) != 0u) rgb = accent;
-        else if (outlines) rgb *= 0.55;
-    }
+    if (outlines && (pieceAt(min(at + ivec2(1, 0), size - 1)) != piece || pieceAt(min(at + ivec2(0, 1), size - 1)) != piece)) rgb *= 0.55;
     return rgb;
 }
 

@@ -11,21 +11,23 @@
 // ones first; at rest it draws all. World: metres, z up. Pixels count from the upper left corner of the element, in CSS pixels.
 
 import { Color, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "../../vendor/three.js";
-import { cameraJson, fittingFov, forward, rotation } from "./camera.js";
+import { cameraJson, fittingFov, forward, lookingAt, rotation } from "./camera.js";
 import { Controls } from "./controls.js";
 import { Flight, motionReduced } from "./flight.js";
-import { SceneMesh } from "./mesh.js";
+import { NO_CUT, SceneMesh } from "./mesh.js";
 import { Pace } from "./pace.js";
 import { NONE, Picture, SeenTarget } from "./picture.js";
 import { hitPoint, seenAt, seenIn } from "./probe.js";
 import { Refinement } from "./refine.js";
 import { HIDDEN, PREVIEWED, SELECTED, XRAY } from "./shaders.js";
-import { Tables } from "./tables.js";
+import { HATCHING, Tables } from "./tables.js";
 
 /** Minimum distance of the near plane from the camera, metres. */
 const NEAR_M = 0.05;
 /** Distance of the far plane if there are no faces, metres. */
 const FAR_M = 100;
+/** How far the wheel takes the camera from the middle of a scene, in diagonals of it. */
+const FARTHEST = 2;
 /** The camera is at rest when it has not moved for this long, milliseconds. */
 const SETTLE_MS = 140;
 /** Frames that are further apart than this, milliseconds, belong to two motions. */
@@ -76,6 +78,8 @@ export class Stage3d extends EventTarget {
         this.controls = new Controls(element, this.camera, () => this.cameraMoved());
         /** @type {SceneMesh | null} */
         this.mesh = null;
+        /** The height above which nothing is shown, metres. @type {number | null} */
+        this.cut = null;
         /** @type {Flight | null} */
         this.flight = null;
         /** Counts for read-outs: frames drawn while moving, time between them, time of the last whole picture. */
@@ -110,7 +114,8 @@ export class Stage3d extends EventTarget {
         this.pace = new Pace(geometry.faces, this.software);
         this.pace.fixed = fixed;
         const diagonal = new Vector3(...geometry.max).distanceTo(new Vector3(...geometry.min));
-        this.camera.far = Math.max(10, diagonal * 2);
+        this.controls.bound(new Vector3(...geometry.min).add(new Vector3(...geometry.max)).multiplyScalar(0.5), diagonal * FARTHEST);
+        this.camera.far = Math.max(10, diagonal * (FARTHEST + 1));
         this.meshChanged();
     }
 
@@ -120,15 +125,16 @@ export class Stage3d extends EventTarget {
         this.mesh = null;
         this.quick.dispose();
         this.fine.dispose();
+        this.controls.bound(new Vector3(), Infinity);
         this.camera.far = FAR_M;
         this.meshChanged();
     }
 
-    /** Colours of all pieces. @param {Uint8Array} rgb three values per piece, sRGB 0..255 */
-    setPieceColors(rgb) {
+    /** Colours of all pieces. @param {Uint8Array} rgb three values per piece, sRGB 0..255 @param {Uint8Array} [hatched] how each piece is hatched */
+    setPieceColors(rgb, hatched) {
         this.tables.grow(rgb.length / 3);
         const { colors } = this.tables;
-        for (let i = 0, j = 0; i < rgb.length; i += 3, j += 4) colors.set([rgb[i], rgb[i + 1], rgb[i + 2]], j);
+        for (let i = 0, j = 0; i < rgb.length; i += 3, j += 4) colors.set([rgb[i], rgb[i + 1], rgb[i + 2], HATCHING[hatched?.[i / 3] ?? 0]], j);
         this.tables.colorTexture.needsUpdate = true;
         this.requestFrame();
     }
@@ -160,6 +166,7 @@ export class Stage3d extends EventTarget {
         for (const piece of selected) marks[piece] |= SELECTED;
         for (const piece of previewed) marks[piece] |= PREVIEWED;
         this.tables.markTexture.needsUpdate = true;
+        this.picture.uniforms.anyMarked.value = marks.some((one) => one !== 0);
         this.requestFrame();
     }
 
@@ -193,7 +200,7 @@ export class Stage3d extends EventTarget {
         this.meshChanged();
     }
 
-    /** Colours of the surroundings. @param {{ background: string, accent: string, paint: string }} colors CSS colours */
+    /** Colours of the surroundings, of what is marked, and of painted faces. @param {{ background: string, accent: string, paint: string }} colors CSS colours */
     setTheme({ background, accent, paint }) {
         // The picture holds colours as they are shown; three.js would take them as light.
         const { uniforms } = this.picture;
@@ -238,21 +245,33 @@ export class Stage3d extends EventTarget {
         this.cameraMoved();
     }
 
-    /** Looks at a box from where the camera is, closer or farther so that it fills a good part. @param {number[]} min @param {number[]} max */
-    frameBox(min, max) {
+    /** Shows a box from a direction, at such a distance that it fills a good part. @param {number[]} min @param {number[]} max @param {Vector3} back from the box to the camera */
+    frameBox(min, max, back) {
         const center = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
-        const radius = Math.max(0.15, new Vector3(...max).distanceTo(new Vector3(...min)) / 2);
-        const distance = (radius * 1.4) / Math.tan((this.camera.fov * Math.PI) / 360);
-        const back = forward(this.camera.quaternion).negate();
-        const to = { position: center.clone().addScaledVector(back, distance), quaternion: this.camera.quaternion.clone(), fov: this.camera.fov };
-        this.controls.lookAt.copy(center);
-        this.flight = new Flight(this.camera, to, motionReduced() ? -Infinity : performance.now());
+        const radius = new Vector3(...max).distanceTo(new Vector3(...min)) / 2;
+        const half = Math.min(1, this.camera.aspect) * Math.tan((this.camera.fov * Math.PI) / 360);
+        this.flyTo(center.clone().addScaledVector(back, (radius * 1.05) / Math.sin(Math.atan(half))), center);
+    }
+
+    /** Goes to a place and looks at a point, which the camera then turns about. @param {Vector3} from @param {Vector3} to */
+    flyTo(from, to) {
+        this.controls.lookAt.copy(to);
+        const pose = { position: from, quaternion: lookingAt(from, to), fov: this.camera.fov };
+        this.flight = new Flight(this.camera, pose, motionReduced() ? -Infinity : performance.now());
         this.cameraMoved();
     }
 
     /** The camera of now as the server takes it; pixels are CSS pixels of the element. */
     cameraJson() {
-        return cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight, this.near);
+        const json = cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight, this.near);
+        return this.cut === null ? json : { ...json, cut_z_m: this.cut };
+    }
+
+    /** What lies higher is neither drawn nor picked. @param {number | null} height_m null for no cut */
+    setCut(height_m) {
+        this.cut = height_m;
+        if (this.mesh) this.mesh.shared.cut.value = height_m ?? NO_CUT;
+        this.meshChanged();
     }
 
     /** What is nearer along the optical axis is neither drawn nor picked, metres. */

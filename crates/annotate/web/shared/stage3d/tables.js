@@ -3,6 +3,13 @@
 import { DataTexture, RGBAFormat, RedIntegerFormat, UnsignedByteType, UnsignedIntType } from "../../vendor/three.js";
 import { MARK_WIDTH, PIECE_WIDTH } from "./shaders.js";
 
+/** How a piece is hatched; 0 is not at all. */
+export const DARK_LINES = 1;
+export const WHITE_LINES = 2;
+
+/** What the colours' fourth value says of each. */
+export const HATCHING = [255, 0, 128];
+
 /**
  * A texture of integers, `width` in a row. Takes `values` as they are where they fill the rows, else a copy.
  *
@@ -37,7 +44,7 @@ export class Tables {
     constructor(pieces) {
         this.rows = Math.max(1, Math.ceil(pieces / PIECE_WIDTH));
         const room = this.rows * PIECE_WIDTH;
-        /** RGBA per piece, sRGB 0..255. */
+        /** RGB per piece, sRGB 0..255, and one of {@link HATCHING}. */
         this.colors = new Uint8Array(room * 4).fill(255);
         this.flags = new Uint8Array(room);
         this.marks = new Uint8Array(room);

@@ -1,0 +1,36 @@
+// The panel "History": every edit, the last one first, and above it what was undone. A click goes back or forward to an edit.
+
+import { getJson } from "../shared/api.js";
+import { el } from "../shared/dom.js";
+import { toastError } from "../shared/toast.js";
+import { oneTabStop } from "./focus.js";
+
+/** @typedef {{ description: string, time: string }} HistoryRow */
+
+/** @param {import("./state.js").State} state @param {import("./edits.js").Edits} edits */
+export function historyPanel(state, edits) {
+    const list = el("div", { class: "scroll history", role: "group", "aria-label": "Edits, the last one first" });
+    const panel = el("div", { hidden: true }, el("p", { class: "quiet words" }, "A click goes back to an edit, or forward to one that was undone."), list);
+    /** @param {"undo" | "redo"} type @param {number} times */
+    const travel = (type, times) => {
+        for (let i = 0; i < times; i++) void edits.send({ type });
+    };
+    /** @param {HistoryRow} one @param {string} kind @param {() => void} go */
+    const row = ({ description, time }, kind, go) => el("button", { class: `edit ${kind}`, title: description, onclick: go }, el("span", { class: "quiet number" }, new Date(time).toLocaleTimeString()), el("span", { class: "name" }, description));
+    async function refresh() {
+        if (panel.hidden) return;
+        try {
+            const { done, undone } = await getJson("/api/annotate/history");
+            const ahead = undone.map((/** @type {HistoryRow} */ one, /** @type {number} */ i) => row(one, "undone", () => travel("redo", i + 1))).reverse();
+            const behind = done.map((/** @type {HistoryRow} */ one, /** @type {number} */ i) => row(one, i === 0 ? "now" : "", () => travel("undo", i)));
+            const beginning = el("button", { class: `edit ${done.length === 0 ? "now" : ""}`, onclick: () => travel("undo", done.length) }, el("span"), el("span", { class: "name" }, "The beginning"));
+            list.replaceChildren(...ahead, ...behind, beginning);
+        } catch (error) {
+            toastError(error);
+        }
+    }
+    panel.addEventListener("shown", () => void refresh());
+    state.on(["history"], () => void refresh());
+    oneTabStop(list);
+    return panel;
+}

@@ -1,0 +1,156 @@
+// Where the camera goes, and what it sees: planned cameras, pieces, the whole scene, what is hidden.
+
+import { Vector3 } from "../vendor/three.js";
+import { postJson } from "../shared/api.js";
+import { byId } from "../shared/dom.js";
+import { toastError } from "../shared/toast.js";
+import { ceilings } from "./ceilings.js";
+
+/** The direction from the scene to the camera that shows all of it, beside the camera's own turn: so far down, degrees. */
+const DOWN_DEG = 40;
+
+/** A step of the cut, metres. */
+export const CUT_STEP_M = 0.25;
+
+/** What the commands of the camera and of visibility do. */
+export class Looking {
+    /** @param {import("./state.js").State} state @param {import("../shared/stage3d/stage.js").Stage3d} stage */
+    constructor(state, stage) {
+        this.state = state;
+        this.stage = stage;
+        this.wireframe = false;
+        this.outlines = true;
+        this.camera = -1;
+        /** Ceilings that are hidden by command. @type {number[] | null} */
+        this.ceilings = null;
+        /** Counts flights to pieces, so that a late answer does not end a newer one. */
+        this.flights = 0;
+        /** All planned frames, in order. */
+        this.frames = state.scene.cameras.flatMap((/** @type {any} */ camera) => camera.frames.map((/** @type {any} */ frame) => ({ ...frame, camera: camera.name })));
+    }
+
+    /** Selects a piece and looks at it. @param {number} piece @param {{ camera: string, frame: number } | null} [view] */
+    goToPiece(piece, view = null) {
+        this.state.select([piece]);
+        const frame = view && this.frames.find((/** @type {any} */ one) => one.camera === view.camera && one.frame === view.frame);
+        if (frame) this.goToFrame(this.frames.indexOf(frame));
+        else void this.lookAt([piece]);
+    }
+
+    /** Goes where these pieces are seen freely. @param {number[]} pieces */
+    async lookAt(pieces) {
+        const flight = ++this.flights;
+        try {
+            const place = await postJson("/api/annotate/viewpoint", { camera: this.stage.cameraJson(), pieces, hidden: this.state.unseen });
+            if (place && flight === this.flights) this.stage.flyTo(new Vector3(...place.from), new Vector3(...place.to));
+        } catch (error) {
+            toastError(error);
+        }
+    }
+
+    /** @param {number} index */
+    goToFrame(index) {
+        const frame = this.frames[index];
+        if (!frame) return;
+        this.flights++;
+        this.camera = index;
+        byId("cameras").value = String(index);
+        history.replaceState(null, "", `#camera=${encodeURIComponent(frame.camera)}:${frame.frame}`);
+        this.stage.goTo(frame);
+    }
+
+    /** @param {number} by */
+    stepCamera(by) {
+        if (this.frames.length > 0) this.goToFrame((this.camera + by + this.frames.length) % this.frames.length);
+    }
+
+    /** Shows all of the scene, obliquely from where the camera is turned to. */
+    wholeScene() {
+        const back = new Vector3(0, 0, 1).applyQuaternion(this.stage.camera.quaternion);
+        const turn = Math.hypot(back.x, back.y) > 1e-3 ? Math.atan2(back.y, back.x) : -Math.PI / 2;
+        const down = (DOWN_DEG * Math.PI) / 180;
+        this.show(new Vector3(Math.cos(turn) * Math.cos(down), Math.sin(turn) * Math.cos(down), Math.sin(down)));
+    }
+
+    /** Shows all of the scene from straight above, without ceilings. */
+    fromAbove() {
+        if (!this.ceilings) this.toggleCeilings();
+        this.show(new Vector3(0, 0, 1));
+    }
+
+    /** @param {Vector3} back from the scene to the camera */
+    show(back) {
+        const { min, max } = this.state.scene.bounds;
+        this.flights++;
+        this.stage.frameBox(min, max, back);
+    }
+
+    /** Hides what covers rooms from above, or shows it again. */
+    toggleCeilings() {
+        const { state } = this;
+        const hidden = new Set(state.hidden);
+        if (this.ceilings) {
+            for (const piece of this.ceilings) hidden.delete(piece);
+            this.ceilings = null;
+        } else {
+            this.ceilings = ceilings(state);
+            for (const piece of this.ceilings) hidden.add(piece);
+        }
+        state.setVisibility(hidden, state.xray, state.isolated);
+    }
+
+    /** Moves the height above which nothing is shown; above the scene there is no cut. @param {number} by metres */
+    moveCut(by) {
+        const { min, max } = this.state.scene.bounds;
+        const cut = Math.max(min[2] + CUT_STEP_M, (this.stage.cut ?? max[2]) + by);
+        this.stage.setCut(cut > max[2] ? null : cut);
+    }
+
+    showAll() {
+        this.ceilings = null;
+        this.stage.setCut(null);
+        this.state.setVisibility([], []);
+    }
+
+    /** @param {number[]} pieces */
+    xray(pieces) {
+        const { state } = this;
+        const all = pieces.every((piece) => state.xray.has(piece));
+        const xray = new Set(state.xray);
+        for (const piece of pieces) all ? xray.delete(piece) : xray.add(piece);
+        state.setVisibility(state.hidden, xray, state.isolated);
+    }
+
+    /** @param {number[]} pieces */
+    isolate(pieces) {
+        const { state } = this;
+        this.ceilings = null;
+        if (state.isolated) return state.setVisibility([], state.xray);
+        const kept = new Set(pieces);
+        state.setVisibility([...Array(state.count).keys()].filter((piece) => !kept.has(piece)), state.xray, true);
+    }
+
+    /** @param {number[]} pieces */
+    hide(pieces) {
+        const { state } = this;
+        state.setVisibility([...state.hidden, ...pieces], state.xray, state.isolated);
+        state.select([]);
+    }
+
+    toggleWireframe() {
+        this.wireframe = !this.wireframe;
+        this.stage.setWireframe(this.wireframe);
+    }
+
+    toggleOutlines() {
+        this.outlines = !this.outlines;
+        this.stage.setOutlines(this.outlines);
+    }
+
+    /** @param {number} factor */
+    speed(factor) {
+        const { controls } = this.stage;
+        controls.speed = Math.min(20, Math.max(0.1, controls.speed * factor));
+        this.state.tell("view");
+    }
+}
