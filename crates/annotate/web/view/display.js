@@ -11,6 +11,7 @@ import { PERCENTILES, brief } from "./numbers.js";
 export function displayPanel(session) {
     const { store, looks } = session;
     const sides = session.sides();
+    if (!sides.length) return [];
     const kinds = sides.map((side) => looks.look(side.layer).kind);
     const children = [];
     if (kinds.includes("radiance")) children.push(...toneFields(store));
@@ -82,15 +83,24 @@ function layerPart(session, side) {
 function rangeFields(store, layer, look, summary) {
     const [low, high] = rangeOf(look, summary, store.state.ranges[layer]);
     const chosen = layer in store.state.ranges;
-    const set = (/** @type {number} */ a, /** @type {number} */ b) => a < b && store.set({ ranges: { ...store.state.ranges, [layer]: [a, b] } });
+    const refused = el("p", { class: "refused", role: "alert" });
+    const set = (/** @type {number} */ a, /** @type {number} */ b) => {
+        refused.textContent = a < b ? "" : Number.isNaN(a) || Number.isNaN(b) ? "Both ends are numbers." : `The min, ${brief(a)}, must be less than the max, ${brief(b)}.`;
+        for (const end of ends) end.setAttribute("aria-invalid", String(!(a < b)));
+        if (a < b) store.set({ ranges: { ...store.state.ranges, [layer]: [a, b] } });
+    };
     const free = () => {
         const { [layer]: _, ...ranges } = store.state.ranges;
         store.set({ ranges });
     };
-    const input = (/** @type {number} */ value, /** @type {string} */ label, /** @type {(v: number) => void} */ change) =>
-        el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: (/** @type {any} */ e) => change(e.target.valueAsNumber) });
+    // What was not touched keeps all of its digits; the field shows a few.
+    const numberOf = (/** @type {any} */ end, /** @type {number} */ value) => (end.value === brief(value) ? value : end.valueAsNumber);
+    const change = () => set(numberOf(ends[0], low), numberOf(ends[1], high));
+    const input = (/** @type {number} */ value, /** @type {string} */ label) => el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: change });
+    const ends = [input(low, "Min"), input(high, "Max")];
     const fields = [
-        el("div", { class: "field" }, el("span", {}, "Range"), el("span", { class: "pair" }, input(low, "Lower end", (v) => set(v, high)), input(high, "Upper end", (v) => set(low, v)))),
+        el("div", { class: "field" }, el("span", {}, "Min, max"), el("span", { class: "pair" }, ...ends)),
+        refused,
         el("div", { class: "field" }, el("span", {}), el("span", { class: "pair" },
             el("button", { type: "button", "aria-pressed": String(!chosen), title: "1st to 99th percentile of each frame", onclick: free }, "Automatic"),
             el("button", { type: "button", "aria-pressed": String(chosen), title: "The same for all frames", onclick: () => set(low, high) }, "Hold"))),

@@ -52,15 +52,15 @@ function instancesPart(session, known, repaint) {
             repaint();
         };
         const pin = () => session.store.set({ instance: session.store.state.instance === id ? 0 : id });
-        return el("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, title: session.looks.instanceName(id),
+        return el("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, "data-key": `instance-${id}`, title: session.looks.instanceName(id),
             onpointerenter: () => mark(true), onpointerleave: () => mark(false), onfocus: () => mark(true), onblur: () => mark(false), onclick: pin,
             onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && pin() },
-            el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`),
-            el("td", {}, session.looks.className(session.looks.classOfInstance(id))),
+            el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`,
+                el("div", { class: "quiet" }, session.looks.className(session.looks.classOfInstance(id)))),
             el("td", { class: "number" }, brief(area.pixels)),
             el("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
     };
-    return [el("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
+    return [el("h2", {}, list.length === 1 ? "1 instance" : `${list.length} instances`), table(["Name and class", "pixels", "seen"], ["auto", "4.6em", "4.2em"], list.map(row))];
 }
 
 /** @param {Session} session */
@@ -71,11 +71,11 @@ function classesPart(session) {
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
         el("tr", { "data-class": id }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));
-    return [el("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+    return [el("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "3em", "5.4em"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */
 function table(heads, widths, rows) {
     return el("table", { class: "rows" }, el("colgroup", {}, ...widths.map((width) => el("col", { style: `width:${width}` }))),
-        el("thead", {}, el("tr", {}, ...heads.map((head, i) => el("th", { class: i && head !== "Class" ? "number" : "" }, head)))), el("tbody", {}, ...rows));
+        el("thead", {}, el("tr", {}, ...heads.map((head, i) => el("th", { class: i ? "number" : "" }, head)))), el("tbody", {}, ...rows));
 }

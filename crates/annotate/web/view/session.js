@@ -3,6 +3,7 @@
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
 import { Loader } from "./loader.js";
 import { Looks } from "./looks.js";
+import { showNotice } from "./notice.js";
 import { pixelOf } from "./numbers.js";
 
 /** @typedef {import("./catalogue.js").Dataset} Dataset */
@@ -57,18 +58,24 @@ export class Session {
         try {
             const scenes = this.dataset.scenes;
             if (!scenes.length) throw { message: "The dataset has no scenes.", help: "Render some; this page shows them when it is loaded again." };
-            const scene = await getScene(scenes.includes(state.scene) ? state.scene : scenes[0]);
-            const name = scene.cameras.includes(state.camera) ? state.camera : scene.cameras[0];
+            if (state.scene && !scenes.includes(state.scene)) throw missing(`scene ${state.scene}`, "this dataset", scenes);
+            const scene = await getScene(state.scene || scenes[0]);
+            if (state.camera && scene.cameras.length && !scene.cameras.includes(state.camera)) throw missing(`camera ${state.camera}`, `the scene ${scene.name}`, scene.cameras);
+            const name = state.camera || scene.cameras[0];
             const camera = name === undefined ? null : await getCamera(scene.name, name);
             if (this.store.state.scene !== state.scene || this.store.state.camera !== state.camera) return;
             this.scene = scene;
             this.camera = camera;
-            this.problem = camera ? null : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
+            const lost = scene.problems.find((one) => one.panel === "views");
+            this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
             this.looks.enter(scene);
-            this.store.set({ scene: scene.name, camera: name ?? "", ...this.#nearest(state) });
+            const near = this.#nearest(state);
+            if (state.frame >= 0 && near.frame !== state.frame) showNotice(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
+            this.store.set({ scene: scene.name, camera: name ?? "", ...near }, { step: false });
         } catch (error) {
             const { message, help } = /** @type {any} */ (error);
             this.problem = { message, help: help ?? "" };
+            [this.scene, this.camera] = [null, null];
         }
         this.entered();
         this.refresh();
@@ -94,7 +101,8 @@ export class Session {
         const there = this.layersOf(frame);
         const known = (/** @type {string} */ layer, /** @type {string} */ instead) => (there.includes(layer) ? layer : there.includes(instead) ? instead : (there[0] ?? layer));
         const layer = known(state.layer, "color");
-        return { frame, layer, other: known(state.other, "depth_meters") };
+        const other = known(state.other, "depth_meters");
+        return { frame, layer, other: other === layer && state.otherFrame === null ? (there.find((one) => one !== layer) ?? other) : other };
     }
 
     /** The numbers of the frames that have pictures. */
@@ -141,7 +149,11 @@ export class Session {
 
     /** Tells the loader what is wanted: what is shown, what comes next, and what gives names to pixels. */
     refresh() {
-        const { frame, otherFrame } = this.store.state;
+        const { frame, otherFrame, mode } = this.store.state;
+        if (mode === "gallery") {
+            this.loader.want([]);
+            return this.changed();
+        }
         const sides = this.sides();
         const frames = this.frames();
         const at = frames.indexOf(frame);
@@ -164,7 +176,7 @@ export class Session {
         const at = frames.indexOf(this.store.state.frame);
         const next = frames[Math.min(frames.length - 1, Math.max(0, at + steps))];
         this.direction = Math.sign(steps) || 1;
-        if (next !== undefined) this.store.set({ frame: next });
+        if (next !== undefined) this.store.set({ frame: next }, { step: false });
     }
 
     /** The instances of a frame's pixels. @param {number} frame */
@@ -231,3 +243,6 @@ export class Session {
         this.store.set({ instance: id === this.store.state.instance ? 0 : id });
     }
 }
+
+/** What is said of a link to something that is not there. @param {string} what @param {string} where @param {string[]} there */
+const missing = (what, where, there) => ({ message: `There is no ${what} in ${where}.`, help: `It has ${there.slice(0, 8).join(", ")}${there.length > 8 ? ` and ${there.length - 8} more` : ""}.` });

@@ -31,6 +31,7 @@ uniform float exposure;
 uniform int tone;         // 0 Hypersim's gamma, 1 filmic, 2 linear
 uniform vec2 range;
 uniform int marked;       // id that is marked; 0 none
+uniform bool alone;       // what is not marked is darkened; otherwise the mark is an outline, and colours can be read
 uniform vec3 accent;
 out vec4 color;
 
@@ -118,8 +119,7 @@ void main() {
         // If pixels are large enough to read their colours, the mark does not change them.
         bool close = zoom >= 12.0;
         if (inside && edge) rgb = mix(rgb, accent, close ? 0.4 : 1.0);
-        else if (inside) rgb = mix(rgb, accent, close ? 0.0 : 0.22);
-        else rgb *= close ? 0.85 : 0.62;
+        else if (!inside && alone) rgb *= close ? 0.85 : 0.62;
     }
     color = vec4(rgb, 1.0);
 }`;

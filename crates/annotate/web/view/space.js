@@ -198,7 +198,7 @@ export class Space {
             return far.flatMap((corner, i) => [...r.position, ...corner, ...corner, ...far[(i + 1) % 4]]);
         });
         const of = (/** @type {(frame: import("./catalogue.js").CameraFrame) => boolean} */ test) => poses.filter(test);
-        const rejected = (/** @type {import("./catalogue.js").CameraFrame} */ frame) => frame.gate?.verdict === "rejected";
+        const rejected = (/** @type {import("./catalogue.js").CameraFrame} */ frame) => frame.faults.some((fault) => fault.rejects);
         this.#replace("views", [
             lines(poses.flatMap(({ pose }) => pose?.position ?? []), 0x8fa3bf, /** @type {any} */ (Line)),
             lines(frusta(of((frame) => !rejected(frame) && frame.frame !== store.state.frame)), 0x8fa3bf),

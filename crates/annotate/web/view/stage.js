@@ -135,6 +135,7 @@ export class Stage {
             tone: TONES.indexOf(state.tone),
             ids: ids?.step === 1 ? ids : null,
             marked: this.session.marked,
+            alone: !this.session.hoveredInstance,
             accent: [1, 0.72, 0.2],
         };
     }
