@@ -1,7 +1,7 @@
 // The page that shows a dataset, in a real browser.
 
 import assert from "node:assert/strict";
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
@@ -203,6 +203,7 @@ describe("view", () => {
 
     test("a point in 3D has the colour that the server says", async () => {
         await open("mode=space&scene=home&camera=cam_00&frame=0");
+        await page.locator('#space [data-part="points"]').check();
         await page.waitForFunction(() => window.view.space?.groups.points?.children.length && window.view.space.stage.settled);
         const [shown, said] = await page.evaluate(async () => {
             const { stage, groups } = window.view.space;
@@ -215,7 +216,8 @@ describe("view", () => {
             stage.clear();
             groups.views.visible = false;
             const [points] = groups.points.children;
-            points.material.size = 9;
+            // A disc of some pixels.
+            points.material.size = 20;
             points.geometry.setDrawRange(at, 1);
             const place = stage.camera.position.clone().fromBufferAttribute(points.geometry.attributes.position, at).project(stage.camera);
             const { width, height } = stage.canvas;
@@ -362,6 +364,106 @@ describe("view", () => {
         await addressSays("layer", "depth_meters");
     });
 
+    test("the difference of two frames is that of their numbers, pixel by pixel", async () => {
+        await open("scene=home&camera=cam_00&frame=0&mode=difference&layer=depth_meters&otherFrame=1&other=depth_meters");
+        await page.waitForFunction(() => window.view.session.difference());
+        const [first, second] = [await stored("home", "cam_00", 0, "depth_meters"), await stored("home", "cam_00", 1, "depth_meters")];
+        for (const [x, y] of [[40, 50], [120, 90]]) {
+            const read = await readAt(x, y, "depth_meters", first);
+            const shown = Number((await page.locator("#readout [data-difference] .value").innerText()).trim().split(" ")[0]);
+            assert.equal(Math.fround(shown), Math.fround(first.at(read.x, read.y)[0] - second.at(read.x, read.y)[0]));
+        }
+        await page.click("#flicker");
+        await addressSays("flicker", "true");
+        const turns = await page.evaluate(async () => {
+            const seen = new Set();
+            for (let i = 0; i < 30 && seen.size < 2; i++) {
+                seen.add(window.view.stage.turn);
+                await new Promise((resolve) => setTimeout(resolve, 100));
+            }
+            return seen.size;
+        });
+        assert.equal(turns, 2);
+    });
+
+    test("a difference begins with layers that can be compared", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=depth_meters");
+        await page.keyboard.press("5");
+        await page.waitForFunction(() => window.view.session.difference());
+        const { layer, other, otherFrame } = await page.evaluate(() => window.view.store.state);
+        assert.ok(layer === "depth_meters" && (other !== layer || otherFrame !== null), `${other} ${otherFrame}`);
+        assert.ok(await page.locator("#message").isHidden());
+        assert.equal(await page.locator('#layer-1 option[value="color"]').count(), 0);
+    });
+
+    test("colours by the logarithm, names and a class alone stand in the address", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=depth_meters&tab=objects");
+        await page.keyboard.press("l");
+        await addressSays("log", "depth_meters");
+        await page.keyboard.press("Shift+B");
+        await addressSays("names", "true");
+        const row = page.locator("#panel tr[data-class]").first();
+        const id = await row.getAttribute("data-class");
+        await row.click();
+        await addressSays("class", id);
+        const { objects } = await json("scene/home");
+        const shown = await page.locator("#panel tr[data-instance]").evaluateAll((all) => all.map((one) => Number(one.dataset.instance)));
+        assert.ok(shown.every((one) => objects.semantic[objects.instance.indexOf(one)] === Number(id)), `${shown} of ${id}`);
+        await page.keyboard.press("Escape");
+        await addressSays("class", null);
+        assert.deepEqual(problems, []);
+    });
+
+    test("what is shown is saved as a picture", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=color");
+        for (const [mode, name] of [["one", "home_cam_00_0000_color.png"], ["space", "home_cam_00_0000_3d.png"]]) {
+            await page.click(`#modes [data-mode="${mode}"]`);
+            if (mode === "space") await page.waitForFunction(() => window.view.space?.stage?.settled && window.view.space.stage.mesh);
+            const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+            assert.equal(download.suggestedFilename(), name);
+            const bytes = readFileSync(await download.path());
+            assert.equal(bytes.toString("latin1", 1, 4), "PNG");
+            assert.ok(bytes.length > 5000, `${bytes.length} bytes: nothing is in it`);
+        }
+    });
+
+    test("in 3D what is under the cursor is named, and the camera is in the address", async () => {
+        await open("scene=home&camera=cam_00&mode=space&frame=0");
+        await page.waitForFunction(() => window.view.space?.stage?.mesh && window.view.space.stage.settled);
+        const box = await page.locator("#space").boundingBox();
+        const [x, y] = [box.x + box.width / 2, box.y + box.height * 0.7];
+        await page.mouse.move(x, y);
+        await page.waitForFunction(() => document.querySelector(".space-label").textContent !== "");
+        assert.equal(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), null);
+        await page.mouse.down();
+        await page.mouse.move(x - 120, y, { steps: 4 });
+        await page.mouse.up();
+        await page.waitForFunction(() => {
+            const said = (new URLSearchParams(location.hash.slice(1)).get("view") ?? "").split(",").map(Number);
+            return window.view.space.stage.camera.position.toArray().every((value, i) => Math.abs(value - said[i]) < 1e-3);
+        });
+        const place = () => page.evaluate(() => [...window.view.space.stage.camera.position.toArray(), ...window.view.space.stage.controls.lookAt.toArray()]);
+        const before = await place();
+        await page.reload();
+        await page.waitForFunction(() => window.view?.space?.stage?.mesh);
+        const after = await place();
+        assert.ok(before.every((value, i) => Math.abs(value - after[i]) < 2e-3), `${before} ${after}`);
+    });
+
+    test("after the view from above, orbiting turns about the scene", async () => {
+        await open("scene=home&camera=cam_00&mode=space&frame=0");
+        await page.waitForFunction(() => window.view.space?.stage?.mesh);
+        const target = await page.evaluate(() => {
+            const { space } = window.view;
+            space.fromAbove();
+            const { min, max } = space.stage.mesh.geometry;
+            return space.stage.controls.lookAt.toArray().map((value, axis) => (value - min[axis]) / (max[axis] - min[axis]));
+        });
+        assert.ok(target.every((share) => Math.abs(share - 0.5) < 0.01), `${target}`);
+        await page.locator("#space summary").click();
+        assert.ok(await page.locator('#space [data-part="boxes"]').isHidden(), "the panel folds");
+    });
+
     const places = () => page.locator("#gallery .place").evaluateAll((all) => all.sort((a, b) => a.ariaPosInSet - b.ariaPosInSet).map((one) => one.dataset.frame));
 
     test("the first page shows all frames, sorted by what is asked for, and opens one", async () => {
@@ -456,6 +558,22 @@ describe("a dataset with faults", () => {
         await page.click("#verdict button");
         await page.waitForFunction(() => document.querySelectorAll("#gallery .place").length === 1);
         assert.match(await page.locator("#gallery .place").getAttribute("title"), /depth range 0\.25 m/);
+    });
+
+    test("frames that are made while one looks appear by themselves", async (t) => {
+        const path = copy(t);
+        const images = join(path, "scenes", "home", "images");
+        const records = join(path, "scenes", "home", "_detail", "cam_00", "frames");
+        const later = [images, records].flatMap((folder) => readdirSync(folder, { recursive: true }).map((name) => join(folder, String(name))).filter((name) => name.includes("frame.0002.")));
+        for (const name of later) renameSync(name, `${name}.later`);
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color&frame=0`);
+        await page.locator("#frame-number", { hasText: "1 of 2" }).waitFor();
+        // Once the page has asked and was told that there are two.
+        await page.waitForFunction(() => window.view?.watch.last !== "", null, { timeout: 15_000 });
+        for (const name of later) renameSync(`${name}.later`, name);
+        await page.locator("#frame-number", { hasText: "1 of 3" }).waitFor({ timeout: 15_000 });
     });
 
     test("the program ends at once, also while a page is open", async (t) => {

@@ -48,6 +48,9 @@ export const getScene = (scene) => once(`../api/view/scene/${encodeURIComponent(
 /** @param {string} scene @param {string} camera @returns {Promise<Camera>} */
 export const getCamera = (scene, camera) => once(`../api/view/camera/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`);
 
+/** What the server says of a camera now, as text. @param {string} scene @param {string} camera */
+export const peek = async (scene, camera) => JSON.stringify(await getJson(`../api/view/camera/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`));
+
 /** @param {string} scene @param {string} camera @param {number} frame @returns {Promise<FrameFacts>} */
 export const getFrame = (scene, camera, frame) =>
     once(`../api/view/frame/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}`);

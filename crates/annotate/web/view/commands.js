@@ -19,6 +19,11 @@ export function commandsOf(page) {
     };
     const layerOrRow = (/** @type {number} */ step) => (/** @type {KeyboardEvent} */ event) => (inGallery() ? page.gallery.key(event) : layer(step, "layer"));
     const show = (/** @type {string} */ name) => session.layersOf(store.state.frame).includes(name) && store.set({ layer: name });
+    const logarithm = () => {
+        const { layer, logs } = store.state;
+        const { [layer]: on, ...others } = logs;
+        store.set({ logs: on ? others : { ...logs, [layer]: true } });
+    };
     const mode = (/** @type {import("./state.js").Mode} */ name) => store.set({ mode: name });
     const far = (/** @type {number} */ steps) => (/** @type {KeyboardEvent} */ event) => (inGallery() ? page.gallery.key(event) : session.step(steps));
     return [
@@ -51,6 +56,8 @@ export function commandsOf(page) {
             { keys: ["2"], says: "side by side", does: () => mode("side") },
             { keys: ["3"], says: "wipe", does: () => mode("wipe") },
             { keys: ["4"], says: "the scene in 3D", does: () => mode("space") },
+            { keys: ["5"], says: "difference of two pictures", does: () => mode("difference") },
+            { keys: ["Y"], says: "flicker between the two", does: () => store.set({ mode: "difference", flicker: !(store.state.mode === "difference" && store.state.flicker) }) },
             { keys: [",", "."], says: "move the border of the wipe", does: (event) => store.set({ wipe: Math.min(1, Math.max(0, store.state.wipe + (event.key === "," ? -0.02 : 0.02))) }) },
             { keys: ["K"], says: "keep this frame as the other; again: let go", does: () => store.set({ otherFrame: store.state.otherFrame === null ? store.state.frame : null }) },
         ] },
@@ -64,7 +71,9 @@ export function commandsOf(page) {
             { keys: ["V"], says: "in 3D: through this frame's camera", does: () => page.space?.toFrame() },
             { keys: ["G"], says: "in 3D: from above, without ceilings", does: () => page.space?.fromAbove() },
             { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
-            { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0 }) },
+            { keys: ["Shift+B"], says: "names on boxes", does: () => store.set({ names: !store.state.names }) },
+            { keys: ["L"], says: "logarithmic colours", does: logarithm },
+            { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0, class: 0 }) },
         ] },
         { title: "Light", keys: [
             { keys: ["E"], says: "half a stop brighter", does: () => store.set({ stops: store.state.stops + 0.5 }) },
@@ -76,6 +85,7 @@ export function commandsOf(page) {
             { keys: ["F1", "?"], shown: "?", says: "this list", does: () => showHelp(commandsOf(page)) },
             { keys: ["Alt+1", "Alt+2", "Alt+3", "Alt+4"], shown: "Alt+1  …  Alt+4", says: "Display, Objects, Frame, Views", does: (event) => page.tab(["display", "objects", "frame", "views"][Number(event.key) - 1]) },
             { keys: ["T"], says: "dark or light", does: () => page.theme() },
+            { keys: ["Ctrl+S"], says: "save what is shown as a picture", does: () => page.save() },
             { keys: ["Ctrl+Shift+L"], says: "copy the link to this view", does: () => page.copyLink() },
             { keys: ["Shift+R"], says: "read the dataset again", does: () => page.reload() },
         ] },

@@ -1,6 +1,7 @@
 // Distributions as small bars, in the colours of the theme.
 
 import { el } from "../shared/dom.js";
+import { pixelOf } from "./numbers.js";
 
 /** Height of the tallest bar, in units of the drawing. */
 const HEIGHT = 36;
@@ -19,6 +20,31 @@ export function countsOf(values, [low, high], parts) {
         if (value >= low && value <= high) counts[Math.min(parts - 1, Math.floor((value - low) * scale))]++;
     }
     return counts;
+}
+
+/** Samples of layers: a number per pixel, of some of the pixels. @type {WeakMap<import("./numbers.js").LayerData, Float32Array>} */
+const samples = new WeakMap();
+
+/**
+ * Numbers of a layer, of 16384 pixels at most: of a colour its brightness, of a vector its length.
+ * @param {import("./numbers.js").LayerData} data
+ */
+export function sampleOf(data) {
+    const known = samples.get(data);
+    if (known) return known;
+    const [height, width] = data.shape;
+    const stride = Math.max(1, Math.ceil(Math.sqrt((height * width) / 16384)));
+    const sample = [];
+    for (let y = 0; y < height; y += stride) {
+        for (let x = 0; x < width; x += stride) {
+            const v = pixelOf(data, x * data.step, y * data.step) ?? [];
+            const value = v.length < 2 ? v[0] : data.summary.of === "brightness" ? 0.3 * v[0] + 0.59 * v[1] + 0.11 * v[2] : Math.hypot(...v);
+            if (Number.isFinite(value)) sample.push(value);
+        }
+    }
+    const made = Float32Array.from(sample);
+    samples.set(data, made);
+    return made;
 }
 
 /**

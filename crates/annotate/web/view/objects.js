@@ -44,7 +44,9 @@ function instancesPart(session, known, repaint) {
     const { frame } = session.store.state;
     const areas = session.areasOf(frame, "semantic_instance");
     if (!areas) return [el("h2", {}, "Instances"), el("p", { class: "quiet" }, "Reading …")];
-    const list = [...areas].filter(([id]) => id > 0).sort((a, b) => b[1].pixels - a[1].pixels);
+    const ofClass = session.store.state.class;
+    const isChosen = (/** @type {number} */ id) => id > 0 && (!ofClass || session.looks.classOfInstance(id) === ofClass);
+    const list = [...areas].filter(([id]) => isChosen(id)).sort((a, b) => b[1].pixels - a[1].pixels);
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) => {
         const visibility = known?.instances.find((one) => one.instance === id)?.visibility;
         const mark = (/** @type {boolean} */ on) => {
@@ -68,10 +70,14 @@ function classesPart(session) {
     const areas = session.areasOf(session.store.state.frame, "semantic");
     if (!areas) return [];
     const all = [...areas.values()].reduce((sum, area) => sum + area.pixels, 0);
+    const { store } = session;
+    const choose = (/** @type {number} */ id) => store.set({ class: store.state.class === id ? 0 : Math.max(0, id), instance: 0 });
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
-        el("tr", { "data-class": id }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
+        el("tr", { "data-class": id, "data-key": `class-${id}`, tabIndex: 0, "aria-selected": String(store.state.class === id), title: "Show this class alone", onclick: () => choose(id),
+            onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && choose(id) }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));
-    return [el("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "3em", "5.4em"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+    const whole = store.state.class ? el("button", { type: "button", "data-key": "all-classes", onclick: () => store.set({ class: 0 }) }, "Show all") : null;
+    return [el("div", { class: "heading-row" }, el("h2", {}, "Classes"), whole), table(["Class", "id", "of image"], ["auto", "3em", "5.4em"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */

@@ -8,22 +8,22 @@ import { filterPanel } from "./filters.js";
 import { Gallery } from "./gallery.js";
 import { listenToKeys, showHelp } from "./keys.js";
 import { GROUPS } from "./kinds.js";
-import { showLegend } from "./legend.js";
+import { showDifferenceLegend, showLegend } from "./legend.js";
 import { showMessage } from "./message.js";
 import { showNotice } from "./notice.js";
 import { objectsPanel } from "./objects.js";
 import { showReadout } from "./readout.js";
 import { framePanel, lossesOf, viewsPanel } from "./records.js";
 import { roving } from "./roving.js";
+import { savePicture } from "./save.js";
+import { TWO } from "./session.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
 import { Travel } from "./travel.js";
 import { Tree } from "./tree.js";
+import { Watch } from "./watch.js";
 
 /** @typedef {import("./state.js").State} State */
-
-/** Modes that show two pictures. */
-const TWO = ["side", "wipe"];
 
 export class Page {
     /** @param {import("./session.js").Session} session @param {import("./state.js").Store} store */
@@ -52,6 +52,7 @@ export class Page {
             this.readout();
         };
         this.stage.painted = () => this.painted();
+        this.watch = new Watch(session, (frames) => this.#grown(frames));
         store.listen((state, changed) => this.follow(state, changed));
         this.#listen();
         this.#verdict();
@@ -71,6 +72,7 @@ export class Page {
         this.known = null;
         this.tree.enter();
         this.strip.enter();
+        if (this.store.state.mode === "difference") this.#beginDifference();
         this.controls();
         this.#space();
     }
@@ -85,19 +87,26 @@ export class Page {
         await this.space.show();
     }
 
+    /** The dataset has changed while one looked. @param {number} frames how many are new */
+    async #grown(frames) {
+        if (frames > 0) showNotice(frames === 1 ? "1 new frame." : `${frames} new frames.`);
+        await this.gallery.reload();
+    }
+
     /** @param {State} state @param {Set<keyof State>} changed */
     follow(state, changed) {
         const has = (/** @type {(keyof State)[]} */ ...keys) => keys.some((key) => changed.has(key));
         if (has("scene", "camera") && (state.scene !== this.session.scene?.name || state.camera !== this.session.camera?.name)) this.session.follow();
         if (has("layer", "other", "otherFrame", "mode")) this.#keepApart(changed);
         if (has("mode")) this.modes();
-        if (has("frame", "layer", "other", "otherFrame", "mode")) {
+        if (has("frame", "layer", "other", "otherFrame", "mode", "flicker")) {
             this.session.refresh();
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
+        if (has("view")) this.space?.look();
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
@@ -106,17 +115,31 @@ export class Page {
     /** Two pictures of one frame have different layers: the one that was not chosen gives way. @param {Set<keyof State>} changed */
     #keepApart(changed) {
         const { mode, layer, other, otherFrame, frame } = this.store.state;
+        if (mode === "difference" && changed.has("mode")) return this.#beginDifference();
         if (!TWO.includes(mode) || layer !== other || (otherFrame !== null && otherFrame !== frame)) return;
         const free = this.session.layersOf(frame).filter((name) => name !== layer);
         const instead = free.find((name) => name === (layer === "color" ? "depth_meters" : "color")) ?? free[0];
         if (instead) this.store.set(changed.has("layer") || !changed.has("other") ? { other: instead } : { layer: instead }, { step: false });
     }
 
+    /** A difference begins with two layers that can be compared; where the frame has no two, with two frames. */
+    #beginDifference() {
+        const { layer, other, otherFrame, frame } = this.store.state;
+        const alike = this.session.alikeOf(frame, layer);
+        const isOther = otherFrame !== null && otherFrame !== frame;
+        if (alike.includes(other) && (other !== layer || isOther)) return;
+        const instead = alike.find((name) => name.startsWith(layer) && name !== layer);
+        const frames = this.session.frames();
+        const beside = frames[frames.indexOf(frame) + 1] ?? frames[frames.indexOf(frame) - 1] ?? null;
+        if (instead && !isOther) this.store.set({ other: instead }, { step: false });
+        else this.store.set({ other: layer, otherFrame: isOther ? otherFrame : beside }, { step: false });
+    }
+
     /** What belongs to the mode is shown, and nothing else. */
     modes() {
         const { mode } = this.store.state;
         document.body.dataset.mode = mode;
-        for (const id of ["headings", "stage", "readout", "strip", "tabs"]) byId(id).hidden = mode === "gallery";
+        for (const id of ["headings", "stage", "readout", "strip", "tabs"]) byId(id).hidden = mode === "gallery" || (mode === "space" && ["headings", "readout"].includes(id));
         byId("gallery").hidden = mode !== "gallery";
         for (const button of byId("modes").children) button.setAttribute("aria-pressed", String(button.dataset.mode === mode));
     }
@@ -126,7 +149,8 @@ export class Page {
         const { session, travel } = this;
         const sides = session.sides();
         for (const i of [0, 1]) showLegend(/** @type {HTMLElement} */ (byId(`heading-${i}`).querySelector(".legend")), session, sides[i]);
-        showMessage(byId("message"), session.problem ?? sides.map((side) => session.failureOf(side.frame, side.layer)).find((one) => one) ?? null);
+        showDifferenceLegend(/** @type {HTMLElement} */ (byId("heading-2").querySelector(".legend")), session);
+        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side.frame, side.layer)).find((one) => one) ?? null);
         byId("busy").hidden = session.complete && !travel.direction;
         byId("busy").textContent = travel.direction && travel.shown > 3 ? `${travel.rate.toFixed(0)} frames/s` : session.complete ? "" : "reading …";
         this.readout();
@@ -195,9 +219,12 @@ export class Page {
         for (const tab of byId("tabs").children) tab.setAttribute("aria-selected", String(tab.dataset.tab === state.tab));
         this.oneTabStop?.();
         byId("heading-1").hidden = !TWO.includes(state.mode);
+        byId("heading-2").hidden = state.mode !== "difference";
+        byId("flicker").setAttribute("aria-pressed", String(state.flicker));
         const same = state.otherFrame === null || state.otherFrame === state.frame;
         this.#layers(byId("layer-0"), session.layersOf(state.frame), state.layer);
-        this.#layers(byId("layer-1"), session.layersOf(state.otherFrame ?? state.frame).filter((name) => !same || name !== state.layer), state.other);
+        const others = state.mode === "difference" ? session.alikeOf(state.otherFrame ?? state.frame, state.layer) : session.layersOf(state.otherFrame ?? state.frame);
+        this.#layers(byId("layer-1"), others.filter((name) => !same || name !== state.layer), state.other);
         if (document.activeElement !== byId("frame-1")) byId("frame-1").value = state.otherFrame ?? "";
     }
 
@@ -231,6 +258,8 @@ export class Page {
         listenToKeys(commands);
         byId("menu").addEventListener("click", () => byId("menu").hidePopover());
         byId("help-button").addEventListener("click", () => showHelp(commands));
+        byId("flicker").addEventListener("click", () => store.set({ flicker: !store.state.flicker }));
+        byId("save").addEventListener("click", () => this.save());
         byId("copy-link").addEventListener("click", () => this.copyLink());
         byId("reload").addEventListener("click", () => this.reload());
         byId("theme").addEventListener("click", () => this.theme());
@@ -251,6 +280,14 @@ export class Page {
         this.store.set({ tab });
         this.controls();
         byId("panel").scrollTop = 0;
+    }
+
+    /** Saves what is shown as a picture. */
+    save() {
+        const { state } = this.store;
+        const name = [state.scene, state.camera, String(state.frame).padStart(4, "0"), state.mode === "space" ? "3d" : state.layer, state.mode === "one" || state.mode === "space" ? "" : state.other];
+        if (state.mode === "gallery") return showNotice("Open a frame to save its picture.");
+        savePicture(state.mode === "space" ? (this.space?.painting() ?? []) : this.stage.painting(), name.filter(Boolean).join("_"));
     }
 
     async copyLink() {

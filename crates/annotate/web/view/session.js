@@ -1,6 +1,7 @@
 // The open dataset, the scene and camera that are shown, and the layers that are needed for it.
 
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
+import { differenceOf, isAlike } from "./difference.js";
 import { Loader } from "./loader.js";
 import { Looks } from "./looks.js";
 import { showNotice } from "./notice.js";
@@ -18,6 +19,9 @@ import { pixelOf } from "./numbers.js";
 export const NAMING = ["render_entity_id", "semantic", "semantic_instance", "material_id"];
 /** Frames that are fetched ahead in the direction of travel, and behind. */
 const AHEAD = 5, BEHIND = 1;
+
+/** Modes that show two pictures. */
+export const TWO = ["side", "wipe", "difference"];
 
 export class Session {
     /**
@@ -137,9 +141,36 @@ export class Session {
         const { frame, layer, other, otherFrame, mode } = this.store.state;
         if (!this.camera) return [];
         const first = { frame, layer, data: this.layer(frame, layer) };
-        if (mode !== "side" && mode !== "wipe") return [first];
+        if (!TWO.includes(mode)) return [first];
         const second = otherFrame ?? frame;
         return [first, { frame: second, layer: other, data: this.layer(second, other) }];
+    }
+
+    /** The first picture minus the second; null where that is not to be shown, or not possible yet. */
+    difference() {
+        const [first, second] = this.sides();
+        if (this.store.state.mode !== "difference" || !first?.data || !second?.data || !this.#alike(first.layer, second.layer)) return null;
+        return differenceOf(first.data, second.data);
+    }
+
+    /** @param {string} a @param {string} b */
+    #alike(a, b) {
+        return isAlike(this.looks.spec(a), this.looks.spec(b));
+    }
+
+    /** The layers of a frame from which another layer can be subtracted. @param {number} frame @param {string} layer */
+    alikeOf(frame, layer) {
+        return this.layersOf(frame).filter((name) => this.#alike(name, layer));
+    }
+
+    /** Why there is no difference of the two pictures; null where there is one or none is asked for. */
+    get noDifference() {
+        const [first, second] = this.sides();
+        if (this.store.state.mode !== "difference" || !second) return null;
+        const words = (/** @type {string} */ layer) => `${layer} has ${this.looks.spec(layer).channels} per pixel${this.looks.spec(layer).unit ? ` in ${this.looks.spec(layer).unit}` : ""}`;
+        if (!this.#alike(first.layer, second.layer)) return { error: "These layers hold different numbers.", help: `${words(first.layer)}, ${words(second.layer)}. Choose two of the same kind, or two frames.` };
+        const whole = first.data?.step === 1 && second.data?.step === 1;
+        return whole && !this.difference() ? { error: "The two pictures have different sizes.", help: `${first.data?.size[1]} × ${first.data?.size[0]} and ${second.data?.size[1]} × ${second.data?.size[0]} pixels.` } : null;
     }
 
     /** Everything that is shown is here in full. */
@@ -220,9 +251,10 @@ export class Session {
         return this.areasOf(frame, "semantic_instance")?.get(id)?.bounds ?? null;
     }
 
-    /** The instances that a frame shows. @param {number} frame */
+    /** The instances that a frame shows, the largest first. @param {number} frame */
     instancesOf(frame) {
-        return [...(this.areasOf(frame, "semantic_instance")?.keys() ?? [])].filter((id) => id > 0);
+        const areas = [...(this.areasOf(frame, "semantic_instance") ?? [])].filter(([id]) => id > 0);
+        return areas.sort((a, b) => b[1].pixels - a[1].pixels).map(([id]) => id);
     }
 
     /** @param {Pixel | null} pixel */
