@@ -464,6 +464,25 @@ describe("view", () => {
         assert.ok(await page.locator('#space [data-part="boxes"]').isHidden(), "the panel folds");
     });
 
+    test("every window has room for what is shown", async () => {
+        for (const [width, height] of [[320, 640], [390, 844], [640, 360], [1024, 768], [1280, 720], [3840, 2160]]) {
+            await page.setViewportSize({ width, height });
+            for (const mode of ["gallery", "one", "side", "difference"]) {
+                await page.evaluate((mode) => window.view.store.set({ mode }), mode);
+                const [wide, picture] = await page.evaluate(() => {
+                    const stage = document.querySelector("#stage"), gallery = document.querySelector("#gallery-frames");
+                    const shown = stage.checkVisibility() ? stage : gallery;
+                    const right = [...document.querySelectorAll(".bar > *, #gallery-bar > *, .heading > *")].filter((one) => one.checkVisibility() && !one.closest(".segments")).map((one) => one.getBoundingClientRect().right);
+                    return [Math.max(document.documentElement.scrollWidth, ...right) - innerWidth, shown.clientHeight / innerHeight];
+                });
+                assert.ok(wide <= 1, `${mode} in ${width} × ${height} is wider by ${wide}`);
+                assert.ok(picture > 0.35, `${mode} in ${width} × ${height}: the picture has ${picture} of the height`);
+            }
+        }
+        await page.setViewportSize({ width: 1280, height: 720 });
+        assert.deepEqual(problems, []);
+    });
+
     const places = () => page.locator("#gallery .place").evaluateAll((all) => all.sort((a, b) => a.ariaPosInSet - b.ariaPosInSet).map((one) => one.dataset.frame));
 
     test("the first page shows all frames, sorted by what is asked for, and opens one", async () => {
