@@ -8,6 +8,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = arguments.next().ok_or("name the dataset's folder")?;
     let port = arguments.next().map_or(Ok(0), |port| port.parse())?;
     let listen = Listen { port, open: false, ..Listen::default() };
-    serve(router(Viewer::open(folder)?), &listen, "/view/", |url| println!("{url}"))?;
+    serve(router(Viewer::open(folder)?), &listen, "/view/", |addresses| println!("{}", addresses.here))?;
     Ok(())
 }

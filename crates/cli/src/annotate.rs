@@ -25,8 +25,8 @@ pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
         Arc::new(app)
     };
     say(&format!("labels   {}", app.labels_folder().display()));
-    let served = serve(routes(app.clone()), &args.listen.listen(), "/annotate/", |url| {
-        say(&format!("page     {url}"));
+    let served = serve(routes(app.clone()), &args.listen.listen(), "/annotate/", |addresses| {
+        say(&addresses.to_string());
         say("End with Ctrl-C; every edit is on the disk as soon as the page shows it.");
     });
     app.close()?;

@@ -1,6 +1,9 @@
 // The page that shows a dataset, in a real browser.
 
 import assert from "node:assert/strict";
+import { cpSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { browser, dataset, enlarge, serve } from "./room.mjs";
 
@@ -172,13 +175,13 @@ describe("view", () => {
     });
 
     test("surfaces are those of the scene that is shown, also when they come late", async () => {
-        const faces = () => page.evaluate(() => window.view.space.stage?.mesh?.geometry.faces ?? 0);
+        const faces = () => page.evaluate(() => window.view.space?.stage?.mesh?.geometry.faces ?? 0);
         const go = async (scene) => {
             await page.evaluate((scene) => window.view.session.store.set({ scene, camera: "" }), scene);
-            await page.waitForFunction((scene) => window.view.space.shown.scene === scene, scene);
+            await page.waitForFunction((scene) => window.view.space?.shown.scene === scene, scene);
         };
         await open("mode=space&scene=home&frame=0");
-        await page.waitForFunction(() => window.view.space.stage?.mesh);
+        await page.waitForFunction(() => window.view.space?.stage?.mesh);
         await go("unmeshed");
         assert.equal(await faces(), 0);
         let answer = () => {};
@@ -200,7 +203,8 @@ describe("view", () => {
 
     test("a point in 3D has the colour that the server says", async () => {
         await open("mode=space&scene=home&camera=cam_00&frame=0");
-        await page.waitForFunction(() => window.view.space.groups.points?.children.length && window.view.space.stage.settled);
+        await page.locator('#space [data-part="points"]').check();
+        await page.waitForFunction(() => window.view.space?.groups.points?.children.length && window.view.space.stage.settled);
         const [shown, said] = await page.evaluate(async () => {
             const { stage, groups } = window.view.space;
             const buffer = await (await fetch("../api/view/points/home/cam_00/0?most=150000")).arrayBuffer();
@@ -212,7 +216,8 @@ describe("view", () => {
             stage.clear();
             groups.views.visible = false;
             const [points] = groups.points.children;
-            points.material.size = 9;
+            // A disc of some pixels.
+            points.material.size = 20;
             points.geometry.setDrawRange(at, 1);
             const place = stage.camera.position.clone().fromBufferAttribute(points.geometry.attributes.position, at).project(stage.camera);
             const { width, height } = stage.canvas;
@@ -268,8 +273,337 @@ describe("view", () => {
     });
 
     test("what an address says wrongly is as at the beginning", async () => {
-        await open("scene=..%2F..&camera=%00&frame=abc&layer=nothing&mode=x&zoom=-5&wipe=9&range=depth_meters:5:1");
+        await open("frame=abc&layer=nothing&mode=x&zoom=-5&wipe=9&range=depth_meters:5:1&toString=1&limit=__proto__:1:2");
         assert.ok(await page.locator("#message").isHidden());
         assert.deepEqual(problems, []);
+    });
+
+    test("a link to what is not there says so, and shows nothing else", async () => {
+        for (const [hash, said] of [["scene=nowhere&mode=one", "There is no scene nowhere"], ["scene=..%2F..&camera=%00&mode=one", "There is no scene ../.."], ["scene=home&camera=cam_77", "There is no camera cam_77"]]) {
+            await page.goto("about:blank");
+            await page.goto(`${origin}/view/#${hash}`);
+            await page.locator("#message h2", { hasText: said }).waitFor();
+            assert.equal(await page.locator("#stage").getAttribute("data-frame"), "");
+            await addressSays("scene", new URLSearchParams(hash).get("scene"));
+        }
+        await open("scene=home&camera=cam_00&frame=70");
+        await page.locator("#toast", { hasText: "Frame 70 has no pictures" }).waitFor();
+        assert.deepEqual(problems, []);
+    });
+
+    test("after a layer is chosen from the list, the arrow keys change the frame", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=color");
+        await page.locator("#layer-0").focus();
+        await page.selectOption("#layer-0", "depth_meters");
+        await page.keyboard.press("ArrowRight");
+        await addressSays("frame", "1");
+        await addressSays("layer", "depth_meters");
+    });
+
+    test("the colours that are read under the cursor are those of the picture", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=color");
+        await page.waitForFunction(() => window.view.session.idsOf(0)?.step === 1);
+        const before = await brightness({ x: 0.2, y: 0.2 });
+        const box = await page.locator("#stage").boundingBox();
+        await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.75);
+        await page.waitForFunction(() => window.view.session.hoveredInstance > 0);
+        await page.waitForTimeout(100);
+        assert.ok(Math.abs((await brightness({ x: 0.2, y: 0.2 })) - before) < 1);
+    });
+
+    test("a range whose ends are exchanged is refused where it was typed", async () => {
+        await open("scene=home&frame=0&layer=depth_meters&range=depth_meters:1:3");
+        const max = page.locator('#panel input[aria-label="Max of depth_meters"]');
+        await max.fill("0.5");
+        await max.press("Enter");
+        await page.locator("#panel .refused", { hasText: "must be less than" }).waitFor();
+        assert.equal(await max.getAttribute("aria-invalid"), "true");
+        await addressSays("range", "depth_meters:1:3");
+        await max.fill("4");
+        await max.press("Enter");
+        await addressSays("range", "depth_meters:1:4");
+        assert.equal(await page.locator("#panel .refused").innerText(), "");
+    });
+
+    test("a frame is not compared with itself", async () => {
+        await open("scene=home&frame=0&mode=side&layer=color&other=depth_meters");
+        assert.equal(await page.locator('#layer-1 option[value="color"]').count(), 0);
+        await page.selectOption("#layer-0", "depth_meters");
+        await page.waitForFunction(() => window.view.store.state.other !== "depth_meters");
+        assert.equal(await page.locator("#layer-1").inputValue(), "color");
+        await page.locator("#frame-1").fill("1");
+        await page.locator("#frame-1").press("Enter");
+        await page.locator('#layer-1 option[value="depth_meters"]').waitFor({ state: "attached" });
+    });
+
+    test("the table of objects fits beside the picture", async () => {
+        await open("scene=home&frame=0&layer=color&tab=objects");
+        await page.locator("#panel tr[data-instance]").first().waitFor();
+        assert.ok(await page.evaluate(() => [...document.querySelectorAll("#panel, #panel td.number, #panel th")].every((one) => one.scrollWidth <= one.clientWidth)));
+        await page.locator("#panel tr[data-instance]").first().focus();
+        await page.keyboard.press("ArrowDown");
+        assert.ok(await page.evaluate(() => document.activeElement === document.querySelectorAll("#panel tr[data-instance]")[1]));
+        assert.equal(await page.locator('#panel tr[tabindex="0"]').count(), 1, "the table is one tab stop");
+    });
+
+    test("back goes to what was shown before", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=color");
+        await page.selectOption("#layer-0", "depth_meters");
+        await addressSays("layer", "depth_meters");
+        await page.click('#modes [data-mode="side"]');
+        await addressSays("mode", "side");
+        await page.keyboard.press("e");
+        await addressSays("stops", "0.5");
+        await page.goBack();
+        await addressSays("mode", null);
+        assert.equal(await page.locator("#layer-0").inputValue(), "depth_meters");
+        await page.goBack();
+        await addressSays("layer", "color");
+        assert.equal(await page.locator("#layer-0").inputValue(), "color");
+        await page.goForward();
+        await addressSays("layer", "depth_meters");
+    });
+
+    test("the difference of two frames is that of their numbers, pixel by pixel", async () => {
+        await open("scene=home&camera=cam_00&frame=0&mode=difference&layer=depth_meters&otherFrame=1&other=depth_meters");
+        await page.waitForFunction(() => window.view.session.difference());
+        const [first, second] = [await stored("home", "cam_00", 0, "depth_meters"), await stored("home", "cam_00", 1, "depth_meters")];
+        for (const [x, y] of [[40, 50], [120, 90]]) {
+            const read = await readAt(x, y, "depth_meters", first);
+            const shown = Number((await page.locator("#readout [data-difference] .value").innerText()).trim().split(" ")[0]);
+            assert.equal(Math.fround(shown), Math.fround(first.at(read.x, read.y)[0] - second.at(read.x, read.y)[0]));
+        }
+        await page.click("#flicker");
+        await addressSays("flicker", "true");
+        const turns = await page.evaluate(async () => {
+            const seen = new Set();
+            for (let i = 0; i < 30 && seen.size < 2; i++) {
+                seen.add(window.view.stage.turn);
+                await new Promise((resolve) => setTimeout(resolve, 100));
+            }
+            return seen.size;
+        });
+        assert.equal(turns, 2);
+    });
+
+    test("a difference begins with layers that can be compared", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=depth_meters");
+        await page.keyboard.press("5");
+        await page.waitForFunction(() => window.view.session.difference());
+        const { layer, other, otherFrame } = await page.evaluate(() => window.view.store.state);
+        assert.ok(layer === "depth_meters" && (other !== layer || otherFrame !== null), `${other} ${otherFrame}`);
+        assert.ok(await page.locator("#message").isHidden());
+        assert.equal(await page.locator('#layer-1 option[value="color"]').count(), 0);
+    });
+
+    test("colours by the logarithm, names and a class alone stand in the address", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=depth_meters&tab=objects");
+        await page.keyboard.press("l");
+        await addressSays("log", "depth_meters");
+        await page.keyboard.press("Shift+B");
+        await addressSays("names", "true");
+        const row = page.locator("#panel tr[data-class]").first();
+        const id = await row.getAttribute("data-class");
+        await row.click();
+        await addressSays("class", id);
+        const { objects } = await json("scene/home");
+        const shown = await page.locator("#panel tr[data-instance]").evaluateAll((all) => all.map((one) => Number(one.dataset.instance)));
+        assert.ok(shown.every((one) => objects.semantic[objects.instance.indexOf(one)] === Number(id)), `${shown} of ${id}`);
+        await page.keyboard.press("Escape");
+        await addressSays("class", null);
+        assert.deepEqual(problems, []);
+    });
+
+    test("what is shown is saved as a picture", async () => {
+        await open("scene=home&camera=cam_00&frame=0&layer=color");
+        for (const [mode, name] of [["one", "home_cam_00_0000_color.png"], ["space", "home_cam_00_0000_3d.png"]]) {
+            await page.click(`#modes [data-mode="${mode}"]`);
+            if (mode === "space") await page.waitForFunction(() => window.view.space?.stage?.settled && window.view.space.stage.mesh);
+            const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+            assert.equal(download.suggestedFilename(), name);
+            const bytes = readFileSync(await download.path());
+            assert.equal(bytes.toString("latin1", 1, 4), "PNG");
+            assert.ok(bytes.length > 5000, `${bytes.length} bytes: nothing is in it`);
+        }
+    });
+
+    test("in 3D what is under the cursor is named, and the camera is in the address", async () => {
+        await open("scene=home&camera=cam_00&mode=space&frame=0");
+        await page.waitForFunction(() => window.view.space?.stage?.mesh && window.view.space.stage.settled);
+        const box = await page.locator("#space").boundingBox();
+        const [x, y] = [box.x + box.width / 2, box.y + box.height * 0.7];
+        await page.mouse.move(x, y);
+        await page.waitForFunction(() => document.querySelector(".space-label").textContent !== "");
+        assert.equal(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), null);
+        await page.mouse.down();
+        await page.mouse.move(x - 120, y, { steps: 4 });
+        await page.mouse.up();
+        await page.waitForFunction(() => {
+            const said = (new URLSearchParams(location.hash.slice(1)).get("view") ?? "").split(",").map(Number);
+            return window.view.space.stage.camera.position.toArray().every((value, i) => Math.abs(value - said[i]) < 1e-3);
+        });
+        const place = () => page.evaluate(() => [...window.view.space.stage.camera.position.toArray(), ...window.view.space.stage.controls.lookAt.toArray()]);
+        const before = await place();
+        await page.reload();
+        await page.waitForFunction(() => window.view?.space?.stage?.mesh);
+        const after = await place();
+        assert.ok(before.every((value, i) => Math.abs(value - after[i]) < 2e-3), `${before} ${after}`);
+    });
+
+    test("after the view from above, orbiting turns about the scene", async () => {
+        await open("scene=home&camera=cam_00&mode=space&frame=0");
+        await page.waitForFunction(() => window.view.space?.stage?.mesh);
+        const target = await page.evaluate(() => {
+            const { space } = window.view;
+            space.fromAbove();
+            const { min, max } = space.stage.mesh.geometry;
+            return space.stage.controls.lookAt.toArray().map((value, axis) => (value - min[axis]) / (max[axis] - min[axis]));
+        });
+        assert.ok(target.every((share) => Math.abs(share - 0.5) < 0.01), `${target}`);
+        await page.locator("#space summary").click();
+        assert.ok(await page.locator('#space [data-part="boxes"]').isHidden(), "the panel folds");
+    });
+
+    test("every window has room for what is shown", async () => {
+        for (const [width, height] of [[320, 640], [390, 844], [640, 360], [1024, 768], [1280, 720], [3840, 2160]]) {
+            await page.setViewportSize({ width, height });
+            for (const mode of ["gallery", "one", "side", "difference"]) {
+                await page.evaluate((mode) => window.view.store.set({ mode }), mode);
+                const [wide, picture] = await page.evaluate(() => {
+                    const stage = document.querySelector("#stage"), gallery = document.querySelector("#gallery-frames");
+                    const shown = stage.checkVisibility() ? stage : gallery;
+                    const right = [...document.querySelectorAll(".bar > *, #gallery-bar > *, .heading > *")].filter((one) => one.checkVisibility() && !one.closest(".segments")).map((one) => one.getBoundingClientRect().right);
+                    return [Math.max(document.documentElement.scrollWidth, ...right) - innerWidth, shown.clientHeight / innerHeight];
+                });
+                assert.ok(wide <= 1, `${mode} in ${width} × ${height} is wider by ${wide}`);
+                assert.ok(picture > 0.35, `${mode} in ${width} × ${height}: the picture has ${picture} of the height`);
+            }
+        }
+        await page.setViewportSize({ width: 1280, height: 720 });
+        assert.deepEqual(problems, []);
+    });
+
+    const places = () => page.locator("#gallery .place").evaluateAll((all) => all.sort((a, b) => a.ariaPosInSet - b.ariaPosInSet).map((one) => one.dataset.frame));
+
+    test("the first page shows all frames, sorted by what is asked for, and opens one", async () => {
+        await page.goto("about:blank");
+        await page.goto(`${origin}/view/`);
+        await page.waitForSelector("#gallery .place img");
+        await page.waitForFunction(() => window.view?.gallery.rows.left === 0);
+        const { frames } = await json("gallery/home");
+        const rendered = frames.filter((one) => one.version);
+        assert.equal((await places()).length, 2 * rendered.length, "two scenes");
+        await page.selectOption('#gallery-bar [data-key="within"]', "scene");
+        await page.selectOption('#gallery-bar [data-key="sort"]', "noise");
+        await addressSays("sort", "noise");
+        const noisiest = [...rendered].sort((a, b) => b.noise - a.noise)[0];
+        const shown = await places();
+        const noise = (place) => frames.find((one) => `home/${one.camera}/${one.frame}` === place).noise;
+        assert.ok(shown.every((place, i) => i === 0 || noise(place) <= noise(shown[i - 1])), `${shown}`);
+        assert.equal(noise(shown[0]), noisiest.noise);
+        await page.locator("#gallery-frames").press("Enter");
+        await painted();
+        const [scene, camera, frame] = shown[0].split("/");
+        for (const [word, wanted] of [["scene", scene], ["camera", camera], ["frame", frame], ["sort", "noise"]]) await addressSays(word, wanted);
+        await page.goBack();
+        await page.locator("#gallery .place").first().waitFor();
+        assert.deepEqual(await places(), shown, "back in the gallery as it was left");
+    });
+
+    test("frames are chosen by limits, which stand in the address", async () => {
+        const { frames } = await json("gallery/home");
+        const noises = frames.filter((one) => one.version && one.camera === "cam_00").map((one) => one.noise).sort((a, b) => a - b);
+        const limit = (noises[0] + noises[1]) / 2;
+        await page.goto("about:blank");
+        await page.goto(`${origin}/view/#scene=home&camera=cam_00&mode=gallery&within=camera`);
+        await page.locator("#gallery .place").nth(noises.length - 1).waitFor();
+        const max = page.locator('#panel input[aria-label="Noise, max"]');
+        await max.fill(String(100 * limit));
+        await max.press("Enter");
+        await page.waitForFunction(() => document.querySelectorAll("#gallery .place").length === 1);
+        await page.waitForFunction(() => location.hash.includes("limit=noise"));
+        await page.reload();
+        await page.locator("#gallery .place").first().waitFor();
+        assert.equal((await places()).length, 1);
+        await page.click('#panel [data-key="everything"]');
+        await page.locator("#gallery .place").nth(noises.length - 1).waitFor();
+        assert.deepEqual(problems, []);
+    });
+});
+
+describe("a dataset with faults", () => {
+    let whole;
+    const endings = [];
+
+    before(() => {
+        whole = dataset({ after: (ending) => endings.push(ending) });
+    });
+
+    after(() => endings.forEach((ending) => ending()));
+
+    /** A copy of the dataset, which the test may damage. */
+    function copy(t) {
+        const folder = mkdtempSync(join(tmpdir(), "faults-"));
+        t.after(() => rmSync(folder, { recursive: true, force: true }));
+        cpSync(whole, join(folder, "demo"), { recursive: true });
+        return join(folder, "demo");
+    }
+
+    test("a table that is damaged is told by its panel, and the scene is shown", async (t) => {
+        const path = copy(t);
+        writeFileSync(join(path, "scenes", "home", "_detail", "metadata_nodes.csv"), "node_id\n\"");
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color&tab=objects`);
+        await page.waitForFunction(() => document.querySelector("#stage").dataset.frame !== "");
+        await page.locator("#panel .loss code", { hasText: "metadata_nodes.csv" }).waitFor();
+        assert.ok(await page.locator("#message").isHidden());
+    });
+
+    test("what verification rejects is counted once, with reason, value and limit", async (t) => {
+        const path = copy(t);
+        const file = join(path, "verify.json");
+        const report = JSON.parse(readFileSync(file, "utf8"));
+        for (const frame of report.frame_values) frame.gates.depth_range = frame.frame === 1 ? 0.25 : 3;
+        for (const frame of report.frame_values) frame.gates.recomposition = 60;
+        writeFileSync(file, JSON.stringify(report));
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color&frame=0&tab=views`);
+        await page.locator("#verdict", { hasText: "1 frame rejected" }).waitFor();
+        const rejected = page.locator("#panel dt", { hasText: "Rejected" }).locator("xpath=following-sibling::dd[1]");
+        assert.equal(await rejected.innerText(), "1");
+        assert.match(await page.locator('#panel [data-rejected="1"]').innerText(), /rejected by verification: depth range 0\.25 m, limit at least 0\.5/);
+        await page.click("#verdict button");
+        await page.waitForFunction(() => document.querySelectorAll("#gallery .place").length === 1);
+        assert.match(await page.locator("#gallery .place").getAttribute("title"), /depth range 0\.25 m/);
+    });
+
+    test("frames that are made while one looks appear by themselves", async (t) => {
+        const path = copy(t);
+        const images = join(path, "scenes", "home", "images");
+        const records = join(path, "scenes", "home", "_detail", "cam_00", "frames");
+        const later = [images, records].flatMap((folder) => readdirSync(folder, { recursive: true }).map((name) => join(folder, String(name))).filter((name) => name.includes("frame.0002.")));
+        for (const name of later) renameSync(name, `${name}.later`);
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color&frame=0`);
+        await page.locator("#frame-number", { hasText: "1 of 2" }).waitFor();
+        // Once the page has asked and was told that there are two.
+        await page.waitForFunction(() => window.view?.watch.last !== "", null, { timeout: 15_000 });
+        for (const name of later) renameSync(`${name}.later`, name);
+        await page.locator("#frame-number", { hasText: "1 of 3" }).waitFor({ timeout: 15_000 });
+    });
+
+    test("the program ends at once, also while a page is open", async (t) => {
+        const { url, port, end } = await serve(t, whole, 0, "view");
+        const page = await (await browser(t)).newPage();
+        await page.goto(url);
+        await page.waitForSelector("body[data-ready=true]");
+        const begin = performance.now();
+        await end("SIGTERM");
+        const seconds = (performance.now() - begin) / 1000;
+        assert.ok(seconds < 0.5, `${seconds} s`);
+        await serve(t, whole, port, "view");
     });
 });

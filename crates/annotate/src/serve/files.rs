@@ -1,23 +1,145 @@
-//! The files of the pages, which are embedded in the binary.
+//! The files of the pages, which are embedded in the binary; each is compressed once, as well as can be.
+//!
+//! Pages name their scripts and styles below `/@DIGEST/`, where DIGEST is that of all files: what is there never changes, so browsers keep
+//! it without asking. Modules import each other by relative addresses and so stay there. Without a digest the same files are answered by a
+//! tag.
 
 use super::ApiProblem;
-use axum::http::{Uri, header};
+use super::jobs::beside;
+use super::reply::{pack, tag, takes_gzip};
+use super::transfer::is_text;
+use axum::body::Bytes;
+use axum::http::{HeaderMap, HeaderValue, Uri, header};
 use axum::response::{IntoResponse, Response};
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 #[derive(rust_embed::RustEmbed)]
 #[folder = "web"]
 struct Files;
 
-/// The file of a path such as `/annotate/main.js`; a path that ends in `/` is its `index.html`.
+/// Level of compression, the best.
+const LEVEL: i32 = 12;
+
+/// A file as it is sent.
+struct Page {
+    /// Digest of what it was made from.
+    digest: String,
+    kind: String,
+    plain: Bytes,
+    packed: Option<Bytes>,
+}
+
+static PAGES: LazyLock<Mutex<HashMap<String, Arc<Page>>>> = LazyLock::new(Mutex::default);
+
+/// The file of a path such as `/annotate/main.js`, or `/@DIGEST/annotate/main.js`; a path that ends in `/` is its `index.html`.
 ///
 /// # Errors
 /// 404 when the binary has no such file.
-pub async fn page_files(uri: Uri) -> Result<Response, ApiProblem> {
-    let path = uri.path().trim_start_matches('/');
-    let path = if path.is_empty() || path.ends_with('/') { format!("{path}index.html") } else { path.to_string() };
-    let Some(file) = Files::get(&path) else {
-        return Err(ApiProblem::not_found(format!("there is no page {:?}", uri.path()), "open the address that the program printed"));
+pub async fn page_files(uri: Uri, headers: HeaderMap) -> Result<Response, ApiProblem> {
+    beside(move || {
+        let (kept, path) = match uri.path().strip_prefix("/@").and_then(|rest| rest.split_once('/')) {
+            Some((digest, path)) => (digest == digest_of_all(false), path),
+            None => (false, uri.path().trim_start_matches('/')),
+        };
+        let path = if path.is_empty() || path.ends_with('/') { format!("{path}index.html") } else { path.to_string() };
+        let Some(page) = page(&path) else {
+            return Err(ApiProblem::not_found(format!("there is no page {:?}", uri.path()), "open the address that the program printed"));
+        };
+        Ok(page.answer(takes_gzip(&headers), kept))
+    })
+    .await
+}
+
+impl Page {
+    fn answer(&self, takes_gzip: bool, kept: bool) -> Response {
+        let cached = if kept { "public, max-age=31536000, immutable" } else { "no-cache" };
+        let packed = self.packed.as_ref().filter(|_| takes_gzip);
+        let end = if packed.is_some() { "-gzip" } else { "" };
+        let mut response = packed.unwrap_or(&self.plain).clone().into_response();
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_str(&self.kind).expect("media types are plain text"));
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static(cached));
+        headers.insert(header::VARY, HeaderValue::from_static("accept-encoding"));
+        headers.insert(header::ETAG, tag(&format!("{}{end}", self.digest)));
+        if packed.is_some() {
+            headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
+        }
+        response
+    }
+}
+
+/// The file of a path; `None` if the binary has none. In debug builds, which read the files from the disk, it is made again when it changed.
+fn page(path: &str) -> Option<Arc<Page>> {
+    let file = Files::get(path)?;
+    let is_html = path.ends_with(".html");
+    let digest = if is_html { digest_of_all(cfg!(debug_assertions)) } else { hex(&file.metadata.sha256_hash()) };
+    let known = PAGES.lock().unwrap_or_else(PoisonError::into_inner).get(path).cloned();
+    if let Some(page) = known.filter(|page| page.digest == digest) {
+        return Some(page);
+    }
+    let plain: Bytes = match is_html {
+        true => with_digest(&String::from_utf8_lossy(&file.data), path, &digest).into(),
+        false => file.data.into_owned().into(),
     };
-    let headers = [(header::CONTENT_TYPE, file.metadata.mimetype()), (header::CACHE_CONTROL, "no-cache")];
-    Ok((headers, file.data).into_response())
+    let kind = file.metadata.mimetype().to_string();
+    let packed = is_text(&kind).then(|| pack(&plain, LEVEL)).flatten().map(Bytes::from);
+    let page = Arc::new(Page { digest, kind, plain, packed });
+    PAGES.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_string(), Arc::clone(&page));
+    Some(page)
+}
+
+/// The text of a page whose relative addresses begin with the digest.
+fn with_digest(html: &str, path: &str, digest: &str) -> String {
+    let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let mut text = html.to_string();
+    for name in ["src=\"", "href=\""] {
+        let mut parts = text.split(name);
+        let mut moved = parts.next().unwrap_or("").to_string();
+        for part in parts {
+            let is_relative = !part.starts_with(['/', '#']) && !part.split('"').next().unwrap_or("").contains(':');
+            let front = if is_relative { format!("/@{digest}/{folder}/") } else { String::new() };
+            moved.push_str(&format!("{name}{front}{part}"));
+        }
+        text = moved;
+    }
+    text
+}
+
+/// A digest of all files: the last one, or `anew`, since debug builds read them from the disk.
+fn digest_of_all(anew: bool) -> String {
+    static LAST: LazyLock<Mutex<String>> = LazyLock::new(|| Mutex::new(compute_digest()));
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if anew {
+        *last = compute_digest();
+    }
+    last.clone()
+}
+
+fn compute_digest() -> String {
+    let mut names: Vec<_> = Files::iter().collect();
+    names.sort_unstable();
+    let mut hasher = blake3::Hasher::new();
+    for name in names {
+        let hash = Files::get(&name).map(|file| file.metadata.sha256_hash()).unwrap_or_default();
+        hasher.update(name.as_bytes()).update(&hash);
+    }
+    hasher.finalize().to_hex()[..16].to_string()
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_addresses_of_a_page_get_the_digest_and_others_do_not() {
+        let html = r##"<link href="data:,"><link href="../shared/theme.css"><script src="main.js"></script><a href="/x"><a href="#y">"##;
+        let told = with_digest(html, "view/index.html", "d1");
+        assert!(told.contains(r#"href="/@d1/view/../shared/theme.css""#) && told.contains(r#"src="/@d1/view/main.js""#), "{told}");
+        assert!(told.contains(r#"href="data:,""#) && told.contains(r#"href="/x""#), "{told}");
+    }
 }

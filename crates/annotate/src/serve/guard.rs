@@ -2,7 +2,8 @@
 //!
 //! On loopback, any web page that the user visits can send requests here. So the `Host` header must name this machine (which refuses a
 //! domain that an attacker points at it), and a request that changes something must be JSON and come from our own page. On other
-//! interfaces a token is required, which the printed address carries and the page keeps in a cookie.
+//! interfaces a token is required, which the printed address carries and the page keeps in a cookie. Browsers send the cookies of a
+//! machine to all of its ports, so the cookie's name has the port that the browser sees: several servers keep their tokens apart.
 
 use super::ApiProblem;
 use axum::body::Body;
@@ -10,9 +11,10 @@ use axum::extract::State;
 use axum::http::{HeaderMap, Method, Request, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Redirect, Response};
-use std::net::{IpAddr, SocketAddr};
+use std::net::IpAddr;
 use std::sync::Arc;
 
+/// The cookie's name, before the port.
 const COOKIE: &str = "enfilade_token";
 
 /// 128 random bits, as 32 hexadecimal digits.
@@ -55,11 +57,11 @@ impl Guard {
         Ok(Self { loopback, token })
     }
 
-    /// The address of a page, with the token where there is one.
-    pub fn url(&self, address: SocketAddr, page: &str) -> String {
+    /// The address of a page on a host with a port, with the token where there is one.
+    pub fn url(&self, host: &str, page: &str) -> String {
         match &self.token {
-            Some(Token(token)) => format!("http://{address}{page}?token={token}"),
-            None => format!("http://{address}{page}"),
+            Some(Token(token)) => format!("http://{host}{page}?token={token}"),
+            None => format!("http://{host}{page}"),
         }
     }
 
@@ -106,8 +108,15 @@ fn is_this_machine(host: &str) -> bool {
 fn tokens<'a>(uri: &'a Uri, headers: &'a HeaderMap) -> impl Iterator<Item = &'a str> {
     let bearer = text(headers, header::AUTHORIZATION).and_then(|value| value.strip_prefix("Bearer "));
     let cookies = text(headers, header::COOKIE).unwrap_or("").split(';');
-    let cookie = cookies.filter_map(|pair| pair.trim().split_once('=')).filter(|(name, _)| *name == COOKIE).map(|(_, value)| value);
+    let cookie =
+        cookies.filter_map(|pair| pair.trim().split_once('=')).filter(|(name, _)| name.starts_with(COOKIE)).map(|(_, value)| value);
     query_token(uri).into_iter().chain(bearer).chain(cookie)
+}
+
+/// The name of the cookie for the host that a browser names.
+fn cookie_name(host: Option<&str>) -> String {
+    let port = host.and_then(|host| host.rsplit_once(':')).map(|(_, port)| port).filter(|port| port.parse::<u16>().is_ok());
+    format!("{COOKIE}_{}", port.unwrap_or("80"))
 }
 
 fn query_token(uri: &Uri) -> Option<&str> {
@@ -120,7 +129,8 @@ pub(super) async fn check(State(guard): State<Arc<Guard>>, request: Request<Body
         return problem.into_response();
     }
     if let (Some(token), true, &Method::GET) = (query_token(request.uri()), guard.token.is_some(), request.method()) {
-        let cookie = format!("{COOKIE}={token}; HttpOnly; SameSite=Strict; Path=/");
+        let name = cookie_name(text(request.headers(), header::HOST));
+        let cookie = format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/");
         let rest: Vec<&str> = request.uri().query().unwrap_or("").split('&').filter(|pair| !pair.starts_with("token=")).collect();
         let query = if rest.is_empty() { String::new() } else { format!("?{}", rest.join("&")) };
         let target = format!("{}{query}", request.uri().path());
@@ -194,6 +204,24 @@ mod tests {
         assert_eq!(first.headers()[header::LOCATION], "/a?x=1");
         let cookie = first.headers()[header::SET_COOKIE].to_str().unwrap().split(';').next().unwrap().to_string();
         assert_eq!(answer(&guard, "GET", "/a", &[host, ("cookie", &cookie)]).await.status(), StatusCode::OK);
+    }
+
+    #[tokio::test]
+    async fn servers_on_two_ports_keep_their_cookies_apart() {
+        let mut jar = std::collections::BTreeMap::new();
+        let guards = ["10.0.0.1:7000", "10.0.0.1:8000"].map(|host| (host, Guard::new(Ipv4Addr::UNSPECIFIED.into(), false).unwrap()));
+        for (host, guard) in &guards {
+            let Some(Token(token)) = &guard.token else { panic!("no token") };
+            let first = answer(guard, "GET", &format!("/a?token={token}"), &[("host", host)]).await;
+            let cookie = first.headers()[header::SET_COOKIE].to_str().unwrap().split(';').next().unwrap().to_string();
+            let (name, value) = cookie.split_once('=').unwrap();
+            jar.insert(name.to_string(), value.to_string());
+        }
+        let cookies = jar.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join("; ");
+        for (host, guard) in &guards {
+            let response = answer(guard, "GET", "/a", &[("host", host), ("cookie", &cookies)]).await;
+            assert_eq!(response.status(), StatusCode::OK, "{host}: {cookies}");
+        }
     }
 
     #[tokio::test]

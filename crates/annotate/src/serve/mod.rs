@@ -1,25 +1,33 @@
 //! The server: binds an address, refuses strangers, serves routes and pages, and shuts down in order.
 
+mod addresses;
+mod connections;
 mod files;
 mod guard;
+mod jobs;
+mod line;
 mod problem;
 pub(crate) mod reply;
+#[cfg(test)]
+mod tests;
+mod transfer;
 
+pub use addresses::Addresses;
 pub use files::page_files;
 pub use guard::{Guard, Token};
+pub(crate) use jobs::beside;
 pub use problem::ApiProblem;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use std::future::IntoFuture;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::time::Duration;
 
 /// Largest body of a request, bytes: a stroke of a million pixels fits.
 const MAX_BODY_BYTES: usize = 16 << 20;
 
-/// When the program is asked to end, running requests have this long to finish.
-const PATIENCE: Duration = Duration::from_secs(2);
+/// When the program is asked to end, jobs have this long after the last connection has ended.
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Where to listen, and what to do then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,14 +65,14 @@ pub enum ServeError {
     Run(String),
 }
 
-/// Serves `app` and the pages until the process is asked to end (Ctrl-C or SIGTERM); requests that are being answered are finished.
+/// Serves `app` and the pages until the process is asked to end (Ctrl-C or SIGTERM); requests that are being answered are finished if
+/// that takes a moment.
 ///
-/// `page` is the path of the page to begin with, such as `/annotate/`; `started` is told its whole address, token included, once
-/// it can be opened.
+/// `page` is the path of the page to begin with, such as `/annotate/`; `started` is told its addresses, once they can be opened.
 ///
 /// # Errors
 /// When the address cannot be bound or the server cannot run.
-pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str)) -> Result<(), ServeError> {
+pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&Addresses)) -> Result<(), ServeError> {
     let run = |e: std::io::Error| ServeError::Run(e.to_string());
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(run)?;
     let outcome = runtime.block_on(async {
@@ -72,35 +80,18 @@ pub fn serve(app: Router, listen: &Listen, page: &str, started: impl FnOnce(&str
         let listener = tokio::net::TcpListener::bind(address).await.map_err(|source| ServeError::Bind { address, source })?;
         let bound = listener.local_addr().map_err(run)?;
         let guard = Guard::new(bound.ip(), listen.token).map_err(|e| ServeError::Run(format!("no random numbers for a token: {e}")))?;
-        let url = guard.url(bound, page);
-        started(&url);
-        if listen.open && open::that_detached(&url).is_err() {
+        // Before the addresses are told, so that nobody can ask for the end and not be heard.
+        let end = asked_to_end();
+        let addresses = Addresses::of(bound, |host| guard.url(host, page));
+        started(&addresses);
+        if listen.open && open::that_detached(&addresses.here).is_err() {
             // A machine without a browser. The address was printed already.
         }
-        let app = guarded(app, page, guard);
-        let (told, ending) = tokio::sync::oneshot::channel();
-        let end = async {
-            asked_to_end().await;
-            let _ = told.send(()); // it fails if the server has ended by itself
-        };
-        let served = axum::serve(listener, app).with_graceful_shutdown(end);
-        // An open page keeps its stream of events open, so waiting for every response to end would never end.
-        let patience = async {
-            match ending.await {
-                Ok(()) => tokio::time::sleep(PATIENCE).await,
-                Err(_) => std::future::pending().await,
-            }
-        };
-        tokio::select! { served = served.into_future() => served.map_err(run), () = patience => Ok(()) }
+        connections::answer(listener, guarded(app, page, guard), connections::Limits::of_this_process(), end).await;
+        Ok(())
     });
     runtime.shutdown_timeout(PATIENCE);
     outcome
-}
-
-/// Runs `job` on a thread for blocking work.
-pub(crate) async fn beside<T: Send + 'static>(job: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
-    let done = tokio::task::spawn_blocking(job).await;
-    done.unwrap_or_else(|_| Err(ApiProblem::failed("the program has a mistake and gave up on this request", "report what you opened")))
 }
 
 /// `app` with the files of the pages, behind the guard; `/` leads to `page`.
@@ -109,20 +100,25 @@ pub fn guarded(app: Router, page: &str, guard: Guard) -> Router {
     app.route("/", axum::routing::get(move || async move { axum::response::Redirect::temporary(&page) }))
         .fallback(page_files)
         .layer(DefaultBodyLimit::max(MAX_BODY_BYTES))
+        .layer(axum::middleware::from_fn(transfer::compress_and_tag))
         .layer(axum::middleware::from_fn_with_state(std::sync::Arc::new(guard), guard::check))
 }
 
-/// Returns when the process is asked to end.
-async fn asked_to_end() {
-    let interrupt = async { tokio::signal::ctrl_c().await.unwrap_or(()) };
+/// What returns when the process is asked to end. Signals are heard from this call on.
+fn asked_to_end() -> impl Future<Output = ()> {
     #[cfg(unix)]
-    let terminate = async {
-        match tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate()) {
-            Ok(mut signal) => signal.recv().await.unwrap_or(()),
-            Err(_) => std::future::pending().await,
-        }
-    };
-    #[cfg(not(unix))]
-    let terminate = std::future::pending::<()>();
-    tokio::select! { () = interrupt => {}, () = terminate => {} }
+    let terminate = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate());
+    async {
+        let interrupt = async { tokio::signal::ctrl_c().await.unwrap_or(()) };
+        #[cfg(unix)]
+        let terminate = async {
+            match terminate {
+                Ok(mut signal) => signal.recv().await.unwrap_or(()),
+                Err(_) => std::future::pending().await,
+            }
+        };
+        #[cfg(not(unix))]
+        let terminate = std::future::pending::<()>();
+        tokio::select! { () = interrupt => {}, () = terminate => {} }
+    }
 }

@@ -36,22 +36,32 @@ pub fn array(bytes: Vec<u8>, gzip: bool, headers: &[(&'static str, String)]) -> 
 
 fn body(bytes: Vec<u8>, kind: &'static str, gzip: bool, level: i32) -> Response {
     let headers = [(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-cache"), (header::VARY, "accept-encoding")];
-    if gzip
-        && bytes.len() >= MIN_COMPRESSED_BYTES
-        && let Some(packed) = pack(&bytes, level)
-    {
+    if gzip && let Some(packed) = pack(&bytes, level) {
         return (headers, [(header::CONTENT_ENCODING, "gzip")], packed).into_response();
     }
     (headers, bytes).into_response()
 }
 
-/// The bytes as gzip; `None` when that saves less than a twentieth.
-fn pack(bytes: &[u8], level: i32) -> Option<Vec<u8>> {
+/// The bytes as gzip at a level of 1 to 12; `None` when that saves less than a twentieth, or a packet holds them anyway.
+pub(super) fn pack(bytes: &[u8], level: i32) -> Option<Vec<u8>> {
+    if bytes.len() < MIN_COMPRESSED_BYTES {
+        return None;
+    }
     let mut compressor = Compressor::new(CompressionLvl::new(level).expect("levels 1 to 12 exist"));
     let mut packed = vec![0; compressor.gzip_compress_bound(bytes.len())];
     let length = compressor.gzip_compress(bytes, &mut packed).ok()?;
     packed.truncate(length);
     (length < bytes.len() / 20 * 19).then_some(packed)
+}
+
+/// The entity tag of what these bytes tell of.
+pub fn tag_of(bytes: &[u8]) -> HeaderValue {
+    tag(&blake3::hash(bytes).to_hex()[..32])
+}
+
+/// A digest in hexadecimal digits as an entity tag.
+pub fn tag(digest: &str) -> HeaderValue {
+    HeaderValue::from_str(&format!("\"{digest}\"")).expect("digits are visible characters")
 }
 
 #[cfg(test)]

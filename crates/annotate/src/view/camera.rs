@@ -1,14 +1,17 @@
 //! A camera: its model, its pose for each frame, and which of its views were rendered or rejected.
 
-use super::place::{optional, problem};
+use super::faults::Fault;
+use super::place::{FramePlace, optional, problem};
+use super::problems::Problems;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use enfilade_dataset::{ViewVerdict, loader_problem};
+use enfilade_dataset::loader_problem;
 use enfilade_frame::{LAYERS, Layer, Pass};
 use enfilade_scene::{Camera, Projection};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -22,71 +25,84 @@ pub async fn camera(
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_camera(&scene, &camera)?;
-        Ok(reply::json(gzip, &viewer.camera_facts(&scene, &camera)?))
+        let (mut facts, lost) = viewer.camera_facts(&scene, &camera)?;
+        facts["problems"] = json!(lost);
+        Ok(reply::json(gzip, &facts))
     })
     .await
 }
 
 /// One view of a camera, as it is sent to the page.
-#[derive(Default)]
+#[derive(Default, Serialize)]
 struct View {
+    frame: u32,
     pose: Option<Value>,
     layers: Vec<usize>,
     complete: bool,
-    gate: Option<Value>,
+    faults: Vec<Fault>,
+    /// The path of planning's picture of a view that it rejected.
+    picture: Option<String>,
 }
 
 impl Viewer {
-    fn camera_facts(&self, scene: &str, camera: &str) -> Result<Value, ApiProblem> {
+    /// What the page is told of a camera, and which files could not be read.
+    fn camera_facts(&self, scene: &str, camera: &str) -> Result<(Value, Problems), ApiProblem> {
+        let layout = self.layout();
+        self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera)])?;
+        let mut lost = Problems::default();
+        let model = lost.or_nothing("frame", self.camera_model(scene, camera));
+        let views = self.views(scene, camera, model.as_ref(), &mut lost)?;
+        let tone = lost.or_nothing("display", self.tone_maps(scene, camera));
+        let facts = json!({
+            "name": camera,
+            "frame_time_s": lost.or_nothing("frame", self.dataset.read_frame_time(scene, camera).map_err(problem).map(Some)),
+            "projection": model.as_ref().map(projection),
+            "loader_problem": model.as_ref().filter(|_| !self.dataset.is_released(scene)).and_then(loader_problem),
+            "frames": views,
+            "tone": tone.iter().map(|row| json!([row.frame, row.scale, row.display_scale])).collect::<Vec<_>>(),
+        });
+        Ok((facts, lost))
+    }
+
+    /// Every frame that has a pose, a layer, a record or a verdict, by its number.
+    fn views(&self, scene: &str, camera: &str, model: Option<&Camera>, lost: &mut Problems) -> Result<Vec<View>, ApiProblem> {
         let layout = self.layout();
         let keyframes =
             ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| layout.keyframes(scene, camera, what));
         self.allow_all(keyframes)?;
-        self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera), layout.view_gates(scene, camera)])?;
-        let model = self.camera_model(scene, camera)?;
+        self.allow_all([layout.view_gates(scene, camera), layout.records_dir(scene, camera)])?;
         let mut views: BTreeMap<u32, View> = BTreeMap::new();
-        let trajectory = optional(self.dataset.read_trajectory(scene, camera))?;
+        let trajectory = lost.or_nothing("views", optional(self.dataset.read_trajectory(scene, camera)));
         for pose in trajectory.iter().flat_map(|trajectory| &trajectory.poses) {
             let rows = pose.world_from_camera.transpose().to_cols_array();
             let value = json!({ "position": pose.position.to_array(), "orientation": rows });
             views.entry(pose.frame).or_default().pose = Some(value);
         }
-        for (frame, layers) in self.layers_of_frames(scene, camera, model.as_ref())? {
+        for (frame, layers) in self.layers_of_frames(scene, camera, model)? {
             views.entry(frame).or_default().layers = layers.into_iter().collect();
         }
-        self.allow(&layout.records_dir(scene, camera))?;
-        for frame in self.dataset.frame_numbers(scene, camera).map_err(problem)? {
+        for frame in lost.or_nothing("frame", self.dataset.frame_numbers(scene, camera).map_err(problem)) {
             views.entry(frame).or_default().complete = true;
         }
-        for judged in self.dataset.read_view_gates(scene, camera).map_err(problem)?.unwrap_or_default() {
-            let verdict = match judged.verdict {
-                ViewVerdict::Passed => continue,
-                ViewVerdict::Rejected => "rejected",
-                ViewVerdict::Reported => "reported",
-            };
-            let fault = judged.fault.map(|fault| json!({ "gate": fault.gate, "value": fault.value, "limit": fault.limit }));
-            let picture = Some(layout.rejected_view(scene, camera, judged.frame)).filter(|path| path.is_file());
-            let picture = picture.map(|path| self.in_dataset(&path));
-            let gate = json!({ "verdict": verdict, "fault": fault, "picture": picture });
-            views.entry(judged.frame).or_default().gate = Some(gate);
+        let report = self.report()?;
+        for (frame, faults) in lost.or_nothing("views", self.faults(scene, camera, report.as_deref())) {
+            views.entry(frame).or_default().faults = faults;
         }
-        let tone: Vec<Value> = self.tone_maps(scene, camera)?.iter().map(|row| json!([row.frame, row.scale, row.display_scale])).collect();
-        let frames: Vec<Value> = views
-            .into_iter()
-            .map(|(frame, v)| json!({ "frame": frame, "pose": v.pose, "layers": v.layers, "complete": v.complete, "gate": v.gate }))
-            .collect();
-        Ok(json!({
-            "name": camera,
-            "frame_time_s": self.dataset.read_frame_time(scene, camera).map_err(problem)?,
-            "projection": model.as_ref().map(projection),
-            "loader_problem": model.as_ref().filter(|_| !self.dataset.is_released(scene)).and_then(loader_problem),
-            "frames": frames,
-            "tone": tone,
-        }))
+        for (&frame, view) in &mut views {
+            view.frame = frame;
+            let place = FramePlace { scene: scene.into(), camera: camera.into(), frame };
+            view.picture = if view.faults.is_empty() { None } else { self.rejected_picture(&place) };
+        }
+        Ok(views.into_values().collect())
     }
 
     /// For each frame that has any layer, the positions of its layers in [`LAYERS`]. Planar depth counts where it can be computed.
-    fn layers_of_frames(&self, scene: &str, camera: &str, model: Option<&Camera>) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
+    pub(super) fn layers_of_frames(
+        &self,
+        scene: &str,
+        camera: &str,
+        model: Option<&Camera>,
+    ) -> Result<BTreeMap<u32, BTreeSet<usize>>, ApiProblem> {
         let mut found: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
         let folders: BTreeSet<_> = [Pass::Final, Pass::Geometry].map(|pass| self.layout().layer_dir(scene, camera, pass)).into();
         for folder in folders {

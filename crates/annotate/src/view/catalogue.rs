@@ -8,7 +8,6 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::check_name;
 use enfilade_frame::LAYERS;
-use enfilade_verify::VerifyReport;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -47,22 +46,15 @@ impl Viewer {
 
     /// The result of the last verification; null without one.
     fn verify_summary(&self) -> Result<Value, ApiProblem> {
-        let Some(report) = self.verify_report()? else { return Ok(Value::Null) };
+        let Some(report) = self.report()? else { return Ok(Value::Null) };
+        let report = &report.report;
         let failures: Vec<Value> = report
             .failures()
             .map(|law| json!({ "law": law.law, "statement": law.statement, "place": law.place, "meaning": law.meaning }))
             .collect();
         Ok(json!({
             "passed": report.passed, "accepted": report.accepted, "verdict": report.verdict(), "gate_verdict": report.gate_verdict(),
-            "laws": report.laws.len(), "failures": failures, "frames": report.frames,
+            "laws": report.laws.len(), "failures": failures, "frames": report.frames, "rejected": report.rejected().count(),
         }))
-    }
-
-    /// The report of the last verification; `None` without one, and for a report of another version.
-    fn verify_report(&self) -> Result<Option<VerifyReport>, ApiProblem> {
-        let path = self.layout().verify_report();
-        self.allow(&path)?;
-        let Ok(text) = std::fs::read(&path) else { return Ok(None) };
-        Ok(serde_json::from_slice(&text).ok())
     }
 }

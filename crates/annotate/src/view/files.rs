@@ -55,6 +55,42 @@ pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -
         })
     })
     .await?;
+    let bytes = if kind.starts_with("text/html") { frames_open_the_page(&String::from_utf8_lossy(&bytes)).into_bytes() } else { bytes };
     let headers = [(header::CONTENT_TYPE, *kind), (header::CACHE_CONTROL, "no-cache"), (header::CONTENT_SECURITY_POLICY, PAGE_POLICY)];
     Ok((headers, bytes).into_response())
+}
+
+/// A report whose links to pictures of frames lead to the frames on our page instead.
+fn frames_open_the_page(html: &str) -> String {
+    let mut parts = html.split("href=\"");
+    let mut text = parts.next().unwrap_or("").to_string();
+    for part in parts {
+        let (link, rest) = part.split_once('"').unwrap_or((part, ""));
+        let link = frame_address(link).unwrap_or_else(|| link.to_string());
+        text.push_str(&format!("href=\"{link}\"{rest}"));
+    }
+    text
+}
+
+/// The address of the frame whose picture a path is; `None` for other paths.
+fn frame_address(path: &str) -> Option<String> {
+    let (scene, file) = path.split_once("scenes/")?.1.split_once("/images/scene_")?;
+    let (folder, name) = file.split_once('/')?;
+    let camera = folder.strip_suffix("_final_preview").or_else(|| folder.strip_suffix("_geometry_preview"))?;
+    let number: u32 = name.strip_prefix("frame.")?.split('.').next()?.parse().ok()?;
+    let is_name = |word: &str| word.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.'));
+    (is_name(scene) && is_name(camera)).then(|| format!("/view/#scene={scene}&amp;camera={camera}&amp;frame={number}&amp;layer=color"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_of_a_report_lead_to_frames_and_other_links_stay() {
+        let html = r##"<a href="scenes/home/images/scene_cam_00_final_preview/frame.0012.tonemap.jpg">x</a><a href="verify.json"><a href="#laws">"##;
+        let told = frames_open_the_page(html);
+        assert!(told.contains(r##"<a href="/view/#scene=home&amp;camera=cam_00&amp;frame=12&amp;layer=color">x</a>"##), "{told}");
+        assert!(told.ends_with(r##"<a href="verify.json"><a href="#laws">"##), "{told}");
+    }
 }

@@ -1,12 +1,12 @@
 //! Everything about a frame except its layers: its records, its split, how much it shows of each instance, and what verification measured.
 
-use super::place::{FramePlace, optional, problem, stamp};
+use super::place::{FramePlace, optional, problem};
+use super::problems::Problems;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use enfilade_dataset::DatasetError;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -36,9 +36,10 @@ impl Viewer {
             layout.split(),
             layout.verify_report(),
         ])?;
-        let record = self.dataset.frame_record(scene, camera, *frame).map_err(problem)?;
-        let labels = self.dataset.label_record(scene, camera, *frame).map_err(problem)?;
-        let views = optional(self.dataset.read_instance_views(scene, camera))?.unwrap_or_default();
+        let mut lost = Problems::default();
+        let record = lost.or_nothing("frame", self.dataset.frame_record(scene, camera, *frame).map_err(problem));
+        let labels = lost.or_nothing("frame", self.dataset.label_record(scene, camera, *frame).map_err(problem));
+        let views = lost.or_nothing("objects", optional(self.dataset.read_instance_views(scene, camera))).unwrap_or_default();
         let instances: Vec<Value> = views
             .iter()
             .filter(|view| view.frame == *frame)
@@ -48,7 +49,7 @@ impl Viewer {
                     "visibility": view.visibility(), "truncation": view.truncation() })
             })
             .collect();
-        let split = optional(self.dataset.read_split())?.unwrap_or_default();
+        let split = lost.or_nothing("frame", optional(self.dataset.read_split())).unwrap_or_default();
         let row = split.iter().find(|row| row.scene == *scene && row.camera == *camera && row.frame == *frame);
         let split = row.map(|row| match &row.partition {
             Ok(partition) => json!({ "partition": partition.name() }),
@@ -61,20 +62,6 @@ impl Viewer {
             record["seed"] = seed.into();
         }
         Ok(json!({ "record": record, "labels": labels, "instances": instances, "split": split,
-            "judged": self.judged(place)? }))
-    }
-
-    /// What verification measured in the frame.
-    fn judged(&self, place: &FramePlace) -> Result<Option<Value>, ApiProblem> {
-        let path = self.layout().verify_report();
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let text = self.buffers.get(&(String::new(), "verify.json"), stamp(&path), || {
-            std::fs::read(&path).map_err(|source| problem(DatasetError::Io { action: "read", path: path.clone(), source }))
-        })?;
-        let report: Value = serde_json::from_slice(&text).unwrap_or_default();
-        let is = |row: &&Value| row["scene"] == *place.scene && row["camera"] == *place.camera && row["frame"] == place.frame;
-        Ok(report["frame_values"].as_array().and_then(|rows| rows.iter().find(is)).cloned())
+            "judged": self.report()?.and_then(|report| report.frame(place).map(|values| json!(values))), "problems": lost }))
     }
 }

@@ -10,7 +10,7 @@ use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
-use axum::http::HeaderMap;
+use axum::http::{HeaderMap, header};
 use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Elements, ToneMapRow};
@@ -52,6 +52,7 @@ pub async fn layer(
     let compact = query.compact.is_some_and(|compact| compact != 0);
     let gzip = compact && reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
+        let source = stamp(&viewer.dataset.layer_source(&place.scene, &place.camera, place.frame, layer));
         let decoded = viewer.layer(&place, layer)?;
         let mut summary = decoded.summary.clone();
         if layer.spec().unit == "W/(sr m^2)" {
@@ -70,7 +71,11 @@ pub async fn layer(
         if planes {
             headers.push(("x-enfilade-packing", "planes".to_string()));
         }
-        Ok(reply::array(bytes, gzip, &headers))
+        // The tag tells of the file and of what was asked for: a digest of megabytes would cost more than it saves.
+        let tag = reply::tag_of(format!("{source:?} {step} {compact} {gzip} {headers:?}").as_bytes());
+        let mut response = reply::array(bytes, gzip, &headers);
+        response.headers_mut().insert(header::ETAG, tag);
+        Ok(response)
     })
     .await
 }

@@ -1,6 +1,7 @@
 //! A scene: its cameras, its classes, the names of its parts and objects, and the boxes around instances.
 
 use super::place::{optional, problem};
+use super::problems::Problems;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
@@ -9,8 +10,8 @@ use axum::response::Response;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{BoxKind, DatasetError, Elements, Node, instance_colors, mesh_names};
 use enfilade_scene::PartLabel;
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
@@ -20,18 +21,29 @@ struct ObjectRow {
     object_name: String,
 }
 
+/// Names and labels of a scene's objects, by their number.
+#[derive(Default, Serialize)]
+struct Objects {
+    names: Vec<String>,
+    semantic: Vec<i16>,
+    instance: Vec<i16>,
+}
+
 /// `GET /api/view/scene/{scene}`.
 pub async fn scene(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>, headers: HeaderMap) -> Result<Response, ApiProblem> {
     let gzip = reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
         viewer.check_scene(&scene)?;
-        Ok(reply::json(gzip, &viewer.scene_facts(&scene)?))
+        let (mut facts, lost) = viewer.scene_facts(&scene)?;
+        facts["problems"] = json!(lost);
+        Ok(reply::json(gzip, &facts))
     })
     .await
 }
 
 impl Viewer {
-    fn scene_facts(&self, scene: &str) -> Result<Value, ApiProblem> {
+    /// What the page is told of a scene, and which files could not be read.
+    fn scene_facts(&self, scene: &str) -> Result<(Value, Problems), ApiProblem> {
         let layout = self.layout();
         let mesh = |name: &str| layout.mesh_file(scene, name);
         self.allow_all([
@@ -41,40 +53,39 @@ impl Viewer {
             layout.mesh_dir(scene),
         ])?;
         self.allow_all([mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::INSTANCE_COLORS].map(mesh))?;
-        let nodes = optional(self.dataset.read_nodes(scene))?.unwrap_or_default();
-        let labels = optional(self.dataset.read_label_tables(scene))?.unwrap_or_default();
+        let mut lost = Problems::default();
+        let nodes = lost.or_nothing("objects", optional(self.dataset.read_nodes(scene))).unwrap_or_default();
+        let labels = lost.or_nothing("objects", optional(self.dataset.read_label_tables(scene))).unwrap_or_default();
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
         let pages = [("Rejected views", layout.gates_page(scene)), ("Plans", layout.plan_preview_dir(scene).join("index.html"))];
         let pages =
             pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
-        Ok(json!({
+        let facts = json!({
             "name": scene,
-            "cameras": self.dataset.cameras(scene).map_err(problem)?,
-            "meters_per_unit": self.meters_per_unit(scene)?,
-            "classes": self.classes(scene)?,
+            "cameras": lost.or_nothing("views", self.dataset.cameras(scene).map_err(problem)),
+            "meters_per_unit": lost.or_nothing("display", self.meters_per_unit(scene).map(Some)).unwrap_or(1.0),
+            "classes": lost.or_nothing("objects", self.classes(scene)),
             // Indexed by `render_entity_id` - 1.
             "parts": nodes.iter().map(|node| &node.node_name).collect::<Vec<_>>(),
-            "objects": self.objects(scene, &nodes, &labels.parts)?,
-            "materials": self.material_names(scene)?,
+            "objects": lost.or_nothing("objects", self.objects(scene, &nodes, &labels.parts)),
+            "materials": lost.or_nothing("objects", self.material_names(scene)),
             "instance_colors": self.colors_of_instances(scene, instances),
-            "boxes": self.boxes(scene)?,
+            "boxes": lost.or_nothing("objects", self.boxes(scene)),
             "has_geometry": mesh(mesh_names::VERTICES).is_file() && mesh(mesh_names::FACES_VERTICES).is_file(),
             "has_space": layout.octomap(scene).is_file(),
             "pages": pages.collect::<Vec<_>>(),
-        }))
+        });
+        Ok((facts, lost))
     }
 
     /// The parts and what was split off from them, indexed as in `mesh_faces_oi.hdf5`.
-    fn objects(&self, scene: &str, nodes: &[Node], labels: &[PartLabel]) -> Result<Value, ApiProblem> {
+    fn objects(&self, scene: &str, nodes: &[Node], labels: &[PartLabel]) -> Result<Objects, ApiProblem> {
         let names: Vec<String> = match self.mesh_table::<ObjectRow>(scene, mesh_names::OBJECTS)? {
             Some(rows) => rows.into_iter().map(|row| row.object_name).collect(),
             None => names_by_nodes(nodes),
         };
-        Ok(json!({
-            "names": names,
-            "semantic": labels.iter().map(|label| label.semantic).collect::<Vec<_>>(),
-            "instance": labels.iter().map(|label| label.instance).collect::<Vec<_>>(),
-        }))
+        let semantic = labels.iter().map(|label| label.semantic).collect();
+        Ok(Objects { names, semantic, instance: labels.iter().map(|label| label.instance).collect() })
     }
 
     /// The rows of a table of the mesh folder; `None` where it is not there.
@@ -113,7 +124,7 @@ impl Viewer {
     }
 
     /// The boxes of each kind, one per instance, in metres, null if an instance has none. Kinds without files are absent.
-    fn boxes(&self, scene: &str) -> Result<Value, ApiProblem> {
+    fn boxes(&self, scene: &str) -> Result<Map<String, Value>, ApiProblem> {
         let mut kinds = Map::new();
         for kind in BoxKind::ALL {
             self.allow_all(self.dataset.box_files(scene, kind))?;
@@ -124,7 +135,7 @@ impl Viewer {
             };
             kinds.insert(kind.name().to_string(), boxes.iter().map(|b| b.as_ref().map(one)).collect());
         }
-        Ok(Value::Object(kinds))
+        Ok(kinds)
     }
 }
 

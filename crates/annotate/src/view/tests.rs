@@ -136,8 +136,9 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     let frames = camera["frames"].as_array().unwrap();
     assert_eq!(frames.iter().map(|frame| frame["layers"].as_array().unwrap().len()).collect::<Vec<_>>(), [43, 0, 0]);
-    assert_eq!(frames[1]["gate"]["verdict"], "rejected");
-    assert_eq!(frames[1]["gate"]["fault"], serde_json::json!({ "gate": "blocked", "value": 0.75, "limit": 0.5 }));
+    let [fault] = frames[1]["faults"].as_array().unwrap().as_slice() else { panic!("{}", frames[1]) };
+    assert_eq!((&fault["gate"], &fault["value"], &fault["limit"]), (&"blocked".into(), &0.75.into(), &0.5.into()));
+    assert_eq!((&fault["by"], &fault["rejects"]), (&"planning".into(), &Value::Bool(true)));
     assert_eq!((&frames[0]["complete"], &frames[2]["complete"]), (&Value::Bool(true), &Value::Bool(false)));
     assert_eq!((&camera["projection"]["kind"], camera["projection"]["corner_rays"].as_array().unwrap().len()), (&"pinhole".into(), 4));
     let frame = json(folder.path(), "/api/view/frame/room/cam_00/0").await;
@@ -179,10 +180,71 @@ async fn classes_are_those_of_the_scenes_list_while_its_labels_are() {
     let told = classes().await;
     assert_eq!((told.len(), &told[6]), (40, &serde_json::json!({ "id": 7, "name": "table", "color": [1, 2, 3] })));
     write_bytes(&files.file("semantic_label_descs.csv"), "semantic_id,semantic_name\n1,a\n").unwrap();
-    let refused = ask(folder.path(), "/api/view/scene/room", &[]).await;
-    assert_eq!(refused.status(), StatusCode::INTERNAL_SERVER_ERROR);
-    let said = String::from_utf8(bytes(refused).await).unwrap();
+    let told = json(folder.path(), "/api/view/scene/room").await;
+    let said = told["problems"][0]["error"].as_str().unwrap();
     assert!(said.contains("semantic_label_descs.csv") && said.contains("line 1: no column"), "{said}");
+    assert_eq!((&told["cameras"], &told["problems"][0]["panel"]), (&serde_json::json!(["cam_00"]), &"objects".into()));
+}
+
+#[tokio::test]
+async fn a_damaged_table_costs_its_own_panel_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let layout = dataset.layout();
+    for (path, address, panel) in [
+        (layout.view_gates("room", "cam_00"), "/api/view/camera/room/cam_00", "views"),
+        (layout.tone_maps("room", "cam_00"), "/api/view/camera/room/cam_00", "display"),
+        (layout.frame_instances("room", "cam_00"), "/api/view/frame/room/cam_00/0", "objects"),
+        (layout.metadata_nodes("room"), "/api/view/scene/room", "objects"),
+        (layout.view_gates("room", "cam_00"), "/api/view/gallery/room", "gallery"),
+    ] {
+        let before = std::fs::read(&path).ok();
+        std::fs::write(&path, "frame_id\n\"\n\u{0},,,\n").unwrap();
+        let told = json(folder.path(), address).await;
+        let problems = told["problems"].as_array().unwrap();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(problems.len() == 1 && problems[0]["panel"] == panel, "{address}: {told}");
+        assert!(problems[0]["error"].as_str().unwrap().contains(name), "{address}: {problems:?}");
+        assert_eq!(ask(folder.path(), "/api/view/layer/room/cam_00/0/color", &[]).await.status(), StatusCode::OK, "{name}");
+        assert_eq!(ask(folder.path(), "/api/view/thumbnail/room/cam_00/0", &[]).await.status(), StatusCode::OK, "{name}");
+        match before {
+            Some(before) => std::fs::write(&path, before).unwrap(),
+            None => std::fs::remove_file(&path).unwrap(),
+        }
+    }
+}
+
+#[tokio::test]
+async fn the_gallery_tells_of_every_frame_and_rejected_view() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let report = serde_json::json!({ "passed": false, "accepted": false, "scenes": 1, "frames": 1, "gates": [], "pairs": [],
+        "laws": [{ "law": "finite", "statement": "numbers are finite", "holds": false, "worst": 1.0, "bound": 0.0, "unit": "px",
+            "place": "room/cam_00/frame.0000, pixel 1, 2", "meaning": "", "checks": 1 }],
+        "frame_values": [{ "scene": "room", "camera": "cam_00", "frame": 0, "gates": { "depth_range": 0.25 }, "noise": 0.125,
+            "noise_target": null, "samples": 4.0, "tone_map_scale": 2.0, "clipped_share": 0.5, "black_share": 0.0,
+            "labelled_share": 0.75, "labelled_parts_share": 1.0, "pixels": {} }] });
+    let law = serde_json::to_value(enfilade_verify::LAWS[0].law).unwrap();
+    let mut report = report;
+    report["laws"][0]["law"] = law;
+    std::fs::write(dataset.layout().verify_report(), report.to_string()).unwrap();
+    let told = json(folder.path(), "/api/view/gallery/room").await;
+    let [first, second] = told["frames"].as_array().unwrap().as_slice() else { panic!("{told}") };
+    let numbers = ["noise", "clipped", "exposure", "depth_range", "coverage"].map(|name| first[name].as_f64().unwrap());
+    assert_eq!((numbers, &first["laws"]), ([0.125, 0.5, 2.0, 0.25, 0.75], &serde_json::json!(["numbers are finite"])));
+    assert_eq!((&first["faults"][0]["gate"], &first["faults"][0]["limit"]), (&"depth range".into(), &0.5.into()));
+    assert_eq!((&second["frame"], &second["version"], &second["faults"][0]["gate"]), (&1.into(), &Value::Null, &"blocked".into()));
+    // The camera says the same of the frame.
+    let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
+    assert_eq!((&camera["frames"][0]["faults"], &camera["frames"][1]["faults"]), (&first["faults"], &second["faults"]));
+    assert_eq!(json(folder.path(), "/api/view/dataset").await["verify"]["rejected"], 1);
+    let address = format!("/api/view/thumbnail/room/cam_00/0?v={}", first["version"].as_str().unwrap());
+    let kept = async |address: &str| {
+        ask(folder.path(), address, &[]).await.headers()[header::CACHE_CONTROL].to_str().unwrap().contains("immutable")
+    };
+    assert!(
+        kept(&address).await && !kept("/api/view/thumbnail/room/cam_00/0?v=0").await && !kept("/api/view/thumbnail/room/cam_00/0").await
+    );
 }
 
 #[tokio::test]

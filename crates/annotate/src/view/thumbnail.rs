@@ -1,26 +1,38 @@
 //! Small pictures of frames, for the strip below the picture.
 
+use super::gallery::version;
 use super::place::{FramePlace, stamp};
 use super::viewer::{Viewer, work};
 use crate::serve::ApiProblem;
-use axum::extract::{Path, State};
+use axum::extract::rejection::QueryRejection;
+use axum::extract::{Path, Query, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use enfilade_frame::Layer;
 use enfilade_show::palette::viridis;
 use enfilade_show::picture::{Picture, jpeg};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// Width of a thumbnail, pixels.
 const WIDTH: usize = 160;
 
+/// What is asked for of a thumbnail.
+#[derive(Debug, Default, Deserialize)]
+pub struct ThumbnailQuery {
+    /// The version that the gallery told: while it is that of the file, browsers keep the picture without asking again.
+    v: Option<String>,
+}
+
 /// `GET /api/view/thumbnail/{scene}/{camera}/{frame}`: a JPEG of color, or of depth where there is no color.
 pub async fn thumbnail(
     State(viewer): State<Arc<Viewer>>,
     Path((scene, camera, frame)): Path<(String, String, String)>,
+    query: Result<Query<ThumbnailQuery>, QueryRejection>,
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
-    let bytes = work(viewer, move |viewer| {
+    let asked = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "v is the version that the gallery tells"))?.0.v;
+    let (bytes, kept) = work(viewer, move |viewer| {
         let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
             Layer::Color
         } else {
@@ -29,10 +41,11 @@ pub async fn thumbnail(
         let path = viewer.layout().layer(&place.scene, &place.camera, place.frame, layer);
         viewer.allow(&path)?;
         let picture = viewer.thumbnails.get(&place, stamp(&path), || viewer.small_picture(&place, layer))?;
-        Ok(picture.to_vec())
+        Ok((picture.to_vec(), asked.is_some_and(|asked| asked == version(&path))))
     })
     .await?;
-    Ok(([(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, "no-cache")], bytes).into_response())
+    let cached = if kept { "private, max-age=31536000, immutable" } else { "no-cache" };
+    Ok(([(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, cached)], bytes).into_response())
 }
 
 impl Viewer {

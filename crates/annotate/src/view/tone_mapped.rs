@@ -17,7 +17,9 @@ impl Viewer {
             return Ok(None);
         }
         let radiance = |i: usize| [0, 1, 2].map(|c| color.number(3 * i + c));
-        let row = self.tone_maps(&place.scene, &place.camera)?.into_iter().find(|row| row.frame == place.frame);
+        // A table that cannot be read is told where it is shown; the picture is exposed by itself.
+        let rows = self.tone_maps(&place.scene, &place.camera).unwrap_or_default();
+        let row = rows.into_iter().find(|row| row.frame == place.frame);
         let tone = match row {
             Some(row) => ToneMap { scale: row.scale },
             // A sixteenth of the pixels is enough for the percentile of a small picture.

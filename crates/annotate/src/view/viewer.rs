@@ -3,6 +3,7 @@
 use super::cache::Cache;
 use super::decoded_layer::DecodedLayer;
 use super::place::FramePlace;
+use super::report::ReportFile;
 use crate::serve::{ApiProblem, beside};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::Layer;
@@ -22,9 +23,11 @@ pub struct Viewer {
     /// The dataset's folder without symbolic links.
     pub(super) root: PathBuf,
     pub(super) layers: Cache<(FramePlace, Layer), DecodedLayer>,
-    /// Geometry, free space and reports, by scene and kind.
+    /// Geometry and free space, by scene and kind.
     pub(super) buffers: Cache<(String, &'static str), Vec<u8>>,
     pub(super) thumbnails: Cache<FramePlace, Vec<u8>>,
+    /// The report of the last verification.
+    pub(super) reports: Cache<(), ReportFile>,
 }
 
 impl Viewer {
@@ -40,7 +43,8 @@ impl Viewer {
     pub fn of(dataset: Dataset) -> Self {
         let root = std::fs::canonicalize(dataset.root()).unwrap_or_else(|_| dataset.root().to_path_buf());
         let (layers, buffers) = (Cache::new(LAYER_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
-        Self { dataset, root, layers, buffers, thumbnails: Cache::new(THUMBNAIL_CACHE_BYTES) }
+        let (thumbnails, reports) = (Cache::new(THUMBNAIL_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
+        Self { dataset, root, layers, buffers, thumbnails, reports }
     }
 }
 

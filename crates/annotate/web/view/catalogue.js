@@ -5,18 +5,20 @@ import { getJson } from "../shared/api.js";
 /** @typedef {{ name: string, pass: string, channels: number, dtype: string, unit: string, space: string, sentinel: string, description: string }} LayerSpec */
 /** @typedef {{ id: number, name: string, color: number[] }} SemanticClass */
 /** @typedef {{ title: string, path: string }} Page */
-/** @typedef {{ passed: boolean, accepted: boolean, verdict: string, gate_verdict: string, laws: number, frames: number, failures: { law: string, statement: string, place: string, meaning: string }[] }} Verification */
+/** @typedef {{ passed: boolean, accepted: boolean, verdict: string, gate_verdict: string, laws: number, frames: number, rejected: number, failures: { law: string, statement: string, place: string, meaning: string }[] }} Verification */
 /** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], pages: Page[], verify: Verification | null }} Dataset */
 /** @typedef {{ center: number[], extents: number[], orientation: number[] }} Box */
 /** @typedef {{ names: string[], semantic: number[], instance: number[] }} Objects what the pieces of the geometry are: parts, and pieces of those that people split */
-/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[] }} Scene */
+/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[], problems: Loss[] }} Scene */
 /** @typedef {{ position: number[], orientation: number[] }} Pose */
-/** @typedef {{ verdict: "rejected" | "reported", fault: { gate: string, value: number, limit: number } | null, picture: string | null }} Gate */
-/** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, gate: Gate | null }} CameraFrame */
+/** @typedef {{ by: "planning" | "verification", gate: string, measure: string, value: number | null, limit: number, side: string, unit: string, rejects: boolean }} Fault a gate that a frame does not pass */
+/** @typedef {{ panel: string, error: string, help: string }} Loss a file that cannot be read, and the panel that lacks it */
+/** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, faults: Fault[], picture: string | null }} CameraFrame */
 /** @typedef {{ kind: string, linear: boolean, width: number, height: number, corner_rays: number[][] | null, fov_y_deg: number | null }} Projection */
-/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, loader_problem: string | null, frames: CameraFrame[], tone: [number, number, number][] }} Camera */
+/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, loader_problem: string | null, frames: CameraFrame[], tone: [number, number, number][], problems: Loss[] }} Camera */
 /** @typedef {{ instance: number, semantic: number, visible_pixels: number, visible_box: number[], full_box: number[], visibility: number, truncation: number }} InstanceView */
-/** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any }} FrameFacts */
+/** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any, problems: Loss[] }} FrameFacts */
+/** @typedef {{ camera: string, frame: number, version: string | null, picture: string | null, noise: number | null, clipped: number | null, black: number | null, exposure: number | null, depth_range: number | null, coverage: number | null, objects: number | null, partition: string | null, faults: Fault[], laws: string[] }} GalleryFrame */
 
 /** Answers that do not change while one looks; a failure is asked for again. @type {Map<string, Promise<any>>} */
 const answers = new Map();
@@ -46,9 +48,19 @@ export const getScene = (scene) => once(`../api/view/scene/${encodeURIComponent(
 /** @param {string} scene @param {string} camera @returns {Promise<Camera>} */
 export const getCamera = (scene, camera) => once(`../api/view/camera/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`);
 
+/** What the server says of a camera now, as text. @param {string} scene @param {string} camera */
+export const peek = async (scene, camera) => JSON.stringify(await getJson(`../api/view/camera/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`));
+
 /** @param {string} scene @param {string} camera @param {number} frame @returns {Promise<FrameFacts>} */
 export const getFrame = (scene, camera, frame) =>
     once(`../api/view/frame/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}`);
 
+/** @param {string} scene @returns {Promise<{ frames: GalleryFrame[], problems: Loss[] }>} */
+export const getGallery = (scene) => getJson(`../api/view/gallery/${encodeURIComponent(scene)}`);
+
 /** The address of a picture or page of the dataset. @param {string} path */
 export const fileUrl = (path) => `../api/view/file/${path.split("/").map(encodeURIComponent).join("/")}`;
+
+/** The address of a frame's small picture; with the version that the gallery tells, browsers keep it. @param {string} scene @param {string} camera @param {number} frame @param {string} [version] */
+export const thumbnailUrl = (scene, camera, frame, version) =>
+    `../api/view/thumbnail/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}${version ? `?v=${version}` : ""}`;

@@ -1,10 +1,11 @@
 // Colours for numbers: perceptually uniform maps for quantities, a table of distinct colours for ids, and the colours of masks.
 
-/** Maps at tenths, sRGB, from matplotlib (CC0): equal steps of the value look like equal steps of lightness. @type {Record<string, string[]>} */
+/** Maps at tenths, sRGB, from matplotlib (CC0): equal steps of the value look like equal steps of lightness. `balance` is our own, for numbers with a sign. @type {Record<string, string[]>} */
 const TENTHS = {
     viridis: ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"],
     magma: ["000004", "150e37", "3b0f70", "641a80", "8c2981", "b63679", "de4968", "f76f5c", "fe9f6d", "fece91", "fcfdbf"],
     inferno: ["000004", "160b39", "420a68", "6a176e", "932667", "bc3754", "dd513a", "f37819", "fca50a", "f6d746", "fcffa4"],
+    balance: ["1b3f8b", "2f62b0", "5b8bc9", "8fb2dc", "c3d5e8", "ebebeb", "efc9bd", "e39f8b", "d0705d", "b8433a", "8f1d22"],
     grey: ["000000", "1a1a1a", "333333", "4d4d4d", "666666", "808080", "999999", "b3b3b3", "cccccc", "e6e6e6", "ffffff"],
 };
 

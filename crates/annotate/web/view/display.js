@@ -2,15 +2,20 @@
 
 import { el, facts } from "../shared/dom.js";
 import { MAPS, MASKS, TRAITS, cssColor } from "./colors.js";
+import { barsOf, sampleOf } from "./histogram.js";
 import { rangeOf } from "./kinds.js";
 import { PERCENTILES, brief } from "./numbers.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
+/** Bars of a distribution. */
+const BARS = 48;
+
 /** @param {Session} session */
 export function displayPanel(session) {
     const { store, looks } = session;
     const sides = session.sides();
+    if (!sides.length) return [];
     const kinds = sides.map((side) => looks.look(side.layer).kind);
     const children = [];
     if (kinds.includes("radiance")) children.push(...toneFields(store));
@@ -18,11 +23,45 @@ export function displayPanel(session) {
         if (i > 0 && side.layer === sides[0].layer && side.frame === sides[0].frame) continue;
         children.push(...layerPart(session, side));
     }
-    children.push(
-        el("h2", {}, "Over the picture"),
-        el("label", { class: "field" }, "Boxes", el("span", {}, el("input", { type: "checkbox", id: "boxes", checked: store.state.boxes, onchange: (/** @type {any} */ e) => store.set({ boxes: e.target.checked }) }), " of all instances")),
-    );
+    if (store.state.mode === "difference") children.push(...differencePart(session));
+    const check = (/** @type {"boxes" | "names"} */ key, /** @type {string} */ text) =>
+        el("label", {}, el("input", { type: "checkbox", id: key, "data-key": key, checked: store.state[key], onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.checked }) }), ` ${text}`);
+    children.push(el("h2", {}, "Over the picture"), el("div", { class: "checks" }, check("boxes", "Boxes of all instances"), check("names", "Names on boxes")));
     return children;
+}
+
+/** What the difference of the two pictures comes to. @param {Session} session */
+function differencePart(session) {
+    const difference = session.difference();
+    if (!difference) return [];
+    const { summary } = difference;
+    return [
+        el("h2", {}, "Difference"),
+        ...(summary.of === "share that differs" ? [] : [distribution(difference, null, false)]),
+        facts([
+            ["Numbers of", summary.of],
+            ["Min, max", summary.range && `${brief(summary.range[0])}, ${brief(summary.range[1])}`],
+            ["Mean", brief(summary.mean)],
+            ...summary.percentiles.map((value, i) => /** @type {[string, string]} */ ([`${PERCENTILES[i]} %`, brief(value)])),
+        ]),
+    ];
+}
+
+/**
+ * The distribution of a layer's numbers; bars within `range` stand out.
+ * @param {import("./numbers.js").LayerData} data
+ * @param {[number, number] | null} range
+ * @param {boolean} logarithm
+ */
+function distribution(data, range, logarithm) {
+    const numbers = sampleOf(data);
+    const values = logarithm ? numbers.filter((value) => value > 0).map(Math.log10) : numbers;
+    if (!values.length) return el("p", { class: "quiet" }, "No pixel has a number.");
+    const sorted = values.slice().sort();
+    // Outliers would leave one bar for all the rest.
+    const [low, high] = [sorted[Math.floor(0.002 * (sorted.length - 1))], sorted[Math.ceil(0.998 * (sorted.length - 1))]];
+    const ends = /** @type {[number, number]} */ (range ? (logarithm ? range.map(Math.log10) : range) : [low, high]);
+    return barsOf(values, low < high ? [low, high] : [low - 0.5, low + 0.5], BARS, ends, (value) => brief(logarithm ? 10 ** value : value));
 }
 
 /** @param {import("./state.js").Store} store */
@@ -48,6 +87,8 @@ function layerPart(session, side) {
     const { layer, data, frame } = side;
     const spec = looks.spec(layer), look = looks.look(layer);
     const children = [el("h2", {}, layer, el("span", { class: "quiet" }, `  frame ${frame}`)), el("p", { class: "quiet" }, spec.description)];
+    const isQuantity = look.kind !== "id" && look.kind !== "code";
+    if (data && isQuantity) children.push(distribution(data, look.kind === "scalar" ? rangeOf(look, data.summary, store.state.ranges[layer], layer in store.state.logs) : null, layer in store.state.logs));
     if (data && (look.kind === "scalar" || look.kind === "flow" || look.kind === "stretched")) children.push(...rangeFields(store, layer, look, data.summary));
     if (look.kind === "code") {
         const codes = layer === "surface_traits" ? TRAITS.map(({ bit, name, color }) => ({ code: bit, name, color })) : (MASKS[layer] ?? []);
@@ -80,22 +121,36 @@ function layerPart(session, side) {
  * @param {import("./numbers.js").Summary} summary
  */
 function rangeFields(store, layer, look, summary) {
-    const [low, high] = rangeOf(look, summary, store.state.ranges[layer]);
+    const [low, high] = rangeOf(look, summary, store.state.ranges[layer], layer in store.state.logs);
     const chosen = layer in store.state.ranges;
-    const set = (/** @type {number} */ a, /** @type {number} */ b) => a < b && store.set({ ranges: { ...store.state.ranges, [layer]: [a, b] } });
+    const refused = el("p", { class: "refused", role: "alert" });
+    const set = (/** @type {number} */ a, /** @type {number} */ b) => {
+        refused.textContent = a < b ? "" : Number.isNaN(a) || Number.isNaN(b) ? "Both ends are numbers." : `The min, ${brief(a)}, must be less than the max, ${brief(b)}.`;
+        for (const end of ends) end.setAttribute("aria-invalid", String(!(a < b)));
+        if (a < b) store.set({ ranges: { ...store.state.ranges, [layer]: [a, b] } });
+    };
     const free = () => {
         const { [layer]: _, ...ranges } = store.state.ranges;
         store.set({ ranges });
     };
-    const input = (/** @type {number} */ value, /** @type {string} */ label, /** @type {(v: number) => void} */ change) =>
-        el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: (/** @type {any} */ e) => change(e.target.valueAsNumber) });
+    // What was not touched keeps all of its digits; the field shows a few.
+    const numberOf = (/** @type {any} */ end, /** @type {number} */ value) => (end.value === brief(value) ? value : end.valueAsNumber);
+    const change = () => set(numberOf(ends[0], low), numberOf(ends[1], high));
+    const input = (/** @type {number} */ value, /** @type {string} */ label) => el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: change });
+    const ends = [input(low, "Min"), input(high, "Max")];
     const fields = [
-        el("div", { class: "field" }, el("span", {}, "Range"), el("span", { class: "pair" }, input(low, "Lower end", (v) => set(v, high)), input(high, "Upper end", (v) => set(low, v)))),
+        el("div", { class: "field" }, el("span", {}, "Min, max"), el("span", { class: "pair" }, ...ends)),
+        refused,
         el("div", { class: "field" }, el("span", {}), el("span", { class: "pair" },
             el("button", { type: "button", "aria-pressed": String(!chosen), title: "1st to 99th percentile of each frame", onclick: free }, "Automatic"),
             el("button", { type: "button", "aria-pressed": String(chosen), title: "The same for all frames", onclick: () => set(low, high) }, "Hold"))),
     ];
     if (look.kind === "scalar") {
+        const turn = (/** @type {any} */ event) => {
+            const { [layer]: _, ...logs } = store.state.logs;
+            store.set({ logs: event.target.checked ? { ...logs, [layer]: true } : logs });
+        };
+        fields.push(el("div", { class: "checks" }, el("label", {}, el("input", { type: "checkbox", "data-key": `log-${layer}`, checked: layer in store.state.logs, onchange: turn }), " Logarithmic")));
         const map = store.state.maps[layer] ?? look.map;
         fields.unshift(el("div", { class: "field" }, el("label", { for: `map-${layer}` }, "Colours"), el("select", { id: `map-${layer}`, onchange: (/** @type {any} */ e) => store.set({ maps: { ...store.state.maps, [layer]: e.target.value } }) },
             ...MAPS.map((name) => el("option", { value: name, selected: name === map }, name)))));

@@ -40,10 +40,19 @@ function kindOf(spec) {
  * @param {Look} look
  * @param {import("./numbers.js").Summary} summary
  * @param {[number, number] | undefined} chosen
+ * @param {boolean} [logarithm] both ends must be positive
  * @returns {[number, number]}
  */
-export function rangeOf(look, summary, chosen) {
-    if (chosen) return chosen;
+export function rangeOf(look, summary, chosen, logarithm = false) {
+    const [low, high] = chosen ?? ownRange(look, summary);
+    if (!logarithm || low > 0) return [low, high];
+    // Zero has no logarithm: the map begins at the first positive percentile.
+    const top = high > 0 ? high : 1;
+    return [summary.percentiles.find((value) => value > 0 && value < top) ?? top / 1000, top];
+}
+
+/** @param {Look} look @param {import("./numbers.js").Summary} summary @returns {[number, number]} */
+function ownRange(look, summary) {
     if (look.range === "unit") return [0, 1];
     const [low, high] = summary.range ?? [0, 1];
     const p = summary.percentiles;

@@ -2,6 +2,7 @@
 
 import { el } from "../shared/dom.js";
 import { mapTable } from "./colors.js";
+import { lookOfDifference } from "./difference.js";
 import { rangeOf } from "./kinds.js";
 import { brief } from "./numbers.js";
 
@@ -11,22 +12,19 @@ import { brief } from "./numbers.js";
  * @param {import("./session.js").Side | undefined} side
  */
 export function showLegend(element, session, side) {
-    const key = side?.data ? JSON.stringify([side.layer, side.data.summary, session.store.state.ranges[side.layer], session.store.state.maps[side.layer]]) : "";
+    const key = side?.data ? JSON.stringify([side.layer, side.data.summary, session.store.state.ranges[side.layer], session.store.state.maps[side.layer], session.store.state.logs]) : "";
     if (element.dataset.key === key) return;
     element.dataset.key = key;
     if (!side?.data) return element.replaceChildren();
     const { looks } = session;
     const spec = looks.spec(side.layer), look = looks.look(side.layer);
-    const range = rangeOf(look, side.data.summary, session.store.state.ranges[side.layer]);
+    const logarithm = side.layer in session.store.state.logs;
+    const range = rangeOf(look, side.data.summary, session.store.state.ranges[side.layer], logarithm);
     const unit = spec.unit ? ` ${spec.unit}` : "";
     const note = (/** @type {string} */ text) => element.replaceChildren(el("span", { class: "quiet ellipsis", title: text }, text));
     switch (look.kind) {
-        case "scalar": {
-            const bar = el("canvas", { width: 256, height: 1 });
-            const image = new ImageData(new Uint8ClampedArray(mapTable(session.store.state.maps[side.layer] ?? look.map)), 256, 1);
-            bar.getContext("2d").putImageData(image, 0, 0);
-            return element.replaceChildren(el("span", {}, brief(range[0])), bar, el("span", {}, `${brief(range[1])}${unit}`));
-        }
+        case "scalar":
+            return element.replaceChildren(el("span", {}, brief(range[0])), mapBar(session.store.state.maps[side.layer] ?? look.map), el("span", {}, `${brief(range[1])}${unit}${logarithm ? ", log" : ""}`));
         case "flow": {
             const bar = el("canvas", { width: 256, height: 1 });
             const pen = bar.getContext("2d");
@@ -44,6 +42,26 @@ export function showLegend(element, session, side) {
         case "albedo": return note("0 to 1, gamma 2.2");
         default: return note(toneNote(session));
     }
+}
+
+/** The colours of a map, from left to right. @param {string} map */
+function mapBar(map) {
+    const bar = el("canvas", { width: 256, height: 1 });
+    bar.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(mapTable(map)), 256, 1), 0, 0);
+    return bar;
+}
+
+/** The legend of a difference. @param {HTMLElement} element @param {import("./session.js").Session} session */
+export function showDifferenceLegend(element, session) {
+    const difference = session.difference();
+    const key = difference ? JSON.stringify(difference.summary) : "";
+    if (element.dataset.key === key) return;
+    element.dataset.key = key;
+    if (!difference) return element.replaceChildren();
+    const { map, range } = lookOfDifference(difference);
+    const unit = session.looks.spec(session.store.state.layer).unit;
+    if (difference.summary.of === "share that differs") return element.replaceChildren(el("span", {}, `${((difference.summary.mean ?? 0) * 100).toFixed(2)} % of the pixels differ`));
+    return element.replaceChildren(el("span", {}, brief(range[0])), mapBar(map), el("span", {}, `${brief(range[1])}${unit ? ` ${unit}` : ""}`));
 }
 
 /** @param {import("./session.js").Session} session */

@@ -27,6 +27,13 @@ export class Looks {
         this.tables.clear();
     }
 
+    /** The 256 colours of a map. @param {string} map */
+    mapTable(map) {
+        const table = this.tables.get(map) ?? mapTable(map);
+        this.tables.set(map, table);
+        return table;
+    }
+
     /** @param {string} layer */
     spec(layer) {
         return /** @type {LayerSpec} */ (this.specs.get(layer) ?? this.specs.get("color"));
@@ -44,12 +51,12 @@ export class Looks {
      */
     table(layer, map) {
         const { kind } = this.look(layer);
-        const key = kind === "scalar" ? map : layer;
-        if (kind !== "scalar" && kind !== "id" && kind !== "code") return null;
-        let table = this.tables.get(key);
+        if (kind === "scalar") return this.mapTable(map);
+        if (kind !== "id" && kind !== "code") return null;
+        let table = this.tables.get(layer);
         if (!table) {
-            table = kind === "scalar" ? mapTable(map) : idTable((id) => this.color(layer, id), kind === "code" ? 256 : 32768);
-            this.tables.set(key, table);
+            table = idTable((id) => this.color(layer, id), kind === "code" ? 256 : 32768);
+            this.tables.set(layer, table);
         }
         return table;
     }

@@ -44,7 +44,9 @@ function instancesPart(session, known, repaint) {
     const { frame } = session.store.state;
     const areas = session.areasOf(frame, "semantic_instance");
     if (!areas) return [el("h2", {}, "Instances"), el("p", { class: "quiet" }, "Reading …")];
-    const list = [...areas].filter(([id]) => id > 0).sort((a, b) => b[1].pixels - a[1].pixels);
+    const ofClass = session.store.state.class;
+    const isChosen = (/** @type {number} */ id) => id > 0 && (!ofClass || session.looks.classOfInstance(id) === ofClass);
+    const list = [...areas].filter(([id]) => isChosen(id)).sort((a, b) => b[1].pixels - a[1].pixels);
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) => {
         const visibility = known?.instances.find((one) => one.instance === id)?.visibility;
         const mark = (/** @type {boolean} */ on) => {
@@ -52,15 +54,15 @@ function instancesPart(session, known, repaint) {
             repaint();
         };
         const pin = () => session.store.set({ instance: session.store.state.instance === id ? 0 : id });
-        return el("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, title: session.looks.instanceName(id),
+        return el("tr", { tabIndex: 0, "aria-selected": String(session.store.state.instance === id), "data-instance": id, "data-key": `instance-${id}`, title: session.looks.instanceName(id),
             onpointerenter: () => mark(true), onpointerleave: () => mark(false), onfocus: () => mark(true), onblur: () => mark(false), onclick: pin,
             onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && pin() },
-            el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`),
-            el("td", {}, session.looks.className(session.looks.classOfInstance(id))),
+            el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic_instance", id))}` }), ` ${session.looks.instanceName(id)}`,
+                el("div", { class: "quiet" }, session.looks.className(session.looks.classOfInstance(id)))),
             el("td", { class: "number" }, brief(area.pixels)),
             el("td", { class: "number" }, visibility === undefined ? "" : percent(visibility)));
     };
-    return [el("h2", {}, `${list.length} instances`), table(["Name", "Class", "px", "seen"], ["auto", "25%", "18%", "23%"], list.map(row))];
+    return [el("h2", {}, list.length === 1 ? "1 instance" : `${list.length} instances`), table(["Name and class", "pixels", "seen"], ["auto", "4.6em", "4.2em"], list.map(row))];
 }
 
 /** @param {Session} session */
@@ -68,14 +70,18 @@ function classesPart(session) {
     const areas = session.areasOf(session.store.state.frame, "semantic");
     if (!areas) return [];
     const all = [...areas.values()].reduce((sum, area) => sum + area.pixels, 0);
+    const { store } = session;
+    const choose = (/** @type {number} */ id) => store.set({ class: store.state.class === id ? 0 : Math.max(0, id), instance: 0 });
     const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
-        el("tr", { "data-class": id }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
+        el("tr", { "data-class": id, "data-key": `class-${id}`, tabIndex: 0, "aria-selected": String(store.state.class === id), title: "Show this class alone", onclick: () => choose(id),
+            onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && choose(id) }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));
-    return [el("h2", {}, "Classes"), table(["Class", "id", "of image"], ["auto", "15%", "30%"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
+    const whole = store.state.class ? el("button", { type: "button", "data-key": "all-classes", onclick: () => store.set({ class: 0 }) }, "Show all") : null;
+    return [el("div", { class: "heading-row" }, el("h2", {}, "Classes"), whole), table(["Class", "id", "of image"], ["auto", "3em", "5.4em"], [...areas].sort((a, b) => b[1].pixels - a[1].pixels).map(row))];
 }
 
 /** @param {string[]} heads @param {string[]} widths @param {Node[]} rows */
 function table(heads, widths, rows) {
     return el("table", { class: "rows" }, el("colgroup", {}, ...widths.map((width) => el("col", { style: `width:${width}` }))),
-        el("thead", {}, el("tr", {}, ...heads.map((head, i) => el("th", { class: i && head !== "Class" ? "number" : "" }, head)))), el("tbody", {}, ...rows));
+        el("thead", {}, el("tr", {}, ...heads.map((head, i) => el("th", { class: i ? "number" : "" }, head)))), el("tbody", {}, ...rows));
 }

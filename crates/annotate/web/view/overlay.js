@@ -27,6 +27,8 @@ export class Overlay {
     /** @param {HTMLCanvasElement} canvas */
     constructor(canvas) {
         this.canvas = canvas;
+        /** Where names stand already: left, top, right, bottom. @type {number[][]} */
+        this.named = [];
         this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     }
 
@@ -38,8 +40,8 @@ export class Overlay {
     paint(stage, panes, places) {
         const { canvas, pen } = this;
         const { width, height } = stage.painter.canvas;
-        const { mode, wipe, boxes } = stage.store.state;
-        const needed = boxes || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
+        const { mode, wipe, boxes, names } = stage.store.state;
+        const needed = boxes || names || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
         // An empty canvas would cost time too: the browser composes it over the picture in every frame.
         canvas.style.display = needed ? "" : "none";
         if (!needed) return;
@@ -55,7 +57,8 @@ export class Overlay {
             pen.clip();
             const frame = stage.last[i]?.frame;
             if (frame !== undefined) {
-                if (boxes) for (const id of stage.session.instancesOf(frame)) this.#box(stage, frame, id, places[i], false);
+                this.named = [];
+                if (boxes || names) for (const id of stage.session.instancesOf(frame)) this.#box(stage, frame, id, places[i], false);
                 if (stage.session.marked) this.#box(stage, frame, stage.session.marked, places[i], true);
                 if (places[i].zoom / stage.ratio >= ROOM_FOR_NUMBERS) this.#numbers(stage, i, pane, places[i]);
             }
@@ -86,6 +89,9 @@ export class Overlay {
         const box = looks.box(id);
         const project = projector(camera?.projection ?? null, pose);
         const at = (/** @type {number} */ v, /** @type {number} */ origin) => origin + v * place.zoom;
+        const seen = stage.session.boundsOf(frame, id);
+        if (stage.store.state.names && seen) this.#name(stage, looks.instanceName(id), at(seen[0], place.x), at(seen[1], place.y));
+        if (!strong && !stage.store.state.boxes) return;
         pen.lineWidth = (strong ? 2 : 1) * stage.ratio;
         pen.strokeStyle = strong ? "rgb(255 184 51)" : cssColor(looks.color("semantic_instance", id));
         if (box && project) {
@@ -96,14 +102,30 @@ export class Overlay {
             }
             pen.stroke();
         }
-        const seen = strong && stage.session.boundsOf(frame, id);
-        if (seen) {
+        if (strong && seen) {
             pen.setLineDash([5 * stage.ratio, 4 * stage.ratio]);
             pen.strokeStyle = "rgb(255 255 255 / 0.85)";
             pen.lineWidth = stage.ratio;
             pen.strokeRect(at(seen[0], place.x), at(seen[1], place.y), (seen[2] - seen[0]) * place.zoom, (seen[3] - seen[1]) * place.zoom);
             pen.setLineDash([]);
         }
+    }
+
+    /** A name at the upper left corner of what is seen of an instance. @param {Pictures} stage @param {string} name @param {number} x @param {number} y */
+    #name(stage, name, x, y) {
+        const { pen } = this;
+        const size = 11 * stage.ratio;
+        pen.font = `${size}px ui-sans-serif, system-ui, "DejaVu Sans", sans-serif`;
+        pen.textAlign = "left";
+        pen.textBaseline = "top";
+        const place = [x, y, x + pen.measureText(name).width + 6 * stage.ratio, y + 1.35 * size];
+        // Large objects come first; a name that would cover another is left out, and is told under the cursor.
+        if (this.named.some((other) => place[0] < other[2] && other[0] < place[2] && place[1] < other[3] && other[1] < place[3])) return;
+        this.named.push(place);
+        pen.fillStyle = "rgb(0 0 0 / 0.62)";
+        pen.fillRect(x, y, place[2] - x, place[3] - y);
+        pen.fillStyle = "white";
+        pen.fillText(name, x + 3 * stage.ratio, y + 0.18 * size);
     }
 
     /** @param {Pictures} stage @param {Placement} place @param {number} pane */

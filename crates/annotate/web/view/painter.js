@@ -6,7 +6,7 @@ import { KINDS, VERTEX, fragment } from "./shaders.js";
 /** @typedef {{ x: number, y: number, width: number, height: number }} Rect in device pixels, from the upper left */
 /**
  * What is drawn: a layer with its look.
- * @typedef {{ data: LayerData, kind: import("./kinds.js").Kind, table: Uint8Array | null, range: [number, number], exposure: number, tone: number, ids: LayerData | null, marked: number, accent: number[] }} Picture
+ * @typedef {{ data: LayerData, kind: import("./kinds.js").Kind, table: Uint8Array | null, range: [number, number], logarithm: boolean, exposure: number, tone: number, ids: LayerData | null, marked: number, alone: boolean, accent: number[] }} Picture
  */
 /** Where the picture lies: its upper left corner in device pixels, and device pixels per pixel. @typedef {{ x: number, y: number, zoom: number }} Placement */
 
@@ -82,7 +82,9 @@ export class Painter {
         gl.uniform1f(at("exposure"), picture.exposure);
         gl.uniform1i(at("tone"), picture.tone);
         gl.uniform2f(at("range"), ...picture.range);
+        gl.uniform1i(at("logarithm"), Number(picture.logarithm));
         gl.uniform1i(at("marked"), picture.ids ? picture.marked : 0);
+        gl.uniform1i(at("alone"), Number(picture.alone));
         gl.uniform3f(at("accent"), picture.accent[0], picture.accent[1], picture.accent[2]);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }

@@ -14,7 +14,8 @@ const DTYPES = /** @type {Record<string, string>} */ ({ float16: "f16", float32:
 export function showReadout(element, session, pixel) {
     const lines = pixel ? session.sides().map((side, i) => layerLine(session, side, pixel, i)) : [el("div", { class: "quiet" }, "Point at the picture to read its values.")];
     while (lines.length < 2) lines.push(el("div"));
-    lines.push(pixel ? namesLine(session, pixel) : el("div"));
+    const difference = session.difference();
+    lines.push(!pixel ? el("div") : difference ? differenceLine(session, difference, pixel) : namesLine(session, pixel));
     element.replaceChildren(...lines);
 }
 
@@ -39,6 +40,13 @@ function layerLine(session, { frame, layer, data }, pixel, index) {
     if (kind === "id" || kind === "code") line.append(`  ${session.looks.name(layer, values[0])}`);
     if (spec.space && kind !== "id") line.append(el("span", { class: "quiet" }, `  ${spec.space}`));
     return line;
+}
+
+/** @param {import("./session.js").Session} session @param {import("./numbers.js").LayerData} difference @param {import("./session.js").Pixel} pixel */
+function differenceLine(session, difference, pixel) {
+    const [value] = pixelOf(difference, pixel.x, pixel.y) ?? [];
+    const says = difference.summary.of === "share that differs" ? (value ? "differ" : "same") : value === undefined ? "" : `${exact(value, "float32")} ${session.looks.spec(session.store.state.layer).unit}`;
+    return el("div", { "data-difference": "" }, " ".repeat(12), el("b", {}, difference.summary.of === "share that differs" ? "compared" : difference.summary.of), "  ", el("span", { class: "value" }, says));
 }
 
 /**

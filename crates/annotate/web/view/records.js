@@ -1,7 +1,7 @@
 // The panels "Frame" and "Views": everything recorded about the frame, and which views of the trajectory were rendered or rejected.
 
 import { el, facts } from "../shared/dom.js";
-import { fileUrl } from "./catalogue.js";
+import { fileUrl, thumbnailUrl } from "./catalogue.js";
 import { brief, percent } from "./numbers.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -21,7 +21,7 @@ export function framePanel(session, known) {
         facts([
             ["State", entry?.complete ? "complete" : "not complete"],
             ["Split", split?.partition ?? (split?.excluded && `excluded: ${split.excluded}`)],
-            ["Gate", entry?.gate && `${entry.gate.verdict}: ${entry.gate.fault?.gate}`],
+            ["Gates", entry?.faults.length ? entry.faults.map(faultText).join("; ") : "all passed"],
         ]),
         el("h2", {}, "Camera"),
         facts([
@@ -55,19 +55,25 @@ export function framePanel(session, known) {
     ];
 }
 
+/** A gate that was not passed, in words. @param {import("./catalogue.js").Fault} fault */
+export function faultText({ by, gate, value, limit, side, unit, rejects }) {
+    const [measured, bound] = unit === "share" ? [value, limit].map((v) => (v === null ? "no number" : percent(v))) : [value === null ? "no number" : brief(value), brief(limit)];
+    return `${rejects ? "rejected" : "reported"} by ${by}: ${gate} ${measured}${unit && unit !== "share" ? ` ${unit}` : ""}, limit ${side}${side ? " " : ""}${bound}`;
+}
+
 /** @param {Session} session */
 export function viewsPanel(session) {
     const { camera, scene } = session;
     if (!camera || !scene) return [];
-    const judged = camera.frames.filter((frame) => frame.gate);
-    const rejected = judged.filter((frame) => frame.gate?.verdict === "rejected");
-    const planned = camera.frames.filter((frame) => !frame.layers.length && !frame.gate);
+    const judged = camera.frames.filter((frame) => frame.faults.length);
+    const rejected = judged.filter((frame) => frame.faults.some((fault) => fault.rejects));
+    const planned = camera.frames.filter((frame) => !frame.layers.length && !frame.faults.length);
     const page = scene.pages.find((one) => one.title === "Rejected views");
-    const card = (/** @type {import("./catalogue.js").CameraFrame} */ { frame, gate, layers }) => {
-        const picture = gate?.picture ? fileUrl(gate.picture) : layers.length ? thumbnailUrl(session, frame) : "";
+    const card = (/** @type {import("./catalogue.js").CameraFrame} */ { frame, faults, picture, layers }) => {
+        const address = picture ? fileUrl(picture) : layers.length ? thumbnailUrl(scene.name, camera.name, frame) : "";
         return el("button", { type: "button", class: "view", disabled: !layers.length, "data-rejected": frame, onclick: () => session.store.set({ frame }) },
-            el("img", { src: picture || undefined, alt: "", loading: "lazy" }),
-            el("span", {}, el("b", {}, `Frame ${frame}`), el("br"), el("span", { class: "quiet" }, gate?.verdict ?? ""), el("br"), gate?.fault ? `${gate.fault.gate}: ${brief(gate.fault.value)}, limit ${brief(gate.fault.limit)}` : ""));
+            el("img", { src: address || undefined, alt: "", loading: "lazy" }),
+            el("span", {}, el("b", {}, `Frame ${frame}`), ...faults.flatMap((fault) => [el("br"), faultText(fault)])));
     };
     return [
         facts([
@@ -83,6 +89,8 @@ export function viewsPanel(session) {
     ].filter((child) => child !== null);
 }
 
-/** @param {Session} session @param {number} frame */
-export const thumbnailUrl = (session, frame) =>
-    `../api/view/thumbnail/${encodeURIComponent(session.scene?.name ?? "")}/${encodeURIComponent(session.camera?.name ?? "")}/${frame}`;
+/** Files that could not be read and that a panel lacks. @param {Session} session @param {import("./catalogue.js").FrameFacts | null} known @param {string} panel */
+export function lossesOf(session, known, panel) {
+    const all = [...(session.scene?.problems ?? []), ...(session.camera?.problems ?? []), ...(known?.problems ?? [])];
+    return all.filter((loss) => loss.panel === panel).map(({ error, help }) => el("div", { class: "loss", role: "note" }, el("b", {}, "A file cannot be read"), el("code", {}, error), help));
+}

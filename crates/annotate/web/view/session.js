@@ -1,8 +1,10 @@
 // The open dataset, the scene and camera that are shown, and the layers that are needed for it.
 
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
+import { differenceOf, isAlike } from "./difference.js";
 import { Loader } from "./loader.js";
 import { Looks } from "./looks.js";
+import { showNotice } from "./notice.js";
 import { pixelOf } from "./numbers.js";
 
 /** @typedef {import("./catalogue.js").Dataset} Dataset */
@@ -17,6 +19,9 @@ import { pixelOf } from "./numbers.js";
 export const NAMING = ["render_entity_id", "semantic", "semantic_instance", "material_id"];
 /** Frames that are fetched ahead in the direction of travel, and behind. */
 const AHEAD = 5, BEHIND = 1;
+
+/** Modes that show two pictures. */
+export const TWO = ["side", "wipe", "difference"];
 
 export class Session {
     /**
@@ -57,18 +62,24 @@ export class Session {
         try {
             const scenes = this.dataset.scenes;
             if (!scenes.length) throw { message: "The dataset has no scenes.", help: "Render some; this page shows them when it is loaded again." };
-            const scene = await getScene(scenes.includes(state.scene) ? state.scene : scenes[0]);
-            const name = scene.cameras.includes(state.camera) ? state.camera : scene.cameras[0];
+            if (state.scene && !scenes.includes(state.scene)) throw missing(`scene ${state.scene}`, "this dataset", scenes);
+            const scene = await getScene(state.scene || scenes[0]);
+            if (state.camera && scene.cameras.length && !scene.cameras.includes(state.camera)) throw missing(`camera ${state.camera}`, `the scene ${scene.name}`, scene.cameras);
+            const name = state.camera || scene.cameras[0];
             const camera = name === undefined ? null : await getCamera(scene.name, name);
             if (this.store.state.scene !== state.scene || this.store.state.camera !== state.camera) return;
             this.scene = scene;
             this.camera = camera;
-            this.problem = camera ? null : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
+            const lost = scene.problems.find((one) => one.panel === "views");
+            this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
             this.looks.enter(scene);
-            this.store.set({ scene: scene.name, camera: name ?? "", ...this.#nearest(state) });
+            const near = this.#nearest(state);
+            if (state.frame >= 0 && near.frame !== state.frame) showNotice(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
+            this.store.set({ scene: scene.name, camera: name ?? "", ...near }, { step: false });
         } catch (error) {
             const { message, help } = /** @type {any} */ (error);
             this.problem = { message, help: help ?? "" };
+            [this.scene, this.camera] = [null, null];
         }
         this.entered();
         this.refresh();
@@ -94,7 +105,8 @@ export class Session {
         const there = this.layersOf(frame);
         const known = (/** @type {string} */ layer, /** @type {string} */ instead) => (there.includes(layer) ? layer : there.includes(instead) ? instead : (there[0] ?? layer));
         const layer = known(state.layer, "color");
-        return { frame, layer, other: known(state.other, "depth_meters") };
+        const other = known(state.other, "depth_meters");
+        return { frame, layer, other: other === layer && state.otherFrame === null ? (there.find((one) => one !== layer) ?? other) : other };
     }
 
     /** The numbers of the frames that have pictures. */
@@ -129,9 +141,36 @@ export class Session {
         const { frame, layer, other, otherFrame, mode } = this.store.state;
         if (!this.camera) return [];
         const first = { frame, layer, data: this.layer(frame, layer) };
-        if (mode !== "side" && mode !== "wipe") return [first];
+        if (!TWO.includes(mode)) return [first];
         const second = otherFrame ?? frame;
         return [first, { frame: second, layer: other, data: this.layer(second, other) }];
+    }
+
+    /** The first picture minus the second; null where that is not to be shown, or not possible yet. */
+    difference() {
+        const [first, second] = this.sides();
+        if (this.store.state.mode !== "difference" || !first?.data || !second?.data || !this.#alike(first.layer, second.layer)) return null;
+        return differenceOf(first.data, second.data);
+    }
+
+    /** @param {string} a @param {string} b */
+    #alike(a, b) {
+        return isAlike(this.looks.spec(a), this.looks.spec(b));
+    }
+
+    /** The layers of a frame from which another layer can be subtracted. @param {number} frame @param {string} layer */
+    alikeOf(frame, layer) {
+        return this.layersOf(frame).filter((name) => this.#alike(name, layer));
+    }
+
+    /** Why there is no difference of the two pictures; null where there is one or none is asked for. */
+    get noDifference() {
+        const [first, second] = this.sides();
+        if (this.store.state.mode !== "difference" || !second) return null;
+        const words = (/** @type {string} */ layer) => `${layer} has ${this.looks.spec(layer).channels} per pixel${this.looks.spec(layer).unit ? ` in ${this.looks.spec(layer).unit}` : ""}`;
+        if (!this.#alike(first.layer, second.layer)) return { error: "These layers hold different numbers.", help: `${words(first.layer)}, ${words(second.layer)}. Choose two of the same kind, or two frames.` };
+        const whole = first.data?.step === 1 && second.data?.step === 1;
+        return whole && !this.difference() ? { error: "The two pictures have different sizes.", help: `${first.data?.size[1]} × ${first.data?.size[0]} and ${second.data?.size[1]} × ${second.data?.size[0]} pixels.` } : null;
     }
 
     /** Everything that is shown is here in full. */
@@ -141,7 +180,11 @@ export class Session {
 
     /** Tells the loader what is wanted: what is shown, what comes next, and what gives names to pixels. */
     refresh() {
-        const { frame, otherFrame } = this.store.state;
+        const { frame, otherFrame, mode } = this.store.state;
+        if (mode === "gallery") {
+            this.loader.want([]);
+            return this.changed();
+        }
         const sides = this.sides();
         const frames = this.frames();
         const at = frames.indexOf(frame);
@@ -164,7 +207,7 @@ export class Session {
         const at = frames.indexOf(this.store.state.frame);
         const next = frames[Math.min(frames.length - 1, Math.max(0, at + steps))];
         this.direction = Math.sign(steps) || 1;
-        if (next !== undefined) this.store.set({ frame: next });
+        if (next !== undefined) this.store.set({ frame: next }, { step: false });
     }
 
     /** The instances of a frame's pixels. @param {number} frame */
@@ -208,9 +251,10 @@ export class Session {
         return this.areasOf(frame, "semantic_instance")?.get(id)?.bounds ?? null;
     }
 
-    /** The instances that a frame shows. @param {number} frame */
+    /** The instances that a frame shows, the largest first. @param {number} frame */
     instancesOf(frame) {
-        return [...(this.areasOf(frame, "semantic_instance")?.keys() ?? [])].filter((id) => id > 0);
+        const areas = [...(this.areasOf(frame, "semantic_instance") ?? [])].filter(([id]) => id > 0);
+        return areas.sort((a, b) => b[1].pixels - a[1].pixels).map(([id]) => id);
     }
 
     /** @param {Pixel | null} pixel */
@@ -231,3 +275,6 @@ export class Session {
         this.store.set({ instance: id === this.store.state.instance ? 0 : id });
     }
 }
+
+/** What is said of a link to something that is not there. @param {string} what @param {string} where @param {string[]} there */
+const missing = (what, where, there) => ({ message: `There is no ${what} in ${where}.`, help: `It has ${there.slice(0, 8).join(", ")}${there.length > 8 ? ` and ${there.length - 8} more` : ""}.` });

@@ -30,7 +30,9 @@ uniform float canvas_height;
 uniform float exposure;
 uniform int tone;         // 0 Hypersim's gamma, 1 filmic, 2 linear
 uniform vec2 range;
+uniform bool logarithm;   // the map goes by the logarithm between the ends of the range
 uniform int marked;       // id that is marked; 0 none
+uniform bool alone;       // what is not marked is darkened; otherwise the mark is an outline, and colours can be read
 uniform vec3 accent;
 out vec4 color;
 
@@ -80,6 +82,7 @@ vec3 shown(vec4 v, vec2 at) {
     if (kind == 0) return finite(v.r + v.g + v.b) ? toned(v.rgb) : nothing(at);
     if (kind == 1) return min(gamma_curve(v.rgb), 1.0);
     if (!finite(v.r)) return nothing(at);
+    if (kind == 2 && logarithm) return v.r > 0.0 ? mapped(log(v.r / range.x) / log(range.y / range.x)) : nothing(at);
     if (kind == 2) return mapped((v.r - range.x) / (range.y - range.x));
     if (kind == 3) return 0.5 + 0.5 * v.rgb;
     if (kind == 4) return (v.rgb - range.x) / (range.y - range.x);
@@ -118,8 +121,7 @@ void main() {
         // If pixels are large enough to read their colours, the mark does not change them.
         bool close = zoom >= 12.0;
         if (inside && edge) rgb = mix(rgb, accent, close ? 0.4 : 1.0);
-        else if (inside) rgb = mix(rgb, accent, close ? 0.0 : 0.22);
-        else rgb *= close ? 0.85 : 0.62;
+        else if (!inside && alone) rgb *= close ? 0.85 : 0.62;
     }
     color = vec4(rgb, 1.0);
 }`;

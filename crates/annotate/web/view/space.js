@@ -1,16 +1,20 @@
 // The scene in 3D: its surfaces, the free space that was carved, the trajectory with the frustum of every view, the points of a frame.
+// What is under the cursor is named, and a click keeps its instance marked. The camera is in the address.
 
 import { getBytes } from "../shared/api.js";
 import { byId, el } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
-import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, SRGBColorSpace, Vector3 } from "../vendor/three.js";
+import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
 import { showNotice } from "./notice.js";
 import { BOX_EDGES, boxCorners } from "./project.js";
+import { spaceControls } from "./space_controls.js";
+import { framePoints } from "./space_points.js";
+import { placeOf, viewOf } from "./space_view.js";
 
 /** @typedef {import("./session.js").Session} Session */
-/** @typedef {"surfaces" | "points" | "free" | "occupied" | "views" | "boxes"} SpacePart */
+/** @typedef {import("./space_controls.js").SpacePart} SpacePart */
 
 /** Length of a drawn frustum, metres. */
 const FRUSTUM_M = 0.28;
@@ -19,11 +23,12 @@ const POINTS = 150_000;
 /** Maximum distance of a click from a camera, CSS pixels. */
 const REACH_PX = 14;
 
-/** Linear light of each byte of sRGB, 0 to 1. */
-const LIGHT = Float32Array.from({ length: 256 }, (_, value) => new Color().setRGB(value / 255, 0, 0, SRGBColorSpace).r);
-
-/** @type {[SpacePart, string][]} */
-const PARTS = [["surfaces", "Surfaces"], ["points", "Points of the frame"], ["views", "Trajectory and views"], ["boxes", "Boxes"], ["free", "Free space"], ["occupied", "Occupied space"]];
+/** Distance of the point that orbiting turns about from a frame's camera, metres. */
+const AHEAD_M = 2;
+/** The address follows the camera when it has rested for this long. */
+const REST_MS = 300;
+/** Windows narrower than this have the panel folded at first, CSS pixels. */
+const NARROW_PX = 900;
 
 export class Space {
     /** @param {Session} session */
@@ -38,6 +43,10 @@ export class Space {
         this.groups = {};
         this.coloring = "class";
         this.above = false;
+        /** The camera is the frame's, or on its way there. */
+        this.atFrame = true;
+        /** What the address says of the camera. */
+        this.written = "";
         /** Keys of what is shown, so that nothing is fetched or made twice. */
         this.shown = { scene: "", trajectory: "", frame: "", space: "" };
     }
@@ -60,23 +69,57 @@ export class Space {
 
     #begin() {
         const view = el("div", { style: "position:absolute;inset:0", tabIndex: 0, "aria-label": "The scene in 3D" });
-        this.controls = el("div", { class: "space-controls panel" });
-        this.element.replaceChildren(view, this.controls);
+        this.label = el("output", { class: "space-label panel", "aria-live": "off" });
+        this.panel = el("div", { class: "space-panel" });
+        this.element.replaceChildren(view, this.panel, this.label);
         this.stage = new Stage3d(view);
         this.theme();
         this.#choices();
         // The pictures below must not react to what is done here.
         for (const name of ["pointerdown", "pointermove", "pointerup", "wheel", "dblclick"]) this.element.addEventListener(name, (/** @type {Event} */ event) => event.stopPropagation());
         view.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
-            if (this.stage?.controls.key(event)) event.stopPropagation();
+            if (!this.stage?.controls.key(event)) return;
+            this.atFrame = false;
+            event.stopPropagation();
         });
+        view.addEventListener("wheel", () => (this.atFrame = false), { capture: true, passive: true });
         /** @type {{ x: number, y: number } | null} */
         let pressed = null;
         view.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => (pressed = { x: event.clientX, y: event.clientY }), true);
+        view.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
+            if (!pressed) this.#hover(event);
+            else if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) >= 4) this.atFrame = false;
+        }, true);
         view.addEventListener("pointerup", (/** @type {PointerEvent} */ event) => {
             if (pressed && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 4) this.#choose(event);
             pressed = null;
         }, true);
+        view.addEventListener("pointerleave", () => this.#name(-1));
+        this.stage.addEventListener("camera", () => this.#later());
+    }
+
+    /** Writes the camera into the address when it has come to rest. */
+    #later() {
+        clearTimeout(this.writing);
+        this.writing = setTimeout(() => {
+            if (!this.stage || this.element.hidden || this.stage.flight) return;
+            this.written = this.atFrame ? "" : viewOf(this.stage, this.above);
+            this.session.store.set({ view: this.written }, { step: false });
+        }, REST_MS);
+    }
+
+    /** Goes where the address says, unless that is where the camera is. */
+    look(instant = false) {
+        const { view } = this.session.store.state;
+        if (!this.stage || (view === this.written && !instant)) return;
+        this.written = view;
+        const place = placeOf(view);
+        if (!place) return this.toFrame(instant);
+        this.atFrame = false;
+        this.above = place.above;
+        this.#visibility();
+        this.stage.goTo(place.camera, { instant });
+        this.stage.controls.lookAt.set(...place.target);
     }
 
     theme() {
@@ -87,30 +130,41 @@ export class Space {
     }
 
     #choices() {
-        const { scene } = this.session;
-        const missing = /** @type {Partial<Record<SpacePart, boolean>>} */ ({ surfaces: !scene?.has_geometry, free: !scene?.has_space, occupied: !scene?.has_space });
-        const box = ([part, label] = PARTS[0]) => el("label", {}, el("input", { type: "checkbox", "data-part": part, checked: this.on[part] && !missing[part], disabled: !!missing[part],
-            onchange: (/** @type {any} */ e) => {
-                this.on[part] = e.target.checked;
-                this.#visibility();
-                this.show();
-            } }), ` ${label}`);
-        const colors = el("select", { "aria-label": "Colours of the surfaces", onchange: (/** @type {any} */ e) => {
-            this.coloring = e.target.value;
-            this.#colors();
-        } }, ...[["class", "Colours of classes"], ["instance", "Colours of instances"], ["part", "Colours of parts"], ["plain", "White"]].map(([value, text]) => el("option", { value, selected: value === this.coloring }, text)));
-        this.controls?.replaceChildren(...PARTS.map(box), colors, el("button", { type: "button", onclick: () => this.toFrame() }, "Through this frame's camera"), el("button", { type: "button", onclick: () => this.fromAbove() }, "From above"));
+        const open = /** @type {HTMLDetailsElement | null} */ (this.panel?.querySelector("details"))?.open ?? innerWidth >= NARROW_PX;
+        this.panel?.replaceChildren(spaceControls(this, open));
+    }
+
+    /** Shows a kind of thing, or hides it. @param {SpacePart} part @param {boolean} on */
+    turn(part, on) {
+        this.on[part] = on;
+        this.#visibility();
+        this.show();
+    }
+
+    /** Colours the surfaces. @param {string} coloring */
+    color(coloring) {
+        this.coloring = coloring;
+        this.#colors();
+    }
+
+    /** The canvas of what is shown, painted in this moment. */
+    painting() {
+        this.stage?.drawPicture();
+        return this.stage ? [this.stage.canvas] : [];
     }
 
     /** Looks through the camera of the frame. */
     toFrame(instant = false) {
         this.above = false;
+        this.atFrame = true;
         this.#visibility();
         const { camera, store } = this.session;
         const pose = camera?.frames.find((one) => one.frame === store.state.frame)?.pose;
         if (!pose || !this.stage) return;
         const { width = 1024, height = 768, fov_y_deg = 60 } = camera?.projection ?? {};
         this.stage.goTo({ ...pose, fov_y_deg: Math.min(fov_y_deg ?? 60, 120), width, height }, { instant });
+        const ahead = [2, 5, 8].map((at) => -pose.orientation[at]);
+        this.stage.controls.lookAt.fromArray(pose.position).addScaledVector(new Vector3(...ahead), AHEAD_M);
     }
 
     /** Looks down at the whole scene, with the ceilings off. */
@@ -120,6 +174,7 @@ export class Space {
         const bounds = stage?.mesh?.geometry ?? { min: lowest(places), max: lowest(places.map((p) => p.map((v) => -v))).map((v) => -v) };
         if (!stage || !places.length) return;
         this.above = true;
+        this.atFrame = false;
         this.#visibility();
         const [x, y, z] = [0, 1, 2].map((axis) => (bounds.min[axis] + bounds.max[axis]) / 2);
         const wide = Math.max(4, bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1]);
@@ -127,6 +182,8 @@ export class Space {
         const [s, c] = [Math.sin(1.1), Math.cos(1.1)];
         const far = 1.05 * wide;
         stage.goTo({ position: [x, y - c * far, z + s * far], orientation: [1, 0, 0, 0, s, -c, 0, c, s], fov_y_deg: 55, width: 1024, height: 768 });
+        // Orbiting turns about the middle of the scene.
+        stage.controls.lookAt.set(x, y, z);
     }
 
     async #surfaces() {
@@ -135,16 +192,19 @@ export class Space {
         this.shown = { scene: scene.name, trajectory: "", frame: "", space: "" };
         for (const part of Object.keys(this.groups)) this.#replace(/** @type {SpacePart} */ (part), []);
         this.stage.clear();
+        // Beside surfaces the points of one frame are a choice; without them they are all there is.
+        this.on.points = !scene.has_geometry;
         this.#choices();
-        this.toFrame(true);
+        this.look(true);
         if (!scene.has_geometry) return;
         const buffer = await getBytes(`../api/view/scene/${encodeURIComponent(scene.name)}/geometry`);
         if (this.shown.scene !== scene.name) return;
         this.stage.setGeometry(readGeometry(buffer));
         this.#colors();
         this.#visibility();
+        this.#marks();
         // The view from above was asked for before the size of the scene was known.
-        if (this.above) this.fromAbove();
+        if (this.above && !this.session.store.state.view) this.fromAbove();
     }
 
     /** The colours of the objects, by what is chosen. */
@@ -185,6 +245,7 @@ export class Space {
 
     #trajectory() {
         const { camera, scene, store, looks } = this.session;
+        this.#marks();
         const key = JSON.stringify([scene?.name, camera?.name, store.state.frame, store.state.instance]);
         if (!camera || this.shown.trajectory === key) return;
         this.shown.trajectory = key;
@@ -198,7 +259,7 @@ export class Space {
             return far.flatMap((corner, i) => [...r.position, ...corner, ...corner, ...far[(i + 1) % 4]]);
         });
         const of = (/** @type {(frame: import("./catalogue.js").CameraFrame) => boolean} */ test) => poses.filter(test);
-        const rejected = (/** @type {import("./catalogue.js").CameraFrame} */ frame) => frame.gate?.verdict === "rejected";
+        const rejected = (/** @type {import("./catalogue.js").CameraFrame} */ frame) => frame.faults.some((fault) => fault.rejects);
         this.#replace("views", [
             lines(poses.flatMap(({ pose }) => pose?.position ?? []), 0x8fa3bf, /** @type {any} */ (Line)),
             lines(frusta(of((frame) => !rejected(frame) && frame.frame !== store.state.frame)), 0x8fa3bf),
@@ -222,12 +283,11 @@ export class Space {
         this.shown.frame = place;
         const buffer = await getBytes(`../api/view/points/${place.split("/").map(encodeURIComponent).join("/")}?most=${POINTS}`);
         if (this.shown.frame !== place) return;
-        const count = new DataView(buffer).getUint32(8, true);
-        const geometry = new BufferGeometry();
-        geometry.setAttribute("position", new BufferAttribute(new Float32Array(buffer, 16, 3 * count), 3));
-        // three.js takes linear light and converts it to sRGB.
-        geometry.setAttribute("color", new BufferAttribute(Float32Array.from(new Uint8Array(buffer, 16 + 12 * count, 4 * count), (value) => LIGHT[value]), 4));
-        this.#replace("points", [new Points(geometry, new PointsMaterial({ size: 2.2, sizeAttenuation: false, vertexColors: true, toneMapped: false }))]);
+        const pose = camera.frames.find((one) => one.frame === store.state.frame)?.pose;
+        const { width = 1024, height = 768, fov_y_deg } = camera.projection ?? {};
+        const step = Math.ceil(Math.sqrt(Math.ceil((width * height) / POINTS)));
+        const pixel = (step * 2 * Math.tan((Math.min(fov_y_deg ?? 60, 150) * Math.PI) / 360)) / height;
+        this.#replace("points", [framePoints(buffer, pose?.position ?? [0, 0, 0], { pixel, columns: Math.ceil(width / step) })]);
     }
 
     async #cubes() {
@@ -243,20 +303,60 @@ export class Space {
         this.#replace("occupied", cubeMiddles(cubes.subarray(4 * free), 0xe5b567, 0.9));
     }
 
-    /** Goes to the view whose camera was clicked. @param {PointerEvent} event */
+    /** Goes to the view whose camera was clicked, else marks the instance under the cursor. @param {PointerEvent} event */
     #choose(event) {
         const { stage } = this;
-        if (!stage || !this.on.views) return;
+        if (!stage) return;
+        const frame = this.on.views ? this.#cameraAt(event) : -1;
+        if (frame >= 0) return this.session.store.set({ frame });
+        const id = Math.max(0, this.session.scene?.objects.instance[this.#pieceAt(event)] ?? 0);
+        this.session.store.set({ instance: id === this.session.store.state.instance ? 0 : id });
+    }
+
+    /** The frame whose camera is under the cursor; -1 for none. @param {PointerEvent} event */
+    #cameraAt(event) {
         const box = this.element.getBoundingClientRect();
         let best = { frame: -1, far: REACH_PX };
         for (const { frame, pose, layers } of this.session.camera?.frames ?? []) {
-            if (!pose || !layers.length) continue;
-            const p = new Vector3(...pose.position).project(stage.camera);
+            if (!pose || !layers.length || !this.stage) continue;
+            const p = new Vector3(...pose.position).project(this.stage.camera);
             if (p.z > 1) continue;
             const far = Math.hypot(((p.x + 1) / 2) * box.width - (event.clientX - box.left), ((1 - p.y) / 2) * box.height - (event.clientY - box.top));
             if (far < best.far) best = { frame, far };
         }
-        if (best.frame >= 0) this.session.store.set({ frame: best.frame });
+        return best.frame;
+    }
+
+    /** The object under the cursor; -1 for none. @param {MouseEvent} event */
+    #pieceAt(event) {
+        const { left, top } = this.element.getBoundingClientRect();
+        return this.stage?.mesh ? this.stage.seenAt(event.clientX - left, event.clientY - top).piece : -1;
+    }
+
+    /** @param {PointerEvent} event */
+    #hover(event) {
+        if (this.looking) return;
+        // Once per picture of the screen: reading from the graphics card takes a while.
+        this.looking = requestAnimationFrame(() => {
+            this.looking = 0;
+            this.#name(this.#pieceAt(event));
+        });
+    }
+
+    /** Names an object and lights it up. @param {number} piece -1 for none */
+    #name(piece) {
+        const { scene, looks } = this.session;
+        this.stage?.setHovered(piece);
+        const instance = scene?.objects.instance[piece] ?? -1;
+        const words = piece < 0 ? [] : [scene?.objects.names[piece] ?? "", looks.className(scene?.objects.semantic[piece] ?? -1), instance > 0 ? `instance ${instance}` : ""];
+        if (this.label) this.label.textContent = words.filter(Boolean).join(" · ");
+    }
+
+    /** The instance that is marked stands out. */
+    #marks() {
+        const { scene, store } = this.session;
+        const wanted = store.state.instance;
+        if (this.stage?.mesh) this.stage.setMarks((scene?.objects.instance ?? []).flatMap((id, piece) => (wanted > 0 && id === wanted ? [piece] : [])));
     }
 }
 

@@ -1,5 +1,6 @@
 // The pictures: one, two side by side, or two with a border that is wiped across. Zoom and pan are those of both.
 
+import { lookOfDifference } from "./difference.js";
 import { exposureOf, TONES } from "./exposure.js";
 import { rangeOf } from "./kinds.js";
 import { Painter } from "./painter.js";
@@ -13,6 +14,9 @@ import { Overlay } from "./overlay.js";
 
 /** CSS pixels per pixel. */
 const MAX_ZOOM = 128;
+
+/** How long each of two pictures is shown while they flicker; longer where less motion is wanted. */
+const TURN_MS = 450, SLOW_TURN_MS = 1500;
 
 export class Stage {
     /**
@@ -34,9 +38,12 @@ export class Stage {
         /** @type {(sides: Side[]) => void} */
         this.painted = () => {};
         this.waiting = false;
+        /** Which picture is shown while two flicker. */
+        this.turn = 0;
         /** What was painted last on each side, for as long as the next is on its way. @type {(Side & { data: LayerData })[]} */
         this.last = [];
         new ResizeObserver(() => this.refresh()).observe(element);
+        setInterval(() => this.#flicker(), matchMedia("(prefers-reduced-motion: reduce)").matches ? SLOW_TURN_MS : TURN_MS);
         this.#listen();
     }
 
@@ -101,15 +108,29 @@ export class Stage {
         this.painter.begin(getComputedStyle(this.element).backgroundColor);
         const panes = this.panes();
         const places = panes.map((pane) => this.placement(pane));
+        const difference = state.flicker ? null : this.session.difference();
         for (const i of sides.keys()) {
             const shown = this.last[i];
-            if (!shown) continue;
+            // Of a difference one picture is shown: it, or the two in turn.
+            if (!shown || (state.mode === "difference" && i !== (state.flicker ? this.turn : 0))) continue;
+            if (difference) {
+                this.painter.draw(this.#differencePicture(difference, shown.frame), panes[0], places[0]);
+                continue;
+            }
             const at = state.mode === "side" ? i : 0;
             this.painter.draw(this.#picture(shown), this.#clip(i, panes[at]), places[at]);
         }
         this.overlay.paint(this, panes, places);
         this.element.dataset.frame = String(this.last[0]?.frame ?? "");
         this.painted(sides);
+    }
+
+    /** The other picture's turn. */
+    #flicker() {
+        const { mode, flicker } = this.store.state;
+        if (mode !== "difference" || !flicker || document.hidden) return;
+        this.turn = 1 - this.turn;
+        this.refresh();
     }
 
     /** @param {number} side @param {Rect} pane @returns {Rect} */
@@ -125,18 +146,36 @@ export class Stage {
         const { state } = this.store;
         const { looks, camera } = this.session;
         const look = looks.look(layer);
-        const ids = this.session.idsOf(frame);
         return {
             data,
             kind: look.kind,
             table: looks.table(layer, state.maps[layer] ?? look.map),
-            range: rangeOf(look, data.summary, state.ranges[layer]),
+            range: rangeOf(look, data.summary, state.ranges[layer], layer in state.logs),
+            logarithm: layer in state.logs,
             exposure: camera ? exposureOf(state, camera, frame, data.summary) : 1,
             tone: TONES.indexOf(state.tone),
-            ids: ids?.step === 1 ? ids : null,
-            marked: this.session.marked,
-            accent: [1, 0.72, 0.2],
+            ...this.#mark(frame),
         };
+    }
+
+    /** @param {LayerData} data @param {number} frame @returns {import("./painter.js").Picture} */
+    #differencePicture(data, frame) {
+        const { map, range } = lookOfDifference(data);
+        return { data, kind: "scalar", table: this.session.looks.mapTable(map), range, logarithm: false, exposure: 1, tone: 0, ...this.#mark(frame) };
+    }
+
+    /** What stands out in a picture: an instance, or all of a class. @param {number} frame */
+    #mark(frame) {
+        const { session } = this;
+        const ofClass = !session.marked && this.store.state.class > 0;
+        const ids = ofClass ? session.layer(frame, "semantic") : session.idsOf(frame);
+        return { ids: ids?.step === 1 ? ids : null, marked: ofClass ? this.store.state.class : session.marked, alone: !session.hoveredInstance, accent: [1, 0.72, 0.2] };
+    }
+
+    /** The canvases of what is shown, painted in this moment. */
+    painting() {
+        this.paint();
+        return [this.painter.canvas, this.overlay.canvas];
     }
 
     /** The pixel at a point of the element, in CSS pixels; also for points outside of the picture. @param {number} x @param {number} y */

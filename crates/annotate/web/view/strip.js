@@ -1,7 +1,8 @@
 // The strip of frames below the picture. Only visible frames have elements, so trajectories may be long.
 
 import { byId, el } from "../shared/dom.js";
-import { thumbnailUrl } from "./records.js";
+import { thumbnailUrl } from "./catalogue.js";
+import { faultText } from "./records.js";
 
 export class Strip {
     /** @param {import("./session.js").Session} session */
@@ -44,12 +45,12 @@ export class Strip {
         }
         for (let i = first; i < last; i++) {
             if (this.there.has(i)) continue;
-            const { frame, layers, gate } = frames[i];
-            const state = gate?.verdict === "rejected" ? "rejected" : layers.length ? "" : "planned";
-            const why = gate?.fault ? `: ${gate.verdict}, ${gate.fault.gate}` : layers.length ? "" : ": not rendered";
+            const { frame, layers, faults } = frames[i];
+            const state = `${faults.some((fault) => fault.rejects) ? "rejected" : ""} ${layers.length ? "" : "planned"}`;
+            const why = faults.length ? `: ${faults.map(faultText).join("; ")}` : layers.length ? "" : ": not rendered";
             const button = el("button", { type: "button", class: `thumb ${state}`, role: "option", tabIndex: -1, title: `Frame ${frame}${why}`, "aria-label": `Frame ${frame}${why}`, "data-frame": frame, style: `left:${i * pitch}px`,
                 onclick: () => (layers.length ? this.session.store.set({ frame }) : this.session.store.set({ tab: "views" })) },
-                layers.length ? el("img", { src: thumbnailUrl(this.session, frame), alt: "", loading: "lazy", draggable: false }) : null, el("span", {}, String(frame)));
+                layers.length ? el("img", { src: thumbnailUrl(this.session.scene?.name ?? "", this.session.camera?.name ?? "", frame), alt: "", loading: "lazy", draggable: false }) : null, el("span", {}, String(frame)));
             this.there.set(i, button);
             this.rail.append(button);
         }
@@ -65,6 +66,7 @@ export class Strip {
         if (at >= 0 && (at * pitch < scrollLeft || (at + 1) * pitch > scrollLeft + clientWidth)) this.element.scrollLeft = (at + 0.5) * pitch - clientWidth / 2;
         this.fill();
         const shown = this.session.frames();
+        if (!shown.length) return byId("frame-number").replaceChildren();
         byId("frame-number").replaceChildren(`frame ${this.session.store.state.frame}`, el("br"), el("span", { class: "quiet" }, `${shown.indexOf(this.session.store.state.frame) + 1} of ${shown.length}`));
     }
 

@@ -2,6 +2,7 @@
 
 import { byId, el } from "../shared/dom.js";
 import { fileUrl } from "./catalogue.js";
+import { roving } from "./roving.js";
 
 /** At most this many scenes are listed; others are found by searching. */
 const MAX_SHOWN = 500;
@@ -10,6 +11,7 @@ export class Tree {
     /** @param {import("./session.js").Session} session */
     constructor(session) {
         this.session = session;
+        this.oneStop = roving(byId("scenes"), "button", ["ArrowUp", "ArrowDown"]);
         byId("scene-search").addEventListener("input", () => this.enter());
         byId("scene-search").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
             const [first] = this.#found();
@@ -24,7 +26,9 @@ export class Tree {
 
     /** @param {string} scene @param {string} [camera] */
     #open(scene, camera = "") {
-        this.session.store.set({ scene, camera, otherFrame: null, instance: 0 });
+        const { store } = this.session;
+        const within = store.state.mode !== "gallery" ? store.state.within : camera ? "camera" : "scene";
+        store.set({ scene, camera, otherFrame: null, instance: 0, view: "", within });
     }
 
     enter() {
@@ -37,6 +41,7 @@ export class Tree {
         };
         byId("scenes").replaceChildren(...found.slice(0, MAX_SHOWN).map(item), ...(found.length > MAX_SHOWN ? [el("li", { class: "quiet" }, `and ${found.length - MAX_SHOWN} more`)] : []),
             ...(found.length ? [] : [el("li", { class: "quiet" }, "No scene has such a name.")]));
+        this.oneStop();
         byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => el("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
     }
 

@@ -1,0 +1,334 @@
+// The page as a whole: what follows when the state changes, what is told after each painting, and the controls above the picture.
+
+import { byId, el } from "../shared/dom.js";
+import { fileUrl, getFrame } from "./catalogue.js";
+import { commandsOf } from "./commands.js";
+import { displayPanel } from "./display.js";
+import { filterPanel } from "./filters.js";
+import { Gallery } from "./gallery.js";
+import { listenToKeys, showHelp } from "./keys.js";
+import { GROUPS } from "./kinds.js";
+import { showDifferenceLegend, showLegend } from "./legend.js";
+import { showMessage } from "./message.js";
+import { showNotice } from "./notice.js";
+import { objectsPanel } from "./objects.js";
+import { showReadout } from "./readout.js";
+import { framePanel, lossesOf, viewsPanel } from "./records.js";
+import { roving } from "./roving.js";
+import { savePicture } from "./save.js";
+import { TWO } from "./session.js";
+import { Stage } from "./stage.js";
+import { Strip } from "./strip.js";
+import { Travel } from "./travel.js";
+import { Tree } from "./tree.js";
+import { Watch } from "./watch.js";
+
+/** @typedef {import("./state.js").State} State */
+
+export class Page {
+    /** @param {import("./session.js").Session} session @param {import("./state.js").Store} store */
+    constructor(session, store) {
+        this.session = session;
+        this.store = store;
+        this.stage = new Stage(byId("stage"), store, session);
+        this.strip = new Strip(session);
+        this.tree = new Tree(session);
+        this.travel = new Travel(session);
+        this.gallery = new Gallery(session, () => this.panel());
+        /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
+        this.space = null;
+        /** @type {import("./catalogue.js").FrameFacts | null} */
+        this.known = null;
+        this.panelKey = "";
+        /** What the panel shows: its tab, and the frame. */
+        this.panelTab = "";
+        this.panelFrame = -1;
+        /** The frame that the server is asked about. */
+        this.learning = "";
+        session.changed = () => this.stage.refresh();
+        session.entered = () => this.#entered();
+        this.stage.hovered = (pixel) => {
+            session.hover(pixel);
+            this.readout();
+        };
+        this.stage.painted = () => this.painted();
+        this.watch = new Watch(session, (frames) => this.#grown(frames));
+        store.listen((state, changed) => this.follow(state, changed));
+        this.#listen();
+        this.#verdict();
+        this.gallery.show();
+        this.modes();
+    }
+
+    /** Says that the first picture is shown. */
+    ready() {
+        document.body.dataset.ready = "true";
+        this.gallery.isShown ? this.gallery.focus() : byId("stage").focus({ preventScroll: true });
+    }
+
+    /** Another scene or camera is open. */
+    #entered() {
+        this.stage.last = [];
+        this.known = null;
+        this.tree.enter();
+        this.strip.enter();
+        if (this.store.state.mode === "difference") this.#beginDifference();
+        this.controls();
+        this.#space();
+    }
+
+    /** Shows the scene in 3D when the state asks for it; what draws it is fetched then. */
+    async #space() {
+        if (!this.space && this.store.state.mode !== "space") return;
+        if (!this.space) {
+            const { Space } = await import("./space.js");
+            this.space ??= new Space(this.session);
+        }
+        await this.space.show();
+    }
+
+    /** The dataset has changed while one looked. @param {number} frames how many are new */
+    async #grown(frames) {
+        if (frames > 0) showNotice(frames === 1 ? "1 new frame." : `${frames} new frames.`);
+        await this.gallery.reload();
+    }
+
+    /** @param {State} state @param {Set<keyof State>} changed */
+    follow(state, changed) {
+        const has = (/** @type {(keyof State)[]} */ ...keys) => keys.some((key) => changed.has(key));
+        if (has("scene", "camera") && (state.scene !== this.session.scene?.name || state.camera !== this.session.camera?.name)) this.session.follow();
+        if (has("layer", "other", "otherFrame", "mode")) this.#keepApart(changed);
+        if (has("mode")) this.modes();
+        if (has("frame", "layer", "other", "otherFrame", "mode", "flicker")) {
+            this.session.refresh();
+            this.controls();
+        }
+        if (has("scene", "camera", "frame")) this.known = null;
+        if (has("frame")) this.strip.show();
+        if (has("frame", "mode", "instance")) this.#space();
+        if (has("view")) this.space?.look();
+        if (has("mode", "sort", "down", "within", "show", "gate", "law", "limits", "scene", "camera")) this.gallery.show();
+        this.panelKey = "";
+        this.stage.refresh();
+    }
+
+    /** Two pictures of one frame have different layers: the one that was not chosen gives way. @param {Set<keyof State>} changed */
+    #keepApart(changed) {
+        const { mode, layer, other, otherFrame, frame } = this.store.state;
+        if (mode === "difference" && changed.has("mode")) return this.#beginDifference();
+        if (!TWO.includes(mode) || layer !== other || (otherFrame !== null && otherFrame !== frame)) return;
+        const free = this.session.layersOf(frame).filter((name) => name !== layer);
+        const instead = free.find((name) => name === (layer === "color" ? "depth_meters" : "color")) ?? free[0];
+        if (instead) this.store.set(changed.has("layer") || !changed.has("other") ? { other: instead } : { layer: instead }, { step: false });
+    }
+
+    /** A difference begins with two layers that can be compared; where the frame has no two, with two frames. */
+    #beginDifference() {
+        const { layer, other, otherFrame, frame } = this.store.state;
+        const alike = this.session.alikeOf(frame, layer);
+        const isOther = otherFrame !== null && otherFrame !== frame;
+        if (alike.includes(other) && (other !== layer || isOther)) return;
+        const instead = alike.find((name) => name.startsWith(layer) && name !== layer);
+        const frames = this.session.frames();
+        const beside = frames[frames.indexOf(frame) + 1] ?? frames[frames.indexOf(frame) - 1] ?? null;
+        if (instead && !isOther) this.store.set({ other: instead }, { step: false });
+        else this.store.set({ other: layer, otherFrame: isOther ? otherFrame : beside }, { step: false });
+    }
+
+    /** What belongs to the mode is shown, and nothing else. */
+    modes() {
+        const { mode } = this.store.state;
+        document.body.dataset.mode = mode;
+        for (const id of ["headings", "stage", "readout", "strip", "tabs"]) byId(id).hidden = mode === "gallery" || (mode === "space" && ["headings", "readout"].includes(id));
+        byId("gallery").hidden = mode !== "gallery";
+        for (const button of byId("modes").children) button.setAttribute("aria-pressed", String(button.dataset.mode === mode));
+    }
+
+    /** Updates everything that describes what is shown; called after each painting. */
+    painted() {
+        const { session, travel } = this;
+        const sides = session.sides();
+        for (const i of [0, 1]) showLegend(/** @type {HTMLElement} */ (byId(`heading-${i}`).querySelector(".legend")), session, sides[i]);
+        showDifferenceLegend(/** @type {HTMLElement} */ (byId("heading-2").querySelector(".legend")), session);
+        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side.frame, side.layer)).find((one) => one) ?? null);
+        byId("busy").hidden = session.complete && !travel.direction;
+        byId("busy").textContent = travel.direction && travel.shown > 3 ? `${travel.rate.toFixed(0)} frames/s` : session.complete ? "" : "reading …";
+        this.readout();
+        this.panel();
+    }
+
+    readout() {
+        showReadout(byId("readout"), this.session, this.stage.pixel);
+    }
+
+    /** Updates the panel on the right, unless nothing has changed or somebody is typing in it. */
+    panel() {
+        const { session, store } = this;
+        const { state } = store;
+        const panel = byId("panel");
+        if (this.travel.direction && this.travel.held) return;
+        const tab = state.mode === "gallery" ? "filter" : state.tab;
+        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey]);
+        if (key === this.panelKey) return;
+        const typing = panel.contains(document.activeElement) && document.activeElement?.matches("input");
+        if (typing && this.panelTab === tab && this.panelFrame === state.frame) return;
+        this.panelKey = key;
+        this.panelTab = tab;
+        this.panelFrame = state.frame;
+        if (tab === "objects" || tab === "frame") this.#learn();
+        const focused = /** @type {HTMLElement | null} */ (panel.contains(document.activeElement) ? document.activeElement : null)?.dataset.key;
+        /** @type {Record<string, () => Node[]>} */
+        const panels = {
+            filter: () => filterPanel(this.gallery, store),
+            display: () => displayPanel(session),
+            objects: () => objectsPanel(session, this.known, () => this.stage.refresh()),
+            frame: () => framePanel(session, this.known),
+            views: () => viewsPanel(session),
+        };
+        const { scrollTop } = panel;
+        panel.replaceChildren(...lossesOf(session, this.known, tab), ...panels[tab]());
+        panel.scrollTop = scrollTop;
+        this.oneRowStop?.();
+        if (focused) /** @type {HTMLElement | null} */ (panel.querySelector(`[data-key="${focused}"]`))?.focus();
+    }
+
+    /** Asks the server about the frame. */
+    async #learn() {
+        const { scene, camera, frame } = this.store.state;
+        const place = `${scene}/${camera}/${frame}`;
+        if (this.known || !camera || this.learning === place) return;
+        this.learning = place;
+        try {
+            const known = await getFrame(scene, camera, frame);
+            const { state } = this.store;
+            if (`${state.scene}/${state.camera}/${state.frame}` === place) this.known = known;
+        } catch (error) {
+            showNotice(/** @type {Error} */ (error).message);
+        }
+        this.learning = "";
+        this.stage.refresh();
+    }
+
+    /** The controls above the picture, as the state has them. */
+    controls() {
+        const { session } = this;
+        const { state } = this.store;
+        byId("dataset-name").textContent = session.dataset.name;
+        document.title = state.mode === "gallery" ? session.dataset.name : `${session.dataset.name}: ${state.scene} ${state.camera} ${state.frame}`;
+        byId("place").textContent = state.mode === "gallery" ? "" : [state.scene, state.camera].filter(Boolean).join(" / ");
+        for (const tab of byId("tabs").children) tab.setAttribute("aria-selected", String(tab.dataset.tab === state.tab));
+        this.oneTabStop?.();
+        byId("heading-1").hidden = !TWO.includes(state.mode);
+        byId("heading-2").hidden = state.mode !== "difference";
+        byId("flicker").setAttribute("aria-pressed", String(state.flicker));
+        const same = state.otherFrame === null || state.otherFrame === state.frame;
+        this.#layers(byId("layer-0"), session.layersOf(state.frame), state.layer);
+        const others = state.mode === "difference" ? session.alikeOf(state.otherFrame ?? state.frame, state.layer) : session.layersOf(state.otherFrame ?? state.frame);
+        this.#layers(byId("layer-1"), others.filter((name) => !same || name !== state.layer), state.other);
+        if (document.activeElement !== byId("frame-1")) byId("frame-1").value = state.otherFrame ?? "";
+    }
+
+    /** @param {HTMLSelectElement} select @param {string[]} there @param {string} chosen */
+    #layers(select, there, chosen) {
+        const key = `${there}`;
+        if (select.dataset.key !== key) {
+            select.dataset.key = key;
+            const options = (/** @type {string[]} */ passes) => there.filter((name) => passes.includes(this.session.looks.spec(name).pass)).map((name) => el("option", { value: name }, name));
+            select.replaceChildren(...GROUPS.map(({ name, passes }) => el("optgroup", { label: name }, ...options(passes))).filter((group) => group.children.length));
+        }
+        select.value = chosen;
+    }
+
+    #listen() {
+        const { stage, travel, store } = this;
+        const choose = (/** @type {"layer" | "other"} */ which) => (/** @type {any} */ event) => {
+            store.set({ [which]: event.target.value });
+            // From here on the arrow keys go from frame to frame.
+            byId("stage").focus({ preventScroll: true });
+        };
+        byId("layer-0").addEventListener("change", choose("layer"));
+        byId("layer-1").addEventListener("change", choose("other"));
+        byId("frame-1").addEventListener("change", (/** @type {any} */ e) => store.set({ otherFrame: e.target.value === "" ? null : Math.round(e.target.valueAsNumber) }));
+        for (const button of byId("modes").children) button.addEventListener("click", () => store.set({ mode: button.dataset.mode }));
+        for (const tab of byId("tabs").children) tab.addEventListener("click", () => this.tab(tab.dataset.tab));
+        this.oneTabStop = roving(byId("tabs"), "[role=tab]", ["ArrowLeft", "ArrowRight"]);
+        this.oneRowStop = roving(byId("panel"), "tr[tabindex]", ["ArrowUp", "ArrowDown"]);
+        for (const [button, column] of [["tree-button", "tree"], ["panel-button", "inspector"]]) byId(button).addEventListener("click", () => this.#drawer(byId(button), byId(column)));
+        const commands = commandsOf(this);
+        listenToKeys(commands);
+        byId("menu").addEventListener("click", () => byId("menu").hidePopover());
+        byId("help-button").addEventListener("click", () => showHelp(commands));
+        byId("flicker").addEventListener("click", () => store.set({ flicker: !store.state.flicker }));
+        byId("save").addEventListener("click", () => this.save());
+        byId("copy-link").addEventListener("click", () => this.copyLink());
+        byId("reload").addEventListener("click", () => this.reload());
+        byId("theme").addEventListener("click", () => this.theme());
+        byId("play").addEventListener("click", () => (travel.direction ? travel.stop() : travel.go(1, true)));
+        document.documentElement.dataset.theme = localStorage.getItem("theme") ?? "";
+        matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => stage.refresh());
+    }
+
+    /** Opens or closes a column that narrow windows have no room for. @param {HTMLElement} button @param {HTMLElement} column */
+    #drawer(button, column) {
+        const open = column.dataset.open !== "true";
+        column.dataset.open = String(open);
+        button.setAttribute("aria-expanded", String(open));
+    }
+
+    /** @param {string} tab */
+    tab(tab) {
+        this.store.set({ tab });
+        this.controls();
+        byId("panel").scrollTop = 0;
+    }
+
+    /** Saves what is shown as a picture. */
+    save() {
+        const { state } = this.store;
+        const name = [state.scene, state.camera, String(state.frame).padStart(4, "0"), state.mode === "space" ? "3d" : state.layer, state.mode === "one" || state.mode === "space" ? "" : state.other];
+        if (state.mode === "gallery") return showNotice("Open a frame to save its picture.");
+        savePicture(state.mode === "space" ? (this.space?.painting() ?? []) : this.stage.painting(), name.filter(Boolean).join("_"));
+    }
+
+    async copyLink() {
+        const link = this.store.write();
+        try {
+            await navigator.clipboard.writeText(link);
+            showNotice("The link to this view is on the clipboard.");
+        } catch {
+            showNotice("The address of this page is the link to this view.");
+        }
+    }
+
+    async reload() {
+        try {
+            await this.session.reload();
+            this.#verdict();
+            await this.gallery.reload();
+            showNotice("Read again.");
+        } catch (error) {
+            showNotice(/** @type {Error} */ (error).message);
+        }
+    }
+
+    theme() {
+        const dark = getComputedStyle(document.documentElement).colorScheme === "dark";
+        document.documentElement.dataset.theme = dark ? "light" : "dark";
+        localStorage.setItem("theme", dark ? "light" : "dark");
+        this.space?.theme();
+        this.stage.refresh();
+    }
+
+    /** What verification said: a link to the report, and one to the frames that were rejected. */
+    #verdict() {
+        const { verify, pages } = this.session.dataset;
+        const card = pages.find((page) => page.title === "Report card");
+        if (!verify) return byId("verdict").replaceChildren();
+        const { failures, laws, passed, rejected } = verify;
+        const text = passed ? "Checks pass" : failures.length === 1 ? "1 check fails" : `${failures.length} checks fail`;
+        const title = [`${laws} checks. ${verify.verdict}`, verify.gate_verdict, ...failures.map((law) => `${law.statement}: ${law.place}`)].join("\n");
+        const frames = el("button", { type: "button", class: "badge warn", title: "Show them in the gallery",
+            onclick: () => this.store.set({ mode: "gallery", show: "rejected", within: "all", limits: {}, gate: "", law: "" }) }, rejected === 1 ? "1 frame rejected" : `${rejected} frames rejected`);
+        byId("verdict").replaceChildren(el("a", { class: `badge ${passed ? "good" : "bad"}`, href: card ? fileUrl(card.path) : undefined, target: "_blank", title }, text), ...(rejected ? [frames] : []));
+    }
+}
