@@ -16,7 +16,7 @@ p, figcaption, nav { color: var(--soft); margin: .25rem 0; }
 nav a { margin-right: 1rem; }
 a { color: inherit; }
 figure { margin: 1.25rem 0 2rem; }
-figure img { display: block; width: 100%; height: auto; background: #fff; border: 1px solid var(--line); border-radius: 6px; }
+figure img { display: block; width: 100%; height: auto; background: var(--card); border: 1px solid var(--line); border-radius: 6px; }
 figcaption { padding-top: .4rem; font-size: .9rem; overflow-wrap: anywhere; }
 .grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr)); gap: 0 1.5rem; }
 .grid.small { grid-template-columns: repeat(auto-fill, minmax(11rem, 1fr)); gap: 0 1rem; }

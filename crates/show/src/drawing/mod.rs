@@ -6,7 +6,7 @@ mod paint;
 mod svg;
 
 pub(crate) use paint::paint;
-pub(crate) use svg::svg;
+pub(crate) use svg::{Dark, svg, themed_svg};
 
 use crate::picture::Picture;
 use crate::sheet::canvas::Color;

@@ -9,12 +9,34 @@ use std::fmt::Write;
 /// Height of capitals over the font size of usual sans-serif fonts.
 const CAPITAL_HEIGHT: f32 = 0.72;
 
+/// What paper and inks become where a browser shows dark pages.
+pub(crate) struct Dark<'a> {
+    pub paper: [u8; 3],
+    /// Colours and what they become; others stay.
+    pub inks: &'a [([u8; 3], [u8; 3])],
+}
+
 /// The page's file. Pictures lie within it as PNG, so that it can be shown by itself.
 pub(crate) fn svg(drawing: &Drawing) -> String {
+    written(drawing, "")
+}
+
+/// As [`svg`], with other colours where the browser shows dark pages.
+pub(crate) fn themed_svg(drawing: &Drawing, dark: &Dark) -> String {
+    let inks = dark.inks.iter().map(|&(light, dark)| {
+        let (light, dark) = (hex(light), hex(dark));
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
+    });
+    let rules: String = inks.collect();
+    // The paper is the only rectangle.
+    written(drawing, &format!("<style>@media (prefers-color-scheme:dark){{rect{{fill:{}}}{rules}}}</style>\n", hex(dark.paper)))
+}
+
+fn written(drawing: &Drawing, style: &str) -> String {
     let (w, h) = (drawing.width, drawing.height);
     let mut file = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
-         font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+         font-family=\"Helvetica, Arial, sans-serif\">\n{style}<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
         hex(drawing.paper)
     );
     drawing.shapes.iter().for_each(|shape| put(&mut file, shape));
@@ -121,5 +143,16 @@ mod tests {
             assert!(file.contains(part), "{part} is not in {file}");
         }
         assert!(file.ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn dark_pages_change_paper_and_inks_and_nothing_else_of_the_file() {
+        let mut page = Drawing::new(8, 6, [255; 3]);
+        page.text([4.0, 3.0], "t", 10.0, Ink::solid([1, 2, 3]));
+        let themed = themed_svg(&page, &Dark { paper: [31, 32, 36], inks: &[([1, 2, 3], [240; 3])] });
+        let style = "<style>@media (prefers-color-scheme:dark){rect{fill:#1f2024}\
+                     [fill=\"#010203\"]{fill:#f0f0f0}[stroke=\"#010203\"]{stroke:#f0f0f0}}</style>\n";
+        assert_eq!(themed.replacen(style, "", 1), svg(&page));
+        assert!(themed.contains(style), "{themed}");
     }
 }

@@ -2,7 +2,7 @@
 //! can tell apart.
 
 use super::canvas::{Canvas, UNITS};
-use crate::drawing::{Anchor, Drawing, Ink, Text};
+use crate::drawing::{Anchor, Dark, Drawing, Ink, Text};
 use crate::sheet::canvas::Color;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
@@ -17,6 +17,9 @@ pub(super) const PAPER: Color = [255; 3];
 pub(super) const INK: Color = [34, 35, 42];
 pub(super) const SOFT: Color = [98, 102, 110];
 pub(super) const GRID: Color = [228, 229, 232];
+/// The same on dark pages: the card of `page` as paper, and Okabe and Ito's lighter blue.
+pub(super) const DARK: Dark =
+    Dark { paper: [31, 32, 36], inks: &[(INK, [232, 232, 228]), (SOFT, [160, 164, 172]), (GRID, [52, 54, 60]), (BLUE, [86, 180, 233])] };
 /// Page of a chart, pixels.
 const WIDTH: u32 = 760;
 const HEIGHT: u32 = 430;

@@ -72,7 +72,7 @@ fn picture(map: &Map, frame: Frame) -> Picture {
         let [x, y] = [x as f32 + 0.5, y as f32 + 0.5];
         let from_center = ((x - 0.5 * MAP).powi(2) + (y - 0.5 * MAP).powi(2)).sqrt();
         if frame == Frame::Hue && from_center > 0.5 * MAP {
-            return image::Rgba([PAPER[0], PAPER[1], PAPER[2], 255]);
+            return image::Rgba([0; 4]); // the paper shows
         }
         let (column, row) = ((x * scale) as usize, SIDE - 1 - (y * scale) as usize);
         let [r, g, b] = color(map.counts[row.min(SIDE - 1) * SIDE + column.min(SIDE - 1)] as f64 / most);

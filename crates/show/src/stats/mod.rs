@@ -32,7 +32,7 @@ pub use costs::{Cost, CostReport};
 pub use machines::{memory_gib, smallest_feasible, tells_sizes};
 pub use price::{Machine, Per, Price, PriceError, Rate, read_prices};
 
-use crate::drawing::{paint, svg};
+use crate::drawing::{paint, themed_svg};
 use crate::picture::png;
 use costs::is_costs;
 use enfilade_dataset::{Dataset, DatasetError, write_bytes, write_json};
@@ -172,7 +172,7 @@ fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
 fn write_plot(folder: &Path, plot: &Plot) -> Result<[PathBuf; 2], DatasetError> {
     let files = EXTENSIONS.map(|extension| folder.join("plots").join(format!("{}.{extension}", plot.name)));
     write_bytes(&files[0], png(&paint(&plot.drawing), None))?;
-    write_bytes(&files[1], svg(&plot.drawing))?;
+    write_bytes(&files[1], themed_svg(&plot.drawing, &chart::DARK))?;
     Ok(files)
 }
 
