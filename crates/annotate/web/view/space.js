@@ -68,7 +68,7 @@ export class Space {
     }
 
     #begin() {
-        const view = el("div", { style: "position:absolute;inset:0", tabIndex: 0, "aria-label": "The scene in 3D" });
+        const view = el("div", { style: "position:absolute;inset:0", tabIndex: 0, role: "application", "aria-label": "The scene in 3D" });
         this.label = el("output", { class: "space-label panel", "aria-live": "off" });
         this.panel = el("div", { class: "space-panel" });
         this.element.replaceChildren(view, this.panel, this.label);
