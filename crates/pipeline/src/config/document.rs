@@ -81,6 +81,8 @@ pub(super) struct SceneKeys {
     pub files: Option<Spanned<String>>,
     /// Instead of a file, a generated home: a table, as below.
     pub home: Option<Spanned<toml::Table>>,
+    /// Instead of one home as many, 1 to 100 000: their seeds follow on the home's, and their names end with a number.
+    pub count: Option<Spanned<u32>>,
     pub meters_per_unit: Option<Spanned<f64>>,
     pub up_axis: Option<UpAxis>,
     pub environment: Option<Spanned<EnvironmentOverride>>,

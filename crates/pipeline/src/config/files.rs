@@ -11,6 +11,8 @@ pub(super) struct Entry<'a> {
     pub name: Spanned<String>,
     /// As it would be written: with the variables of the pattern.
     pub file: Option<Spanned<String>>,
+    /// Among the homes of its table.
+    pub nth: u32,
 }
 
 /// The scenes that `pattern` means, in the order of their paths. `expanded` is the pattern without variables; relative ones begin in
@@ -32,7 +34,7 @@ pub(super) fn entries<'a>(
     }
     let spanned = |text: String| Spanned::new(pattern.span(), text);
     let written = Written::new(pattern.get_ref(), expanded);
-    Ok(found.iter().map(|found| Entry { keys, name: spanned(name(found)), file: Some(spanned(written.path(found))) }).collect())
+    Ok(found.iter().map(|found| Entry { keys, name: spanned(name(found)), file: Some(spanned(written.path(found))), nth: 0 }).collect())
 }
 
 /// The name of a scene: that of its file, or of the folder that told it from others; what a name cannot hold becomes `_`.

@@ -29,6 +29,8 @@ const SIZE: [u32; 2] = [1024, 768];
 const QUALITY: Quality = Quality::Normal;
 /// What colour layers hold unless the file says.
 const COLOR: ColorKind = ColorKind::Denoised;
+/// Homes of one table.
+const MAX_COUNT: u32 = 100_000;
 
 /// The configuration in `text`, with `overrides` over it. Environment variables in paths are checked, not replaced. Label tables and
 /// grids of rays are read, to refuse what a late stage could not use.
@@ -89,22 +91,43 @@ impl Resolver<'_> {
         ConfigError { help: Some(help.into()), ..self.source.error(Some(value.span()), message) }
     }
 
-    /// The scenes of a table: one, or those that its `files` mean.
+    /// The scenes of a table: one, those that its `files` mean, or as many homes as its `count` says.
     fn entries<'k>(&self, table: &'k Spanned<SceneKeys>) -> Result<Vec<Entry<'k>>, ConfigError> {
         let keys = table.get_ref();
         match (&keys.files, &keys.name) {
-            (None, Some(name)) => Ok(vec![Entry { keys, name: name.clone(), file: keys.file.clone() }]),
+            (None, Some(name)) => match &keys.count {
+                None => Ok(vec![Entry { keys, name: name.clone(), file: keys.file.clone(), nth: 0 }]),
+                Some(count) => self.homes(keys, name, count),
+            },
             (None, None) => Err(self.refuse(table, "missing field `name`", "add name = \"my-room\" to the scene")),
-            (Some(files), None) if keys.file.is_none() && keys.home.is_none() => {
+            (Some(files), None) if keys.file.is_none() && keys.home.is_none() && keys.count.is_none() => {
                 let folder = self.source.file.parent().unwrap_or(Path::new(""));
                 let expanded = self.expanded(files.get_ref(), files)?;
                 files::entries(keys, files, &expanded, folder).map_err(|(message, help)| self.refuse(files, message, help))
             }
             (Some(files), _) => {
                 let help = "leave them out: each file that `files` means is a scene, named after its file";
-                Err(self.refuse(files, "`files` stands beside `name`, `file` or `home`", help))
+                Err(self.refuse(files, "`files` stands beside `name`, `file`, `home` or `count`", help))
             }
         }
+    }
+
+    /// As many homes as `count` says, numbered from 0.
+    fn homes<'k>(&self, keys: &'k SceneKeys, name: &Spanned<String>, count: &Spanned<u32>) -> Result<Vec<Entry<'k>>, ConfigError> {
+        let homes = *count.get_ref();
+        if !(1..=MAX_COUNT).contains(&homes) {
+            let message = format!("count must lie between 1 and {MAX_COUNT}, found {homes}");
+            return Err(self.refuse(count, message, "for example: count = 100"));
+        }
+        if keys.home.is_none() {
+            return Err(self.refuse(count, "`count` stands without `home`", "only homes are generated: add home = {}, or leave it out"));
+        }
+        let digits = (homes - 1).to_string().len();
+        let entry = |nth| {
+            let name = Spanned::new(name.span(), format!("{}_{nth:0digits$}", name.get_ref()));
+            Entry { keys, name, file: None, nth }
+        };
+        Ok((0..homes).map(entry).collect())
     }
 
     fn scene(&self, entry: &Entry) -> Result<SceneConfig, ConfigError> {
@@ -268,7 +291,7 @@ impl Resolver<'_> {
         let keys = entry.keys;
         let file = match (&entry.file, &keys.home) {
             (Some(file), None) => file,
-            (None, Some(home)) => return self.home(home, seed).map(Source::Home),
+            (None, Some(home)) => return self.home(home, seed, entry.nth).map(Source::Home),
             _ => {
                 let message = "a scene needs either `file` or `home`";
                 return Err(self.refuse(
@@ -298,14 +321,15 @@ impl Resolver<'_> {
         }))
     }
 
-    /// A generated home; its seed is the scene's unless it has its own. That stays whatever the command line says, or all homes of
-    /// a dataset would be one.
-    fn home(&self, keys: &Spanned<toml::Table>, seed: u64) -> Result<HomeConfig, ConfigError> {
+    /// A generated home; its seed is the scene's unless it has its own, and `nth` more. A seed of its own stays whatever the command line
+    /// says, or all homes of a dataset would be one.
+    fn home(&self, keys: &Spanned<toml::Table>, seed: u64, nth: u32) -> Result<HomeConfig, ConfigError> {
         let read: Result<HomeConfig, toml::de::Error> = keys.get_ref().clone().try_into();
         let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", in_words(e.message()).0), HOME))?;
         if !names_seed(keys) {
             home.seed = seed;
         }
+        home.seed = home.seed.wrapping_add(nth.into());
         home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
         Ok(home)
     }

@@ -638,10 +638,31 @@ fn patterns_that_mean_nothing_or_stand_beside_a_name_are_refused_at_their_place(
     let message = error("[[scene]]\nfiles = \"hssd/scenes/*.glb\"\n");
     assert!(message.contains("there is \"hssd/scenes\", but nothing in it is called \"*.glb\"; "), "{message}");
     let message = error("[[scene]]\nname = \"a\"\nfiles = \"*.glb\"\n");
-    assert!(message.contains("dataset.toml:3:9: `files` stands beside `name`, `file` or `home`"), "{message}");
+    assert!(message.contains("dataset.toml:3:9: `files` stands beside `name`, `file`, `home` or `count`"), "{message}");
     let message = error("[[scene]]\nfiles = \"hssd/scenes/*\"\n[[scene]]\nname = \"2\"\nfile = \"2.glb\"\n");
     assert!(message.contains("two scenes have the name \"2\""), "{message}");
     let message = error("[[scene]]\nfile = \"2.glb\"\n");
     assert!(message.contains("dataset.toml:1:1: missing field `name`"), "{message}");
     assert!(error("[[scene]]\nfiles = \"$NONE/*\"\n").contains("the environment variable NONE is not set"));
+}
+
+#[test]
+fn a_table_of_many_homes_numbers_them_and_their_seeds() {
+    let homes = |text: &str| -> Vec<(String, u64)> {
+        let seed = |source: &Source| if let Source::Home(home) = source { home.seed } else { panic!("a file") };
+        config(text).scenes.iter().map(|scene| (scene.name.clone(), seed(&scene.source))).collect()
+    };
+    let named = |name: &str, seed: u64| (name.to_string(), seed);
+    assert_eq!(homes("[[scene]]\nname = \"h\"\ncount = 2\nhome = { seed = 7 }\n"), [named("h_0", 7), named("h_1", 8)]);
+    let eleven = homes("seed = 5\n[[scene]]\nname = \"h\"\ncount = 11\nhome = {}\n");
+    assert_eq!((&eleven[0], &eleven[10]), (&named("h_00", 5), &named("h_10", 15)));
+    assert_eq!(homes("[[scene]]\nname = \"h\"\ncount = 1\nhome = {}\n"), [named("h_0", 0)]);
+
+    let wrong = |keys: &str| error(&format!("[[scene]]\nname = \"h\"\n{keys}\n"));
+    let text = wrong("count = 0\nhome = {}");
+    assert!(text.contains("dataset.toml:3:9: count must lie between 1 and 100000, found 0"), "{text}");
+    let text = wrong("count = 2\nfile = \"a.glb\"");
+    assert!(text.contains("dataset.toml:3:9: `count` stands without `home`"), "{text}");
+    let text = error("[[scene]]\nname = \"a\"\ncount = 3\nhome = {}\n[[scene]]\nname = \"b\"\nhome = {}\nseed = 2\n");
+    assert!(text.contains("the scenes \"a_2\" and \"b\" would be the same home"), "{text}");
 }

@@ -100,6 +100,11 @@ fn done(summary: &Summary) -> Vec<Stage> {
     summary.scenes[0].stages.iter().filter(|stage| !stage.up_to_date).map(|stage| stage.stage).collect()
 }
 
+/// Whether the file is a page, or a record of pages and pictures: they look as today's program draws them.
+fn is_drawn(path: &str) -> bool {
+    path.ends_with(".html") || [".enfilade/room/preview.json", ".enfilade/statistics.json"].contains(&path)
+}
+
 fn change(path: &Path, from: &str, to: &str) {
     let text = fs::read_to_string(path).unwrap();
     assert!(text.contains(from), "{} has no {from}", path.display());
@@ -150,8 +155,8 @@ fn stored_datasets_verify_and_only_what_a_raised_version_asks_for_is_made_again(
         if kept.len() == STAGES.len() - 1 {
             let after = files(&stored.out());
             let changed: Vec<_> =
-                before.iter().filter(|(path, bytes)| after.get(*path) != Some(bytes) && !path.ends_with("preview.json")).collect();
-            assert!(changed.is_empty(), "{}: {:?} changed", stored.name, changed.iter().map(|(path, _)| path).collect::<Vec<_>>());
+                before.iter().filter(|(path, bytes)| after.get(*path) != Some(bytes) && !is_drawn(path)).map(|(path, _)| path).collect();
+            assert!(changed.is_empty(), "{}: {changed:?} changed", stored.name);
         }
         assert!(stored.run().nothing_done(), "{}", stored.name);
         assert!(verify(&dataset, &["room".into()], &Quiet).unwrap().passed, "{}", stored.name);
