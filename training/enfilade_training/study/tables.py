@@ -1,0 +1,108 @@
+"""The tables of nyuv2.md; what they mean is written by people, in docs/real.md."""
+
+import statistics
+from typing import Any, Sequence
+
+import enfilade
+import numpy as np
+
+from .config import ARMS, DEPTH, SEMANTICS, SEMANTICS40
+from .scores import names
+
+TITLES = {SEMANTICS: "13 classes", SEMANTICS40: "40 classes", DEPTH: "Depth"}
+# Title, factor and digits of a score, and whether more is better.
+SCORES = {
+    "mean_iou": ("mean IoU, %", 100.0, 1, True),
+    "pixel_accuracy": ("pixel accuracy, %", 100.0, 1, True),
+    "abs_rel": ("AbsRel", 1.0, 3, False),
+    "delta1": ("δ1, %", 100.0, 1, True),
+    "rmse_m": ("RMSE, m", 1.0, 3, False),
+    "abs_rel_aligned": ("AbsRel, aligned", 1.0, 3, False),
+    "delta1_aligned": ("δ1, aligned, %", 100.0, 1, True),
+    "rmse_m_aligned": ("RMSE, aligned, m", 1.0, 3, False),
+}
+
+
+def markdown(found: dict[str, Any]) -> str:
+    """The page of a report's JSON."""
+    settings, runs = found["settings"], found["runs"]
+    counts, tasks = settings["photographs"], settings["tasks"]
+    lines = [
+        "# Do homes help on photographs?",
+        "",
+        "Made by `python -m enfilade_training.study training/studies/nyuv2.toml --report docs/benchmarks`; [real.md](../real.md) says what is",
+        f"compared and what it means. NYUv2 at half size: {counts['train']} photographs to learn from, scores on {counts['test']}. Mean over seeds, and their standard",
+        "deviation where there are several; 0 % of the photographs is zero-shot. [nyuv2.json](nyuv2.json) has each seed.",
+        "",
+        "![scores by share of the photographs, and losses](nyuv2.svg)",
+    ]
+    for task in tasks:
+        lines += ["", f"## {TITLES[task]}", "", *_scores([row for row in runs if row["task"] == task], task)]
+        lines += _differences([row for row in found["differences"] if row["task"] == task])
+        if task == SEMANTICS:
+            lines += _classes([row for row in runs if row["task"] == task])
+    if found["missing"] or found["without_interval"]:
+        lines += ["", "## Not there", ""]
+        lines += [f"- {line}" for line in (*found["missing"], *found["without_interval"])]
+    return "\n".join([*lines, ""])
+
+
+def shown(score: str, value: float) -> str:
+    """A score in the unit of its title."""
+    _, factor, digits, _ = SCORES[score]
+    return f"{factor * value:.{digits}f}"
+
+
+def _scores(runs: list[dict[str, Any]], task: str) -> list[str]:
+    lines = ["| arm | photographs | seeds | " + " | ".join(SCORES[name][0] for name in names(task)) + " |", "|---|---|---|" + "---|" * len(names(task))]
+    for fraction in sorted({row["fraction"] for row in runs}):
+        for arm in ARMS:
+            rows = [row for row in runs if (row["arm"], row["fraction"]) == (arm, fraction)]
+            if rows:
+                cells = [_mean_and_spread(name, [row["scores"][name] for row in rows]) for name in names(task)]
+                lines.append(f"| {arm} | {100 * fraction:g} % | {len(rows)} | {' | '.join(cells)} |")
+    return lines
+
+
+def _mean_and_spread(name: str, values: Sequence[float]) -> str:
+    spread = f" ± {shown(name, statistics.stdev(values))}" if len(values) > 1 else ""
+    return shown(name, statistics.fmean(values)) + spread
+
+
+def _differences(rows: list[dict[str, Any]]) -> list[str]:
+    if not rows:
+        return []
+    lines = ["", "With homes minus without, and 95 % intervals of the bootstrap over photographs and seeds; percentages in points:", ""]
+    lines += ["| start | photographs | score | difference | |", "|---|---|---|---|---|"]
+    for row in rows:
+        title, factor, digits, more = SCORES[row["score"]]
+        mean, low, high = (f"{factor * row[name]:+.{digits}f}" for name in ("mean", "low", "high"))
+        verdict = "no difference" if row["low"] <= 0 <= row["high"] else "better" if (row["low"] > 0) == more else "worse"
+        lines.append(f"| {row['start']} | {100 * row['fraction']:g} % | {title} | {mean} ({low} to {high}) | {verdict} |")
+    return lines
+
+
+def _classes(runs: list[dict[str, Any]]) -> list[str]:
+    """IoU of classes, and the confusion of zero-shot networks."""
+    shares = [fraction for fraction in (0.0, max((row["fraction"] for row in runs), default=0.0)) if any(row["fraction"] == fraction for row in runs)]
+    columns = [(arm, fraction) for fraction in dict.fromkeys(shares) for arm in ARMS if any((row["arm"], row["fraction"]) == (arm, fraction) for row in runs)]
+    lines = ["", "IoU of classes, %, mean over seeds:", "", "| class | " + " | ".join(f"{arm}, {100 * fraction:g} %" for arm, fraction in columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    for i, name in enumerate(enfilade.NYU13):
+        cells = []
+        for column in columns:
+            values = [row["iou"][i] for row in runs if (row["arm"], row["fraction"]) == column and row["iou"][i] is not None]
+            cells.append(f"{100 * statistics.fmean(values):.1f}" if values else "–")
+        lines.append(f"| {name} | {' | '.join(cells)} |")
+    for arm, fraction in columns[:1] + columns[-1:] if len(columns) > 1 else columns:
+        counts = sum(np.array(row["confusion"]) for row in runs if (row["arm"], row["fraction"]) == (arm, fraction))
+        lines += ["", f"What pixels of a class are taken for, %, {arm}, {100 * fraction:g} % of the photographs:", "", *confusion(counts)]
+    return lines
+
+
+def confusion(counts: np.ndarray) -> list[str]:
+    """A table of NYU13's true classes (rows) by predicted ones, in % of the row. counts: 13 x 13."""
+    lines = ["| true | share | " + " | ".join(enfilade.NYU13) + " |", "|---" * 15 + "|"]
+    for name, row in zip(enfilade.NYU13, counts):
+        cells = [f"{100 * value / max(row.sum(), 1):.0f}" for value in row]
+        lines.append(f"| {name} | {100 * row.sum() / max(counts.sum(), 1):.1f} | {' | '.join(cells)} |")
+    return lines
