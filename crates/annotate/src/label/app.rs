@@ -204,13 +204,8 @@ impl App {
     pub fn review(&self, client: &str, pieces: &[u32], state: ReviewState, note: &str) -> Result<(), ActionError> {
         let names = {
             let session = self.session();
-            let list = session.pieces().list();
-            let name = |&piece: &u32| list.get(piece as usize).map(|found| found.name.clone()).ok_or(piece);
-            pieces
-                .iter()
-                .map(name)
-                .collect::<Result<Vec<String>, u32>>()
-                .map_err(|piece| Refusal::request(format!("pieces names piece {piece}, but there are {}", list.len())))?
+            session.context().check_pieces("pieces", pieces)?;
+            pieces.iter().map(|&piece| session.pieces().list()[piece as usize].name.clone()).collect()
         };
         let review = Review { time: clock::iso(clock::now_s()), client: client.into(), pieces: names, state, note: note.into() };
         self.reviews.write().unwrap_or_else(PoisonError::into_inner).add(review).map_err(ActionError::Review)?;

@@ -3,13 +3,12 @@
 //! The current labels are what results from replaying the log, so nothing is lost when the program is killed. An incomplete last line
 //! is dropped.
 
+use super::json_lines::JsonLines;
 use super::log_lines::{Entry, FORMAT, Form, Header};
 use super::scene::AnnotatedScene;
 use enfilade_dataset::ANNOTATION_LOG;
 use enfilade_scene::PartLabel;
-use serde::Serialize;
 use std::fs::{File, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Why the log cannot be opened or written.
@@ -67,9 +66,7 @@ pub enum LogError {
 /// An open log, locked for this program.
 pub struct Log {
     path: PathBuf,
-    file: File,
-    /// Length of the complete lines, bytes.
-    length: u64,
+    lines: JsonLines,
 }
 
 /// What a log holds.
@@ -93,7 +90,7 @@ impl Log {
         let at = &folder.join(ANNOTATION_LOG);
         let io = |action| move |source| LogError::Io { action, path: at.clone(), source };
         std::fs::create_dir_all(folder).map_err(io("write"))?;
-        let mut file = File::options().create(true).truncate(false).read(true).write(true).open(&path).map_err(io("write"))?;
+        let file = File::options().create(true).truncate(false).read(true).write(true).open(&path).map_err(io("write"))?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(LogError::InUse(path)),
@@ -101,21 +98,16 @@ impl Log {
             Err(TryLockError::Error(e)) if e.kind() == std::io::ErrorKind::Unsupported => {}
             Err(TryLockError::Error(e)) => return Err(io("lock")(e)),
         }
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(io("read"))?;
-        let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1);
-        let mut warning = None;
-        if whole < bytes.len() {
-            warning = Some(format!("{}: the last line was cut short and is dropped", path.display()));
-        }
-        let mut log = Self { path, file, length: whole as u64 };
-        let (initial, entries) = if whole == 0 { (Vec::new(), Vec::new()) } else { log.parse(&bytes[..whole], scene)? };
+        let (lines, bytes, was_cut) = JsonLines::read(file).map_err(io("read"))?;
+        let warning = was_cut.then(|| format!("{}: the last line was cut short and is dropped", path.display()));
+        let mut log = Self { path, lines };
+        let (initial, entries) = if bytes.is_empty() { (Vec::new(), Vec::new()) } else { log.parse(&bytes, scene)? };
         if entries.is_empty() {
-            log.length = 0;
+            log.lines.clear();
             log.begin(scene)?;
             return Ok((log, Recorded { initial: scene.labels.clone(), entries, warning }));
         }
-        log.file.set_len(whole as u64).map_err(io("write"))?;
+        log.lines.drop_incomplete().map_err(io("write"))?;
         Ok((log, Recorded { initial, entries, warning }))
     }
 
@@ -130,7 +122,7 @@ impl Log {
             initial_semantic: scene.labels.iter().map(|l| l.semantic).collect(),
             initial_instance: scene.labels.iter().map(|l| l.instance).collect(),
         };
-        self.write_line(&header).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
+        self.lines.append(&header).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
     }
 
     fn parse(&self, bytes: &[u8], scene: &AnnotatedScene) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
@@ -180,20 +172,6 @@ impl Log {
     /// # Errors
     /// When the file cannot be written.
     pub fn append(&mut self, entry: &Entry) -> Result<(), LogError> {
-        self.write_line(entry).map_err(|source| {
-            let _ = self.file.set_len(self.length); // report the first error; an incomplete line is dropped when the log is opened
-            LogError::Io { action: "write", path: self.path.clone(), source }
-        })
-    }
-
-    fn write_line(&mut self, value: &impl Serialize) -> std::io::Result<()> {
-        let mut line = serde_json::to_vec(value)?;
-        line.push(b'\n');
-        self.file.set_len(self.length)?;
-        self.file.seek(SeekFrom::Start(self.length))?;
-        self.file.write_all(&line)?;
-        self.file.sync_data()?;
-        self.length += line.len() as u64;
-        Ok(())
+        self.lines.append(entry).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
     }
 }

@@ -4,10 +4,12 @@
 //! leaves it, and a program that knows nothing of it reads the labels all the same. Pieces are named, because numbers change when a split is
 //! undone.
 
+use super::json_lines::JsonLines;
 use enfilade_dataset::{DatasetError, write_bytes};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::fs::File;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Its name in the folder of labels.
@@ -60,6 +62,8 @@ pub struct Review {
 /// How the reviews of a scene stand.
 pub struct Reviews {
     folder: PathBuf,
+    /// The log, once there is one.
+    log: Option<JsonLines>,
     /// State and note of each piece that something was said of.
     of_piece: BTreeMap<String, (ReviewState, String)>,
 }
@@ -71,21 +75,17 @@ impl Reviews {
     /// When the log cannot be read, or has an invalid line.
     pub fn open(folder: &Path) -> Result<Self, String> {
         let path = folder.join(REVIEW_LOG);
-        let mut reviews = Self { folder: folder.into(), of_piece: BTreeMap::new() };
-        let bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(reviews),
+        let mut reviews = Self { folder: folder.into(), log: None, of_piece: BTreeMap::new() };
+        let (log, bytes, _) = match File::options().read(true).write(true).open(&path).and_then(JsonLines::read) {
+            Ok(read) => read,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(reviews),
             Err(e) => return Err(format!("cannot read {}: {e}", path.display())),
         };
-        let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1);
-        for (i, line) in bytes[..whole].split(|&b| b == b'\n').filter(|line| !line.is_empty()).enumerate() {
+        for (i, line) in bytes.split(|&b| b == b'\n').filter(|line| !line.is_empty()).enumerate() {
             let wrong = |e| format!("{}:{}: {e}; fix this line or move the file away", path.display(), i + 1);
             reviews.take(serde_json::from_slice(line).map_err(wrong)?);
         }
-        if whole < bytes.len() {
-            let cut = std::fs::File::options().write(true).open(&path).and_then(|file| file.set_len(whole as u64));
-            cut.map_err(|e| format!("cannot write {}: {e}", path.display()))?;
-        }
+        reviews.log = Some(log);
         Ok(reviews)
     }
 
@@ -95,13 +95,12 @@ impl Reviews {
     /// When the log cannot be written; then nothing has changed.
     pub fn add(&mut self, review: Review) -> Result<(), DatasetError> {
         let path = self.folder.join(REVIEW_LOG);
-        let mut line = serde_json::to_vec(&review).expect("plain data has a JSON text");
-        line.push(b'\n');
-        let append = std::fs::File::options().create(true).append(true).open(&path).and_then(|mut file| {
-            file.write_all(&line)?;
-            file.sync_data()
-        });
-        append.map_err(|source| DatasetError::Io { action: "write", path, source })?;
+        let begun = || {
+            File::options().create(true).truncate(false).read(true).write(true).open(&path).and_then(JsonLines::read).map(|(log, ..)| log)
+        };
+        let log = self.log.take().map_or_else(begun, Ok);
+        let appended = log.and_then(|log| self.log.insert(log).append(&review));
+        appended.map_err(|source| DatasetError::Io { action: "write", path, source })?;
         self.take(review);
         Ok(())
     }
@@ -158,7 +157,9 @@ mod tests {
         reviews.add(review(&["chair"], ReviewState::Question, "a stool, or not?")).unwrap();
         reviews.add(review(&["table"], ReviewState::ToDo, "")).unwrap();
         let log = folder.path().join(REVIEW_LOG);
-        std::fs::File::options().append(true).open(&log).unwrap().write_all(b"{\"cut").unwrap();
+        let mut cut = std::fs::read(&log).unwrap();
+        cut.extend(b"{\"cut");
+        std::fs::write(&log, cut).unwrap();
         let again = Reviews::open(folder.path()).unwrap();
         assert_eq!(again.of("chair"), Some((ReviewState::Question, "a stool, or not?")));
         assert_eq!(again.of("table"), None);

@@ -197,7 +197,8 @@ impl Session {
         change.ok_or_else(|| Refusal::conflict(error(), "load the page again to see how things stand"))
     }
 
-    fn context(&self) -> Context<'_> {
+    /// The state in which actions are decided.
+    pub fn context(&self) -> Context<'_> {
         Context { pieces: &self.pieces, next_instance: self.next_instance, classes: &self.classes, bvh: &self.bvh }
     }
 

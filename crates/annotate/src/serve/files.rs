@@ -6,8 +6,7 @@
 
 use super::ApiProblem;
 use super::jobs::beside;
-use super::reply::{pack, tag, takes_gzip};
-use super::transfer::is_text;
+use super::reply::{is_text, pack, tag, takes_gzip};
 use axum::body::Bytes;
 use axum::http::{HeaderMap, HeaderValue, Uri, header};
 use axum::response::{IntoResponse, Response};

@@ -54,6 +54,18 @@ pub(super) fn pack(bytes: &[u8], level: i32) -> Option<Vec<u8>> {
     (length < bytes.len() / 20 * 19).then_some(packed)
 }
 
+/// True for media types that compression makes much smaller.
+pub fn is_text(kind: &str) -> bool {
+    kind.starts_with("text/") || ["application/json", "application/javascript", "image/svg+xml"].iter().any(|text| kind.starts_with(text))
+}
+
+/// True if the tags of what the browser has include this one.
+pub fn has(asked: &HeaderMap, tag: &HeaderValue) -> bool {
+    let is_it = |one: &str| one == "*" || one.strip_prefix("W/").unwrap_or(one).as_bytes() == tag.as_bytes();
+    let known = asked.get(header::IF_NONE_MATCH).and_then(|known| known.to_str().ok());
+    known.is_some_and(|known| known.split(',').map(str::trim).any(is_it))
+}
+
 /// The entity tag of what these bytes tell of.
 pub fn tag_of(bytes: &[u8]) -> HeaderValue {
     tag(&blake3::hash(bytes).to_hex()[..32])

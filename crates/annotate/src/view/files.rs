@@ -1,11 +1,16 @@
 //! Files of the dataset that the browser shows by itself: the report card, statistics, pictures of rejected views.
 
+use super::place::version;
 use super::viewer::{Viewer, work};
 use crate::serve::ApiProblem;
+use crate::serve::reply::{is_text, tag};
+use axum::body::Body;
 use axum::extract::{Path, State};
-use axum::http::header;
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
-use std::io::ErrorKind;
+use futures_util::stream::{Stream, unfold};
+use std::fs::File;
+use std::io::{ErrorKind, Read, Take};
 use std::path::Component;
 use std::sync::Arc;
 
@@ -22,6 +27,11 @@ const KINDS: [(&str, &str); 10] = [
     ("json", "application/json"),
     ("csv", "text/csv; charset=utf-8"),
 ];
+
+/// Text is compressed, for which it is held in memory; larger files are sent as they are.
+const MOST_TEXT_BYTES: u64 = 64 << 20;
+/// So much of a file is in memory while it is sent.
+const CHUNK_BYTES: u64 = 256 << 10;
 
 /// A dataset may come from strangers, so its pages may run no scripts and load nothing from other machines.
 const PAGE_POLICY: &str = "sandbox; default-src 'none'; img-src 'self' data:; media-src 'self'; style-src 'unsafe-inline' 'self'";
@@ -44,20 +54,58 @@ pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -
             format!("only files in {} are sent", known.join(", ")),
         ));
     };
-    let bytes = work(viewer, move |viewer| {
-        let full = viewer.dataset.root().join(&path);
-        viewer.allow(&full)?;
-        std::fs::read(&full).map_err(|e| match e.kind() {
-            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::InvalidFilename => {
-                ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it")
-            }
-            _ => ApiProblem::failed(format!("cannot read {path:?}: {e}"), "make the file readable"),
-        })
-    })
-    .await?;
-    let bytes = if kind.starts_with("text/html") { frames_open_the_page(&String::from_utf8_lossy(&bytes)).into_bytes() } else { bytes };
+    let content = work(viewer, move |viewer| content(viewer, &path, kind)).await?;
     let headers = [(header::CONTENT_TYPE, *kind), (header::CACHE_CONTROL, "no-cache"), (header::CONTENT_SECURITY_POLICY, PAGE_POLICY)];
-    Ok((headers, bytes).into_response())
+    Ok(match content {
+        Content::Text(text) => (headers, text).into_response(),
+        Content::File { file, length, tag } => {
+            let told = [(header::CONTENT_LENGTH, length.into()), (header::ETAG, tag)];
+            (headers, told, Body::from_stream(chunks(file.take(length)))).into_response()
+        }
+    })
+}
+
+/// What is sent of a file: text is held to be compressed, anything else is read while it is sent.
+enum Content {
+    Text(Vec<u8>),
+    File { file: File, length: u64, tag: HeaderValue },
+}
+
+fn content(viewer: &Viewer, path: &str, kind: &str) -> Result<Content, ApiProblem> {
+    let full = viewer.dataset.root().join(path);
+    viewer.allow(&full)?;
+    let missing = || ApiProblem::not_found(format!("the dataset has no file {path:?}"), "run the stage that makes it");
+    let wrong = |e: std::io::Error| match e.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::InvalidFilename => missing(),
+        _ => ApiProblem::failed(format!("cannot read {path:?}: {e}"), "make the file readable"),
+    };
+    let mut file = File::open(&full).map_err(wrong)?;
+    let data = file.metadata().map_err(wrong)?;
+    if !data.is_file() {
+        return Err(missing());
+    }
+    if !is_text(kind) || data.len() > MOST_TEXT_BYTES {
+        return Ok(Content::File { file, length: data.len(), tag: tag(&version(&full)) });
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(wrong)?;
+    let is_page = kind.starts_with("text/html");
+    Ok(Content::Text(if is_page { frames_open_the_page(&String::from_utf8_lossy(&bytes)).into_bytes() } else { bytes }))
+}
+
+/// What a file holds, a chunk at a time.
+fn chunks(file: Take<File>) -> impl Stream<Item = std::io::Result<Vec<u8>>> {
+    unfold(Some(file), |file| async move {
+        let mut file = file?;
+        let read = move || {
+            let mut bytes = Vec::new();
+            file.by_ref().take(CHUNK_BYTES).read_to_end(&mut bytes).map(|_| (bytes, file))
+        };
+        match tokio::task::spawn_blocking(read).await.unwrap_or_else(|e| Err(std::io::Error::other(e))) {
+            Ok((bytes, file)) => (!bytes.is_empty()).then_some((Ok(bytes), Some(file))),
+            Err(e) => Some((Err(e), None)),
+        }
+    })
 }
 
 /// A report whose links to pictures of frames lead to the frames on our page instead.

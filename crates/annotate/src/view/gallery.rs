@@ -2,7 +2,7 @@
 //! the report of verification, of the frames' records and of the tables.
 
 use super::faults::Fault;
-use super::place::{FramePlace, optional, problem, stamp};
+use super::place::{FramePlace, optional, problem, version};
 use super::problems::Problems;
 use super::report::Report;
 use super::viewer::{Viewer, work};
@@ -141,14 +141,6 @@ impl Viewer {
 fn frame_of(place: &str, scene: &str, camera: &str) -> Option<u32> {
     let rest = place.strip_prefix(scene)?.strip_prefix('/')?.strip_prefix(camera)?.strip_prefix("/frame.")?;
     rest[..rest.bytes().take_while(u8::is_ascii_digit).count()].parse().ok()
-}
-
-/// A digest that changes with a file.
-pub fn version(path: &std::path::Path) -> String {
-    let (bytes, time) = stamp(path);
-    let since = time.and_then(|time| time.duration_since(std::time::UNIX_EPOCH).ok()).unwrap_or_default();
-    let both = [bytes.to_le_bytes().as_slice(), &since.as_nanos().to_le_bytes()].concat();
-    blake3::hash(&both).to_hex()[..16].to_string()
 }
 
 #[cfg(test)]

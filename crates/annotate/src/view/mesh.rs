@@ -5,8 +5,8 @@ use super::viewer::{Viewer, work};
 use crate::label::display_order::DisplayOrder;
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
-use axum::http::HeaderMap;
-use axum::response::Response;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, Elements, mesh_names};
 use enfilade_math::Vec3;
@@ -19,8 +19,15 @@ pub async fn geometry(State(viewer): State<Arc<Viewer>>, Path(scene): Path<Strin
         viewer.check_scene(&scene)?;
         let path = viewer.layout().mesh_file(&scene, mesh_names::VERTICES);
         viewer.allow(&path)?;
-        let bytes = viewer.buffers.get(&(scene.clone(), "geometry"), stamp(&path), || viewer.encode_mesh(&scene))?;
-        Ok(reply::array(bytes.to_vec(), gzip, &[]))
+        let stamp = stamp(&path);
+        let tag = reply::tag_of(format!("{stamp:?} {gzip}").as_bytes());
+        if reply::has(&headers, &tag) {
+            return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
+        }
+        let bytes = viewer.buffers.get(&(scene.clone(), "geometry"), stamp, || viewer.encode_mesh(&scene))?;
+        let mut response = reply::array(bytes.to_vec(), gzip, &[]);
+        response.headers_mut().insert(header::ETAG, tag);
+        Ok(response)
     })
     .await
 }

@@ -56,3 +56,11 @@ pub fn optional<T>(result: Result<T, DatasetError>) -> Result<Option<T>, ApiProb
 pub fn stamp(path: &Path) -> Stamp {
     std::fs::metadata(path).map_or((0, None), |data| (data.len(), data.modified().ok()))
 }
+
+/// A digest that changes with a file.
+pub fn version(path: &Path) -> String {
+    let (bytes, time) = stamp(path);
+    let since = time.and_then(|time| time.duration_since(std::time::UNIX_EPOCH).ok()).unwrap_or_default();
+    let both = [bytes.to_le_bytes().as_slice(), &since.as_nanos().to_le_bytes()].concat();
+    blake3::hash(&both).to_hex()[..16].to_string()
+}

@@ -4,8 +4,9 @@ use super::{Viewer, router};
 use axum::body::{Body, to_bytes};
 use axum::http::{Request, StatusCode, header};
 use axum::response::Response;
-use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Dataset, FrameInfo, FrameTime, JudgedView, LabelColors, Node, ViewFault, ViewVerdict, write_bytes};
+use enfilade_dataset::hdf5::{Storage, read_array, write_array};
+use enfilade_dataset::{Array, Dataset, Elements, FrameInfo, FrameTime, JudgedView, LabelColors, Node, ViewFault, ViewVerdict};
+use enfilade_dataset::{mesh_names, write_bytes};
 use enfilade_frame::{DENOISED, Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, Intrinsics, Labels, PartLabel, Pose, Trajectory};
@@ -300,6 +301,42 @@ async fn what_is_not_there_is_not_found_and_what_is_malformed_is_refused() {
             assert!(said["error"].as_str().unwrap().len() > 5 && said["help"].is_string(), "{address}: {said}");
         }
     }
+}
+
+/// Writes the mesh of a scene whose one object is one face.
+fn mesh_of_one_face(dataset: &Dataset) {
+    let write = |name: &str, shape: [usize; 2], values: Elements| {
+        let path = dataset.layout().mesh_file("room", name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        write_array(&path, &Array { shape: shape.to_vec(), values }, Storage::Contiguous, &[]).unwrap();
+    };
+    write(mesh_names::VERTICES, [3, 3], Elements::F64(vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
+    write(mesh_names::FACES_VERTICES, [1, 3], Elements::I64(vec![0, 1, 2]));
+    write(mesh_names::FACES_OBJECTS, [1, 1], Elements::I64(vec![0]));
+}
+
+#[tokio::test]
+async fn files_and_geometry_have_the_tags_of_their_stamps() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let film: Vec<u8> = (0..600_000u32).map(|i| (i % 251) as u8).collect();
+    let path = folder.path().join("film.mp4");
+    std::fs::write(&path, &film).unwrap();
+    let tag = |response: &Response| response.headers()[header::ETAG].clone();
+    let sent = ask(folder.path(), "/api/view/file/film.mp4", &[]).await;
+    let first = tag(&sent);
+    assert_eq!((sent.status(), &sent.headers()[header::CONTENT_LENGTH]), (StatusCode::OK, &"600000".parse().unwrap()));
+    assert!(bytes(sent).await == film);
+    assert_eq!(tag(&ask(folder.path(), "/api/view/file/film.mp4", &[]).await), first);
+    std::fs::write(&path, &film[1..]).unwrap();
+    assert_ne!(tag(&ask(folder.path(), "/api/view/file/film.mp4", &[]).await), first);
+    mesh_of_one_face(&dataset);
+    let geometry = "/api/view/scene/room/geometry";
+    let (plain, packed) = (ask(folder.path(), geometry, &[]).await, ask(folder.path(), geometry, &[("accept-encoding", "gzip")]).await);
+    assert_ne!(tag(&plain), tag(&packed));
+    let known = tag(&plain);
+    let again = ask(folder.path(), geometry, &[("if-none-match", known.to_str().unwrap())]).await;
+    assert_eq!((again.status(), tag(&again)), (StatusCode::NOT_MODIFIED, known));
 }
 
 #[tokio::test]

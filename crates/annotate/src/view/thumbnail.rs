@@ -1,9 +1,8 @@
 //! Small pictures of frames, for the strip below the picture.
 
-use super::gallery::version;
-use super::place::{FramePlace, stamp};
+use super::place::{FramePlace, stamp, version};
 use super::viewer::{Viewer, work};
-use crate::serve::ApiProblem;
+use crate::serve::{ApiProblem, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::header;
@@ -32,7 +31,7 @@ pub async fn thumbnail(
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
     let asked = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "v is the version that the gallery tells"))?.0.v;
-    let (bytes, kept) = work(viewer, move |viewer| {
+    let (bytes, version, kept) = work(viewer, move |viewer| {
         let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
             Layer::Color
         } else {
@@ -41,11 +40,14 @@ pub async fn thumbnail(
         let path = viewer.layout().layer(&place.scene, &place.camera, place.frame, layer);
         viewer.allow(&path)?;
         let picture = viewer.thumbnails.get(&place, stamp(&path), || viewer.small_picture(&place, layer))?;
-        Ok((picture.to_vec(), asked.is_some_and(|asked| asked == version(&path))))
+        let version = version(&path);
+        let kept = asked.is_some_and(|asked| asked == version);
+        Ok((picture.to_vec(), version, kept))
     })
     .await?;
     let cached = if kept { "private, max-age=31536000, immutable" } else { "no-cache" };
-    Ok(([(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, cached)], bytes).into_response())
+    let told = [(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, cached)];
+    Ok((told, [(header::ETAG, reply::tag(&version))], bytes).into_response())
 }
 
 impl Viewer {
