@@ -26,8 +26,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m enfilade_training.study", description="Do homes help on photographs?")
     parser.add_argument("study", type=Path, help="settings, a TOML file such as training/studies/nyuv2.toml")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="another value of a setting, such as seeds=5")
-    parser.add_argument("--only", action="append", default=[], metavar="KEY=VALUES", help="makes these runs alone: arm=homes,random or fraction=0.25 or seed=0")
-    parser.add_argument("--scores", type=Path, metavar="FILE", help="the nyuv2.json of an earlier report, whose runs are not made again where settings and data are the same")
+    about = "makes these runs alone: arm=homes,random or fraction=0.25 or seed=0"
+    parser.add_argument("--only", action="append", default=[], metavar="KEY=VALUES", help=about)
+    about = "the nyuv2.json of an earlier report, whose runs are not made again where settings and data are the same"
+    parser.add_argument("--scores", type=Path, metavar="FILE", help=about)
     parser.add_argument("--threads", type=int, metavar="N", help="threads of torch, as --set threads=N")
     parser.add_argument("--report", type=Path, metavar="FOLDER", help="where nyuv2.json, .md and .svg are written; the output unless given")
     options = parser.parse_args(arguments)
@@ -53,7 +55,8 @@ def run(study: Study, chosen: list[Run], earlier: report.Earlier, folder: Path, 
         if known is None and one in chosen:
             say(str(one))
             known = maker.make(one)
-            say("  " + "; ".join(f"{task}: {', '.join(f'{name} {value:.4f}' for name, value in of['scores'].items())}" for task, of in known["tasks"].items()))
+            for task, of in known["tasks"].items():
+                say(f"  {task}: " + ", ".join(f"{name} {value:.4f}" for name, value in of["scores"].items()))
         if known is not None:
             results[one] = known
     return report.write(study, maker, results, earlier, folder)
@@ -67,7 +70,8 @@ def only(runs: list[Run], filters: list[str]) -> list[Run]:
         try:
             allowed = {kinds[name](value) for value in values.split(",")}
         except (KeyError, ValueError) as error:
-            raise ValueError(f"--only {text}: expected arm=, fraction= or seed= and values with commas between, such as --only arm=random,homes") from error
+            expected = "arm=, fraction= or seed= and values with commas between, such as --only arm=random,homes"
+            raise ValueError(f"--only {text}: expected {expected}") from error
         there = {getattr(one, name) for one in runs}
         if allowed - there:
             raise ValueError(f"--only {text}: the study has no {name} {min(allowed - there)}, but {', '.join(map(str, sorted(there)))}")

@@ -47,7 +47,8 @@ def batch(
         image = F.interpolate(part, size=config.size, mode="bilinear", antialias=True)[0]
         matrices.append(torch.from_numpy(color_matrix(drawn.jitter)).float())
         colors.append(image.flip(2) if drawn.flip else image)
-        y, x = _nearest(top, rows, half[0], whole[0], pictures.depth_m.shape[1]), _nearest(left, columns, half[1], whole[1], pictures.depth_m.shape[2])
+        y = _nearest(top, rows, half[0], whole[0], pictures.depth_m.shape[1])
+        x = _nearest(left, columns, half[1], whole[1], pictures.depth_m.shape[2])
         if drawn.flip:
             x = x.flip(0)
         for task in tasks:

@@ -45,7 +45,8 @@ def main(arguments: list[str] | None = None) -> int:
         found = report(network, maker.pictures("homes"), maker.pictures("train"), study)
         print("\n".join(lines(found)))
         if options.to:
-            options.to.write_text(json.dumps({"homes": study.homes.name, "start": options.start, "seed": options.seed} | found) + "\n", encoding="utf-8")
+            whole = {"homes": study.homes.name, "start": options.start, "seed": options.seed} | found
+            options.to.write_text(json.dumps(whole) + "\n", encoding="utf-8")
         if options.pictures:
             write_pictures(network, maker.pictures("train"), study, options.pictures, options.count)
     except (ValueError, OSError, checkpoints.CheckpointError, FloatingPointError, enfilade.StageError) as error:
@@ -95,7 +96,8 @@ def lines(found: dict[str, Any]) -> list[str]:
     made = ["| look | homes | photographs |", "|---|---|---|"]
     made += [f"| {name} | {value} | {found['looks']['photographs'][name]} |" for name, value in found["looks"]["homes"].items()]
     for task, of in found["tasks"].items():
-        made += ["", f"{tables.TITLES[task]}: " + ", ".join(f"{tables.SCORES[name][0]} {tables.shown(name, value)}" for name, value in of["scores"].items())]
+        scores = (f"{tables.SCORES[name][0]} {tables.shown(name, value)}" for name, value in of["scores"].items())
+        made += ["", f"{tables.TITLES[task]}: " + ", ".join(scores)]
         if task == SEMANTICS:
             counts = np.array(of["confusion"])
             made += ["", "| class | IoU, % | share in photographs, % | predicted, % | share in homes, % |", "|---|---|---|---|---|"]

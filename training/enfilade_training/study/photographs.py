@@ -73,7 +73,8 @@ class Photographs:
                 try:
                     digest.update(hashlib.sha256(self._path(part, name).read_bytes()).digest())
                 except OSError as error:
-                    raise ValueError(f"{self._path(part, name)}: cannot be read ({error.strerror}), but split.json lists {name!r}; {REMEDY}") from error
+                    reason = f"cannot be read ({error.strerror}), but split.json lists {name!r}"
+                    raise ValueError(f"{self._path(part, name)}: {reason}; {REMEDY}") from error
         return digest.hexdigest()[:16]
 
 

@@ -63,9 +63,8 @@ def pack(color: Sequence[np.ndarray], labels: Sequence[np.ndarray], depth_m: Seq
     """color: uint8, H x W x 3. labels: NYU40's numbers from 1; others are "no class". depth_m: what is no number or too far is none."""
     classes = [np.where((found >= 1) & (found <= 40), found - 1, VOID).astype(np.uint8) for found in labels]
     depths = [np.where((found > 0) & (found <= FARTHEST_M), found, 0).astype(np.float16) for found in depth_m]
-    return Pictures(
-        torch.from_numpy(np.ascontiguousarray(np.stack(color).transpose(0, 3, 1, 2))), torch.from_numpy(np.stack(classes)), torch.from_numpy(np.stack(depths)), names
-    )
+    colors = np.ascontiguousarray(np.stack(color).transpose(0, 3, 1, 2))
+    return Pictures(torch.from_numpy(colors), torch.from_numpy(np.stack(classes)), torch.from_numpy(np.stack(depths)), names)
 
 
 def kept(path: Path, key: str, make: Callable[[], Pictures]) -> Pictures:

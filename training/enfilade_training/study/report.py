@@ -31,7 +31,8 @@ class Earlier:
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
             for row in found["runs"]:
-                result = self._runs.setdefault(row["key"], {name: row[name] for name in ("key", "arm", "fraction", "seed", "steps")} | {"losses": [], "tasks": {}})
+                new = {name: row[name] for name in ("key", "arm", "fraction", "seed", "steps")} | {"losses": [], "tasks": {}}
+                result = self._runs.setdefault(row["key"], new)
                 result["tasks"][row["task"]] = {name: row[name] for name in ("scores", "iou", "confusion") if name in row}
                 _merge(result["losses"], row["task"], row["losses"])
             for row in found["differences"]:
@@ -95,7 +96,8 @@ def _add_differences(
                 row |= {bound: round(getattr(value, bound), 5) for bound in ("mean", "low", "high")}
                 found["differences"].append(row | {"key": key})
         else:
-            found["without_interval"].append(f"{task} from {start}, {100 * fraction:g} %: not all of its runs were made here; run it without --scores")
+            reason = "not all of its runs were made here; run it without --scores"
+            found["without_interval"].append(f"{task} from {start}, {100 * fraction:g} %: {reason}")
 
 
 def _described(study: Study, maker: Maker) -> dict[str, Any]:
@@ -124,7 +126,11 @@ def _json(found: dict[str, Any]) -> str:
 
 
 def _panels(found: dict[str, Any]) -> list[Panel]:
-    shown = [(SEMANTICS, "mean_iou", "13 classes: mean IoU, %", 100.0), (DEPTH, "delta1", "depth: δ1, %", 100.0), (DEPTH, "abs_rel", "depth: AbsRel", 1.0)]
+    shown = [
+        (SEMANTICS, "mean_iou", "13 classes: mean IoU, %", 100.0),
+        (DEPTH, "delta1", "depth: δ1, %", 100.0),
+        (DEPTH, "abs_rel", "depth: AbsRel", 1.0),
+    ]
     panels = []
     for task, score, title, factor in shown:
         series: dict[str, Series] = defaultdict(lambda: defaultdict(list))
@@ -134,8 +140,8 @@ def _panels(found: dict[str, Any]) -> list[Panel]:
         if series:
             panels.append(Panel(title, "photographs, %", series))
     whole = max(found["settings"]["fractions"])
-    for title, fraction, tasks in (("loss on homes", 0.0, (SEMANTICS, DEPTH)), (f"loss on {100 * whole:g} % of the photographs", whole, (SEMANTICS, DEPTH))):
-        for task in tasks:
+    for title, fraction in (("loss on homes", 0.0), (f"loss on {100 * whole:g} % of the photographs", whole)):
+        for task in (SEMANTICS, DEPTH):
             losses: dict[str, Series] = defaultdict(lambda: defaultdict(list))
             for row in found["runs"]:
                 if (row["task"], row["fraction"]) == (task, fraction):

@@ -149,7 +149,8 @@ class Maker:
         return self._pictures[name]
 
     def _homes_key(self, start: str, seed: int) -> str:
-        return _digest({"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "training": meaning(self.study, self.study.pretraining)})
+        said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest}
+        return _digest(said | {"training": meaning(self.study, self.study.pretraining)})
 
 
 def subset(count: int, fraction: float, seed: int) -> list[int]:

@@ -54,7 +54,8 @@ def shown(score: str, value: float) -> str:
 
 
 def _scores(runs: list[dict[str, Any]], task: str) -> list[str]:
-    lines = ["| arm | photographs | seeds | " + " | ".join(SCORES[name][0] for name in names(task)) + " |", "|---|---|---|" + "---|" * len(names(task))]
+    titles = " | ".join(SCORES[name][0] for name in names(task))
+    lines = [f"| arm | photographs | seeds | {titles} |", "|---|---|---|" + "---|" * len(names(task))]
     for fraction in sorted({row["fraction"] for row in runs}):
         for arm in ARMS:
             rows = [row for row in runs if (row["arm"], row["fraction"]) == (arm, fraction)]
@@ -84,9 +85,11 @@ def _differences(rows: list[dict[str, Any]]) -> list[str]:
 
 def _classes(runs: list[dict[str, Any]]) -> list[str]:
     """IoU of classes, and the confusion of zero-shot networks."""
-    shares = [fraction for fraction in (0.0, max((row["fraction"] for row in runs), default=0.0)) if any(row["fraction"] == fraction for row in runs)]
-    columns = [(arm, fraction) for fraction in dict.fromkeys(shares) for arm in ARMS if any((row["arm"], row["fraction"]) == (arm, fraction) for row in runs)]
-    lines = ["", "IoU of classes, %, mean over seeds:", "", "| class | " + " | ".join(f"{arm}, {100 * fraction:g} %" for arm, fraction in columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    there = {(row["arm"], row["fraction"]) for row in runs}
+    shares = dict.fromkeys((0.0, max((fraction for _, fraction in there), default=0.0)))
+    columns = [(arm, fraction) for fraction in shares for arm in ARMS if (arm, fraction) in there]
+    titles = " | ".join(f"{arm}, {100 * fraction:g} %" for arm, fraction in columns)
+    lines = ["", "IoU of classes, %, mean over seeds:", "", f"| class | {titles} |", "|---" * (len(columns) + 1) + "|"]
     for i, name in enumerate(enfilade.NYU13):
         cells = []
         for column in columns:

@@ -92,7 +92,8 @@ def train(
     while step < recipe.steps:
         chosen = places(seed, step, recipe.batch_size, len(pictures))
         images, truths = batch(pictures, chosen, seed, study.augment, study.tasks)
-        set_learning_rate(optimizer, one_cycle_cosine(step, base=recipe.learning_rate, epochs=recipe.steps, warmup_epochs=min(recipe.warmup_steps, recipe.steps)))
+        rate = one_cycle_cosine(step, base=recipe.learning_rate, epochs=recipe.steps, warmup_epochs=min(recipe.warmup_steps, recipe.steps))
+        set_learning_rate(optimizer, rate)
         optimizer.zero_grad(set_to_none=True)
         with autocast(study, device):
             predicted = network(images.to(device))

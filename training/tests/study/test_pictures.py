@@ -1,4 +1,5 @@
 import json
+import os
 import tempfile
 import unittest
 from pathlib import Path
@@ -80,6 +81,19 @@ class Folders(unittest.TestCase):
             (self.nyu / "split.json").write_text(json.dumps(split))
             with self.assertRaisesRegex(ValueError, f"split.json: .*{said}"):
                 self.read()
+
+
+@unittest.skipUnless(os.environ.get("ENFILADE_REAL"), "ENFILADE_REAL names no folder of NYUv2's photographs")
+class Real(unittest.TestCase):
+    def test_the_photographs_have_the_published_split_and_both_sets_of_classes_agree(self) -> None:
+        folder = Path(os.environ["ENFILADE_REAL"])
+        with tempfile.TemporaryDirectory() as packed:
+            photographs = Photographs(folder, SIZE, Path(packed))
+        self.assertEqual({side: len(names) for side, names in photographs.split.items()}, {"train": 795, "test": 654})
+        table = pictures.nyu13().numpy()
+        for name in photographs.split["train"][::40] + photographs.split["test"][::40]:
+            labels40, labels13 = (np.array(Image.open(folder / part / f"{name}.png")) for part in ("label40", "label13"))
+            np.testing.assert_array_equal(table[labels40 - 1], labels13 - 1, err_msg=name)
 
 
 class Homes(unittest.TestCase):
