@@ -101,8 +101,9 @@ fn done(summary: &Summary) -> Vec<Stage> {
 }
 
 /// Whether the file is a page, or a record of pages and pictures: they look as today's program draws them.
-fn is_drawn(path: &str) -> bool {
-    path.ends_with(".html") || [".enfilade/room/preview.json", ".enfilade/statistics.json"].contains(&path)
+fn is_drawn(path: &Path) -> bool {
+    let records = [".enfilade/room/preview.json", ".enfilade/statistics.json"];
+    path.extension().is_some_and(|end| end == "html") || records.iter().any(|record| path == Path::new(record))
 }
 
 fn change(path: &Path, from: &str, to: &str) {
