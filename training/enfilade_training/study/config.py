@@ -53,6 +53,8 @@ class Study:
     homes: Path
     pretraining: Recipe
     finetuning: Recipe
+    # Those of its scenes that are made and learnt from; `*` stands for any run of characters. "*0" is a tenth of homes that are counted.
+    scenes: str = "*"
     # Height and width at which networks see whole frames.
     size: tuple[int, int] = UNIT
     tasks: tuple[Literal["semantics", "semantics40", "depth"], ...] = (SEMANTICS, DEPTH)

@@ -3,7 +3,9 @@
 import hashlib
 import json
 import tomllib
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Callable
 
 import enfilade
 import numpy as np
@@ -23,32 +25,52 @@ def digest(file: Path) -> str:
     return hashlib.sha256(json.dumps(said, sort_keys=True, default=str).encode()).hexdigest()[:16]
 
 
-def rendered(file: Path, folder: Path) -> Path:
-    """Renders what the file says below `folder`, as far as it is not there yet, and gives the dataset's folder."""
-    dataset = folder / file.stem
-    enfilade.run(dataset, enfilade.Config.read(file))
-    return dataset
+@dataclass(frozen=True)
+class Homes:
+    """A dataset. scenes: its scenes that are learnt from, in which `*` stands for any run of characters; failed: those that are left out."""
+
+    dataset: Path
+    scenes: str
+    failed: tuple[str, ...]
 
 
-def read(dataset: Path, size: tuple[int, int], cache: Path) -> Pictures:
-    """All frames of a dataset at `size`, height and width of a whole frame. cache: a folder for packed pictures."""
-    return kept(cache / f"{dataset.name}.pt", f"{_state(dataset)} {size}", lambda: _read(dataset, size))
+def rendered(file: Path, folder: Path, scenes: str, say: Callable[[str], None]) -> Homes:
+    """Renders what the file says below `folder`, as far as it is not there yet. Scenes that fail are told by `say`; if all do, it is an error."""
+    dataset, config = folder / file.stem, enfilade.Config.read(file)
+    try:
+        enfilade.run(dataset, config, scenes=scenes)
+    except enfilade.StageError as error:
+        failed = tuple(name for name in config.scenes if any(line.startswith(f"{name}: ") for line in str(error).splitlines()))
+        finished = [scene["scene"] for scene in error.summary["scenes"] if scene["scene"] not in failed]
+        if not failed or not finished:
+            raise
+        say(f"{len(failed)} of {len(failed) + len(finished)} scenes failed, and are left out:\n{error}")
+        return Homes(dataset, scenes, failed)
+    return Homes(dataset, scenes, ())
 
 
-def _read(dataset: Path, size: tuple[int, int]) -> Pictures:
+def read(homes: Homes, size: tuple[int, int], cache: Path) -> Pictures:
+    """The frames at `size`, height and width of a whole frame. cache: a folder for packed pictures."""
+    key = f"{_state(homes.dataset)} {homes.scenes} {homes.failed} {size}"
+    return kept(cache / f"{homes.dataset.name}.pt", key, lambda: _read(homes, size))
+
+
+def _read(homes: Homes, size: tuple[int, int]) -> Pictures:
     layers = ["color", "semantic", "depth_z_meters"]
-    frames = enfilade.Dataset(dataset, layers=layers, resize=size, tone_map=True, mask=False, poses=False)
+    frames = enfilade.Dataset(homes.dataset, layers=layers, scenes=homes.scenes, resize=size, tone_map=True, mask=False, poses=False)
     color, labels, depths, names = [], [], [], []
     rows, columns = window(*size)
     for index in range(len(frames)):
+        scene, camera, frame = frames.place(index)
+        if scene in homes.failed:
+            continue
         sample = frames[index]
         color.append(np.ascontiguousarray(sample["color"][rows, columns]))
         labels.append(sample["semantic"][rows, columns].astype(np.int16))
         depths.append(np.nan_to_num(sample["depth_z_meters"][rows, columns], nan=0.0, posinf=0.0).astype(np.float16))
-        scene, camera, frame = frames.place(index)
         names.append(f"{scene}.{camera}.{frame:04}")
     if not names:
-        raise ValueError(f"{dataset}: has no frames to learn from; see its report, and render it anew")
+        raise ValueError(f"{homes.dataset}: has no frames to learn from; see its report, and render it anew")
     return pack(color, labels, depths, names)
 
 

@@ -31,7 +31,7 @@ class Earlier:
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
             for row in found["runs"]:
-                new = {name: row[name] for name in ("key", "arm", "fraction", "seed", "steps")} | {"losses": [], "tasks": {}}
+                new = {name: row[name] for name in ("key", "arm", "fraction", "seed", "steps", "pictures")} | {"losses": [], "tasks": {}}
                 result = self._runs.setdefault(row["key"], new)
                 result["tasks"][row["task"]] = {name: row[name] for name in ("scores", "iou", "confusion") if name in row}
                 _merge(result["losses"], row["task"], row["losses"])
@@ -69,7 +69,7 @@ def plain(study: Study, maker: Maker, results: Results, earlier: Earlier) -> dic
         for task in study.tasks:
             row = {name: result[name] for name in ("arm", "fraction", "seed")} | {"task": task} | result["tasks"][task]
             losses = [[step, loss[task]] for step, loss in result["losses"]]
-            rows.append(row | {"steps": result["steps"], "losses": losses, "key": result["key"]})
+            rows.append(row | {"steps": result["steps"], "pictures": result["pictures"], "losses": losses, "key": result["key"]})
     found: dict[str, Any] = {"settings": _described(study, maker), "runs": rows, "differences": [], "without_interval": []}
     for start, homes in HOMES.items():
         for fraction in study.fractions:

@@ -82,7 +82,7 @@ class Maker:
         trained = self.tuned(run) if run.fraction else self.on_homes(run.start, run.seed)
         judged = judge(trained.network, self.pictures("test"), study)
         result = {"key": key, "arm": run.arm, "fraction": run.fraction, "seed": run.seed, "losses": trained.losses, "tasks": {}}
-        result["steps"] = study.finetuning.steps if run.fraction else 0
+        result |= {"steps": study.finetuning.steps if run.fraction else 0, "pictures": trained.pictures}
         for task, found in judged.items():
             result["tasks"][task] = {"scores": {name: round(value, 5) for name, value in found.scores.items()}}
             if found.confusion is not None:
@@ -131,7 +131,7 @@ class Maker:
             if (state.get("key"), state.get("step")) == (key, study.pretraining.steps):
                 network = UNet(study.heads)
                 network.load_state_dict(state["network"])
-                return Trained(network, state["losses"])
+                return Trained(network, state["losses"], state["pictures"])
         self.say(f"homes, from {start}, seed {seed}")
         begin = lambda: new_network(study, seed, start)  # noqa: E731
         return train(study, study.pretraining, seed, key, folder, self.pictures("homes"), begin, say=self.say)
@@ -142,14 +142,15 @@ class Maker:
             packed = self.study.output / "packed"
             if name == "homes":
                 self.say("pictures of homes")
-                made = homes.read(homes.rendered(self.study.homes, self.study.output), self.study.size, packed)
+                there = homes.rendered(self.study.homes, self.study.output, self.study.scenes, self.say)
+                made = homes.read(there, self.study.size, packed)
             else:
                 made = self.photographs.side(name)
             self._pictures[name] = made
         return self._pictures[name]
 
     def _homes_key(self, start: str, seed: int) -> str:
-        said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest}
+        said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
         return _digest(said | {"training": meaning(self.study, self.study.pretraining)})
 
 

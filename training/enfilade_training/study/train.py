@@ -27,10 +27,11 @@ FIRST_DEPTH_M = 2.5
 
 @dataclass(frozen=True)
 class Trained:
-    """A network and how it came about. losses: [steps, mean loss by task since the entry before]."""
+    """A network and how it came about. losses: [steps, mean loss by task since the entry before]; pictures: how many it was trained on."""
 
     network: UNet
     losses: list[list[Any]]
+    pictures: int
 
 
 def new_network(study: Study, seed: int, start: str) -> UNet:
@@ -86,7 +87,7 @@ def train(
         network.load_state_dict(state["network"])
         step, losses, sums = state["step"], state["losses"], state["sums"]
         if step >= recipe.steps:
-            return Trained(network, losses)
+            return Trained(network, losses, len(pictures))
         optimizer.load_state_dict(state["optimizer"])
     first, every = step, max(1, recipe.steps // KEPT)
     while step < recipe.steps:
@@ -110,12 +111,12 @@ def train(
             say(f"  step {step} of {recipe.steps}: loss {json.dumps(losses[-1][1])}, {1000 * cost:.1f} ms of processor time per picture")
         stopped = stop_after is not None and step >= stop_after
         if step == recipe.steps or stopped or step % recipe.checkpoint_steps == 0:
-            kept = {"key": key, "network": network.state_dict(), "step": step, "losses": losses, "sums": sums}
+            kept = {"key": key, "network": network.state_dict(), "step": step, "losses": losses, "sums": sums, "pictures": len(pictures)}
             # A finished run needs no more than its weights.
             checkpoints.save(last, kept if step == recipe.steps else kept | {"optimizer": optimizer.state_dict()})
         if stopped:
             break
-    return Trained(network, losses)
+    return Trained(network, losses, len(pictures))
 
 
 def _refuse_nan(sums: torch.Tensor, step: int, last: Path) -> None:

@@ -97,6 +97,18 @@ class Real(unittest.TestCase):
 
 
 class Homes(unittest.TestCase):
+    def test_scenes_that_fail_are_told_and_left_out(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder, said = Path(name), []
+            home = """[[scene]]\nname = "{}"\nhome = {{ seed = 1, rooms = ["toilet"], clutter = 0 }}\ncameras = ["{}"]\n"""
+            (folder / "two.toml").write_text("frames = 1\n[render]\nsize = [160, 120]\nsamples = 1\n" + home.format("a", "toilet_1") + home.format("b", "nowhere"))
+            there = homes.rendered(folder / "two.toml", folder, "*", said.append)
+            self.assertEqual(there.failed, ("b",))
+            self.assertIn("1 of 2 scenes failed, and are left out:\nb: ", said[0])
+            self.assertEqual(homes.read(there, SIZE, folder).names, ["a.cam_00.0000"])
+            with self.assertRaisesRegex(enfilade.StageError, "^b: "):
+                homes.rendered(folder / "two.toml", folder, "b", said.append)
+
     def test_the_digest_is_of_what_the_file_says(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "homes.toml"
