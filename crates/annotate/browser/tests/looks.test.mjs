@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browser, open, room, select, serve } from "./room.mjs";
+import { browser, drag, open, room, select, serve, shown } from "./room.mjs";
 
 const openRoom = async (t) => open(await browser(t), (await serve(t, room(t).file)).url);
 
@@ -53,6 +53,25 @@ test("nothing overlaps or sticks out in narrow and enlarged windows", async (t) 
         const { width: seen, height: tall } = await page.locator("#stage").boundingBox();
         assert.ok(seen > 330 && tall >= 190, `the view has ${seen} × ${tall} at ${width} × ${height}`);
     }
+});
+
+test("the panel is made wider by dragging and by keys, and stays so", async (t) => {
+    const page = await openRoom(t);
+    const width = async () => Math.round((await page.locator("#side").boundingBox()).width);
+    const before = await width();
+    const border = page.getByRole("separator", { name: "Width of the panel" });
+    const { x, y, width: wide, height } = await border.boundingBox();
+    await drag(page, [x + wide / 2, y + height / 2], [x + wide / 2 - 60, y + height / 2]);
+    assert.equal(await width(), before + 60);
+    await border.focus();
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await width(), before + 44);
+    await page.locator(`[role=separator][aria-valuenow="${before + 44}"]`).waitFor();
+    await page.reload();
+    await shown(page);
+    assert.equal(await width(), before + 44);
+    await border.dblclick();
+    assert.equal(await width(), before);
 });
 
 test("every text has a contrast of 4.5, in both themes", async (t) => {

@@ -5,6 +5,8 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { browser, labelOf, lookFromFront, open, room, saved, select, selected, serve, shown } from "./room.mjs";
+import { stem } from "../../web/annotate/names.js";
+import { rowsOf } from "../../web/annotate/suggestions_panel.js";
 
 const openRoom = async (t) => {
     const place = room(t);
@@ -13,6 +15,17 @@ const openRoom = async (t) => {
     return { page, ...place };
 };
 const tab = (page, name) => page.getByRole("tab", { name }).click();
+
+test("numbers at the ends of words do not tell names apart", () => {
+    const names = ["sofa_1/seat_cushion_2", "StickyNote3_Mesh075", "Wall 2 left", "2seater", "chair"];
+    assert.deepEqual(names.map(stem), ["sofa/seat_cushion", "stickynote_mesh", "wall left", "2seater", "chair"]);
+});
+
+test("a class with several groups of suggestions has a row of its own before them", () => {
+    const classes = [5, 7, 5, 5, 7];
+    const rows = rowsOf(/** @type {any} */ ({ suggestion: (piece) => ({ semantic: classes[piece] }) }), [[0, 2], [3], [1, 4]]);
+    assert.deepEqual([...rows], [[-5, [0, 2, 3]], [0, [0, 2]], [3, [3]], [1, [1, 4]]]);
+});
 
 test("suggestions show in the scene, and are confirmed and rejected in groups", async (t) => {
     const { page } = await openRoom(t);

@@ -23,10 +23,10 @@ const ROOM = [
     ["lamps", [[[-1, 1.6, 0.5], [-0.6, 2, 1.5]], [[0.8, 1.6, 1], [1.2, 2, 1.6]]]],
 ];
 
-/** The room as a Wavefront file. */
-function obj() {
+/** Boxes as a Wavefront file. */
+function obj(parts) {
     let [text, corners] = ["", 0];
-    for (const [name, boxes] of ROOM) {
+    for (const [name, boxes] of parts) {
         text += `o ${name}\nusemtl ${name}\n`;
         for (const [[x0, y0, z0], [x1, y1, z1]] of boxes) {
             for (const z of [z0, z1]) for (const y of [y0, y1]) for (const x of [x0, x1]) text += `v ${x} ${z} ${-y}\n`;
@@ -37,11 +37,11 @@ function obj() {
     return text;
 }
 
-/** A fresh folder with the room, which the test's end removes. @param {import("node:test").TestContext} t */
-export function room(t) {
+/** A fresh folder with the room, which the test's end removes. @param {import("node:test").TestContext} t @param {[string, number[][][]][]} [more] boxes beside it */
+export function room(t, more = []) {
     const folder = mkdtempSync(join(tmpdir(), "annotate-"));
     t.after(() => rmSync(folder, { recursive: true, force: true }));
-    writeFileSync(join(folder, "room.obj"), obj());
+    writeFileSync(join(folder, "room.obj"), obj([...ROOM, ...more]));
     return { folder, file: join(folder, "room.obj"), labels: join(folder, "room.obj.labels") };
 }
 
@@ -124,7 +124,12 @@ export const shown = (page) => page.waitForFunction(() => window.annotate?.stage
 
 /** Looks at the room from the front, everything in sight. */
 export async function lookFromFront(page) {
-    await page.evaluate(() => window.annotate.stage.goTo({ position: [0, -5, 2], orientation: [1, 0, 0, 0, 0.1, -0.995, 0, 0.995, 0.1], fov_y_deg: 50 }, { instant: true }));
+    await page.evaluate(() => {
+        const { act, stage } = window.annotate;
+        // A flight whose end is still being asked for would come after this.
+        act.looking.flights++;
+        stage.goTo({ position: [0, -5, 2], orientation: [1, 0, 0, 0, 0.1, -0.995, 0, 0.995, 0.1], fov_y_deg: 50 }, { instant: true });
+    });
     await shown(page);
 }
 

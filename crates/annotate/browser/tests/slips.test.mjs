@@ -20,6 +20,7 @@ test("digits end by any other key", async (t) => {
     await saved(page);
     assert.deepEqual([(await labelOf(page, first))[0], (await labelOf(page, second))[0]], [1, 2]);
     // A click ends them too: 1, then 2 on another piece.
+    await lookFromFront(page);
     await page.keyboard.press("1");
     await page.mouse.click(...(await pixelOf(page, "chair_1")));
     await page.keyboard.press("2");

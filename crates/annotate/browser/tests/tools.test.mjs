@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { browser, drag, labelOf, lookFromFront, open, pixelOf, room, saved, select, selected, serve, shown } from "./room.mjs";
+import { browser, drag, labelOf, lookFromFront, open, pictureAt, pixelOf, room, saved, select, selected, serve, shown } from "./room.mjs";
 
 const openRoom = async (t) => {
     const page = await open(await browser(t), (await serve(t, room(t).file)).url);
@@ -122,6 +122,70 @@ test("what is cut away is neither shown nor labelled", async (t) => {
     await page.keyboard.press("Shift+h");
     await shown(page);
     assert.equal(await seen(), lamps);
+});
+
+test("the clip box is put around the selection, and its sides are moved", async (t) => {
+    const page = await openRoom(t);
+    const seen = () => page.evaluate(() => {
+        const { stage, state } = window.annotate;
+        return [...stage.seenIn([0, 0, stage.element.clientWidth, stage.element.clientHeight])].map((piece) => state.name(piece)).sort();
+    });
+    await select(page, "chair_1");
+    await page.keyboard.press("Shift+B");
+    await shown(page);
+    assert.deepEqual(await seen(), ["chair_1", "floor"]);
+    // The side that faces the camera goes through the chair, and then the top comes down.
+    for (let i = 0; i < 2; i++) await page.keyboard.press("Shift+PageDown");
+    for (let i = 0; i < 4; i++) await page.keyboard.press("PageDown");
+    const clip = await page.evaluate(() => window.annotate.stage.clip);
+    assert.deepEqual([clip.min[1].toFixed(2), clip.max[2].toFixed(2)], ["0.20", "0.20"]);
+    await page.keyboard.press("Shift+H");
+    await shown(page);
+    assert.equal((await seen()).length, 6);
+});
+
+test("a room is shown alone", async (t) => {
+    const flat = (name, x, y) => /** @type {[string, number[][][]]} */ ([`floor_${name}`, [[[x, y, -0.1], [x + 2, y + 2, 0]]]]);
+    const { file } = room(t, [flat("hall", 10, 0), flat("kitchen", 12, 0), ["stove", [[[13, 1, 0], [13.5, 1.5, 0.9]]]]]);
+    const page = await open(await browser(t), (await serve(t, file)).url);
+    assert.deepEqual(await page.locator("#rooms option").allTextContents(), ["All rooms", "room floor", "hall", "kitchen"]);
+    await page.selectOption("#rooms", { label: "kitchen" });
+    await shown(page);
+    const seen = await page.evaluate(() => {
+        const { stage, state } = window.annotate;
+        return [...stage.seenIn([0, 0, stage.element.clientWidth, stage.element.clientHeight])].map((piece) => state.name(piece)).sort();
+    });
+    assert.deepEqual(seen.filter((name) => name !== "floor_hall"), ["floor_kitchen", "stove"]);
+    await page.keyboard.press("Shift+H");
+    assert.equal(await page.locator("#rooms").inputValue(), "-1");
+});
+
+test("things show as they look, under the picture of a planned frame where it shows them", async (t) => {
+    const context = await (await browser(t)).newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" });
+    const frame = { frame: 0, position: [0, -5, 2], orientation: [1, 0, 0, 0, 0.1, -0.995, 0, 0.995, 0.1], fov_y_deg: 50, aspect: 1.2, photograph: true };
+    await context.route("**/api/annotate/scene", async (route) => {
+        const scene = await (await route.fetch()).json();
+        await route.fulfill({ json: { ...scene, cameras: [{ name: "cam", frames: [frame] }] } });
+    });
+    const green = '<svg xmlns="http://www.w3.org/2000/svg" width="12" height="10"><rect width="12" height="10" fill="#00c000"/></svg>';
+    await context.route("**/api/annotate/photograph/cam/0", (route) => route.fulfill({ contentType: "image/svg+xml", body: green }));
+    const page = await open(context, (await serve(t, room(t).file)).url);
+    await lookFromFront(page);
+    const front = await pixelOf(page, "chair_1");
+    await page.keyboard.press("Shift+R");
+    await page.waitForFunction(() => window.annotate.stage.photograph.texture !== null);
+    const [[r, g, b]] = await pictureAt(page, front, 2);
+    assert.ok(g > 150 && r < 60 && b < 60, `${[r, g, b]}`);
+    assert.equal(await page.locator('[data-command="real-look"]').getAttribute("aria-pressed"), "true");
+    // From behind, what the picture does not show is as its material is: grey.
+    await page.evaluate(() => window.annotate.stage.goTo({ position: [-1.5, 2.5, 0.6], orientation: [-1, 0, 0, 0, 0, 1, 0, 1, 0], fov_y_deg: 40 }, { instant: true }));
+    await shown(page);
+    const box = await page.locator("#stage").boundingBox();
+    const behind = [Math.round(box.x + box.width / 2), Math.round(box.y + box.height / 2)];
+    const [back] = await pictureAt(page, behind, 2);
+    assert.ok(Math.max(...back) - Math.min(...back) < 12 && back[0] > 60, `${back}`);
+    await page.keyboard.press("Shift+R");
+    assert.notDeepEqual((await pictureAt(page, behind, 2))[0], back);
 });
 
 test("arrow keys turn the camera, about the scene and on the spot", async (t) => {

@@ -16,6 +16,7 @@ use super::session::{ActionError, Session};
 use super::stroke::Picked;
 use super::suggestions::{Suggestion, suggestions};
 use super::worklog::{WORK_LOG, WorkLog, WorkSession};
+use axum::body::Bytes;
 use enfilade_dataset::{ANNOTATION_LOG, Classes, DatasetError, MeshFiles};
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Cx, Warning};
@@ -55,6 +56,7 @@ pub struct App {
     reviews: RwLock<Reviews>,
     seen: OnceLock<Seen>,
     suggestions: OnceLock<Vec<Option<Suggestion>>>,
+    face_colors: OnceLock<Result<Bytes, String>>,
     saved: Mutex<Saved>,
 }
 
@@ -102,6 +104,7 @@ impl App {
             reviews: RwLock::new(reviews),
             seen: OnceLock::new(),
             suggestions: OnceLock::new(),
+            face_colors: OnceLock::new(),
             saved: Mutex::default(),
             scene,
             classes,
@@ -162,6 +165,14 @@ impl App {
     /// What is proposed for each part, and so for its pieces.
     pub fn suggestions(&self) -> &[Option<Suggestion>] {
         self.suggestions.get_or_init(|| suggestions(&self.scene, &self.classes))
+    }
+
+    /// The colour of each face, three bytes each; computed at the first call.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub fn face_colors(&self) -> &Result<Bytes, String> {
+        self.face_colors.get_or_init(|| self.scene.colors.bytes(self.scene.corners.len()).map(Bytes::from))
     }
 
     /// Does an action, and announces the change to every page. An action whose `id` was used before is not done again: its first answer

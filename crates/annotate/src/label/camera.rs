@@ -2,7 +2,7 @@
 
 use super::planned::rows;
 use enfilade_geometry::PinholeRays;
-use enfilade_math::{DMat3, DVec3, Ray};
+use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec3};
 use serde::Deserialize;
 
 /// Pixels per side that a request may ask about.
@@ -22,9 +22,17 @@ pub struct CameraRequest {
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     #[serde(default)]
     near_m: f64,
-    /// Cut: what lies higher is not seen, metres above the origin.
+    /// What lies outside of this box is not seen.
     #[serde(default)]
-    cut_z_m: Option<f64>,
+    clip: Option<Clip>,
+}
+
+/// A box along the axes of the world, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Clip {
+    min: [f32; 3],
+    max: [f32; 3],
 }
 
 /// A pinhole camera in world space, with the size of its image.
@@ -40,8 +48,8 @@ pub struct PageCamera {
     pub height: u32,
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     pub near_m: f64,
-    /// Cut: what lies higher is not seen, metres above the origin; infinity for none.
-    pub cut_z_m: f32,
+    /// What lies outside of this box is not seen.
+    pub clip: Option<Bounds3>,
 }
 
 impl CameraRequest {
@@ -71,24 +79,19 @@ impl CameraRequest {
         if !(0.0..=MAX_COORDINATE_M).contains(&self.near_m) {
             return wrong("near_m", self.near_m.to_string(), "zero or more metres");
         }
+        let clip = self.clip.map(|clip| Bounds3 { min: Vec3::from(clip.min), max: Vec3::from(clip.max) });
+        if let Some(Bounds3 { min, max }) = clip.filter(|clip| !clip.min.cmple(clip.max).all()) {
+            return wrong("clip", format!("{min} to {max}"), "min at most max, metres");
+        }
         let camera = PageCamera::new(position, m, self.fov_y_deg, [self.width, self.height]);
-        let cut_z_m = self.cut_z_m.unwrap_or(f64::INFINITY) as f32;
-        Ok(PageCamera { near_m: self.near_m, cut_z_m, ..camera })
+        Ok(PageCamera { near_m: self.near_m, clip, ..camera })
     }
 }
 
 impl PageCamera {
     /// A pinhole at `position` with a vertical field of view.
     pub fn new(position: DVec3, world_from_camera: DMat3, fov_y_deg: f64, [width, height]: [u32; 2]) -> Self {
-        Self {
-            position,
-            world_from_camera,
-            half_height: (0.5 * fov_y_deg.to_radians()).tan(),
-            width,
-            height,
-            near_m: 0.0,
-            cut_z_m: f32::INFINITY,
-        }
+        Self { position, world_from_camera, half_height: (0.5 * fov_y_deg.to_radians()).tan(), width, height, near_m: 0.0, clip: None }
     }
 
     /// Half of the smaller field of view, radians.

@@ -17,6 +17,7 @@ mod clock;
 pub(crate) mod display_order;
 mod edit;
 mod events;
+mod face_colors;
 mod json_lines;
 mod log;
 mod log_lines;

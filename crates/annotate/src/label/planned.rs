@@ -1,8 +1,9 @@
 //! Where a scene's pictures are to be taken from: the cameras of its file, or the planned trajectories of its dataset.
 
 use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{Camera, Pose, Scene, StartCamera};
-use serde::Serialize;
+use enfilade_scene::{Camera, Pose, Projection, Scene, StartCamera};
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
 
 /// A camera's planned frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -26,13 +27,20 @@ pub struct PlannedFrame {
     pub fov_y_deg: f64,
     /// Width over height.
     pub aspect: f64,
+    /// Where its picture lies once it is rendered. The page is told whether it is there.
+    #[serde(serialize_with = "is_file")]
+    pub photograph: Option<PathBuf>,
+}
+
+fn is_file<S: Serializer>(photograph: &Option<PathBuf>, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_bool(photograph.as_ref().is_some_and(|path| path.is_file()))
 }
 
 impl PlannedFrame {
     /// The view of a pose.
     pub fn new(pose: &Pose, fov_y_deg: f64, aspect: f64) -> Self {
         let orientation = pose.world_from_camera.transpose().to_cols_array();
-        Self { frame: pose.frame, position: pose.position.to_array(), orientation, fov_y_deg, aspect }
+        Self { frame: pose.frame, position: pose.position.to_array(), orientation, fov_y_deg, aspect, photograph: None }
     }
 }
 
@@ -57,6 +65,13 @@ pub fn field_of_view(camera: &Camera) -> (f64, f64) {
         _ => WIDEST_DEG,
     };
     (fov.clamp(1.0, WIDEST_DEG), width / height)
+}
+
+/// True where a picture of the camera, laid over a view of the same direction and angle, fits it.
+pub fn is_plain(camera: &Camera) -> bool {
+    let Projection::Pinhole(k) = &camera.projection else { return false };
+    let middle = [k.cx - 0.5 * f64::from(k.width), k.cy - 0.5 * f64::from(k.height)];
+    k.skew == 0.0 && (k.fx / k.fy - 1.0).abs() < 1e-3 && middle.iter().all(|off| off.abs() < 1.0)
 }
 
 /// The pose of a view from `position` to `look_at` with z up, or with y up where the view is vertical.

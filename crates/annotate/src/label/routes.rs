@@ -5,6 +5,7 @@ use super::app::App;
 use super::camera::CameraRequest;
 use super::change::material_name;
 use super::clock;
+use super::face_colors::FaceColors;
 use super::planned::PlannedFrame;
 use super::progress::views;
 use super::review::ReviewState;
@@ -12,7 +13,7 @@ use super::session::ActionError;
 use super::viewpoint::Viewpoint;
 use crate::serve::{ApiProblem, beside, reply};
 use axum::body::Bytes;
-use axum::extract::{Query, State};
+use axum::extract::{Path, Query, State};
 use axum::http::{HeaderMap, header};
 use axum::response::sse::{KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
@@ -42,6 +43,8 @@ pub fn routes(app: Arc<App>) -> Router {
         .route("/api/annotate/scene", get(scene))
         .route("/api/annotate/geometry", get(geometry))
         .route("/api/annotate/instance_colors", get(instance_colors_of_files))
+        .route("/api/annotate/face_colors", get(face_colors))
+        .route("/api/annotate/photograph/{camera}/{frame}", get(photograph))
         .route("/api/annotate/pieces", get(pieces))
         .route("/api/annotate/edit", post(edit))
         .route("/api/annotate/select", post(select))
@@ -106,6 +109,7 @@ async fn scene(State(app): Shared) -> Answer {
             "undo_description": standing.undo_description,
             "redo_description": standing.redo_description,
             "next_instance": standing.next_instance,
+            "has_face_colors": !matches!(scene.colors, FaceColors::Unknown),
             "has_suggestions": app.suggestions().iter().any(Option::is_some),
             "autosaved": true,
         }))
@@ -136,6 +140,27 @@ async fn instance_colors_of_files() -> Answer {
         let colors = enfilade_dataset::instance_colors(i16::MAX as usize);
         let bytes: Vec<u8> = colors.into_iter().flatten().map(|channel| u8::try_from(channel).unwrap_or(0)).collect();
         Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
+    })
+    .await
+}
+
+async fn face_colors(State(app): Shared, headers: HeaderMap) -> Answer {
+    let gzip = reply::takes_gzip(&headers);
+    beside(move || match app.face_colors() {
+        Ok(colors) => Ok(reply::array(colors.to_vec(), gzip, &[])),
+        Err(problem) => Err(ApiProblem::not_found(problem.clone(), "look at the labels, or open the scene's file")),
+    })
+    .await
+}
+
+/// The rendered picture of a planned frame.
+async fn photograph(State(app): Shared, Path((camera, frame)): Path<(String, String)>) -> Answer {
+    beside(move || {
+        let frames = app.scene().cameras.iter().filter(|one| one.name == camera).flat_map(|one| &one.frames);
+        let path = frames.filter(|one| one.frame.to_string() == frame).find_map(|one| one.photograph.as_ref());
+        let none = || ApiProblem::not_found(format!("frame {frame} of {camera:?} has no picture here"), "render it, with previews");
+        let bytes = std::fs::read(path.ok_or_else(none)?).map_err(|_| none())?;
+        Ok(([(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, "no-cache")], bytes).into_response())
     })
     .await
 }

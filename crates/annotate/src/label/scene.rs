@@ -1,13 +1,18 @@
 //! The scene that is annotated: loaded from a scene file, or from the mesh folder of a dataset's scene.
 
+use super::face_colors::FaceColors;
 use super::log_lines::unsplit;
 use super::options::AnnotateOptions;
-use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view};
+use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view, is_plain};
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, WORKDIR, mesh_names, quoted, scene_hash};
+use enfilade_frame::Pass;
 use enfilade_import::{Format, ImportOptions};
 use enfilade_math::Vec3;
-use enfilade_scene::{Cx, PartLabel, Warning, WorldMesh};
+use enfilade_scene::{Cx, PartLabel, Pose, Warning, WorldMesh};
 use std::path::{Path, PathBuf};
+
+/// The imported scene, below the working folder of a dataset.
+const PACKAGE: &str = "scene.scene";
 
 /// Stands for "none" in [`AnnotatedScene::material_of_face`].
 pub const NO_MATERIAL: u32 = u32::MAX;
@@ -28,6 +33,8 @@ pub struct AnnotatedScene {
     pub part_of_face: Vec<u32>,
     /// The material of every face, [`NO_MATERIAL`] where it has none.
     pub material_of_face: Vec<u32>,
+    /// What its surfaces look like.
+    pub colors: FaceColors,
     /// Names of the parts.
     pub parts: Vec<String>,
     /// Names of the materials.
@@ -131,6 +138,7 @@ impl AnnotatedScene {
             vertices: scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].positions.len()).sum(),
             material_of_face: part_of_face.iter().map(|&part| scene.parts[part as usize].material).collect(),
             part_of_face,
+            colors: FaceColors::of(scene, &mesh.sources),
             corners: mesh.corners,
             parts: scene.parts.iter().map(|part| part.name.clone()).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
@@ -159,6 +167,7 @@ impl AnnotatedScene {
             labels_folder: labels_folder.to_path_buf(),
             vertices: mesh.vertices.len(),
             corners: mesh.faces.iter().map(|face| face.map(vertex)).collect(),
+            colors: home.as_ref().map_or(FaceColors::Unknown, SceneOfDataset::colors),
             part_of_face: mesh.object_of_face,
             material_of_face: mesh.material_of_face.iter().map(|m| m.unwrap_or(NO_MATERIAL)).collect(),
             parts: mesh.objects,
@@ -228,6 +237,12 @@ impl SceneOfDataset {
         Some(Self { dataset, scene: scene.file_name()?.to_string_lossy().into_owned() })
     }
 
+    /// The colours of the materials, where the scene as it was imported is still there.
+    fn colors(&self) -> FaceColors {
+        let package = self.dataset.root().join(WORKDIR).join(&self.scene).join(PACKAGE);
+        if package.is_file() { FaceColors::Package(package) } else { FaceColors::Unknown }
+    }
+
     /// The planned trajectories; those that cannot be read are left out with a warning.
     fn cameras(&self, cx: &dyn Cx) -> Vec<PlannedCamera> {
         let mut planned = Vec::new();
@@ -236,7 +251,12 @@ impl SceneOfDataset {
             match (with, trajectory) {
                 (Ok(with), Ok(trajectory)) => {
                     let (fov_y_deg, aspect) = field_of_view(&with);
-                    let frames = trajectory.poses.iter().map(|pose| PlannedFrame::new(pose, fov_y_deg, aspect)).collect();
+                    let photograph = |frame| self.dataset.layout().preview(&self.scene, &name, frame, Pass::Final, "tonemap.jpg");
+                    let frame = |pose: &Pose| PlannedFrame {
+                        photograph: is_plain(&with).then(|| photograph(pose.frame)),
+                        ..PlannedFrame::new(pose, fov_y_deg, aspect)
+                    };
+                    let frames = trajectory.poses.iter().map(frame).collect();
                     planned.push(PlannedCamera { name, frames });
                 }
                 (Err(error), _) | (_, Err(error)) => {

@@ -2,7 +2,7 @@
 
 use super::camera::PageCamera;
 use enfilade_geometry::{Bvh, Hit, NOTHING, VisibilityBuffer};
-use enfilade_math::{Ray, Vec3};
+use enfilade_math::{Bounds3, Ray, Vec3};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeSet, HashSet};
@@ -125,8 +125,8 @@ impl VisibleScene<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 pixels.par_iter().filter_map(centre).collect()
             }
-            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is cut away.
-            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.cut_z_m.is_finite() => {
+            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is clipped.
+            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.clip.is_some() => {
                 let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
                 let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
@@ -159,17 +159,17 @@ impl VisibleScene<'_> {
     /// What the ray through an image point meets first.
     pub fn meet(&self, camera: &PageCamera, x: f64, y: f64) -> Option<Picked> {
         let ray = camera.ray(x, y);
-        let hit = self.first(&ray, camera.cut_z_m)?;
+        let hit = self.first(&ray, camera.clip.as_ref())?;
         Some(Picked { face: hit.triangle, point: ray.at(hit.t), distance_m: hit.t })
     }
 
-    /// What a ray meets first below the cut.
-    pub fn first(&self, ray: &Ray, cut_z_m: f32) -> Option<Hit> {
-        if self.hidden.is_empty() && cut_z_m.is_infinite() {
+    /// What a ray meets first within the box, if there is one.
+    pub fn first(&self, ray: &Ray, clip: Option<&Bounds3>) -> Option<Hit> {
+        if self.hidden.is_empty() && clip.is_none() {
             return self.bvh.closest(ray);
         }
-        self.bvh
-            .closest_filtered(ray, |hit| ray.at(hit.t).z <= cut_z_m && !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
+        let is_there = |hit: &Hit| clip.is_none_or(|clip| clip.contains(ray.at(hit.t)));
+        self.bvh.closest_filtered(ray, |hit| is_there(hit) && !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
     }
 }
 

@@ -43,8 +43,8 @@ struct Target<'a> {
     points: Vec<(Vec3, Vec3)>,
     centre: Vec3,
     radius: f32,
-    /// What lies higher hides nothing, metres above the origin.
-    cut_z_m: f32,
+    /// What lies outside of this box hides nothing.
+    clip: Option<Bounds3>,
 }
 
 impl Context<'_> {
@@ -59,7 +59,7 @@ impl Context<'_> {
         let pieces: HashSet<u32> = pieces.iter().copied().collect();
         let hidden: HashSet<u32> = hidden.iter().copied().filter(|piece| !pieces.contains(piece)).collect();
         let scene = VisibleScene { bvh: self.bvh, piece_of_face: self.pieces.of_face(), hidden: &hidden };
-        let Some(target) = Target::new(self, scene, &pieces, camera.cut_z_m) else { return Ok(None) };
+        let Some(target) = Target::new(self, scene, &pieces, camera.clip) else { return Ok(None) };
         let distance = ROOM * target.radius / camera.half_angle().sin();
         let own = -camera.ray(0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height)).direction;
         let places: Vec<(f32, Vec3)> =
@@ -75,7 +75,7 @@ impl Context<'_> {
 }
 
 impl<'a> Target<'a> {
-    fn new(context: &Context<'_>, scene: VisibleScene<'a>, pieces: &'a HashSet<u32>, cut_z_m: f32) -> Option<Self> {
+    fn new(context: &Context<'_>, scene: VisibleScene<'a>, pieces: &'a HashSet<u32>, clip: Option<Bounds3>) -> Option<Self> {
         let corners = &context.pieces.scene().corners;
         let mut numbers: Vec<u32> = pieces.iter().copied().collect();
         numbers.sort_unstable();
@@ -95,14 +95,14 @@ impl<'a> Target<'a> {
             before = after;
         }
         let radius = (0.5 * bounds.extent().length()).max(SMALLEST_M);
-        (!points.is_empty()).then(|| Self { scene, pieces, points, centre: bounds.center(), radius, cut_z_m })
+        (!points.is_empty()).then(|| Self { scene, pieces, points, centre: bounds.center(), radius, clip })
     }
 
     /// How much of the pieces a place sees: the mean over the points of how squarely they face it, where nothing else is in between.
     fn seen_from(&self, from: Vec3) -> f32 {
         let worth = |&(point, normal): &(Vec3, Vec3)| {
             let direction = (point - from).normalize_or_zero();
-            let hit = self.scene.first(&Ray::new(from, direction), self.cut_z_m);
+            let hit = self.scene.first(&Ray::new(from, direction), self.clip.as_ref());
             let seen = hit.is_some_and(|hit| {
                 self.pieces.contains(&self.scene.piece_of_face[hit.triangle as usize]) && hit.t > 0.9 * from.distance(point)
             });

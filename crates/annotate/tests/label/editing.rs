@@ -125,18 +125,26 @@ async fn what_lies_before_the_near_plane_is_not_touched() {
 }
 
 #[tokio::test]
-async fn what_lies_above_the_cut_is_not_touched() {
+async fn what_lies_outside_of_the_clip_box_is_not_touched() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));
     let mut camera = camera();
-    // The boxes of `pair` are at 2.75 to 3.25 m, and the cut leaves the wall behind them only below.
-    for (cut, expected) in [(10.0, json!([0, 1, 3, 4, 5])), (2.5, json!([0, 1, 3, 4])), (-20.0, json!([]))] {
-        camera["cut_z_m"] = json!(cut);
+    // The boxes of `pair` are at 2.75 to 3.25 m, `left` ends at x = -1.5 m, the wall stands at y = 5 m.
+    for (min, max, expected) in [
+        ([-20.0; 3], [20.0; 3], json!([0, 1, 3, 4, 5])),
+        ([-20.0; 3], [20.0, 20.0, 2.5], json!([0, 1, 3, 4])),
+        ([-1.4, -20.0, -20.0], [20.0, 4.9, 2.5], json!([1, 4])),
+        ([-20.0; 3], [-19.0; 3], json!([])),
+    ] {
+        camera["clip"] = json!({ "min": min, "max": max });
         let look = json!({ "camera": camera, "shape": { "rectangle": [0, 0, 100, 100] } });
-        assert_eq!(page.post("select", look.to_string()).await.1["pieces"], expected, "{cut}");
+        assert_eq!(page.post("select", look.to_string()).await.1["pieces"], expected, "{min:?} {max:?}");
     }
     let (_, picked) = page.post("pick", json!({ "camera": camera, "pixel": [50, 50] }).to_string()).await;
     assert_eq!(picked, json!({ "piece": -1 }));
+    camera["clip"] = json!({ "min": [0, 0, 1], "max": [1, 1, 0] });
+    let (status, refused) = page.post("pick", json!({ "camera": camera, "pixel": [50, 50] }).to_string()).await;
+    assert!(status == 400 && refused["error"].as_str().unwrap().contains("camera.clip"), "{refused}");
 }
 
 #[tokio::test]

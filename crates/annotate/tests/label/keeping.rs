@@ -4,6 +4,7 @@ use crate::room::{Page, assign, class, package, scene, stroke};
 use enfilade_annotate::label::{AnnotateOptions, App};
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Array, Dataset, MeshFiles};
+use enfilade_frame::Pass;
 use enfilade_math::DVec3;
 use enfilade_scene::{Intrinsics, Labels, PartLabel, Pose, Quiet, Trajectory};
 use serde_json::json;
@@ -117,6 +118,30 @@ async fn planned_cameras_stand_in_the_scene_whatever_the_unit_of_the_dataset() {
     assert_eq!(halves[0], json!([0.5, -2.0, 1.0]));
     let half = |value: &serde_json::Value| value.as_array().unwrap().iter().map(|v| 0.5 * v.as_f64().unwrap()).collect::<Vec<_>>();
     assert_eq!(halves[1], json!(half(&metres[1])));
+}
+
+#[tokio::test]
+async fn the_picture_of_a_planned_frame_is_there_once_it_is_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    dataset.write_scene("room", &scene()).unwrap();
+    let pose = Pose::look_at(3, DVec3::new(1.0, -4.0, 2.0), DVec3::ZERO, DVec3::Z).unwrap();
+    let camera = Intrinsics::from_fov_x(64, 48, 1.0).into();
+    dataset.write_camera_parameters("room", &camera).unwrap();
+    let trajectory = Trajectory { name: "cam_00".into(), poses: vec![pose] };
+    dataset.write_trajectory("room", &trajectory, &camera, None).unwrap();
+    let page = Page::open(folder.path());
+    let told = async || page.get("scene").await["cameras"][0]["frames"][0]["photograph"].clone();
+    assert_eq!(told().await, json!(false));
+    let path = dataset.layout().preview("room", "cam_00", 3, Pass::Final, "tonemap.jpg");
+    enfilade_dataset::write_bytes(&path, b"a picture").unwrap();
+    assert_eq!(told().await, json!(true));
+    let (head, bytes) = page.bytes("photograph/cam_00/3", &[]).await;
+    assert_eq!((head["content-type"].to_str().unwrap(), bytes.as_slice()), ("image/jpeg", &b"a picture"[..]));
+    for other in ["photograph/cam_00/4", "photograph/cam_01/3", "photograph/cam_00/x", "face_colors"] {
+        let refused: serde_json::Value = serde_json::from_slice(&page.bytes(other, &[]).await.1).unwrap();
+        assert!(refused["error"].is_string() && refused["help"].is_string(), "{other}: {refused}");
+    }
 }
 
 #[tokio::test]

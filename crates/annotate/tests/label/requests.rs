@@ -204,6 +204,17 @@ async fn the_history_has_what_can_be_undone_and_done_again() {
 }
 
 #[tokio::test]
+async fn faces_have_the_colours_of_their_materials() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    assert_eq!(page.get("scene").await["has_face_colors"], true);
+    let (_, bytes) = page.bytes("face_colors", &[]).await;
+    // The wall's two faces are of plaster, all others of wood.
+    assert_eq!((bytes.len() / 3, &bytes[..6]), (page.app.scene().corners.len(), &[231; 6][..]));
+    assert!(bytes[6..].iter().all(|&channel| channel == 170), "{:?}", &bytes[6..12]);
+}
+
+#[tokio::test]
 async fn instances_have_the_colours_of_the_files() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));

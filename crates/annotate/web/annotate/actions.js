@@ -1,9 +1,11 @@
 // What the commands of the annotation page do with labels and the selection.
 
 import { getJson, postJson } from "../shared/api.js";
+import { toggleTheme } from "../shared/theme.js";
 import { toast, toastError } from "../shared/toast.js";
 import { Digits } from "./digits.js";
 import { Looking } from "./looking.js";
+import { RealLook } from "./real_look.js";
 import { stem } from "./names.js";
 import { newInstance } from "./state.js";
 
@@ -22,6 +24,7 @@ export class Actions {
         this.edits = edits;
         this.digits = new Digits(state);
         this.looking = new Looking(state, stage);
+        this.realLook = new RealLook(state, stage, this.looking);
         /** Edits with the current label that the server has not answered yet. @type {Set<any>} */
         this.giving = new Set();
         /** What lacks a class, and what has a class but lacks an instance; most pixels first. @type {Record<import("./state.js").Layer, Missing[]>} */
@@ -262,10 +265,7 @@ export class Actions {
     }
 
     toggleTheme() {
-        const root = document.documentElement;
-        const dark = root.dataset.theme ? root.dataset.theme === "dark" : !matchMedia("(prefers-color-scheme: light)").matches;
-        root.dataset.theme = dark ? "light" : "dark";
-        localStorage.setItem("enfilade.theme", root.dataset.theme);
+        toggleTheme();
         this.state.tell("theme");
     }
 

@@ -1,8 +1,8 @@
 // The panel "Classes": colour, number and name of each class, those given last, and search. A class that is clicked is given to the selection.
 
 import { el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { css, textOn } from "./colors.js";
-import { oneTabStop } from "./focus.js";
 import { matches } from "./names.js";
 
 /** Classes in a row. */
@@ -45,7 +45,7 @@ export function classesPanel(state, act) {
         for (const id of state.pieces.semantic) counts.set(id, (counts.get(id) ?? 0) + 1);
         for (const { id, name, button } of rows) button.title = `${name}: ${counts.get(id) ?? 0} pieces`;
     });
-    oneTabStop(grid, COLUMNS);
+    oneTabStop(grid, { columns: COLUMNS });
     return el("div", {}, el("div", { class: "head" }, search), recentClasses(state, act), el("div", { class: "scroll" }, grid));
 }
 

@@ -1,6 +1,6 @@
 // All commands in one table: name, keys and action. The help overlay, the palette and the keyboard use it.
 
-import { CUT_STEP_M } from "./looking.js";
+import { CLIP_STEP_M } from "./looking.js";
 
 /**
  * @typedef {object} Command
@@ -85,11 +85,15 @@ export function commands(act) {
         ["isolate", "Isolate the selection", ["v"], () => (state.isolated ? looking.isolate([]) : act.withSelection((pieces) => looking.isolate(pieces)))],
         ["hide", "Hide the selection", ["h"], () => act.withSelection((pieces) => looking.hide(pieces))],
         ["show-all", "Show everything", ["Shift+h"], () => looking.showAll()],
+        ["real-look", "Things as they look, or their labels", ["Shift+r"], () => void act.realLook.toggle()],
         ["ceilings", "Hide ceilings", ["q"], () => looking.toggleCeilings()],
         ["whole-scene", "Whole scene", ["Home"], () => looking.wholeScene()],
         ["from-above", "Whole scene from above, without ceilings", ["End"], () => looking.fromAbove()],
-        ["cut-lower", "Cut away what is higher: lower", ["PageDown"], () => looking.moveCut(-CUT_STEP_M)],
-        ["cut-higher", "Cut away what is higher: raise, up to nothing", ["PageUp"], () => looking.moveCut(CUT_STEP_M)],
+        ["clip", "Show only what lies around the selection, in a clip box", ["Shift+b"], () => act.withSelection((pieces) => looking.clipTo(pieces))],
+        ["clip-lower", "Clip box: lower its top", ["PageDown"], () => looking.moveTop(-CLIP_STEP_M)],
+        ["clip-higher", "Clip box: raise its top", ["PageUp"], () => looking.moveTop(CLIP_STEP_M)],
+        ["clip-farther", "Clip box: push the side that faces you away", ["Shift+PageDown"], () => looking.moveNearSide(-CLIP_STEP_M)],
+        ["clip-nearer", "Clip box: pull the side that faces you nearer", ["Shift+PageUp"], () => looking.moveNearSide(CLIP_STEP_M)],
         ["wireframe", "Edges of triangles", ["c"], () => looking.toggleWireframe()],
         ["outlines", "Outlines of pieces", ["Shift+c"], () => looking.toggleOutlines()],
         ["next-camera", "Next planned camera", ["]"], () => looking.stepCamera(1)],
@@ -123,14 +127,14 @@ export function pressed(event) {
     const letter = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     // With Alt, a digit key may type another character; its code says which digit it is.
     const key = event.altKey && event.code.startsWith("Digit") ? event.code.slice(5) : letter;
-    const shift = event.shiftKey && (/^[a-z]$/.test(key) || key === "Enter");
+    const shift = event.shiftKey && /^([a-z]|Enter|PageUp|PageDown)$/.test(key);
     return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${shift ? "Shift+" : ""}${key}`;
 }
 
 /** A key that is held longer than this takes its command back when it is released, milliseconds. */
 const HOLD_MS = 350;
 /** Commands that a held key does again and again. */
-const REPEATED = new Set(["undo", "redo", "next-unlabelled", "previous-unlabelled", "next-camera", "previous-camera", "faster", "slower", "cut-lower", "cut-higher"]);
+const REPEATED = new Set(["undo", "redo", "next-unlabelled", "previous-unlabelled", "next-camera", "previous-camera", "faster", "slower", "clip-lower", "clip-higher", "clip-farther", "clip-nearer"]);
 
 /** True when a control needs this key itself. @param {HTMLElement} target @param {string} name */
 const operates = (target, name) => (name === " " || name === "Enter") && target.closest("button, [role=tab], summary, a, input, select") !== null;

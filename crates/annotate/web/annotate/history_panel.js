@@ -2,8 +2,8 @@
 
 import { getJson } from "../shared/api.js";
 import { el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { toastError } from "../shared/toast.js";
-import { oneTabStop } from "./focus.js";
 
 /** @typedef {{ description: string, time: string }} HistoryRow */
 

@@ -5,12 +5,17 @@ import { postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { toastError } from "../shared/toast.js";
 import { ceilings } from "./ceilings.js";
+import { rooms } from "./rooms.js";
 
 /** The direction from the scene to the camera that shows all of it, beside the camera's own turn: so far down, degrees. */
 const DOWN_DEG = 40;
 
-/** A step of the cut, metres. */
-export const CUT_STEP_M = 0.25;
+/** The same for a room: the sight of it from nearly above. */
+const ROOM_DOWN_DEG = 62;
+/** A step of a side of the clip box, metres. */
+export const CLIP_STEP_M = 0.25;
+/** So much is left around what the clip box is put around, metres. */
+const CLIP_ROOM_M = 0.3;
 
 /** What the commands of the camera and of visibility do. */
 export class Looking {
@@ -23,6 +28,9 @@ export class Looking {
         this.camera = -1;
         /** Ceilings that are hidden by command. @type {number[] | null} */
         this.ceilings = null;
+        this.rooms = rooms(state);
+        /** The room that is shown alone; -1 for none. */
+        this.room = -1;
         /** Counts flights to pieces, so that a late answer does not end a newer one. */
         this.flights = 0;
         /** All planned frames, in order. */
@@ -66,10 +74,15 @@ export class Looking {
 
     /** Shows all of the scene, obliquely from where the camera is turned to. */
     wholeScene() {
+        this.show(this.#back(DOWN_DEG));
+    }
+
+    /** The direction to a camera that is turned as this one and looks so far down. @param {number} degrees */
+    #back(degrees) {
         const back = new Vector3(0, 0, 1).applyQuaternion(this.stage.camera.quaternion);
         const turn = Math.hypot(back.x, back.y) > 1e-3 ? Math.atan2(back.y, back.x) : -Math.PI / 2;
-        const down = (DOWN_DEG * Math.PI) / 180;
-        this.show(new Vector3(Math.cos(turn) * Math.cos(down), Math.sin(turn) * Math.cos(down), Math.sin(down)));
+        const down = (degrees * Math.PI) / 180;
+        return new Vector3(Math.cos(turn) * Math.cos(down), Math.sin(turn) * Math.cos(down), Math.sin(down));
     }
 
     /** Shows all of the scene from straight above, without ceilings. */
@@ -99,16 +112,57 @@ export class Looking {
         state.setVisibility(hidden, state.xray, state.isolated);
     }
 
-    /** Moves the height above which nothing is shown; above the scene there is no cut. @param {number} by metres */
-    moveCut(by) {
-        const { min, max } = this.state.scene.bounds;
-        const cut = Math.max(min[2] + CUT_STEP_M, (this.stage.cut ?? max[2]) + by);
-        this.stage.setCut(cut > max[2] ? null : cut);
+    /** Shows only what lies in a box; null shows all of the scene. @param {{ min: number[], max: number[] } | null} box metres */
+    clip(box) {
+        this.room = -1;
+        this.stage.setClip(box);
+        this.state.tell("view");
+    }
+
+    /** Puts the clip box around these pieces. @param {number[]} pieces */
+    clipTo(pieces) {
+        const { mins, maxs } = this.state.pieces;
+        const end = (/** @type {number[][]} */ ends, /** @type {number} */ sign) => [0, 1, 2].map((axis) => sign * Math.max(...pieces.map((piece) => sign * ends[piece][axis])) + sign * CLIP_ROOM_M);
+        this.clip({ min: end(mins, -1), max: end(maxs, 1) });
+    }
+
+    /** Moves the upper side of the clip box. @param {number} by metres, upward */
+    moveTop(by) {
+        this.#moveSide(2, 1, by);
+    }
+
+    /** Moves the side of the clip box that faces the camera. @param {number} by metres, outward */
+    moveNearSide(by) {
+        const back = new Vector3(0, 0, 1).applyQuaternion(this.stage.camera.quaternion).toArray();
+        const axis = Math.abs(back[0]) > Math.abs(back[1]) ? 0 : 1;
+        this.#moveSide(axis, Math.sign(back[axis]) || 1, by);
+    }
+
+    /** Moves a side; beyond the scene it clips nothing, and a box that clips nothing is none. @param {number} axis @param {number} sign of the side @param {number} by metres, outward */
+    #moveSide(axis, sign, by) {
+        const { bounds } = this.state.scene;
+        const box = { min: [...(this.stage.clip?.min ?? bounds.min)], max: [...(this.stage.clip?.max ?? bounds.max)] };
+        if (sign > 0) box.max[axis] = Math.min(bounds.max[axis], Math.max(box.min[axis] + CLIP_STEP_M, box.max[axis] + by));
+        else box.min[axis] = Math.max(bounds.min[axis], Math.min(box.max[axis] - CLIP_STEP_M, box.min[axis] - by));
+        const isWhole = [0, 1, 2].every((i) => box.min[i] <= bounds.min[i] && box.max[i] >= bounds.max[i]);
+        this.clip(isWhole ? null : box);
+    }
+
+    /** Shows a room alone, from above; -1 shows all of the scene. @param {number} index of the rooms */
+    goToRoom(index) {
+        const room = this.rooms[index];
+        if (!room) return this.clip(null);
+        this.clip(room);
+        this.room = index;
+        if (!this.ceilings) this.toggleCeilings();
+        this.flights++;
+        this.stage.frameBox(room.min, room.max, this.#back(ROOM_DOWN_DEG));
+        this.state.tell("view");
     }
 
     showAll() {
         this.ceilings = null;
-        this.stage.setCut(null);
+        this.clip(null);
         this.state.setVisibility([], []);
     }
 

@@ -3,7 +3,9 @@
 import { getBytes, getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
+import { resizable } from "../shared/resizable.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
+import { takeChosenTheme } from "../shared/theme.js";
 import { toastError } from "../shared/toast.js";
 import { Actions } from "./actions.js";
 import { classesPanel } from "./classes_panel.js";
@@ -160,8 +162,7 @@ function panelsAndDialogs(act, table, byName) {
 }
 
 async function start() {
-    const theme = localStorage.getItem("enfilade.theme");
-    if (theme) document.documentElement.dataset.theme = theme;
+    takeChosenTheme();
     // The view first: if the browser cannot show it, nothing needs to be loaded.
     const stage = new Stage3d(byId("stage"));
     const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes("/api/annotate/geometry")]);
@@ -178,9 +179,10 @@ async function start() {
     stage.controls.arrowsTurn = true;
     stage.addEventListener("lost", () => toastError(new Error("The browser has taken the graphics away. Reload the page.")));
     toolbar(state, byName);
-    topBar(state, byName, act.looking);
+    topBar(state, byName, act);
     selectionBox(state, byName, act);
     panelsAndDialogs(act, table, byName);
+    resizable(byId("side"), "left");
     listenToKeys(table, act);
     showState(stage, state);
     const draw = new Draw(stage, state, { newInstance: () => act.newInstance(), give: (action) => act.give(action), hovered: readOuts(stage, state) });

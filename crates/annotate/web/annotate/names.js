@@ -1,7 +1,7 @@
 // Comparing names of pieces and classes.
 
-/** A name without the numbers at the ends of its words: `sofa_1/seat_cushion_2` is `sofa/seat_cushion`. @param {string} name */
-export const stem = (name) => name.toLowerCase().replace(/([\s._~#-]*\d+)+(?=\/|$)/gu, "");
+/** A name without the numbers at the ends of its words: `sofa_1/seat_cushion_2` is `sofa/seat_cushion`, `Note3_Mesh075` is `note_mesh`. @param {string} name */
+export const stem = (name) => name.toLowerCase().replace(/([\s._~#-]*\d+)+(?=[\s._~#/-]|$)/gu, "");
 
 /** What a search compares: without capitals and accents, so that "tur" finds "Tür". @param {string} text */
 export const folded = (text) => text.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase().replaceAll("ß", "ss").trim();

@@ -2,8 +2,8 @@
 
 import { getJson } from "../shared/api.js";
 import { byId, el, spaced } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { PieceList } from "./list.js";
-import { oneTabStop } from "./focus.js";
 import { classCell, selecting } from "./pieces_panel.js";
 import { commandButton } from "./toolbar.js";
 

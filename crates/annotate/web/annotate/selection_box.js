@@ -1,8 +1,8 @@
 // The box of the selection: the label that is given next, large; what is selected; and what can be done with it.
 
 import { byId, el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { css } from "./colors.js";
-import { oneTabStop } from "./focus.js";
 import { commandButton } from "./toolbar.js";
 
 /** @typedef {import("./state.js").State} State */
@@ -72,5 +72,5 @@ export function selectionBox(state, table, act) {
         confirm.textContent = suggested ? `Confirm ${suggested.name}` : "Confirm";
         confirm.disabled ||= !suggested;
     });
-    oneTabStop(rows, 1);
+    oneTabStop(rows);
 }

@@ -1,5 +1,5 @@
-// The panel "Suggested": classes proposed from names, in groups of one name and class, to confirm or reject. While it is open the scene shows
-// them, hatched, in the colours of their classes.
+// The panel "Suggested": classes proposed from names, to confirm or reject: all of a class at once, or the groups of one name that it has. While
+// the panel is open the scene shows them, hatched, in the colours of their classes.
 
 import { el, spaced } from "../shared/dom.js";
 import { PieceList } from "./list.js";
@@ -7,7 +7,7 @@ import { stem } from "./names.js";
 import { classCell } from "./pieces_panel.js";
 
 /**
- * Open suggestions of at least this confidence, in groups; the surest first.
+ * Open suggestions of at least this confidence, in groups of one name and class; the surest first.
  *
  * @param {import("./state.js").State} state
  * @param {number} least
@@ -26,15 +26,34 @@ export function groups(state, least) {
     return [...found.values()].sort((a, b) => sure(b) - sure(a) || b.length - a.length || a[0] - b[0]);
 }
 
+/**
+ * The rows of the list: each class, the one with most pieces first, and below it its groups, where there are several. A row of a class has
+ * the negative number of the class, one of a group the number of its first piece.
+ *
+ * @param {import("./state.js").State} state
+ * @param {number[][]} groups
+ * @returns {Map<number, number[]>} the pieces of each row
+ */
+export function rowsOf(state, groups) {
+    /** @type {Map<number, number[][]>} */
+    const byClass = new Map();
+    for (const pieces of groups) {
+        const semantic = state.suggestion(pieces[0])?.semantic ?? -1;
+        byClass.set(semantic, [...(byClass.get(semantic) ?? []), pieces]);
+    }
+    const sorted = [...byClass].sort(([, a], [, b]) => b.flat().length - a.flat().length);
+    return new Map(sorted.flatMap(([semantic, all]) => [...(all.length > 1 ? [/** @type {[number, number[]]} */ ([-semantic, all.flat()])] : []), ...all.map((pieces) => /** @type {[number, number[]]} */ ([pieces[0], pieces]))]));
+}
+
 /** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act */
 export function suggestionsPanel(state, act) {
     const slider = el("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.9", "aria-label": "Minimum confidence" });
     const threshold = el("output", { class: "number" });
-    const all = () => [...groupOf.values()].flat();
+    const all = () => [...new Set([...rows.values()].flat())];
     const confirm = el("button", { id: "confirm-all", onclick: () => void act.confirm(all()) });
-    /** The pieces of each group, by its first piece. @type {Map<number, number[]>} */
-    let groupOf = new Map();
-    const of = (/** @type {number} */ first) => groupOf.get(first) ?? [];
+    /** @type {Map<number, number[]>} */
+    let rows = new Map();
+    const of = (/** @type {number} */ row) => rows.get(row) ?? [];
     const list = new PieceList("Suggestions", "Nothing without a class is suggested with this confidence.", {
         row: (first) => suggestionRow(state, act, first, of(first)),
         isSelected: (first) => of(first).every((piece) => state.selection.has(piece)),
@@ -43,8 +62,8 @@ export function suggestionsPanel(state, act) {
     });
     function refresh() {
         const least = Number(slider.value);
-        groupOf = new Map(groups(state, least).map((pieces) => [pieces[0], pieces]));
-        list.show([...groupOf.keys()]);
+        rows = rowsOf(state, groups(state, least));
+        list.show([...rows.keys()]);
         const count = all().length;
         threshold.textContent = `≥ ${Math.round(least * 100)} %`;
         confirm.textContent = `Confirm all ${spaced(count)}`;
@@ -65,11 +84,12 @@ export function suggestionsPanel(state, act) {
     return panel;
 }
 
-/** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act @param {number} first @param {number[]} pieces */
-function suggestionRow(state, act, first, pieces) {
+/** @param {import("./state.js").State} state @param {import("./actions.js").Actions} act @param {number} row @param {number[]} pieces */
+function suggestionRow(state, act, row, pieces) {
+    const [first] = pieces;
     const semantic = state.suggestion(first)?.semantic ?? -1;
     const className = state.classById.get(semantic)?.name ?? "";
-    const name = pieces.length === 1 ? state.name(first) : `${stem(state.name(first))} × ${pieces.length}`;
+    const name = row < 0 ? `all ${pieces.length} of this class` : pieces.length === 1 ? state.name(first) : `${stem(state.name(first))} × ${pieces.length}`;
     const sure = Math.round(100 * Math.min(...pieces.map((piece) => state.suggestion(piece)?.confidence ?? 0)));
     const button = (/** @type {string} */ sign, /** @type {string} */ verb, /** @type {() => void} */ run) => {
         const pressed = (/** @type {Event} */ event) => {
@@ -79,5 +99,5 @@ function suggestionRow(state, act, first, pieces) {
         return el("button", { class: "plain", tabindex: "-1", title: `${verb} ${className} for ${name}`, "aria-label": `${verb} ${className} for ${name}`, onclick: pressed, ondblclick: (/** @type {Event} */ event) => event.stopPropagation() }, sign);
     };
     const buttons = el("span", {}, button("✓", "Confirm", () => void act.confirm(pieces)), button("✗", "Reject", () => state.reject(pieces)));
-    return { piece: first, label: `${name}: ${className}, ${sure} %`, cells: [name, classCell(state, semantic), `${sure} %`, buttons] };
+    return { piece: row, label: `${name}: ${className}, ${sure} %`, cells: [row < 0 ? el("b", {}, name) : name, classCell(state, semantic), `${sure} %`, buttons] };
 }

@@ -1,9 +1,9 @@
 // The tools at the left and the buttons at the top. Their buttons run commands of the table.
 
 import { byId, el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { keyName } from "./commands.js";
 import { FILTERS } from "./filters.js";
-import { oneTabStop } from "./focus.js";
 
 /** @typedef {import("./commands.js").Command} Command */
 /** @typedef {import("./state.js").State} State */
@@ -61,11 +61,14 @@ export function toolbar(state, table) {
     oneTabStop(byId("tools"));
 }
 
-/** @param {State} state @param {Map<string, Command>} table @param {import("./looking.js").Looking} looking */
-export function topBar(state, table, looking) {
+/** @param {State} state @param {Map<string, Command>} table @param {import("./actions.js").Actions} act */
+export function topBar(state, table, act) {
+    const { looking } = act;
     const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {(() => boolean) | null} */ pressed = null) => commandButton(state, table, id, text, pressed);
-    const undo = button("undo", "Undo");
-    const redo = button("redo", "Redo");
+    const undo = button("undo", "↶");
+    const redo = button("redo", "↷");
+    undo.setAttribute("aria-label", "Undo");
+    redo.setAttribute("aria-label", "Redo");
     byId("history").append(undo, redo);
     state.on(["history"], () => {
         const { can_undo, can_redo, undo_description, redo_description } = state.standing;
@@ -74,9 +77,13 @@ export function topBar(state, table, looking) {
         undo.title = can_undo ? `Undo: ${undo_description ?? ""} (Ctrl+Z)` : "Nothing to undo";
         redo.title = can_redo ? `Redo: ${redo_description ?? ""} (Ctrl+Shift+Z)` : "Nothing to redo";
     });
+    const realLook = button("real-look", "Real look", () => act.realLook.on);
+    realLook.disabled = !act.realLook.isKnown;
+    if (realLook.disabled) realLook.title = "The scene tells of no materials, and has no pictures";
     byId("view-buttons").append(
-        button("whole-scene", "Whole scene"),
-        button("from-above", "From above"),
+        button("whole-scene", "Whole"),
+        button("from-above", "Above"),
+        realLook,
         button("ceilings", "Hide ceilings", () => looking.ceilings !== null),
         button("xray", "X-ray", () => state.selection.size > 0 && [...state.selection].every((piece) => state.xray.has(piece))),
         button("isolate", "Isolate", () => state.isolated),
@@ -89,8 +96,13 @@ export function topBar(state, table, looking) {
         byId("page-buttons").append(made);
     }
     const cameras = byId("cameras");
-    cameras.append(el("option", { value: "-1" }, looking.frames.length > 0 ? "free" : "none planned"));
+    cameras.append(el("option", { value: "-1" }, looking.frames.length > 0 ? "Camera: free" : "No planned camera"));
     looking.frames.forEach((/** @type {any} */ frame, /** @type {number} */ i) => cameras.append(el("option", { value: String(i) }, `${frame.camera} · ${frame.frame}`)));
     cameras.addEventListener("change", () => looking.goToFrame(Number(cameras.value)));
+    const rooms = byId("rooms");
+    rooms.hidden = looking.rooms.length === 0;
+    rooms.append(el("option", { value: "-1" }, "All rooms"), ...looking.rooms.map(({ name }, i) => el("option", { value: String(i) }, name)));
+    rooms.addEventListener("change", () => looking.goToRoom(Number(rooms.value)));
+    state.on(["view"], () => (rooms.value = String(looking.room)));
     oneTabStop(byId("top"));
 }

@@ -2,7 +2,12 @@
 
 import { el } from "./dom.js";
 
-const SHOWN_MS = 9000;
+/** How long a message stays, milliseconds: problems have more to read. */
+const SHOWN_MS = { bad: 9000, good: 4000 };
+
+// There before the first message, so that screen readers hear each of them.
+const corner = el("div", { id: "toasts", "aria-live": "polite" });
+document.body.append(corner);
 
 /**
  * Shows a message; screen readers are told at once when it is a problem.
@@ -12,12 +17,10 @@ const SHOWN_MS = 9000;
  * @param {"bad" | "good"} [kind]
  */
 export function toast(message, help = "", kind = "bad") {
-    const corner = document.getElementById("toasts") ?? el("div", { id: "toasts" });
-    document.body.append(corner);
-    const box = el("div", { class: `toast ${kind}`, role: kind === "bad" ? "alert" : "status" }, el("p", {}, message), help ? el("p", { class: "quiet" }, help) : null);
+    const box = el("div", { class: `toast ${kind}`, role: kind === "bad" ? "alert" : null }, el("p", {}, message), help ? el("p", { class: "quiet" }, help) : null);
     corner.append(box);
     while (corner.children.length > 4) corner.firstElementChild?.remove();
-    setTimeout(() => box.remove(), SHOWN_MS);
+    setTimeout(() => box.remove(), SHOWN_MS[kind]);
 }
 
 /** Shows a problem: an ApiError with its help, or any other. @param {any} error */

@@ -7,8 +7,8 @@ import { numbers } from "./tables.js";
 /** Faces of a block: 6 MB of positions, which are uploaded in a short time. */
 const BLOCK_FACES = FACE_WIDTH * 512;
 
-/** The height of a cut that cuts nothing away, metres. */
-export const NO_CUT = 3e38;
+/** The ends of a box that clips nothing, metres. */
+const FAR = 3e38;
 
 /** The mesh in a three.js scene of its own, because it is drawn into a target of integers. */
 export class SceneMesh {
@@ -26,7 +26,8 @@ export class SceneMesh {
             pieceFlags: { value: tables.flagTexture },
             upInView: { value: new Vector3() },
             wireframe: { value: false },
-            cut: { value: NO_CUT },
+            clipMin: { value: new Vector3(-FAR, -FAR, -FAR) },
+            clipMax: { value: new Vector3(FAR, FAR, FAR) },
         };
         /** @type {Mesh<BufferGeometry, RawShaderMaterial>[]} */
         this.blocks = [];
@@ -57,6 +58,12 @@ export class SceneMesh {
         mesh.frustumCulled = false;
         mesh.matrixAutoUpdate = false;
         return mesh;
+    }
+
+    /** What lies outside of the box is not drawn. @param {{ min: number[], max: number[] } | null} box metres */
+    setClip(box) {
+        this.shared.clipMin.value.fromArray(box?.min ?? [-FAR, -FAR, -FAR]);
+        this.shared.clipMax.value.fromArray(box?.max ?? [FAR, FAR, FAR]);
     }
 
     /**

@@ -1,8 +1,8 @@
 // What is seen at each pixel (a target of integers), and the picture that is made from it.
 
 import {
-    AlwaysDepth, BufferAttribute, BufferGeometry, Color, DepthTexture, GLSL3, Mesh, NearestFilter, OrthographicCamera, RGIntegerFormat,
-    RawShaderMaterial, Scene, UnsignedIntType, WebGLRenderTarget,
+    AlwaysDepth, BufferAttribute, BufferGeometry, Color, DepthTexture, GLSL3, Matrix4, Mesh, NearestFilter, OrthographicCamera, RGIntegerFormat,
+    RawShaderMaterial, Scene, UnsignedIntType, Vector2, WebGLRenderTarget,
 } from "../../vendor/three.js";
 import { pictureFragment, pictureVertex } from "./shaders.js";
 
@@ -62,6 +62,15 @@ export class Picture {
             pieceMarks: { value: tables.markTexture },
             faceMarks: { value: tables.noFaces },
             hasFaceMarks: { value: false },
+            real: { value: false },
+            faceColors: { value: tables.noColors },
+            hasFaceColors: { value: false },
+            photograph: { value: /** @type {any} */ (tables.noColors) },
+            photographDepth: { value: /** @type {any} */ (null) },
+            hasPhotograph: { value: false },
+            worldFromClip: { value: new Matrix4() },
+            photographFromWorld: { value: new Matrix4() },
+            photographNearFar: { value: new Vector2() },
             outlines: { value: false },
             anyMarked: { value: false },
             samples: { value: 1 },
@@ -90,8 +99,10 @@ export class Picture {
      *
      * @param {import("../../vendor/three.js").WebGLRenderer} renderer
      * @param {SeenTarget} seen
+     * @param {import("../../vendor/three.js").PerspectiveCamera} camera that saw it
+     * @param {import("./photograph.js").Photograph} photograph
      */
-    draw(renderer, seen) {
+    draw(renderer, seen, camera, photograph) {
         const { uniforms, tables } = this;
         uniforms.seen.value = seen.target?.texture;
         uniforms.depth.value = seen.target?.depthTexture;
@@ -100,6 +111,14 @@ export class Picture {
         uniforms.pieceMarks.value = tables.markTexture;
         uniforms.faceMarks.value = tables.faceMarks ?? tables.noFaces;
         uniforms.hasFaceMarks.value = tables.faceMarks !== null;
+        uniforms.faceColors.value = tables.faceColors ?? tables.noColors;
+        uniforms.hasFaceColors.value = tables.faceColors !== null;
+        uniforms.worldFromClip.value.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
+        uniforms.hasPhotograph.value = photograph.texture !== null;
+        uniforms.photograph.value = photograph.texture ?? tables.noColors;
+        uniforms.photographDepth.value = photograph.seen.target?.depthTexture ?? seen.target?.depthTexture;
+        uniforms.photographFromWorld.value.copy(photograph.fromWorld);
+        uniforms.photographNearFar.value.set(photograph.camera.near, photograph.camera.far);
         uniforms.scale.value = renderer.getPixelRatio();
         renderer.render(this.scene, this.camera);
     }

@@ -33,7 +33,7 @@ flat out uint vFace;
 flat out uint vFlags;
 out vec3 vView;
 out vec3 vCorner;
-out float vHeight;
+out vec3 vWorld;
 
 void main() {
     int face = gl_VertexID / 3;
@@ -44,7 +44,7 @@ void main() {
     vFlags = texelFetch(pieceFlags, ivec2(vPiece % ${PIECE_WIDTH}u, vPiece / ${PIECE_WIDTH}u), 0).r;
     vCorner = vec3(corner == 0, corner == 1, corner == 2);
     vec3 world = boundsMin + position.xyz * boundsSize;
-    vHeight = world.z;
+    vWorld = world;
     vec4 view = modelViewMatrix * vec4(world, 1.0);
     vView = view.xyz;
     // A hidden piece lies beyond the far plane.
@@ -59,14 +59,15 @@ flat in uint vFace;
 flat in uint vFlags;
 in vec3 vView;
 in vec3 vCorner;
-in float vHeight;
-uniform float cut;
+in vec3 vWorld;
+uniform vec3 clipMin;
+uniform vec3 clipMax;
 uniform vec3 upInView;
 uniform bool wireframe;
 layout(location = 0) out uvec2 seen;
 
 void main() {
-    if (vHeight > cut) discard;
+    if (any(lessThan(vWorld, clipMin)) || any(greaterThan(vWorld, clipMax))) discard;
     // One pixel of four of a piece that is seen through: four samples make a quarter of its colour.
     if ((vFlags & ${XRAY}u) != 0u && ((int(gl_FragCoord.x) | int(gl_FragCoord.y)) & 1) != 0) discard;
     vec3 normal = cross(dFdx(vView), dFdy(vView));
@@ -97,6 +98,15 @@ uniform sampler2D pieceColors;
 uniform usampler2D pieceMarks;
 uniform usampler2D faceMarks;
 uniform bool hasFaceMarks;
+uniform bool real;
+uniform sampler2D faceColors;
+uniform bool hasFaceColors;
+uniform sampler2D photograph;
+uniform highp sampler2D photographDepth;
+uniform bool hasPhotograph;
+uniform mat4 worldFromClip;
+uniform mat4 photographFromWorld;
+uniform vec2 photographNearFar;
 uniform bool outlines;
 uniform bool anyMarked;
 uniform int samples;
@@ -122,12 +132,31 @@ bool hoveredAt(ivec2 at) { return pieceAt(at) == hovered + 1u; }
 // True on lines of a pattern over the picture, not over the scene; lengths are CSS pixels.
 bool onLine(float across, float period, float width) { return mod(across, period * scale) < width * scale; }
 
+// The photograph where it shows what lies at a place of the view, else the colour that is given.
+vec3 photographed(ivec2 at, vec3 rgb) {
+    vec3 clip = vec3((vec2(at) + 0.5) / vec2(textureSize(depth, 0)), texelFetch(depth, at, 0).r) * 2.0 - 1.0;
+    vec4 world = worldFromClip * vec4(clip, 1.0);
+    vec4 there = photographFromWorld * vec4(world.xyz / world.w, 1.0);
+    vec2 uv = there.xy / there.w * 0.5 + 0.5;
+    if (there.w <= photographNearFar.x || any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return rgb;
+    float n = photographNearFar.x, f = photographNearFar.y;
+    float seen = 2.0 * n * f / (f + n - (2.0 * texture(photographDepth, uv).r - 1.0) * (f - n));
+    return there.w > seen * 1.01 + 0.01 ? rgb : texture(photograph, uv).rgb;
+}
+
+// The colour of a surface as it looks, lit by the view's own light where no photograph shows it.
+vec3 look(ivec2 at, uvec2 here) {
+    vec3 own = hasFaceColors ? texelFetch(faceColors, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).rgb : vec3(0.72);
+    own *= float(here.r & 255u) / 255.0;
+    return hasPhotograph ? photographed(at, own) : own;
+}
+
 // The colour of what is seen there. Hatching says that it has no label in this layer, or is marked; its own colour stays between the lines.
-vec3 surface(uvec2 here, bool marked) {
+vec3 surface(ivec2 at, uvec2 here, bool marked) {
     uint i = (here.r >> 8) - 1u;
     vec4 own = texelFetch(pieceColors, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0);
-    vec3 rgb = own.rgb * (float(here.r & 255u) / 255.0);
-    if (own.a < 0.9 && onLine(gl_FragCoord.x + gl_FragCoord.y, 10.0, own.a < 0.25 ? 1.5 : 2.5)) rgb = own.a < 0.25 ? rgb * 0.88 : mix(rgb, vec3(1.0), 0.5);
+    vec3 rgb = real ? look(at, here) : own.rgb * (float(here.r & 255u) / 255.0);
+    if (own.a < 0.9 && onLine(gl_FragCoord.x + gl_FragCoord.y, 10.0, own.a < 0.25 ? 1.5 : 2.5)) rgb = own.a < 0.25 ? rgb * (real ? 0.94 : 0.88) : mix(rgb, vec3(1.0), 0.5);
     if (hasFaceMarks && texelFetch(faceMarks, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).r != 0u) rgb = mix(rgb, paint, 0.65);
     if (marked && onLine(gl_FragCoord.x - gl_FragCoord.y, 12.0, 2.0)) rgb = mix(rgb, accent, 0.75);
     return rgb;
@@ -147,7 +176,7 @@ vec3 colorAt(ivec2 at, ivec2 size) {
     uvec2 here = texelFetch(seen, at, 0).rg;
     uint piece = here.r >> 8;
     bool marked = anyMarked && isMarked(piece);
-    vec3 rgb = piece == 0u ? background : surface(here, marked);
+    vec3 rgb = piece == 0u ? background : surface(at, here, marked);
     int thin = samples * int(scale + 0.5);
     // What is marked has a line of two pixels within, and a dark one around it.
     if (marked && borders(at, size, 2 * thin, piece, true)) return accent;

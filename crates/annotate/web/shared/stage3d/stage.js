@@ -14,8 +14,9 @@ import { Color, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "../../v
 import { cameraJson, fittingFov, forward, lookingAt, rotation } from "./camera.js";
 import { Controls } from "./controls.js";
 import { Flight, motionReduced } from "./flight.js";
-import { NO_CUT, SceneMesh } from "./mesh.js";
+import { SceneMesh } from "./mesh.js";
 import { Pace } from "./pace.js";
+import { Photograph } from "./photograph.js";
 import { NONE, Picture, SeenTarget } from "./picture.js";
 import { hitPoint, seenAt, seenIn } from "./probe.js";
 import { Refinement } from "./refine.js";
@@ -78,8 +79,9 @@ export class Stage3d extends EventTarget {
         this.controls = new Controls(element, this.camera, () => this.cameraMoved());
         /** @type {SceneMesh | null} */
         this.mesh = null;
-        /** The height above which nothing is shown, metres. @type {number | null} */
-        this.cut = null;
+        /** The box outside of which nothing is shown, metres. @type {{ min: number[], max: number[] } | null} */
+        this.clip = null;
+        this.photograph = new Photograph();
         /** @type {Flight | null} */
         this.flight = null;
         /** Counts for read-outs: frames drawn while moving, time between them, time of the last whole picture. */
@@ -216,6 +218,25 @@ export class Stage3d extends EventTarget {
         this.meshChanged();
     }
 
+    /** Surfaces are shown as they look, instead of in the colours of their pieces. @param {boolean} on */
+    setReal(on) {
+        this.picture.uniforms.real.value = on;
+        this.requestFrame();
+    }
+
+    /** How the faces look. @param {Uint8Array} rgb three values per face of the scene, sRGB 0..255 */
+    setFaceColors(rgb) {
+        this.tables.setFaceColors(rgb);
+        this.requestFrame();
+    }
+
+    /** A photograph that is laid over what it shows. @param {HTMLImageElement | null} image @param {import("./camera.js").CameraJson & { aspect: number }} [camera] that took it */
+    setPhotograph(image, camera) {
+        if (image && camera && this.mesh) this.photograph.take(image, camera, this.renderer, this.mesh, this.tables);
+        else this.photograph.dispose();
+        this.requestFrame();
+    }
+
     /** Dark lines between pieces. @param {boolean} on */
     setOutlines(on) {
         this.picture.uniforms.outlines.value = on;
@@ -264,13 +285,13 @@ export class Stage3d extends EventTarget {
     /** The camera of now as the server takes it; pixels are CSS pixels of the element. */
     cameraJson() {
         const json = cameraJson(this.camera, this.element.clientWidth, this.element.clientHeight, this.near);
-        return this.cut === null ? json : { ...json, cut_z_m: this.cut };
+        return this.clip === null ? json : { ...json, clip: this.clip };
     }
 
-    /** What lies higher is neither drawn nor picked. @param {number | null} height_m null for no cut */
-    setCut(height_m) {
-        this.cut = height_m;
-        if (this.mesh) this.mesh.shared.cut.value = height_m ?? NO_CUT;
+    /** What lies outside of a box is neither drawn nor picked. @param {{ min: number[], max: number[] } | null} box metres; null for no box */
+    setClip(box) {
+        this.clip = box;
+        this.mesh?.setClip(box);
         this.meshChanged();
     }
 
@@ -431,7 +452,7 @@ export class Stage3d extends EventTarget {
         this.pictureStale = false;
         this.renderer.setRenderTarget(null);
         this.renderer.clear();
-        if (this.shown.target) this.picture.draw(this.renderer, this.shown);
+        if (this.shown.target) this.picture.draw(this.renderer, this.shown, this.camera, this.photograph);
         this.renderer.render(this.scene, this.camera);
     }
 
@@ -451,6 +472,7 @@ export class Stage3d extends EventTarget {
         this.mesh?.dispose();
         this.tables.dispose();
         this.picture.dispose();
+        this.photograph.dispose();
         this.quick.dispose();
         this.fine.dispose();
         this.renderer.dispose();

@@ -31,9 +31,9 @@ export function numbers(values, width) {
     return texture;
 }
 
-/** @param {Uint8Array} rgba @param {number} rows */
-function colors(rgba, rows) {
-    const texture = new DataTexture(/** @type {any} */ (rgba), PIECE_WIDTH, rows, RGBAFormat, UnsignedByteType);
+/** @param {Uint8Array} rgba @param {number} rows @param {number} [width] */
+function colors(rgba, rows, width = PIECE_WIDTH) {
+    const texture = new DataTexture(/** @type {any} */ (rgba), width, rows, RGBAFormat, UnsignedByteType);
     texture.needsUpdate = true;
     return texture;
 }
@@ -52,8 +52,11 @@ export class Tables {
         this.flagTexture = numbers(this.flags, PIECE_WIDTH);
         this.markTexture = numbers(this.marks, PIECE_WIDTH);
         this.noFaces = numbers(new Uint8Array(1), 1);
+        this.noColors = colors(new Uint8Array(4), 1, 1);
         /** @type {DataTexture | null} */
         this.faceMarks = null;
+        /** How faces look, where that is known. @type {DataTexture | null} */
+        this.faceColors = null;
     }
 
     /**
@@ -92,7 +95,16 @@ export class Tables {
         this.faceMarks = null;
     }
 
+    /** How each face of the scene looks. @param {Uint8Array} rgb three values per face */
+    setFaceColors(rgb) {
+        const rows = Math.max(1, Math.ceil(rgb.length / 3 / MARK_WIDTH));
+        const rgba = new Uint8Array(rows * MARK_WIDTH * 4);
+        for (let i = 0, j = 0; i < rgb.length; i += 3, j += 4) rgba.set(rgb.subarray(i, i + 3), j);
+        this.faceColors?.dispose();
+        this.faceColors = colors(rgba, rows, MARK_WIDTH);
+    }
+
     dispose() {
-        for (const texture of [this.colorTexture, this.flagTexture, this.markTexture, this.noFaces, this.faceMarks]) texture?.dispose();
+        for (const texture of [this.colorTexture, this.flagTexture, this.markTexture, this.noFaces, this.noColors, this.faceMarks, this.faceColors]) texture?.dispose();
     }
 }
