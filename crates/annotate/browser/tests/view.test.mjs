@@ -285,7 +285,7 @@ describe("view", () => {
             await addressSays("scene", new URLSearchParams(hash).get("scene"));
         }
         await open("scene=home&camera=cam_00&frame=70");
-        await page.locator("#toast", { hasText: "Frame 70 has no pictures" }).waitFor();
+        await page.locator(".toast", { hasText: "Frame 70 has no pictures" }).waitFor();
         assert.deepEqual(problems, []);
     });
 
@@ -506,6 +506,55 @@ describe("view", () => {
         await page.goBack();
         await page.locator("#gallery .place").first().waitFor();
         assert.deepEqual(await places(), shown, "back in the gallery as it was left");
+    });
+
+    test("frames are chosen by a class, those with most of it first", async () => {
+        const { frames, classes } = await json("class_shares/home");
+        const counts = (id) => frames.filter(({ camera, shares }) => camera === "cam_00" && shares[id] > 0);
+        // A class that not every frame shows, if there is one.
+        const { id } = [...classes].sort((a, b) => counts(a.id).length - counts(b.id).length).find((one) => counts(one.id).length > 0);
+        await page.goto("about:blank");
+        await page.goto(`${origin}/view/#scene=home&camera=cam_00&mode=gallery&within=camera`);
+        await page.locator("#gallery .place").first().waitFor();
+        await page.selectOption("#of-class", String(id));
+        await page.waitForFunction(() => window.view.gallery.rows.left === 0 && window.view.gallery.rows.classes.size > 0);
+        const wanted = counts(id).sort((a, b) => b.shares[id] - a.shares[id]).map(({ frame }) => `home/cam_00/${frame}`);
+        assert.deepEqual(await places(), wanted);
+        assert.match(await page.locator("#gallery .place .told").first().innerText(), /%/);
+        await addressSays("shows", String(id));
+        await page.click('#panel [data-key="everything"]');
+        await addressSays("shows", null);
+        assert.deepEqual(problems, []);
+    });
+
+    test("two pictures stand one above the other where that makes them larger", async () => {
+        await open("mode=side&layer=color&other=depth_meters");
+        const panes = () => page.evaluate(() => window.view.stage.panes().map(({ x, y }) => [x > 0, y > 0]));
+        assert.deepEqual(await panes(), [[false, false], [true, false]]);
+        await page.setViewportSize({ width: 390, height: 844 });
+        await page.waitForFunction(() => window.view.stage.panes()[1].y > 0);
+        assert.deepEqual(await panes(), [[false, false], [false, true]]);
+        const box = await page.locator("#stage").boundingBox();
+        await page.mouse.move(box.x + box.width / 2, box.y + 0.75 * box.height);
+        await page.locator('#readout [data-side="1"] .value').waitFor();
+        assert.equal(await page.evaluate(() => window.view.stage.pixel.side), 1);
+        await page.setViewportSize({ width: 1280, height: 720 });
+        await page.waitForFunction(() => window.view.stage.panes()[1].x > 0);
+    });
+
+    test("the columns are made wider by keys, and stay so", async () => {
+        await open("layer=color");
+        const width = async (id) => Math.round((await page.locator(id).boundingBox()).width);
+        const before = [await width("#tree"), await width("#inspector")];
+        for (const [id, key] of [["#tree", "ArrowRight"], ["#inspector", "ArrowLeft"]]) {
+            await page.locator(`${id} [role=separator]`).focus();
+            await page.keyboard.press(key);
+        }
+        assert.deepEqual([await width("#tree"), await width("#inspector")], before.map((one) => one + 16));
+        await page.reload();
+        await page.waitForSelector("body[data-ready=true]");
+        assert.deepEqual([await width("#tree"), await width("#inspector")], before.map((one) => one + 16));
+        await page.evaluate(() => localStorage.clear());
     });
 
     test("frames are chosen by limits, which stand in the address", async () => {

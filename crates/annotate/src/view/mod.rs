@@ -11,6 +11,7 @@ mod access;
 mod cache;
 mod camera;
 mod catalogue;
+mod class_shares;
 mod classes;
 mod decoded_layer;
 mod faults;

@@ -249,6 +249,23 @@ async fn the_gallery_tells_of_every_frame_and_rejected_view() {
 }
 
 #[tokio::test]
+async fn the_pixels_of_each_class_are_counted_when_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    let told = json(folder.path(), "/api/view/class_shares/room").await;
+    let Elements::I16(stored) = read_array(&dataset.layout().layer("room", "cam_00", 0, Layer::Semantic)).unwrap().values else { panic!() };
+    let frame = &told["frames"][0];
+    assert_eq!((told["frames"].as_array().unwrap().len(), &frame["camera"], &frame["frame"]), (1, &"cam_00".into(), &0.into()));
+    let shares = frame["shares"].as_object().unwrap();
+    for class in -1..=7i16 {
+        let pixels = stored.iter().filter(|&&value| value == class).count();
+        assert_eq!(shares[&class.to_string()].as_f64().unwrap(), pixels as f64 / stored.len() as f64, "{class}");
+    }
+    let names: Vec<_> = told["classes"].as_array().unwrap().iter().map(|class| class["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["wall", "floor", "cabinet", "bed", "chair", "sofa", "table"]);
+}
+
+#[tokio::test]
 async fn points_lie_at_their_depth_before_the_camera() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = dataset(folder.path());

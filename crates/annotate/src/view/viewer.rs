@@ -1,6 +1,7 @@
 //! The dataset that is open: where it is, and what was read from it lately.
 
 use super::cache::Cache;
+use super::class_shares::Shares;
 use super::decoded_layer::DecodedLayer;
 use super::place::FramePlace;
 use super::report::ReportFile;
@@ -17,6 +18,9 @@ const SCENE_CACHE_BYTES: usize = 512 << 20;
 /// Memory that small pictures may take: those of ten thousand frames.
 const THUMBNAIL_CACHE_BYTES: usize = 64 << 20;
 
+/// Memory that shares of classes may take: those of a hundred thousand frames.
+const SHARE_CACHE_BYTES: usize = 32 << 20;
+
 /// An open dataset, which is only read.
 pub struct Viewer {
     pub(super) dataset: Dataset,
@@ -26,6 +30,7 @@ pub struct Viewer {
     /// Geometry and free space, by scene and kind.
     pub(super) buffers: Cache<(String, &'static str), Vec<u8>>,
     pub(super) thumbnails: Cache<FramePlace, Vec<u8>>,
+    pub(super) shares: Cache<FramePlace, Shares>,
     /// The report of the last verification.
     pub(super) reports: Cache<(), ReportFile>,
 }
@@ -44,7 +49,7 @@ impl Viewer {
         let root = std::fs::canonicalize(dataset.root()).unwrap_or_else(|_| dataset.root().to_path_buf());
         let (layers, buffers) = (Cache::new(LAYER_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
         let (thumbnails, reports) = (Cache::new(THUMBNAIL_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
-        Self { dataset, root, layers, buffers, thumbnails, reports }
+        Self { dataset, root, layers, buffers, thumbnails, shares: Cache::new(SHARE_CACHE_BYTES), reports }
     }
 }
 

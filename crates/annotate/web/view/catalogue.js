@@ -58,6 +58,9 @@ export const getFrame = (scene, camera, frame) =>
 /** @param {string} scene @returns {Promise<{ frames: GalleryFrame[], problems: Loss[] }>} */
 export const getGallery = (scene) => getJson(`../api/view/gallery/${encodeURIComponent(scene)}`);
 
+/** @param {string} scene @returns {Promise<{ classes: SemanticClass[], frames: { camera: string, frame: number, shares: Record<string, number> }[], problems: Loss[] }>} */
+export const getClassShares = (scene) => getJson(`../api/view/class_shares/${encodeURIComponent(scene)}`);
+
 /** The address of a picture or page of the dataset. @param {string} path */
 export const fileUrl = (path) => `../api/view/file/${path.split("/").map(encodeURIComponent).join("/")}`;
 

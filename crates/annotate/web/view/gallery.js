@@ -3,7 +3,7 @@
 
 import { byId, el } from "../shared/dom.js";
 import { fileUrl, thumbnailUrl } from "./catalogue.js";
-import { COLUMNS, Rows, columnOf, isRejected } from "./gallery_rows.js";
+import { Rows, isRejected } from "./gallery_rows.js";
 import { faultText } from "./records.js";
 
 /** @typedef {import("./gallery_rows.js").Row} Row */
@@ -43,7 +43,7 @@ export class Gallery {
 
     /** Changes with what the panel beside shows. */
     get panelKey() {
-        return this.isShown ? `${this.rows.left} ${this.shown.length} ${[...this.rows.byScene.values()].reduce((sum, rows) => sum + rows.length, 0)}` : "";
+        return this.isShown ? `${this.rows.left} ${this.rows.classes.size} ${this.shown.length} ${[...this.rows.byScene.values()].reduce((sum, rows) => sum + rows.length, 0)}` : "";
     }
 
     focus() {
@@ -52,8 +52,10 @@ export class Gallery {
 
     /** Reads all scenes again. */
     async reload() {
-        if (this.isShown) await this.rows.read(this.session.dataset.scenes, { anew: true });
-        else this.rows.byScene.clear();
+        if (!this.isShown) return this.rows.forget();
+        this.rows.counted.clear();
+        await this.rows.read(this.session.dataset.scenes, { anew: true });
+        if (this.store.state.shows || this.rows.classes.size) await this.rows.count(this.session.dataset.scenes);
     }
 
     /** Shows the frames that the state asks for. */
@@ -61,11 +63,12 @@ export class Gallery {
         if (!this.isShown) return;
         const { state } = this.store;
         const { scenes } = this.session.dataset;
-        if (!this.rows.left && scenes.some((scene) => !this.rows.byScene.has(scene)) && !this.asked) {
+        if (!this.rows.reading && scenes.some((scene) => !this.rows.byScene.has(scene)) && !this.asked) {
             this.asked = true;
             this.rows.read(scenes);
         }
-        const order = JSON.stringify([state.sort, state.down, state.within, state.show, state.gate, state.law, state.limits]);
+        if (state.shows) void this.rows.count(scenes);
+        const order = JSON.stringify([state.sort, state.down, state.within, state.show, state.gate, state.law, state.shows, state.limits]);
         const isOther = this.order !== "" && this.order !== order;
         const before = isOther ? null : (this.shown[this.at] ?? state);
         this.order = order;
@@ -82,7 +85,7 @@ export class Gallery {
     /** What stands above the frames: how many there are, and by what they are sorted. */
     #bar() {
         const { state } = this.store;
-        const known = COLUMNS.filter((column) => [...this.rows.byScene.values()].some((rows) => rows.some((row) => column.value(row) !== null)));
+        const known = this.rows.columns(state).filter((column) => [...this.rows.byScene.values()].some((rows) => rows.some((row) => column.value(row) !== null)));
         const choice = (/** @type {string} */ label, /** @type {"sort" | "within" | "show"} */ key, /** @type {[string, string][]} */ options) =>
             el("label", {}, el("span", { class: "quiet" }, label), el("select", { "data-key": key, onchange: (/** @type {any} */ e) => this.store.set({ [key]: e.target.value, ...(key === "sort" ? { down: e.target.value !== "" } : {}) }) },
                 ...options.map(([value, text]) => el("option", { value, selected: state[key] === value }, text))));
@@ -142,7 +145,7 @@ export class Gallery {
 
     /** @param {Row} row @param {number} i */
     #place(row, i) {
-        const by = columnOf(this.store.state.sort);
+        const by = this.rows.columnOf(this.store.state, this.store.state.sort);
         const value = by?.value(row) ?? null;
         const name = `${this.session.dataset.scenes.length > 1 ? `${row.scene} ` : ""}${row.camera} ${row.frame}`;
         const why = row.faults.map(faultText).concat(row.laws.map((law) => `check fails: ${law}`));

@@ -1,6 +1,10 @@
 // The page as a whole: what follows when the state changes, what is told after each painting, and the controls above the picture.
 
 import { byId, el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
+import { resizable } from "../shared/resizable.js";
+import { takeChosenTheme, toggleTheme } from "../shared/theme.js";
+import { toast, toastError } from "../shared/toast.js";
 import { fileUrl, getFrame } from "./catalogue.js";
 import { commandsOf } from "./commands.js";
 import { displayPanel } from "./display.js";
@@ -10,11 +14,9 @@ import { listenToKeys, showHelp } from "./keys.js";
 import { GROUPS } from "./kinds.js";
 import { showDifferenceLegend, showLegend } from "./legend.js";
 import { showMessage } from "./message.js";
-import { showNotice } from "./notice.js";
 import { objectsPanel } from "./objects.js";
 import { showReadout } from "./readout.js";
 import { framePanel, lossesOf, viewsPanel } from "./records.js";
-import { roving } from "./roving.js";
 import { savePicture } from "./save.js";
 import { TWO } from "./session.js";
 import { Stage } from "./stage.js";
@@ -89,7 +91,7 @@ export class Page {
 
     /** The dataset has changed while one looked. @param {number} frames how many are new */
     async #grown(frames) {
-        if (frames > 0) showNotice(frames === 1 ? "1 new frame." : `${frames} new frames.`);
+        if (frames > 0) toast(frames === 1 ? "1 new frame." : `${frames} new frames.`, "", "good");
         await this.gallery.reload();
     }
 
@@ -107,7 +109,7 @@ export class Page {
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
         if (has("view")) this.space?.look();
-        if (has("mode", "sort", "down", "within", "show", "gate", "law", "limits", "scene", "camera")) this.gallery.show();
+        if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
     }
@@ -188,7 +190,6 @@ export class Page {
         const { scrollTop } = panel;
         panel.replaceChildren(...lossesOf(session, this.known, tab), ...panels[tab]());
         panel.scrollTop = scrollTop;
-        this.oneRowStop?.();
         if (focused) /** @type {HTMLElement | null} */ (panel.querySelector(`[data-key="${focused}"]`))?.focus();
     }
 
@@ -203,7 +204,7 @@ export class Page {
             const { state } = this.store;
             if (`${state.scene}/${state.camera}/${state.frame}` === place) this.known = known;
         } catch (error) {
-            showNotice(/** @type {Error} */ (error).message);
+            toastError(error);
         }
         this.learning = "";
         this.stage.refresh();
@@ -217,7 +218,6 @@ export class Page {
         document.title = state.mode === "gallery" ? session.dataset.name : `${session.dataset.name}: ${state.scene} ${state.camera} ${state.frame}`;
         byId("place").textContent = state.mode === "gallery" ? "" : [state.scene, state.camera].filter(Boolean).join(" / ");
         for (const tab of byId("tabs").children) tab.setAttribute("aria-selected", String(tab.dataset.tab === state.tab));
-        this.oneTabStop?.();
         byId("heading-1").hidden = !TWO.includes(state.mode);
         byId("heading-2").hidden = state.mode !== "difference";
         byId("flicker").setAttribute("aria-pressed", String(state.flicker));
@@ -251,8 +251,10 @@ export class Page {
         byId("frame-1").addEventListener("change", (/** @type {any} */ e) => store.set({ otherFrame: e.target.value === "" ? null : Math.round(e.target.valueAsNumber) }));
         for (const button of byId("modes").children) button.addEventListener("click", () => store.set({ mode: button.dataset.mode }));
         for (const tab of byId("tabs").children) tab.addEventListener("click", () => this.tab(tab.dataset.tab));
-        this.oneTabStop = roving(byId("tabs"), "[role=tab]", ["ArrowLeft", "ArrowRight"]);
-        this.oneRowStop = roving(byId("panel"), "tr[tabindex]", ["ArrowUp", "ArrowDown"]);
+        resizable(byId("tree"), "right");
+        resizable(byId("inspector"), "left");
+        oneTabStop(byId("tabs"), { along: "row" });
+        oneTabStop(byId("panel"), { entries: "tr[tabindex]", along: "column" });
         for (const [button, column] of [["tree-button", "tree"], ["panel-button", "inspector"]]) byId(button).addEventListener("click", () => this.#drawer(byId(button), byId(column)));
         const commands = commandsOf(this);
         listenToKeys(commands);
@@ -264,7 +266,7 @@ export class Page {
         byId("reload").addEventListener("click", () => this.reload());
         byId("theme").addEventListener("click", () => this.theme());
         byId("play").addEventListener("click", () => (travel.direction ? travel.stop() : travel.go(1, true)));
-        document.documentElement.dataset.theme = localStorage.getItem("theme") ?? "";
+        takeChosenTheme();
         matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => stage.refresh());
     }
 
@@ -286,7 +288,7 @@ export class Page {
     save() {
         const { state } = this.store;
         const name = [state.scene, state.camera, String(state.frame).padStart(4, "0"), state.mode === "space" ? "3d" : state.layer, state.mode === "one" || state.mode === "space" ? "" : state.other];
-        if (state.mode === "gallery") return showNotice("Open a frame to save its picture.");
+        if (state.mode === "gallery") return toast("Open a frame to save its picture.");
         savePicture(state.mode === "space" ? (this.space?.painting() ?? []) : this.stage.painting(), name.filter(Boolean).join("_"));
     }
 
@@ -294,9 +296,9 @@ export class Page {
         const link = this.store.write();
         try {
             await navigator.clipboard.writeText(link);
-            showNotice("The link to this view is on the clipboard.");
+            toast("The link to this view is on the clipboard.", "", "good");
         } catch {
-            showNotice("The address of this page is the link to this view.");
+            toast("The address of this page is the link to this view.", "", "good");
         }
     }
 
@@ -305,16 +307,14 @@ export class Page {
             await this.session.reload();
             this.#verdict();
             await this.gallery.reload();
-            showNotice("Read again.");
+            toast("Read again.", "", "good");
         } catch (error) {
-            showNotice(/** @type {Error} */ (error).message);
+            toastError(error);
         }
     }
 
     theme() {
-        const dark = getComputedStyle(document.documentElement).colorScheme === "dark";
-        document.documentElement.dataset.theme = dark ? "light" : "dark";
-        localStorage.setItem("theme", dark ? "light" : "dark");
+        toggleTheme();
         this.space?.theme();
         this.stage.refresh();
     }
@@ -328,7 +328,7 @@ export class Page {
         const text = passed ? "Checks pass" : failures.length === 1 ? "1 check fails" : `${failures.length} checks fail`;
         const title = [`${laws} checks. ${verify.verdict}`, verify.gate_verdict, ...failures.map((law) => `${law.statement}: ${law.place}`)].join("\n");
         const frames = el("button", { type: "button", class: "badge warn", title: "Show them in the gallery",
-            onclick: () => this.store.set({ mode: "gallery", show: "rejected", within: "all", limits: {}, gate: "", law: "" }) }, rejected === 1 ? "1 frame rejected" : `${rejected} frames rejected`);
+            onclick: () => this.store.set({ mode: "gallery", show: "rejected", within: "all", limits: {}, gate: "", law: "", shows: 0 }) }, rejected === 1 ? "1 frame rejected" : `${rejected} frames rejected`);
         byId("verdict").replaceChildren(el("a", { class: `badge ${passed ? "good" : "bad"}`, href: card ? fileUrl(card.path) : undefined, target: "_blank", title }, text), ...(rejected ? [frames] : []));
     }
 }

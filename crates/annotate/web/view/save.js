@@ -1,7 +1,7 @@
 // Saving what is shown as a picture.
 
 import { el } from "../shared/dom.js";
-import { showNotice } from "./notice.js";
+import { toast } from "../shared/toast.js";
 
 /**
  * Puts canvases over each other and gives the result to the browser's downloads.
@@ -14,10 +14,10 @@ export function savePicture(canvases, name) {
     const pen = whole.getContext("2d");
     for (const canvas of canvases) if (canvas.style.display !== "none" && canvas.width) pen.drawImage(canvas, 0, 0);
     whole.toBlob((/** @type {Blob | null} */ blob) => {
-        if (!blob) return showNotice("The picture could not be saved.");
+        if (!blob) return toast("The picture could not be saved.");
         const url = URL.createObjectURL(blob);
         el("a", { href: url, download: `${name}.png` }).click();
         setTimeout(() => URL.revokeObjectURL(url), 10_000);
-        showNotice(`Saved ${name}.png.`);
+        toast(`Saved ${name}.png.`, "", "good");
     }, "image/png");
 }

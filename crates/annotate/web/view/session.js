@@ -1,10 +1,10 @@
 // The open dataset, the scene and camera that are shown, and the layers that are needed for it.
 
+import { toast } from "../shared/toast.js";
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
 import { differenceOf, isAlike } from "./difference.js";
 import { Loader } from "./loader.js";
 import { Looks } from "./looks.js";
-import { showNotice } from "./notice.js";
 import { pixelOf } from "./numbers.js";
 
 /** @typedef {import("./catalogue.js").Dataset} Dataset */
@@ -74,7 +74,7 @@ export class Session {
             this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
             this.looks.enter(scene);
             const near = this.#nearest(state);
-            if (state.frame >= 0 && near.frame !== state.frame) showNotice(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
+            if (state.frame >= 0 && near.frame !== state.frame) toast(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
             this.store.set({ scene: scene.name, camera: name ?? "", ...near }, { step: false });
         } catch (error) {
             const { message, help } = /** @type {any} */ (error);

@@ -5,9 +5,9 @@ import { getBytes } from "../shared/api.js";
 import { byId, el } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
+import { toastError } from "../shared/toast.js";
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
-import { showNotice } from "./notice.js";
 import { BOX_EDGES, boxCorners } from "./project.js";
 import { spaceControls } from "./space_controls.js";
 import { framePoints } from "./space_points.js";
@@ -62,7 +62,7 @@ export class Space {
             try {
                 await part();
             } catch (error) {
-                showNotice(/** @type {Error} */ (error).message);
+                toastError(error);
             }
         }
     }

@@ -61,11 +61,16 @@ export class Stage {
         return devicePixelRatio || 1;
     }
 
-    /** The panes in device pixels: as many as pictures stand beside each other. @returns {Rect[]} */
+    /** The panes in device pixels: two pictures stand beside each other, or one above the other where that makes them larger. @returns {Rect[]} */
     panes() {
         const { width, height } = this.painter.canvas;
         if (this.store.state.mode !== "side") return [{ x: 0, y: 0, width, height }];
         const gap = Math.round(2 * this.ratio);
+        const [high, wide] = this.pictureSize();
+        if (Math.min(width / wide, height / 2 / high) > Math.min(width / 2 / wide, height / high)) {
+            const half = Math.floor((height - gap) / 2);
+            return [{ x: 0, y: 0, width, height: half }, { x: 0, y: half + gap, width, height: height - half - gap }];
+        }
         const half = Math.floor((width - gap) / 2);
         return [{ x: 0, y: 0, width: half, height }, { x: half + gap, y: 0, width: width - half - gap, height }];
     }
@@ -183,7 +188,7 @@ export class Stage {
         const { mode, wipe } = this.store.state;
         const panes = this.panes();
         const device = [x * this.ratio, y * this.ratio];
-        const at = panes.length > 1 && device[0] >= panes[1].x ? 1 : 0;
+        const at = panes.length > 1 && device[0] >= panes[1].x && device[1] >= panes[1].y ? 1 : 0;
         const place = this.placement(panes[at]);
         const side = mode === "wipe" ? Number(device[0] >= panes[0].width * wipe) : at;
         return { x: (device[0] - place.x) / place.zoom, y: (device[1] - place.y) / place.zoom, side };
@@ -196,10 +201,8 @@ export class Stage {
      * @param {number} [y]
      */
     zoomBy(factor, x, y) {
-        const { width, height } = this.element.getBoundingClientRect();
         const [pane] = this.panes();
-        const [sx, sy] = [x ?? pane.width / this.ratio / 2, y ?? height / 2];
-        const before = this.pixelAt(Math.min(sx, width), sy);
+        const before = this.pixelAt(x ?? pane.width / this.ratio / 2, y ?? pane.height / this.ratio / 2);
         const old = this.store.state.zoom || this.fit();
         const zoom = Math.min(MAX_ZOOM, Math.max(this.fit() / 2, old * factor));
         const [h, w] = this.pictureSize();

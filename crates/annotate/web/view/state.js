@@ -33,6 +33,7 @@
  * @property {"rendered" | "rejected" | "every"} show which frames the gallery shows
  * @property {string} gate that the gallery's frames do not pass
  * @property {string} law that the gallery's frames break
+ * @property {number} shows class that the gallery's frames show; 0: any
  * @property {Record<string, [number | null, number | null]>} limits of the gallery's columns
  */
 
@@ -40,7 +41,7 @@
 const BEGINNING = {
     scene: "", camera: "", frame: -1, layer: "color", other: "depth_meters", otherFrame: null, mode: "one", flicker: false, wipe: 0.5, zoom: 0, x: 0.5, y: 0.5,
     tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, class: 0, instance: 0, tab: "display", view: "",
-    sort: "", down: false, within: "all", show: "rendered", gate: "", law: "", limits: {},
+    sort: "", down: false, within: "all", show: "rendered", gate: "", law: "", shows: 0, limits: {},
 };
 
 /** @type {Record<string, readonly string[]>} */
@@ -54,7 +55,7 @@ const CHOICES = {
 };
 
 /** Words whose change is a step that Back takes back; others change what stands there. */
-const STEPS = ["scene", "camera", "frame", "layer", "other", "otherFrame", "mode", "sort", "within", "show", "gate", "law"];
+const STEPS = ["scene", "camera", "frame", "layer", "other", "otherFrame", "mode", "sort", "within", "show", "gate", "law", "shows"];
 
 /** Words that stand in the address also where they are as at the beginning, if they say anything. */
 const PLACE = ["scene", "camera", "frame", "layer"];

@@ -1,8 +1,8 @@
 // The list of scenes and their cameras.
 
 import { byId, el } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { fileUrl } from "./catalogue.js";
-import { roving } from "./roving.js";
 
 /** At most this many scenes are listed; others are found by searching. */
 const MAX_SHOWN = 500;
@@ -11,7 +11,7 @@ export class Tree {
     /** @param {import("./session.js").Session} session */
     constructor(session) {
         this.session = session;
-        this.oneStop = roving(byId("scenes"), "button", ["ArrowUp", "ArrowDown"]);
+        oneTabStop(byId("scenes"), { along: "column" });
         byId("scene-search").addEventListener("input", () => this.enter());
         byId("scene-search").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
             const [first] = this.#found();
@@ -41,7 +41,6 @@ export class Tree {
         };
         byId("scenes").replaceChildren(...found.slice(0, MAX_SHOWN).map(item), ...(found.length > MAX_SHOWN ? [el("li", { class: "quiet" }, `and ${found.length - MAX_SHOWN} more`)] : []),
             ...(found.length ? [] : [el("li", { class: "quiet" }, "No scene has such a name.")]));
-        this.oneStop();
         byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => el("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
     }
 

@@ -1,0 +1,84 @@
+//! How much of each class the frames of a scene show. No table has that of things without an instance, such as walls, so the layer
+//! `semantic` is counted, when somebody asks for a class and not before.
+
+use super::cache::Weight;
+use super::place::{FramePlace, problem, stamp};
+use super::problems::Problems;
+use super::viewer::{Viewer, work};
+use crate::serve::{ApiProblem, reply};
+use axum::extract::{Path, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use enfilade_dataset::Elements;
+use enfilade_dataset::hdf5::read_array;
+use enfilade_frame::Layer;
+use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Share of the pixels of each class that a frame shows; -1 is what has none.
+#[derive(Debug, Default, Serialize)]
+#[serde(transparent)]
+pub struct Shares(BTreeMap<i16, f64>);
+
+impl Weight for Shares {
+    fn weight(&self) -> usize {
+        self.0.len() * size_of::<(i16, f64)>()
+    }
+}
+
+/// `GET /api/view/class_shares/{scene}`.
+pub async fn class_shares(
+    State(viewer): State<Arc<Viewer>>,
+    Path(scene): Path<String>,
+    headers: HeaderMap,
+) -> Result<Response, ApiProblem> {
+    let gzip = reply::takes_gzip(&headers);
+    work(viewer, move |viewer| {
+        viewer.check_scene(&scene)?;
+        Ok(reply::json(gzip, &viewer.class_shares(&scene)?))
+    })
+    .await
+}
+
+impl Viewer {
+    fn class_shares(&self, scene: &str) -> Result<Value, ApiProblem> {
+        let mut places = Vec::new();
+        for camera in self.dataset.cameras(scene).map_err(problem)? {
+            self.check_camera(scene, &camera)?;
+            let labelled =
+                self.layers_of_frames(scene, &camera, None)?.into_iter().filter(|(_, layers)| layers.contains(&(Layer::Semantic as usize)));
+            places.extend(labelled.map(|(frame, _)| FramePlace { scene: scene.into(), camera: camera.clone(), frame }));
+        }
+        let counted: Vec<_> = places.par_iter().map(|place| self.shares(place)).collect();
+        let mut lost = Problems::default();
+        let mut seen = BTreeSet::new();
+        let mut frames = Vec::new();
+        for (place, shares) in places.iter().zip(counted) {
+            let shares = lost.or_nothing("gallery", shares);
+            seen.extend(shares.0.keys().map(|&class| Some(i64::from(class))));
+            frames.push(json!({ "camera": place.camera, "frame": place.frame, "shares": *shares }));
+        }
+        let classes = lost.or_nothing("gallery", self.classes(scene));
+        let classes: Vec<_> = classes.into_iter().filter(|class| seen.contains(&class["id"].as_i64())).collect();
+        Ok(json!({ "scene": scene, "classes": classes, "frames": frames, "problems": lost }))
+    }
+
+    fn shares(&self, place: &FramePlace) -> Result<Arc<Shares>, ApiProblem> {
+        let path = self.dataset.layer_source(&place.scene, &place.camera, place.frame, Layer::Semantic);
+        self.allow(&path)?;
+        self.shares.get(place, stamp(&path), || {
+            let array = read_array(&path).map_err(problem)?;
+            let Elements::I16(classes) = &array.values else {
+                let error = format!("{}: expected int16, found {}", path.display(), array.values.element().name());
+                return Err(ApiProblem::failed(error, "delete the file and make it again"));
+            };
+            let mut pixels: BTreeMap<i16, f64> = BTreeMap::new();
+            classes.iter().for_each(|&class| *pixels.entry(class).or_default() += 1.0);
+            pixels.values_mut().for_each(|count| *count /= classes.len() as f64);
+            Ok(Shares(pixels))
+        })
+    }
+}
