@@ -158,3 +158,29 @@ test("same names and same geometry are selected together", async (t) => {
     await page.keyboard.press("j");
     assert.ok((await selected(page)).includes("chair_2"));
 });
+
+test("large faces come first, the rest follows, and what was split meanwhile stays so", async (t) => {
+    const context = await (await browser(t)).newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" });
+    let go = () => {};
+    const wait = new Promise((resolve) => (go = () => resolve(null)));
+    await context.route("**/api/annotate/geometry", async (route) => {
+        const response = await route.fetch();
+        await wait;
+        await route.fulfill({ response });
+    });
+    // Many small boxes far away, in one part.
+    const crowd = Array.from({ length: 4000 }, (_, i) => [[20 + (i % 60) * 0.2, 20 + Math.floor(i / 60) * 0.2, 0], [20.1 + (i % 60) * 0.2, 20.1 + Math.floor(i / 60) * 0.2, 0.1]]);
+    const page = await open(context, (await serve(t, room(t, [["crowd", crowd]]).file)).url);
+    const faces = () => page.evaluate(() => [window.annotate.stage.mesh.geometry.faces, window.annotate.state.scene.faces]);
+    const [few, all] = await faces();
+    assert.ok(few < all && (await page.locator("#rest").isVisible()), `${few} of ${all}`);
+    await select(page, "lamps");
+    await page.keyboard.press("k");
+    await saved(page);
+    go();
+    await page.waitForFunction(() => window.annotate.stage.mesh.geometry.faces === window.annotate.state.scene.faces);
+    await shown(page);
+    assert.equal(await page.locator("#rest").isVisible(), false);
+    await lookFromFront(page);
+    await pixelOf(page, "lamps~2");
+});

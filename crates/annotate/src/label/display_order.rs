@@ -3,7 +3,7 @@
 //! A header of 64 bytes: `ENFGEOM1`, number of faces F and of pieces P (u32), the lower and upper corner of the scene's bounds (f32 × 3 each),
 //! number of levels L (u32), zeros. Then the L ends of the levels (u32), filled with zeros to a multiple of 16 bytes. Then, in the order
 //! of display: F × 3 corners of 4 × u16 (x, y and z as shares of the scene's extent in 65535ths, and 0), F face numbers (u32), F piece
-//! numbers (u32). All little-endian.
+//! numbers (u32). All little-endian. For a first sight of the scene over a slow connection, the first levels alone have the same form.
 //!
 //! Drawing the faces up to the end of a level is a decimation of the scene like that of Hypersim's tool: a random choice in which a face
 //! is left out with weight 2^(−area / half-life). Here the half-life is the median area, so it fits scenes of any unit.
@@ -16,6 +16,8 @@ use rayon::prelude::*;
 const MIN_LEVEL_FACES: usize = 16_384;
 /// Size of the header.
 const HEADER_BYTES: usize = 64;
+/// Size of a face's corners.
+const CORNER_BYTES: usize = 24;
 
 /// The order in which faces are shown, made once per scene.
 pub struct DisplayOrder {
@@ -23,8 +25,8 @@ pub struct DisplayOrder {
     /// Face numbers.
     faces: Vec<u32>,
     level_ends: Vec<u32>,
-    /// Header, levels and corners: what does not change when faces move to other pieces.
-    head: Vec<u8>,
+    /// Encoded, face by face.
+    corners: Vec<u8>,
 }
 
 impl DisplayOrder {
@@ -39,8 +41,8 @@ impl DisplayOrder {
             faces[first..end as usize].par_sort_by_cached_key(|&face| morton(&corners[face as usize], &bounds));
             first = end as usize;
         }
-        let mut order = Self { bounds, faces, level_ends, head: Vec::new() };
-        order.head = order.encode_head(corners);
+        let mut order = Self { bounds, faces, level_ends, corners: Vec::new() };
+        order.corners = order.encode_corners(corners);
         order
     }
 
@@ -49,34 +51,36 @@ impl DisplayOrder {
         self.bounds
     }
 
-    /// The bytes, with the piece of every face as it is now.
-    pub fn encode(&self, piece_of_face: &[u32], pieces: usize) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(self.head.len() + 8 * self.faces.len());
-        bytes.extend_from_slice(&self.head);
-        bytes[12..16].copy_from_slice(&(pieces as u32).to_le_bytes());
-        self.faces.iter().for_each(|face| bytes.extend_from_slice(&face.to_le_bytes()));
-        self.faces.iter().for_each(|&face| bytes.extend_from_slice(&piece_of_face[face as usize].to_le_bytes()));
+    /// The bytes, with the piece of every face as it is now: of all levels, or of those that end at or before so many faces, at least one.
+    pub fn encode(&self, piece_of_face: &[u32], pieces: usize, most: Option<usize>) -> Vec<u8> {
+        let whole = |end: &&u32| most.is_none_or(|most| **end as usize <= most);
+        let levels = self.level_ends.iter().take_while(whole).count().max(1);
+        let ends = &self.level_ends[..levels];
+        let faces = &self.faces[..ends[levels - 1] as usize];
+        let padded = (4 * levels).next_multiple_of(16);
+        let mut bytes = Vec::with_capacity(HEADER_BYTES + padded + (CORNER_BYTES + 8) * faces.len());
+        bytes.extend_from_slice(b"ENFGEOM1");
+        bytes.extend_from_slice(&(faces.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(&(pieces as u32).to_le_bytes());
+        let limits = self.bounds.min.to_array().into_iter().chain(self.bounds.max.to_array());
+        limits.for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
+        bytes.extend_from_slice(&(levels as u32).to_le_bytes());
+        bytes.resize(HEADER_BYTES, 0);
+        ends.iter().for_each(|end| bytes.extend_from_slice(&end.to_le_bytes()));
+        bytes.resize(HEADER_BYTES + padded, 0);
+        bytes.extend_from_slice(&self.corners[..CORNER_BYTES * faces.len()]);
+        faces.iter().for_each(|face| bytes.extend_from_slice(&face.to_le_bytes()));
+        faces.iter().for_each(|&face| bytes.extend_from_slice(&piece_of_face[face as usize].to_le_bytes()));
         bytes
     }
 
-    fn encode_head(&self, corners: &[[Vec3; 3]]) -> Vec<u8> {
-        let ends = (4 * self.level_ends.len()).next_multiple_of(16);
-        let mut bytes = Vec::with_capacity(HEADER_BYTES + ends + 24 * self.faces.len());
-        bytes.extend_from_slice(b"ENFGEOM1");
-        bytes.extend_from_slice(&(self.faces.len() as u32).to_le_bytes());
-        bytes.extend_from_slice(&[0; 4]);
-        let limits = self.bounds.min.to_array().into_iter().chain(self.bounds.max.to_array());
-        limits.for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
-        bytes.extend_from_slice(&(self.level_ends.len() as u32).to_le_bytes());
-        bytes.resize(HEADER_BYTES, 0);
-        self.level_ends.iter().for_each(|end| bytes.extend_from_slice(&end.to_le_bytes()));
-        bytes.resize(HEADER_BYTES + ends, 0);
+    /// The corners of all faces, which do not change when faces move to other pieces.
+    fn encode_corners(&self, corners: &[[Vec3; 3]]) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(CORNER_BYTES * self.faces.len());
         let scale = 65535.0 / self.bounds.extent().max(Vec3::splat(f32::MIN_POSITIVE));
-        for &face in &self.faces {
-            for corner in &corners[face as usize] {
-                let q = ((*corner - self.bounds.min) * scale).round().clamp(Vec3::ZERO, Vec3::splat(65535.0));
-                [q.x as u16, q.y as u16, q.z as u16, 0].iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
-            }
+        for corner in self.faces.iter().flat_map(|&face| &corners[face as usize]) {
+            let q = ((*corner - self.bounds.min) * scale).round().clamp(Vec3::ZERO, Vec3::splat(65535.0));
+            [q.x as u16, q.y as u16, q.z as u16, 0].iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
         }
         bytes
     }
@@ -131,7 +135,7 @@ mod tests {
         let corners: Vec<_> = (0..100_000).map(|i| triangle(i as f32 * 0.01, if i % 1000 == 7 { 2.0 } else { 0.01 })).collect();
         let order = DisplayOrder::new(&corners);
         let pieces: Vec<u32> = (0..100_000).map(|face| face / 10).collect();
-        let bytes = order.encode(&pieces, 10_000);
+        let bytes = order.encode(&pieces, 10_000, None);
         let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
         assert_eq!((&bytes[..8], u32_at(8), u32_at(12)), (&b"ENFGEOM1"[..], 100_000, 10_000));
         let levels = u32_at(40) as usize;
@@ -148,10 +152,19 @@ mod tests {
         let u16_at = |at: usize| f32::from(u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap()));
         let x = order.bounds().min.x + u16_at(start) / 65535.0 * order.bounds().extent().x;
         assert!((x - corners[faces[0] as usize][0].x).abs() < 0.01, "{x}");
+        // The first levels alone are the beginning of each of the arrays.
+        for (most, levels) in [(0, 1), (ends[1] as usize, 2), (usize::MAX, levels)] {
+            let few = order.encode(&pieces, 10_000, Some(most));
+            let (count, start) = (ends[levels - 1] as usize, HEADER_BYTES + (4 * levels).next_multiple_of(16));
+            assert_eq!((few.len(), &few[8..12]), (start + 32 * count, &(count as u32).to_le_bytes()[..]));
+            let all = HEADER_BYTES + (4 * ends.len()).next_multiple_of(16);
+            assert!(few[start..start + 24 * count] == bytes[all..all + 24 * count]);
+            assert!(few[start + 24 * count..start + 28 * count] == bytes[all + 24 * 100_000..all + 24 * 100_000 + 4 * count]);
+        }
     }
 
     #[test]
     fn an_empty_scene_has_one_empty_level() {
-        assert_eq!(DisplayOrder::new(&[]).encode(&[], 0).len(), HEADER_BYTES + 16);
+        assert_eq!(DisplayOrder::new(&[]).encode(&[], 0, None).len(), HEADER_BYTES + 16);
     }
 }

@@ -13,6 +13,7 @@ use super::session::ActionError;
 use super::viewpoint::Viewpoint;
 use crate::serve::{ApiProblem, beside, reply};
 use axum::body::Bytes;
+use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::{HeaderMap, header};
 use axum::response::sse::{KeepAlive, Sse};
@@ -123,11 +124,18 @@ fn start_camera(app: &App) -> Option<PlannedFrame> {
     views(app.scene(), app.bvh()).1.into_iter().find_map(|camera| camera.frames.into_iter().next())
 }
 
-async fn geometry(State(app): Shared, headers: HeaderMap) -> Answer {
+#[derive(Deserialize)]
+struct GeometryQuery {
+    /// Only the first levels, up to so many faces.
+    most: Option<usize>,
+}
+
+async fn geometry(State(app): Shared, query: Result<Query<GeometryQuery>, QueryRejection>, headers: HeaderMap) -> Answer {
     let gzip = reply::takes_gzip(&headers);
+    let most = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "most is a number of faces"))?.0.most;
     beside(move || {
         let session = app.session();
-        let bytes = app.order().encode(session.pieces().of_face(), session.pieces().list().len());
+        let bytes = app.order().encode(session.pieces().of_face(), session.pieces().list().len(), most);
         drop(session);
         Ok(reply::array(bytes, gzip, &[]))
     })

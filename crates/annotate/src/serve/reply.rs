@@ -23,9 +23,11 @@ pub fn json(gzip: bool, value: &impl Serialize) -> Response {
     body(text, "application/json", gzip, 6)
 }
 
-/// The bytes of an array, with headers that describe it. Compressed at the fastest level.
+/// The bytes of an array, with headers that describe it; `x-enfilade-bytes` is their number before they are compressed, at the fastest level.
 pub fn array(bytes: Vec<u8>, gzip: bool, headers: &[(&'static str, String)]) -> Response {
+    let length = bytes.len();
     let mut response = body(bytes, "application/octet-stream", gzip, 1);
+    response.headers_mut().insert("x-enfilade-bytes", length.into());
     for (name, value) in headers {
         if let Ok(value) = HeaderValue::from_str(value) {
             response.headers_mut().insert(HeaderName::from_static(name), value);

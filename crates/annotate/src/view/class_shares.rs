@@ -75,10 +75,11 @@ impl Viewer {
                 let error = format!("{}: expected int16, found {}", path.display(), array.values.element().name());
                 return Err(ApiProblem::failed(error, "delete the file and make it again"));
             };
-            let mut pixels: BTreeMap<i16, f64> = BTreeMap::new();
-            classes.iter().for_each(|&class| *pixels.entry(class).or_default() += 1.0);
-            pixels.values_mut().for_each(|count| *count /= classes.len() as f64);
-            Ok(Shares(pixels))
+            let mut pixels = vec![0u32; 1 << 16];
+            classes.iter().for_each(|&class| pixels[usize::from(class.cast_unsigned())] += 1);
+            let share = |class: u16| f64::from(pixels[usize::from(class)]) / classes.len() as f64;
+            let seen = (0..=u16::MAX).filter(|&class| pixels[usize::from(class)] > 0);
+            Ok(Shares(seen.map(|class| (class.cast_signed(), share(class))).collect()))
         })
     }
 }

@@ -58,7 +58,7 @@ impl Viewer {
         // As in Hypersim's own tool, a face without object belongs to object 0.
         let objects: Vec<u32> = objects.into_iter().map(|object| u32::try_from(object).unwrap_or(0)).collect();
         let pieces = objects.iter().max().map_or(0, |&max| max as usize + 1);
-        Ok(DisplayOrder::new(&corners).encode(&objects, pieces))
+        Ok(DisplayOrder::new(&corners).encode(&objects, pieces, None))
     }
 }
 

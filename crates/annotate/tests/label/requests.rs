@@ -230,7 +230,8 @@ async fn geometry_is_packed_and_compressed_where_asked_for() {
     let page = Page::open(&package(folder.path()));
     let (_, plain) = page.bytes("geometry", &[]).await;
     let (headers, packed) = page.bytes("geometry", &[("accept-encoding", "br, gzip;q=1.0")]).await;
-    assert_eq!(headers["content-encoding"], "gzip");
+    assert_eq!((&headers["content-encoding"], &headers["x-enfilade-bytes"]), (&"gzip".parse().unwrap(), &plain.len().into()));
+    assert!(page.bytes("geometry?most=10", &[]).await.1 == plain, "there is one level");
     let mut unpacked = vec![0; plain.len()];
     assert_eq!(libdeflater::Decompressor::new().gzip_decompress(&packed, &mut unpacked), Ok(plain.len()));
     assert!(unpacked == plain && plain.len() == 64 + 16 + 74 * 32);

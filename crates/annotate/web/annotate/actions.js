@@ -24,6 +24,8 @@ export class Actions {
         this.edits = edits;
         this.digits = new Digits(state);
         this.looking = new Looking(state, stage);
+        /** Faces that splits moved since the page was loaded, with their pieces. @type {[number[], number[]][]} */
+        this.moved = [];
         this.realLook = new RealLook(state, stage, this.looking);
         /** Edits with the current label that the server has not answered yet. @type {Set<any>} */
         this.giving = new Set();

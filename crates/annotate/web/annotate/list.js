@@ -2,7 +2,8 @@
 
 import { el } from "../shared/dom.js";
 
-const ROW_PX = 26;
+/** Height of a row, in em. */
+const ROW_EM = 2;
 /** Rows beyond the visible ones, above and below. */
 const SPARE = 8;
 
@@ -27,6 +28,11 @@ export class PieceList {
         new ResizeObserver(() => this.draw()).observe(this.element);
     }
 
+    /** Height of a row, CSS pixels. */
+    get row() {
+        return ROW_EM * parseFloat(getComputedStyle(this.element).fontSize);
+    }
+
     /** @param {number[]} pieces */
     show(pieces) {
         this.pieces = pieces;
@@ -39,13 +45,14 @@ export class PieceList {
         const at = this.pieces.indexOf(piece);
         if (at < 0) return;
         this.active = at;
+        const { row } = this;
         const { scrollTop, clientHeight } = this.element;
-        if (at * ROW_PX < scrollTop || (at + 1) * ROW_PX > scrollTop + clientHeight) this.element.scrollTop = at * ROW_PX - clientHeight / 2;
+        if (at * row < scrollTop || (at + 1) * row > scrollTop + clientHeight) this.element.scrollTop = at * row - clientHeight / 2;
     }
 
     /** @param {KeyboardEvent} event */
     key(event) {
-        const page = Math.max(1, Math.floor(this.element.clientHeight / ROW_PX) - 1);
+        const page = Math.max(1, Math.floor(this.element.clientHeight / this.row) - 1);
         const steps = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -1e9, End: 1e9 });
         if (event.key in steps) {
             this.active = Math.min(this.pieces.length - 1, Math.max(0, this.active + steps[event.key]));
@@ -59,9 +66,10 @@ export class PieceList {
 
     draw() {
         this.element.classList.toggle("none", this.pieces.length === 0);
-        this.table.style.height = `${this.pieces.length * ROW_PX}px`;
-        const first = Math.max(0, Math.floor(this.element.scrollTop / ROW_PX) - SPARE);
-        const last = Math.min(this.pieces.length, first + Math.ceil(this.element.clientHeight / ROW_PX) + 2 * SPARE);
+        const { row } = this;
+        this.table.style.height = `${this.pieces.length * row}px`;
+        const first = Math.max(0, Math.floor(this.element.scrollTop / row) - SPARE);
+        const last = Math.min(this.pieces.length, first + Math.ceil(this.element.clientHeight / row) + 2 * SPARE);
         this.table.replaceChildren(...this.pieces.slice(first, last).map((piece, i) => this.rowOf(piece, first + i)));
     }
 
@@ -87,7 +95,7 @@ export class PieceList {
             },
             ...cells.map((cell) => el("span", {}, cell)),
         );
-        row.style.top = `${at * ROW_PX}px`;
+        row.style.top = `${at * ROW_EM}em`;
         return row;
     }
 }

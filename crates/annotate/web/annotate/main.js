@@ -26,6 +26,8 @@ import { settingsDialog } from "./settings.js";
 import { suggestionsPanel } from "./suggestions_panel.js";
 import { toolbar, topBar } from "./toolbar.js";
 
+/** So many faces are loaded first, the largest ones, for a page that works soon over a slow connection. */
+const FIRST_FACES = 24_000;
 /** How often activity is reported to the server, milliseconds. */
 const ACTIVITY_MS = 15_000;
 /** Progress is asked for this long after the last edit, milliseconds. */
@@ -89,7 +91,10 @@ function followEdits(state, edits, stage, act) {
         if (change.revision > state.revision + 1) return edits.reload();
         if (!state.takeChange(change)) return;
         const [faces, pieces] = change.moved_faces ?? [[], []];
-        if (faces.length > 0) stage.moveFaces(faces, pieces);
+        if (faces.length > 0) {
+            stage.moveFaces(faces, pieces);
+            act.moved.push([faces, pieces]);
+        }
         if ([...change.resized, ...change.removed].some((one) => (one.piece ?? one) === state.painting?.piece)) act.endPainting();
         byId("live").textContent = change.description;
         progressSoon();
@@ -161,11 +166,29 @@ function panelsAndDialogs(act, table, byName) {
     act.openPalette = palette([...table, ...classCommands(act)]);
 }
 
+/** Loads all faces, where the page began with the most important ones. @param {Stage3d} stage @param {Actions} act */
+async function loadRest(stage, act) {
+    const bar = byId("rest");
+    bar.hidden = false;
+    try {
+        const geometry = readGeometry(await getBytes("/api/annotate/geometry", { heard: (share) => (byId("rest-share").value = share) }));
+        stage.completeGeometry(geometry);
+        // They may have been sent before the last splits.
+        for (const [faces, pieces] of act.moved) stage.moveFaces(faces, pieces);
+        act.realLook.again();
+        bar.hidden = true;
+    } catch (error) {
+        toastError(error);
+        byId("rest-words").textContent = "Small faces are missing; reload the page.";
+    }
+}
+
 async function start() {
     takeChosenTheme();
     // The view first: if the browser cannot show it, nothing needs to be loaded.
     const stage = new Stage3d(byId("stage"));
-    const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes("/api/annotate/geometry")]);
+    const heard = (/** @type {number} */ share) => (byId("loading-share").value = share);
+    const [scene, pieces, colors, bytes] = await Promise.all([getJson("/api/annotate/scene"), getJson("/api/annotate/pieces"), getBytes("/api/annotate/instance_colors"), getBytes(`/api/annotate/geometry?most=${FIRST_FACES}`, { heard })]);
     document.title = `${scene.name} - enfilade annotate`;
     byId("scene-name").textContent = scene.name;
     byId("scene-name").title = scene.source;
@@ -193,6 +216,7 @@ async function start() {
     followEdits(state, edits, stage, act);
     reportActivity();
     byId("loading").hidden = true;
+    if (stage.mesh && stage.mesh.geometry.faces < scene.faces) void loadRest(stage, act);
     // For tests and the console.
     Object.assign(window, { annotate: { state, stage, edits, act } });
 }

@@ -37,13 +37,19 @@ export class RealLook {
         if (!this.on) return;
         try {
             if (!this.hasColors && this.state.scene.has_face_colors) {
-                this.hasColors = true;
                 this.stage.setFaceColors(new Uint8Array(await getBytes("/api/annotate/face_colors")));
+                this.hasColors = true;
             }
         } catch (error) {
             toastError(error);
         }
         await this.#choose();
+    }
+
+    /** To be called when the scene has got more faces: what the picture shows is measured anew. */
+    again() {
+        this.shown = "";
+        void this.#choose();
     }
 
     /** Shows the picture that suits the view. */

@@ -96,6 +96,7 @@ export function topBar(state, table, act) {
         byId("page-buttons").append(made);
     }
     const cameras = byId("cameras");
+    cameras.hidden = false;
     cameras.append(el("option", { value: "-1" }, looking.frames.length > 0 ? "Camera: free" : "No planned camera"));
     looking.frames.forEach((/** @type {any} */ frame, /** @type {number} */ i) => cameras.append(el("option", { value: String(i) }, `${frame.camera} · ${frame.frame}`)));
     cameras.addEventListener("change", () => looking.goToFrame(Number(cameras.value)));

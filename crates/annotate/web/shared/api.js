@@ -39,10 +39,23 @@ export const getJson = async (path, options) => (await request(path, options)).j
 
 /**
  * @param {string} path
- * @param {{ signal?: AbortSignal }} [options]
+ * @param {{ signal?: AbortSignal, heard?: (share: number) => void }} [options] `heard` is told which share has come
  * @returns {Promise<ArrayBuffer>}
  */
-export const getBytes = async (path, options) => (await request(path, options)).arrayBuffer();
+export async function getBytes(path, { heard, ...options } = {}) {
+    const response = await request(path, options);
+    const bytes = Number(response.headers.get("x-enfilade-bytes"));
+    if (!heard || !bytes || !response.body) return response.arrayBuffer();
+    const whole = new Uint8Array(bytes);
+    const reader = response.body.getReader();
+    for (let at = 0; ; ) {
+        const { done, value } = await reader.read();
+        if (done) return whole.buffer;
+        whole.set(value, at);
+        at += value.length;
+        heard(at / bytes);
+    }
+}
 
 /**
  * @param {string} path

@@ -7,6 +7,9 @@ import { numbers } from "./tables.js";
 /** Faces of a block: 6 MB of positions, which are uploaded in a short time. */
 const BLOCK_FACES = FACE_WIDTH * 512;
 
+/** The place of a face that is not here. */
+const NOWHERE = 0xffffffff;
+
 /** The ends of a box that clips nothing, metres. */
 const FAR = 3e38;
 
@@ -92,6 +95,7 @@ export class SceneMesh {
         const touched = new Set();
         for (let i = 0; i < faces.length; i++) {
             const place = this.place(faces[i]);
+            if (place === NOWHERE) continue;
             const block = Math.floor(place / BLOCK_FACES);
             this.geometry.pieceOfFace[place] = pieces[i];
             this.texture(block).image.data[place - block * BLOCK_FACES] = pieces[i];
@@ -106,17 +110,18 @@ export class SceneMesh {
     }
 
     /**
-     * Where a face of the scene stands in display order.
+     * Where a face of the scene stands in display order; {@link NOWHERE} for one that is not here yet.
      *
      * @param {number} face scene face number
      */
     place(face) {
         if (!this.places) {
             const { faceNumbers, faces } = this.geometry;
-            this.places = new Uint32Array(faces);
+            const most = faceNumbers.reduce((a, b) => Math.max(a, b), 0);
+            this.places = new Uint32Array(most + 1).fill(NOWHERE);
             for (let i = 0; i < faces; i++) this.places[faceNumbers[i]] = i;
         }
-        return this.places[face];
+        return this.places[face] ?? NOWHERE;
     }
 
     dispose() {

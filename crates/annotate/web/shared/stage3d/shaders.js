@@ -156,7 +156,7 @@ vec3 surface(ivec2 at, uvec2 here, bool marked) {
     uint i = (here.r >> 8) - 1u;
     vec4 own = texelFetch(pieceColors, ivec2(i % ${PIECE_WIDTH}u, i / ${PIECE_WIDTH}u), 0);
     vec3 rgb = real ? look(at, here) : own.rgb * (float(here.r & 255u) / 255.0);
-    if (own.a < 0.9 && onLine(gl_FragCoord.x + gl_FragCoord.y, 10.0, own.a < 0.25 ? 1.5 : 2.5)) rgb = own.a < 0.25 ? rgb * (real ? 0.94 : 0.88) : mix(rgb, vec3(1.0), 0.5);
+    if (own.a < 0.9 && onLine(gl_FragCoord.x + gl_FragCoord.y, 10.0, own.a < 0.25 ? 1.5 : 2.5)) rgb = own.a < 0.25 ? rgb * (real ? 0.94 : 0.88) : mix(rgb, vec3(1.0), real ? 0.25 : 0.5);
     if (hasFaceMarks && texelFetch(faceMarks, ivec2(here.g % ${MARK_WIDTH}u, here.g / ${MARK_WIDTH}u), 0).r != 0u) rgb = mix(rgb, paint, 0.65);
     if (marked && onLine(gl_FragCoord.x - gl_FragCoord.y, 12.0, 2.0)) rgb = mix(rgb, accent, 0.75);
     return rgb;

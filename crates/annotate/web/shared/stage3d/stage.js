@@ -107,11 +107,20 @@ export class Stage3d extends EventTarget {
 
     /** Shows a scene, in white. @param {import("./geometry.js").Geometry} geometry */
     setGeometry(geometry) {
-        this.mesh?.dispose();
         this.tables.dispose();
         this.tables = new Tables(geometry.pieces);
         this.picture.tables = this.tables;
+        this.completeGeometry(geometry);
+    }
+
+    /** Shows the scene that is shown with more of its faces; colours and marks stay. @param {import("./geometry.js").Geometry} geometry */
+    completeGeometry(geometry) {
+        const wireframe = this.mesh?.shared.wireframe.value ?? false;
+        this.mesh?.dispose();
+        this.tables.grow(geometry.pieces);
         this.mesh = new SceneMesh(geometry, this.tables);
+        this.mesh.shared.wireframe.value = wireframe;
+        this.mesh.setClip(this.clip);
         const { fixed } = this.pace;
         this.pace = new Pace(geometry.faces, this.software);
         this.pace.fixed = fixed;
@@ -184,7 +193,7 @@ export class Stage3d extends EventTarget {
     setPaintedFaces(faces) {
         if (!this.mesh) return;
         if (faces.size === 0) this.tables.unmarkFaces();
-        else this.tables.markFaces(faces, this.mesh.geometry.faces);
+        else this.tables.markFaces(faces, [...faces].reduce((most, face) => Math.max(most, face + 1), this.mesh.geometry.faces));
         this.requestFrame();
     }
 

@@ -79,9 +79,10 @@ export class Tables {
      * Marks these faces of the scene, and no other.
      *
      * @param {Iterable<number>} faces scene face numbers below `count`
-     * @param {number} count faces of the scene
+     * @param {number} count above all face numbers
      */
     markFaces(faces, count) {
+        if (this.faceMarks && /** @type {Uint8Array} */ (this.faceMarks.image.data).length < count) this.unmarkFaces();
         this.faceMarks ??= numbers(new Uint8Array(count), MARK_WIDTH);
         const data = /** @type {Uint8Array} */ (this.faceMarks.image.data);
         data.fill(0);
