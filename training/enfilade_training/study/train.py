@@ -90,6 +90,7 @@ def train(
             return Trained(network, losses, len(pictures))
         optimizer.load_state_dict(state["optimizer"])
     first, every = step, max(1, recipe.steps // KEPT)
+    weights = torch.tensor([study.depth_weight if task == DEPTH else 1.0 for task in study.tasks], device=device)
     while step < recipe.steps:
         chosen = places(seed, step, recipe.batch_size, len(pictures))
         images, truths = batch(pictures, chosen, seed, study.augment, study.tasks)
@@ -99,7 +100,7 @@ def train(
         with autocast(study, device):
             predicted = network(images.to(device))
         found = torch.stack([loss(task, predicted[task], truths[task].to(device)) for task in study.tasks])
-        found.sum().backward()
+        (found * weights).sum().backward()
         optimizer.step()
         step, sums = step + 1, sums + found.detach().cpu()
         if step % every == 0:
