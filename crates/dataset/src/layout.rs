@@ -302,6 +302,16 @@ impl Layout {
         self.after_frame_dir(scene, camera).join(format!("frame.{frame:04}"))
     }
 
+    /// Rooms, walls, doors and windows of the scene, where they are known.
+    pub fn structure(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("layout.json")
+    }
+
+    /// The same as a drawing.
+    pub fn structure_plan(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("layout.svg")
+    }
+
     /// Geometry, objects and labels of the scene.
     pub fn mesh_dir(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("mesh")

@@ -1,12 +1,13 @@
 //! The files of a scene as a whole, apart from its cameras: units, render entities, geometry, free space.
 
 use crate::camera_files::{optional, read_f64_vec3};
+use crate::frames::read_json;
 use crate::hdf5::{Array, Storage, write_array};
 use crate::mesh_files::write_mesh;
 use crate::tables::{Table, write_parameters};
-use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes};
+use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes, write_json};
 use enfilade_math::DVec3;
-use enfilade_scene::Scene;
+use enfilade_scene::{Scene, Structure};
 use std::path::Path;
 
 /// What Hypersim writes for a node that belongs to no object.
@@ -53,6 +54,27 @@ impl Dataset {
         materials.rows = scene.materials.iter().enumerate().map(|(i, m)| vec![(i + 1).to_string(), m.name.clone()]).collect();
         materials.write()?;
         write_mesh(self.layout(), scene_name, scene)
+    }
+
+    /// Writes the rooms, walls, doors and windows of a scene, `_detail/layout.json`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_structure(&self, scene: &str, structure: &Structure) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        write_json(&self.layout().structure(scene), structure)
+    }
+
+    /// The rooms, walls, doors and windows of a scene; `None` where they are not known.
+    ///
+    /// # Errors
+    /// When the file is not what it says, or of a newer version of the program.
+    pub fn read_structure(&self, scene: &str) -> Result<Option<Structure>, DatasetError> {
+        let path = self.layout().structure(scene);
+        let remedy = "import the scene again, which writes it anew";
+        let Some(structure) = read_json::<Structure>(&path, remedy)? else { return Ok(None) };
+        structure.check().map_err(|problem| DatasetError::text(&path, format!("{problem}; {remedy}")))?;
+        Ok(Some(structure))
     }
 
     /// Adds to `metadata_scene.csv` what was subtracted from the coordinates of the scene's file, metres, z up: `offset_x_m` and so on.

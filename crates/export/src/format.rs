@@ -27,6 +27,8 @@ pub enum Format {
     Opencv,
     Pix3d,
     Huggingface,
+    Spatiallm,
+    Structured3d,
 }
 
 /// A row of the table of formats.
@@ -57,7 +59,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 13] = [
+pub const FORMATS: [FormatSpec; 15] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -161,6 +163,22 @@ pub const FORMATS: [FormatSpec; 13] = [
         needs: &[],
         takes: Some(LABELLED),
         readme: include_str!("readmes/huggingface.md"),
+    },
+    FormatSpec {
+        format: Format::Spatiallm,
+        name: "spatiallm",
+        about: "SpatialLM: walls, doors, windows and boxes of objects in its layout language, and the point cloud that it reads",
+        needs: &[COLOR, DISTANCE],
+        takes: Some(POSED),
+        readme: include_str!("readmes/spatiallm.md"),
+    },
+    FormatSpec {
+        format: Format::Structured3d,
+        name: "structured3d",
+        about: "Structured3D: annotation_3d.json, the structure of the building as junctions, lines and planes",
+        needs: &[],
+        takes: None,
+        readme: include_str!("readmes/structured3d.md"),
     },
 ];
 

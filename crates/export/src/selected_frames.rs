@@ -3,7 +3,7 @@
 use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::{Dataset, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Warning};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Structure, Warning};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -198,6 +198,15 @@ impl<'d> SelectedFrames<'d> {
             Err(error) if error.is_not_found() => Ok(Labels::default()),
             labels => Ok(labels?),
         }
+    }
+
+    /// Rooms, walls, doors and windows of a scene, for formats that are about these.
+    pub fn structure(&self, scene: &str) -> Result<Structure, ExportError> {
+        let unknown = || {
+            let problem = "it has no _detail/layout.json, which only generated homes have; leave the scene out";
+            self.unsuitable(scene, format!("{problem}, or, if it is a home of an older version, see docs/structure.md"))
+        };
+        self.dataset.read_structure(scene)?.ok_or_else(unknown)
     }
 
     /// Does `work` for every frame, on all threads, and gives the results in the frames' order.

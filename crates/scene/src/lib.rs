@@ -18,6 +18,7 @@ mod photometry;
 mod pictures;
 mod scene;
 pub mod sky;
+mod structure;
 mod texture;
 mod trajectory;
 mod world;
@@ -38,6 +39,7 @@ pub use package::{
 pub use photometry::PhotometricWeb;
 pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
+pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, WallFace, WallOpening};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};
 pub use world::{TriangleSource, WorldMesh};

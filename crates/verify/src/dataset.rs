@@ -10,14 +10,14 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, structure};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Trajectory};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Structure, Trajectory};
 use rayon::prelude::*;
 
 /// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a violation, not as
@@ -104,6 +104,8 @@ struct SceneFacts {
     entities: usize,
     labels: Option<SceneLabels>,
     boxes: Vec<(BoxKind, boxes::Boxes)>,
+    /// Of scenes with a layout whose classes are NYU40's.
+    structure: Option<Structure>,
     filmed: Vec<Filmed>,
 }
 
@@ -131,12 +133,15 @@ impl SceneFacts {
         let problem = nodes.as_ref().err().filter(|_| !left_out).map(ToString::to_string);
         card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
         let nodes = nodes.unwrap_or_default();
+        let labels = read_labels(dataset, name, &nodes, card);
+        let structure = readable(card, dataset.read_structure(name)).flatten();
         Self {
             name: name.to_string(),
             released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
             entities: nodes.len(),
-            labels: read_labels(dataset, name, &nodes, card),
+            structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
+            labels,
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
         }
@@ -268,6 +273,9 @@ impl SceneFacts {
         };
         found.card.merge(check_frame(&frame, &view, &place));
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
+        if let Some(structure) = &self.structure {
+            structure::check(structure, &frame, &place, &mut found.card);
+        }
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
         }

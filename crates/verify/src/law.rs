@@ -63,6 +63,7 @@ pub enum Law {
     BoxContains,
     InstanceCounts,
     InstanceWhole,
+    LayoutPlanes,
     SplitWhole,
     TwoViewDistance,
     TwoViewIds,
@@ -91,7 +92,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 60] = laws![
+pub const LAWS: [LawSpec; 61] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -167,6 +168,8 @@ pub const LAWS: [LawSpec; 60] = laws![
         "the frame was labelled or rendered again since: run the boxes stage again";
     InstanceWhole 0.0 "", "an instance shows no more pixels than the whole object has in the image, and that no more than it has in all",
         "the frame was labelled or rendered again since: run the boxes stage again";
+    LayoutPlanes 1e-2 "share", "walls, floors and ceilings are where layout.json has them (share of their pixels that are more than 2 cm off)",
+        "the layout is of another version of the scene, or parts are labelled as walls that are none: import the scene again, or correct the labels";
     SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade split";
     TwoViewDistance 1e-3 "share", "no frame looks through a surface that its neighbour sees (share of the pixels that both see and resolve)",
         "pose, calibration or unit of depth is not that of the rendering, or the scene is different in the two frames: render again";

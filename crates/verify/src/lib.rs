@@ -21,6 +21,7 @@ mod release;
 mod report;
 mod rounding;
 mod scan;
+mod structure;
 #[cfg(test)]
 mod tests;
 mod trajectory;

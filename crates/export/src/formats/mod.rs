@@ -14,4 +14,6 @@ pub(crate) mod openexr;
 mod parquet_file;
 pub(crate) mod pix3d;
 pub(crate) mod scannet;
+pub(crate) mod spatiallm;
+pub(crate) mod structured3d;
 pub(crate) mod webdataset;

@@ -6,6 +6,7 @@ mod common;
 mod export_folder;
 mod huggingface;
 mod incomplete;
+mod layouts;
 mod pix3d;
 mod readers;
 mod round_trips;

@@ -452,6 +452,58 @@ def huggingface():
     return f"{len(record())} frames"
 
 
+def layout(scene):
+    with open(f"{scenes_dir()}/{scene}/_detail/layout.json") as file:
+        return json.load(file)
+
+
+def spatiallm():
+    """By the rules of SpatialLM's own reader: a line is a name, a kind, and numbers."""
+    for scene in {at[0] for at in record()}:
+        found = {"Wall": [], "Door": [], "Window": [], "Bbox": []}
+        with open(f"{EXPORT}/layout/{scene}.txt") as file:
+            for line in file.read().splitlines():
+                name, call = line.split("=")
+                kind, values = call.rstrip(")").split("(")
+                assert name == f"{kind.lower()}_{len(found[kind])}", line
+                found[kind].append(values.split(","))
+        stored = layout(scene)
+        walls = [[float(v) for v in values] for values in found["Wall"]]
+        for wall, face in zip(walls, stored["walls"], strict=True):
+            assert wall == [*face["from"], face["floor_z_m"], *face["to"], face["floor_z_m"], face["ceiling_z_m"] - face["floor_z_m"], 0.0]
+        for kind, kinds in (("Door", ("door", "passage")), ("Window", ("window",))):
+            for values, opening in zip(found[kind], [o for o in stored["openings"] if o["kind"] in kinds], strict=True):
+                wall = walls[int(values[0].removeprefix("wall_"))]
+                a, b, center = np.array(wall[:3]), np.array(wall[3:6]), np.array(values[1:4], float)
+                along = (b - a) / np.linalg.norm(b - a)
+                off = (center - a - along * ((center - a) @ along))[:2]
+                assert np.abs(off).max() < 1e-9 and np.allclose(center, np.mean(opening["corners"], axis=0))
+                width, height = (np.linalg.norm(np.subtract(*opening["corners"][i : i + 2])) for i in (0, 1))
+                assert np.allclose([width, height], np.array(values[4:6], float))
+        assert {values[0] for values in found["Bbox"]} == {"table", "chair"}
+        with open(f"{EXPORT}/pcd/{scene}.ply", "rb") as file:
+            assert file.readline() == b"ply\n"
+    return f"{len(walls)} walls"
+
+
+def structured3d():
+    """Junctions lie on the planes of their lines, and the lines of a plane are closed."""
+    for scene in {at[0] for at in record()}:
+        with open(f"{EXPORT}/{scene}/annotation_3d.json") as file:
+            found = json.load(file)
+        points = np.array([junction["coordinate"] for junction in found["junctions"]])
+        ends = np.array(found["lineJunctionMatrix"])
+        assert (ends.sum(axis=1) == 2).all() and ends.shape == (len(found["lines"]), len(points))
+        for plane, lines in zip(found["planes"], np.array(found["planeLineMatrix"]), strict=True):
+            of = ends[lines == 1]
+            assert set(of.sum(axis=0)) <= {0, 2}, "every junction of a plane joins two of its lines"
+            on = points[of.any(axis=0)]
+            assert np.abs(on @ np.array(plane["normal"]) + plane["offset"]).max() < 1e-6
+        rooms = [s for s in found["semantics"] if s["type"] not in ("door", "window")]
+        assert len(rooms) == len(layout(scene)["rooms"])
+    return f"{len(points)} junctions"
+
+
 def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 

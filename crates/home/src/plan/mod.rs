@@ -6,6 +6,7 @@
 mod openings;
 mod search;
 pub mod slicing;
+mod structure;
 
 pub use crate::room::kind::{self, RoomKind, usual_programme};
 pub use openings::Doorway;

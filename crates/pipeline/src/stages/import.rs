@@ -7,10 +7,11 @@ use crate::error::Error;
 use crate::intake;
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, write_bytes, write_json};
+use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, ImportedLabel, scene_in_folder};
 use enfilade_scene::{Labels, PACKAGE_HEAD_BYTES, PartLabel, Scene, WorldMesh, is_current_package};
+use enfilade_show::planview::structure_svg;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -79,12 +80,12 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let (scene, labels, inputs, report, offset_m) = match &job.scene.source {
+    let (scene, labels, structure, inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
             // Its files were known before, and hashed.
-            (home.scene, Some(home.labels), None, report, None)
+            (home.scene, Some(home.labels), Some(home.plan.structure()), None, report, None)
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);
@@ -92,7 +93,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
             let report = serde_json::to_value(&imported.report).unwrap_or_default();
             let inputs = watch.inputs(&[imported.inputs, imported.missing].concat())?;
-            (imported.scene, labels, Some(inputs), report, imported.report.offset_m)
+            (imported.scene, labels, None, Some(inputs), report, imported.report.offset_m)
         }
     };
     let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
@@ -106,6 +107,15 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().chain(&OBJECTS).map(|file| layout.mesh_file(name, file)));
+    let drawn = [layout.structure(name), layout.structure_plan(name)];
+    match &structure {
+        Some(structure) => {
+            job.dataset.write_structure(name, structure).map_err(Error::stage)?;
+            write_bytes(&drawn[1], structure_svg(structure))?;
+            outputs.extend(drawn);
+        }
+        None => drawn.iter().try_for_each(|file| remove_if_there(file))?,
+    }
     Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
 }
 

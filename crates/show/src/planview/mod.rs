@@ -23,6 +23,7 @@ mod planned;
 mod relief;
 mod report;
 mod statistics;
+mod structure_plan;
 mod subject;
 
 use crate::drawing::{Drawing, paint, svg};
@@ -44,6 +45,7 @@ use rayon::prelude::*;
 pub(crate) use report::Report;
 use statistics::Distances;
 use std::path::PathBuf;
+pub use structure_plan::structure_svg;
 use subject::Subject;
 
 /// Draws everything planned for a scene into the dataset, and returns the files written. Old previews of the scene are removed.

@@ -6,7 +6,10 @@ use enfilade_export::Format;
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Camera, CameraView, Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Trajectory};
+use enfilade_scene::{
+    Camera, CameraView, DoorLeaf, Hinge, Intrinsics, Labels, Material, OpeningKind, Part, PartLabel, Pose, Scene, Structure, StructureRoom,
+    Trajectory, WallOpening,
+};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -133,6 +136,7 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
         dataset.write_scene(name, &scene()).unwrap();
         dataset.write_camera_parameters(name, camera).unwrap();
         let label = |&(semantic, instance): &(i16, i16)| PartLabel { semantic, instance };
+        dataset.write_structure(name, &structure()).unwrap();
         dataset.write_label_tables(name, &Labels { parts: LABELS.iter().map(label).collect() }).unwrap();
         let trajectory = Trajectory { name: camera_name.into(), poses };
         dataset.write_trajectory(name, &trajectory, camera, None).unwrap();
@@ -159,6 +163,24 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
     }
     dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
     dataset
+}
+
+/// A room of four metres by five with a door to the outside and a window.
+fn structure() -> Structure {
+    let polygon = vec![[-2.0, -3.0], [2.0, -3.0], [2.0, 2.0], [-2.0, 2.0]];
+    let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 1.4 };
+    let mut structure = Structure::default();
+    structure.push_room(room, &[(0.3, true); 4]);
+    let opening = |kind, wall: usize, along: [f64; 2], z: [f64; 2], leaf| {
+        let corner = |i: usize, k: usize| structure.walls[wall].point(along[i], z[k]).to_array();
+        WallOpening { kind, walls: vec![wall], corners: [corner(1, 0), corner(0, 0), corner(0, 1), corner(1, 1)], leaf }
+    };
+    let leaf = DoorLeaf { hinge: Hinge::Left, open_deg: 0.0 };
+    let openings = vec![
+        opening(OpeningKind::Door, 0, [1.0, 1.8], [0.0, 1.3], Some(leaf)),
+        opening(OpeningKind::Window, 1, [1.0, 2.5], [0.5, 1.2], None),
+    ];
+    Structure { openings, ..structure }
 }
 
 /// The layer of a frame of the dataset.

@@ -1,0 +1,293 @@
+//! What a building is made of besides things: rooms, the faces of their walls, and the doors and windows in them.
+//!
+//! World coordinates in metres, z up. Every wall face is a vertical rectangle that bounds one room; a wall between two rooms has two faces,
+//! `thickness_m` apart. It is stored as `_detail/layout.json`.
+
+use enfilade_math::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
+
+/// First key of the file, and its version.
+const FORMAT: &str = "enfilade layout 1";
+
+/// Rooms, wall faces and openings; they refer to each other by their places in these lists.
+///
+/// ```
+/// use enfilade_scene::{Structure, StructureRoom};
+/// let kitchen = StructureRoom {
+///     name: "kitchen_1".into(),
+///     kind: "kitchen".into(),
+///     polygon: vec![[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]],
+///     floor_z_m: 0.0,
+///     ceiling_z_m: 2.6,
+/// };
+/// let mut structure = Structure::default();
+/// structure.push_room(kitchen, &[(0.12, false), (0.35, true), (0.35, true), (0.12, false)]);
+/// assert_eq!(structure.rooms[0].area_m2(), 6.0);
+/// assert_eq!((structure.walls[1].from, structure.walls[1].inward), ([3.0, 0.0], [-1.0, 0.0]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Structure {
+    /// Kind and version of the file.
+    pub format: String,
+    /// Rooms.
+    pub rooms: Vec<StructureRoom>,
+    /// Faces of walls, room after room, along each room's polygon.
+    pub walls: Vec<WallFace>,
+    /// Doors, passages and windows.
+    pub openings: Vec<WallOpening>,
+}
+
+/// A room between floor and ceiling, both level.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StructureRoom {
+    /// Kind and number: `bedroom_2`.
+    pub name: String,
+    /// What it is for: `bedroom`.
+    pub kind: String,
+    /// Its outline seen from above, counter-clockwise; edge i begins at corner i.
+    pub polygon: Vec<[f64; 2]>,
+    /// Height of the floor.
+    pub floor_z_m: f64,
+    /// Height of the ceiling.
+    pub ceiling_z_m: f64,
+}
+
+/// The side of a wall that a room has: the vertical rectangle over an edge of its polygon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallFace {
+    /// The room that it bounds.
+    pub room: usize,
+    /// Where it begins, its left end for someone in the room who faces it being `to`.
+    pub from: [f64; 2],
+    /// Where it ends.
+    pub to: [f64; 2],
+    /// Height of its lower edge.
+    pub floor_z_m: f64,
+    /// Height of its upper edge.
+    pub ceiling_z_m: f64,
+    /// Unit normal of its plane, into the room.
+    pub inward: [f64; 2],
+    /// To the next room, or to the outside.
+    pub thickness_m: f64,
+    /// Whether the outside is behind it.
+    pub outer: bool,
+}
+
+/// What is in an opening.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "plain words")]
+pub enum OpeningKind {
+    Door,
+    Passage,
+    Window,
+}
+
+impl OpeningKind {
+    /// Its name in the file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Door => "door",
+            Self::Passage => "passage",
+            Self::Window => "window",
+        }
+    }
+}
+
+/// A rectangular hole through a wall.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallOpening {
+    /// What is in it.
+    pub kind: OpeningKind,
+    /// The faces that it goes through: one if the outside is behind it, else two, that of the room first into which a door swings.
+    pub walls: Vec<usize>,
+    /// Its corners on the first face: lower left for someone in that room, then counter-clockwise.
+    pub corners: [[f64; 3]; 4],
+    /// How its door hangs; `None` without one.
+    pub leaf: Option<DoorLeaf>,
+}
+
+/// How a door hangs, for someone in the room into which it swings.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DoorLeaf {
+    /// Which edge of the opening the hinges are at.
+    pub hinge: Hinge,
+    /// How far it stands open, degrees; 0 is shut.
+    pub open_deg: f64,
+}
+
+/// The edge of an opening that a door turns about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "plain words")]
+pub enum Hinge {
+    Left,
+    Right,
+}
+
+impl Default for Structure {
+    fn default() -> Self {
+        Self { format: FORMAT.into(), rooms: Vec::new(), walls: Vec::new(), openings: Vec::new() }
+    }
+}
+
+impl Structure {
+    /// Checks what was read: the version, and that its lists refer to each other.
+    ///
+    /// # Errors
+    /// What was found and what was expected.
+    pub fn check(&self) -> Result<(), String> {
+        if self.format != FORMAT {
+            return Err(format!("found the format {:?}, expected {FORMAT:?}", self.format));
+        }
+        let short = self.rooms.iter().find(|room| room.polygon.len() < 3);
+        if let Some(room) = short {
+            return Err(format!("the polygon of {:?} has {} corners, expected at least 3", room.name, room.polygon.len()));
+        }
+        if let Some(wall) = self.walls.iter().find(|wall| wall.room >= self.rooms.len()) {
+            return Err(format!("a wall is of room {}, but there are {}", wall.room, self.rooms.len()));
+        }
+        let is_wrong = |o: &&WallOpening| o.walls.is_empty() || o.walls.iter().any(|&wall| wall >= self.walls.len());
+        if let Some(opening) = self.openings.iter().find(is_wrong) {
+            return Err(format!("a {} is in walls {:?}, but there are {}", opening.kind.name(), opening.walls, self.walls.len()));
+        }
+        Ok(())
+    }
+
+    /// Adds a room and the faces of its walls, whose thickness and being outer walls are given edge by edge; gives its place.
+    pub fn push_room(&mut self, room: StructureRoom, edges: &[(f64, bool)]) -> usize {
+        let number = self.rooms.len();
+        let corners = room.polygon.len();
+        for (i, &(thickness_m, outer)) in edges.iter().enumerate().take(corners) {
+            let (from, to) = (room.polygon[i], room.polygon[(i + 1) % corners]);
+            // A quotient, not a product with the reciprocal: along an axis it is 1, not almost.
+            let along = DVec2::from(to) - DVec2::from(from);
+            let along = along / along.length().max(f64::MIN_POSITIVE);
+            self.walls.push(WallFace {
+                room: number,
+                from,
+                to,
+                floor_z_m: room.floor_z_m,
+                ceiling_z_m: room.ceiling_z_m,
+                inward: along.perp().to_array(),
+                thickness_m,
+                outer,
+            });
+        }
+        self.rooms.push(room);
+        number
+    }
+
+    /// The rooms that an opening connects: one, or two.
+    pub fn rooms_of<'a>(&'a self, opening: &'a WallOpening) -> impl Iterator<Item = usize> + 'a {
+        opening.walls.iter().map(|&wall| self.walls[wall].room)
+    }
+
+    /// The room above whose polygon a point lies, between its floor and ceiling.
+    pub fn room_at(&self, point: DVec3) -> Option<usize> {
+        self.rooms.iter().position(|room| room.contains(point))
+    }
+}
+
+impl StructureRoom {
+    /// Area of the floor.
+    pub fn area_m2(&self) -> f64 {
+        0.5 * self.edges().map(|(a, b)| a.perp_dot(b)).sum::<f64>()
+    }
+
+    /// Whether a point lies within the room.
+    pub fn contains(&self, point: DVec3) -> bool {
+        let p = point.truncate();
+        let crosses = |(a, b): &(DVec2, DVec2)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        (self.floor_z_m..=self.ceiling_z_m).contains(&point.z) && self.edges().filter(crosses).count() % 2 == 1
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2)> {
+        let corner = |i: usize| DVec2::from(self.polygon[i % self.polygon.len()]);
+        (0..self.polygon.len()).map(move |i| (corner(i), corner(i + 1)))
+    }
+}
+
+impl WallFace {
+    /// Signed distance of a point from the face's plane, positive on the room's side.
+    pub fn distance_m(&self, point: DVec3) -> f64 {
+        (point.truncate() - DVec2::from(self.from)).dot(self.inward.into())
+    }
+
+    /// From one end to the other.
+    pub fn length_m(&self) -> f64 {
+        DVec2::from(self.from).distance(self.to.into())
+    }
+
+    /// A point of the plane by the way along the face from its beginning, and its height.
+    pub fn point(&self, along_m: f64, z_m: f64) -> DVec3 {
+        let (from, to) = (DVec2::from(self.from), DVec2::from(self.to));
+        (from + (to - from).normalize_or_zero() * along_m).extend(z_m)
+    }
+}
+
+impl WallOpening {
+    /// The middle of its rectangle on the first face.
+    pub fn center(&self) -> DVec3 {
+        self.corners.iter().map(|&corner| DVec3::from(corner)).sum::<DVec3>() / 4.0
+    }
+
+    /// Width and height.
+    pub fn size_m(&self) -> [f64; 2] {
+        let [a, b, c, _] = self.corners.map(DVec3::from);
+        [a.distance(b), b.distance(c)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn l_shaped() -> Structure {
+        let polygon = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
+        let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+        let mut structure = Structure::default();
+        structure.push_room(room, &[(0.1, true); 6]);
+        structure
+    }
+
+    #[test]
+    fn points_are_in_the_room_within_its_outline_and_height() {
+        let structure = l_shaped();
+        assert_eq!(structure.rooms[0].area_m2(), 6.0);
+        for (point, inside) in [
+            ([0.5, 2.0, 1.0], true),
+            ([3.0, 0.5, 2.4], true),
+            ([3.0, 2.0, 1.0], false),
+            ([0.5, 2.0, 2.6], false),
+            ([-0.1, 1.0, 1.0], false),
+        ] {
+            assert_eq!(structure.room_at(point.into()), inside.then_some(0), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn faces_look_into_the_room_and_measure_from_their_planes() {
+        let structure = l_shaped();
+        let inside = DVec3::new(0.5, 0.5, 1.0);
+        for wall in &structure.walls {
+            assert!(wall.distance_m(inside) > 0.0, "{wall:?}");
+            assert!(wall.distance_m(wall.point(0.3 * wall.length_m(), 1.0)).abs() < 1e-12);
+        }
+        assert_eq!(structure.walls[4].length_m(), 1.0);
+    }
+
+    #[test]
+    fn it_survives_being_written_and_what_is_wrong_is_told() {
+        let structure = l_shaped();
+        let text = serde_json::to_string(&structure).unwrap();
+        assert!(text.starts_with("{\"format\":\"enfilade layout 1\""), "{text}");
+        assert_eq!(serde_json::from_str::<Structure>(&text).unwrap(), structure);
+        assert_eq!(structure.check(), Ok(()));
+        let newer = Structure { format: "enfilade layout 2".into(), ..structure.clone() };
+        assert_eq!(newer.check().unwrap_err(), "found the format \"enfilade layout 2\", expected \"enfilade layout 1\"");
+        let opening = WallOpening { kind: OpeningKind::Window, walls: vec![6], corners: [[0.0; 3]; 4], leaf: None };
+        let torn = Structure { openings: vec![opening], ..structure };
+        assert_eq!(torn.check().unwrap_err(), "a window is in walls [6], but there are 6");
+    }
+}

@@ -1,0 +1,98 @@
+//! The law of a scene's layout: what frames show of walls, floors and ceilings lies on its planes.
+
+use super::card::Card;
+use super::law::Law;
+use enfilade_frame::{Frame, Layer, vector};
+use enfilade_math::{DVec2, DVec3};
+use enfilade_scene::{Structure, WallFace, WallOpening};
+
+/// How far a surface may be from its plane, metres: plaster, gaps between boards.
+const NEAR_M: f64 = 0.02;
+/// NYU40's classes.
+const WALL: i16 = 1;
+const FLOOR: i16 = 2;
+const CEILING: i16 = 22;
+
+/// Checks a frame.
+pub(super) fn check(structure: &Structure, frame: &Frame, place: &str, card: &mut Card) {
+    let (Some(positions), Some(classes)) = (frame.get(Layer::Position), frame.get(Layer::Semantic)) else { return };
+    let is_off = |pixel: usize| {
+        let p: DVec3 = vector(positions, pixel);
+        p.is_finite().then(|| is_elsewhere(structure, classes.get(pixel) as i16, p)).flatten()
+    };
+    let found: Vec<(usize, bool)> = (0..frame.pixels()).filter_map(|pixel| Some((pixel, is_off(pixel)?))).collect();
+    let off: Vec<usize> = found.iter().filter(|(_, off)| *off).map(|(pixel, _)| *pixel).collect();
+    if found.is_empty() {
+        return;
+    }
+    card.observe(Law::LayoutPlanes, off.len() as f64 / found.len() as f64, || {
+        let first = off.first().copied().unwrap_or_default();
+        let (x, y) = (first % frame.width as usize, first / frame.width as usize);
+        format!("{place}: {} of {} pixels, the first of them ({x}, {y})", off.len(), found.len())
+    });
+}
+
+/// Whether a point of a wall, floor or ceiling is off the planes of the layout; `None` for other classes.
+fn is_elsewhere(structure: &Structure, class: i16, p: DVec3) -> Option<bool> {
+    let near = |z: f64| (p.z - z).abs() <= NEAR_M;
+    let is_there = match class {
+        WALL => structure.walls.iter().any(|wall| is_on(wall, p)) || structure.openings.iter().any(|o| is_reveal(structure, o, p)),
+        FLOOR => structure.rooms.iter().any(|room| near(room.floor_z_m)),
+        CEILING => structure.rooms.iter().any(|room| near(room.ceiling_z_m)),
+        _ => return None,
+    };
+    Some(!is_there)
+}
+
+fn is_on(wall: &WallFace, p: DVec3) -> bool {
+    let within = |value: f64, high: f64| (-NEAR_M..=high + NEAR_M).contains(&value);
+    wall.distance_m(p).abs() <= NEAR_M
+        && within(along(wall, p), wall.length_m())
+        && within(p.z - wall.floor_z_m, wall.ceiling_z_m - wall.floor_z_m)
+}
+
+/// Whether a point lies on the sides of an opening, in the depth of the wall.
+fn is_reveal(structure: &Structure, opening: &WallOpening, p: DVec3) -> bool {
+    let wall = &structure.walls[opening.walls[0]];
+    let [left, right, upper, _] = opening.corners.map(DVec3::from);
+    let (low, high) = (along(wall, right) - NEAR_M, along(wall, left) + NEAR_M);
+    (-wall.thickness_m - NEAR_M..=NEAR_M).contains(&wall.distance_m(p))
+        && (low..=high).contains(&along(wall, p))
+        && (left.z - NEAR_M..=upper.z + NEAR_M).contains(&p.z)
+}
+
+/// The way along a face from its beginning.
+fn along(wall: &WallFace, p: DVec3) -> f64 {
+    let from = DVec2::from(wall.from);
+    (p.truncate() - from).dot((DVec2::from(wall.to) - from).normalize_or_zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_scene::{OpeningKind, StructureRoom};
+
+    fn room() -> Structure {
+        let polygon = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
+        let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+        let mut structure = Structure::default();
+        structure.push_room(room, &[(0.4, true); 4]);
+        let corners = [[3.0, 0.0, 0.9], [1.0, 0.0, 0.9], [1.0, 0.0, 2.1], [3.0, 0.0, 2.1]];
+        structure.openings.push(WallOpening { kind: OpeningKind::Window, walls: vec![0], corners, leaf: None });
+        structure
+    }
+
+    #[test]
+    fn walls_floors_and_ceilings_are_on_their_planes_or_in_reveals() {
+        let elsewhere = |class, p: [f64; 3]| is_elsewhere(&room(), class, p.into());
+        assert_eq!(elsewhere(WALL, [4.0, 1.0, 1.0]), Some(false));
+        assert_eq!(elsewhere(WALL, [3.9, 1.0, 1.0]), Some(true));
+        // The side of the window, and as deep where there is no window.
+        assert_eq!(elsewhere(WALL, [1.0, -0.2, 1.5]), Some(false));
+        assert_eq!(elsewhere(WALL, [0.5, -0.2, 1.5]), Some(true));
+        assert_eq!(elsewhere(FLOOR, [1.0, 1.0, 0.01]), Some(false));
+        assert_eq!(elsewhere(FLOOR, [1.0, 1.0, 0.05]), Some(true));
+        assert_eq!(elsewhere(CEILING, [1.0, 1.0, 2.5]), Some(false));
+        assert_eq!(elsewhere(5, [1.0, 1.0, 1.0]), None);
+    }
+}
