@@ -12,6 +12,7 @@ mod export;
 mod farm;
 mod ingest;
 mod outcome;
+mod pairs;
 mod pictures;
 mod price;
 mod progress;
@@ -83,6 +84,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Preview(args) => pictures::preview(args, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
+        Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),

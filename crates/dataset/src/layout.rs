@@ -1,7 +1,7 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `statistics/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
 //! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays.
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// The pipeline's own folder within a dataset: scenes, plans, hashes of what was made from what. No part of the dataset's format.
 pub const WORKDIR: &str = ".enfilade";
+/// The scene package in a scene's part of that folder.
+pub const SCENE_PACKAGE: &str = "scene.scene";
 
 /// The paths of a dataset. All methods are pure functions of the root and the names.
 ///
@@ -136,6 +138,16 @@ impl Layout {
         self.statistics_dir().join("statistics.json")
     }
 
+    /// Which frames see the same surfaces: pairs that were chosen among all, with the share that each sees of the other.
+    pub fn pairs(&self) -> PathBuf {
+        self.root.join("pairs.csv")
+    }
+
+    /// The scene that frames were rendered from, as a package in the work folder; only where the dataset was made here.
+    pub fn scene_package(&self, scene: &str) -> PathBuf {
+        self.root.join(WORKDIR).join(scene).join(SCENE_PACKAGE)
+    }
+
     /// Where the scenes lie.
     pub fn scenes_dir(&self) -> &Path {
         &self.scenes
@@ -169,6 +181,16 @@ impl Layout {
     /// Materials, as the `material_id` layer numbers them.
     pub fn metadata_materials(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_materials.csv")
+    }
+
+    /// The share of each frame's surfaces that each other frame of the scene sees.
+    pub fn covisibility(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("covisibility.hdf5")
+    }
+
+    /// The frames of its rows and columns.
+    pub fn covisibility_frames(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("covisibility_frames.csv")
     }
 
     /// A camera's trajectory and records.

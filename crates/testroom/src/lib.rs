@@ -3,8 +3,8 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
-use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
+use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, HiddenBy, InstanceView, Partition, SplitRow};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
 use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
@@ -181,7 +181,31 @@ fn plan_report(first: &Pose) -> serde_json::Value {
     })
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, split, free space and manifest.
+/// What two frames see of each other: everything that lies in the image, since nothing hides anything here.
+fn covisibility(poses: [&Pose; 2]) -> Covisibility {
+    let (k, frames) = (intrinsics(), poses.map(frame));
+    let points = |i: usize| {
+        let positions = frames[i].get(Layer::Position).unwrap();
+        (0..frames[i].pixels()).map(|pixel| vector(positions, pixel)).filter(|p| p.is_finite()).collect::<Vec<_>>()
+    };
+    let share = |of: usize, by: usize| {
+        let is_seen = |p: &&DVec3| {
+            let p_camera = poses[by].world_from_camera.transpose() * (**p - poses[by].position);
+            let (x, y) = k.project(p_camera);
+            p_camera.z < 0.0 && (0.0..f64::from(k.width)).contains(&x) && (0.0..f64::from(k.height)).contains(&y)
+        };
+        let points = points(of);
+        if of == by { 1.0 } else { (points.iter().filter(is_seen).count() as f64 / points.len() as f64) as f32 }
+    };
+    let listed = |i: usize| {
+        let surface_pixels = points(i).len() as u32;
+        CovisibleFrame { camera: "cam_00".into(), frame: poses[i].frame, grid_step_px: 1, surface_pixels }
+    };
+    let shares = vec![share(0, 0), share(0, 1), share(1, 0), share(1, 1)];
+    Covisibility { frames: vec![listed(0), listed(1)], hidden_by: HiddenBy::Distances, shares }
+}
+
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, covisibility, split, free space and manifest.
 pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
     use enfilade_geometry::{OccupancyTree, Voxel};
@@ -226,6 +250,7 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     BoxKind::ALL.iter().for_each(|&kind| dataset.write_boxes("room", kind, &[None, Some(mirror)]).unwrap());
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
+    dataset.write_covisibility("room", &covisibility([&first, &second])).unwrap();
     let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
     dataset.write_split(&[row(0), row(1)]).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();

@@ -3,6 +3,7 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
+use super::many_views::{self, Listed};
 use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read_tree, readable};
 use super::release::{self, Excused};
 use super::report::VerifyReport;
@@ -12,7 +13,8 @@ use super::walk::{self, Walls};
 use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
 use enfilade_dataset::{
-    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
+    BoxKind, ColorKind, CovisibleFrame, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide,
+    loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -43,6 +45,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let counted = Counted::new(cx, "frames", frames.len());
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
+    facts.check_covisibility(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
@@ -218,6 +221,22 @@ impl SceneFacts {
             let place = format!("{}/{}", self.name, filmed.trajectory.name);
             card.merge(walk::check(&filmed.trajectory, boxes, walls.as_ref(), tree, &place));
         }
+    }
+
+    /// The matrix of covisibility, where there is one, against the distances of the frames that are there.
+    fn check_covisibility(&self, dataset: &Dataset, card: &mut Card) {
+        let Some(stored) = boxes::there(dataset.read_covisibility(&self.name)).and_then(|read| readable(card, read)) else { return };
+        let read = |frame: &CovisibleFrame| {
+            let filmed = self.filmed.iter().find(|filmed| filmed.trajectory.name == frame.camera)?;
+            let poses = &filmed.trajectory.poses;
+            let index = poses.iter().position(|pose| pose.frame == frame.frame && filmed.frames.contains(&pose.frame))?;
+            let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
+            // What cannot be read is told where that frame itself is checked.
+            let (read, _) = read_frame(self.stored(dataset), &frame.camera, frame.frame, &[Layer::DepthMeters], &mut Card::default())?;
+            let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
+            Some(Listed { view, distances })
+        };
+        many_views::check(&self.name, &stored, read, card);
     }
 
     /// The frame's record states the pose and calibration that the tables state.

@@ -67,6 +67,7 @@ pub enum Law {
     TwoViewDistance,
     TwoViewIds,
     TwoViewReflectance,
+    Covisibility,
 }
 
 /// What a law says.
@@ -91,7 +92,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 60] = laws![
+pub const LAWS: [LawSpec; 61] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -173,6 +174,8 @@ pub const LAWS: [LawSpec; 60] = laws![
     TwoViewIds 1e-3 "share", "neighbours see the same part and instance where they see the same point", "frames of different versions of the scene are mixed: render and label again";
     TwoViewReflectance 1e-2 "share", "neighbours see the same diffuse reflectance where they see the same part",
         "frames of different versions of the scene are mixed, or a texture is animated: render again";
+    Covisibility 1e-2 "share", "covisibility.hdf5 agrees with what the frames' distances tell, lies on [0, 1] and is 1 on its diagonal (share of the grid beyond)",
+        "frames were rendered again since: run enfilade pairs";
 ];
 
 impl Law {

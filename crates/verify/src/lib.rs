@@ -16,6 +16,7 @@ mod frame_values;
 mod geometry;
 mod labels;
 mod law;
+mod many_views;
 mod read;
 mod release;
 mod report;

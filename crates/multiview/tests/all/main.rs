@@ -1,0 +1,4 @@
+//! Many views of scenes whose answer is known, through files.
+
+mod common;
+mod covisibility;
