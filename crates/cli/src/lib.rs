@@ -10,6 +10,7 @@ mod args;
 mod estimate;
 mod export;
 mod farm;
+mod flow;
 mod ingest;
 mod outcome;
 mod pairs;
@@ -22,6 +23,7 @@ mod shell;
 mod stats;
 mod suggest;
 mod summary;
+mod tracks;
 mod verbs;
 mod view;
 mod vray;
@@ -85,6 +87,8 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
         Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
+        Verb::Flow(args) => flow::flow(args, cli.quiet),
+        Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),

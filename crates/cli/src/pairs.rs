@@ -5,6 +5,7 @@ use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use enfilade_dataset::{Dataset, HiddenBy, counted, write_pairs};
 use enfilade_multiview::{CovisibilityConfig, Filmed, PairFilter, ScenePackage, choose_pairs, covisibility};
+use enfilade_scene::Cx;
 
 /// `pairs`: which frames see the same surfaces.
 pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -55,4 +56,16 @@ pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
 pub fn cameras(dataset: &Dataset, scenes: &[String], pattern: Option<&str>) -> Result<Option<Vec<String>>, Problem> {
     let Some(pattern) = pattern else { return Ok(None) };
     Ok(Some(enfilade_pipeline::select("camera", &dataset.camera_names(scenes)?, Some(pattern))?))
+}
+
+/// The scene that was filmed, for verbs that cannot do without.
+///
+/// # Errors
+/// When it is not there, or is another one than the frames were rendered from.
+pub fn package(dataset: &Dataset, scene: &str, filmed: &Filmed<'_>, cx: &dyn Cx) -> Result<ScenePackage, Problem> {
+    ScenePackage::read(filmed, cx)?.ok_or_else(|| {
+        let message =
+            format!("{} is not the scene that {scene} was rendered from, or not there", dataset.layout().scene_package(scene).display());
+        Problem::of_data(message, "rays need it: use the dataset where `enfilade run` made it, and run it again where it is out of date")
+    })
 }

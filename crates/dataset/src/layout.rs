@@ -2,11 +2,11 @@
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
-//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
+//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays.
 
-use crate::DatasetError;
+use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};
 use std::path::{Path, PathBuf};
 
@@ -312,6 +312,23 @@ impl Layout {
     /// The amodal masks of a frame.
     pub fn amodal_masks(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.amodal_masks_dir(scene, camera).join(format!("frame.{frame:04}.json"))
+    }
+
+    /// Layers that lead from a camera's frames to any others of the scene.
+    pub fn pair_layers_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("pairs")
+    }
+
+    /// A layer that leads from the first frame of a pair to the second: `frame.IIII.<second camera>.frame.JJJJ.<layer>.hdf5`.
+    pub fn pair_layer(&self, pair: &FramePair, layer: Layer) -> PathBuf {
+        let FramePair { scene, first: (camera, frame), second: (other, number) } = pair;
+        let name = format!("frame.{frame:04}.{other}.{}", layer_file_name(*number, layer));
+        self.pair_layers_dir(scene, camera).join(name)
+    }
+
+    /// Points on surfaces, followed through a camera's frames.
+    pub fn tracks(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("tracks.npz")
     }
 
     /// What the user's program has made of a camera's frames on the nodes of a farm.

@@ -12,7 +12,7 @@ pub struct Filmed<'d> {
     pub(crate) scene: String,
     tracks: Vec<Track>,
     /// Track and pose of each frame, by camera and number.
-    frames: Vec<(usize, usize)>,
+    pub(crate) frames: Vec<(usize, usize)>,
 }
 
 /// A camera and its whole trajectory.

@@ -1,7 +1,7 @@
 //! Pairs of frames that are worth training on, of all that a scene has.
 
 use crate::Filmed;
-use enfilade_dataset::{Covisibility, FramePair, PairRow};
+use enfilade_dataset::{Covisibility, PairRow};
 
 /// Which pairs are chosen. Bounds are included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,12 +37,8 @@ impl PairFilter {
 /// When it is of fewer.
 pub fn choose_pairs(filmed: &Filmed<'_>, covisibility: &Covisibility, filter: &PairFilter) -> Vec<PairRow> {
     let n = filmed.len();
-    let named = |frame: usize| {
-        let (camera, number) = filmed.name(frame);
-        (camera.to_string(), number)
-    };
     let row = |first: usize, second: usize| PairRow {
-        pair: FramePair { scene: filmed.scene.clone(), first: named(first), second: named(second) },
+        pair: filmed.pair([first, second]),
         first_seen_by_second: covisibility.share(first, second),
         second_seen_by_first: covisibility.share(second, first),
         baseline_m: filmed.baseline_m([first, second]),
@@ -55,6 +51,7 @@ pub fn choose_pairs(filmed: &Filmed<'_>, covisibility: &Covisibility, filter: &P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_dataset::FramePair;
 
     #[test]
     fn both_shares_the_baseline_and_the_angle_must_lie_in_their_ranges() {

@@ -3,7 +3,7 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, HiddenBy, InstanceView, Partition, SplitRow};
+use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Tracks};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
@@ -205,7 +205,49 @@ fn covisibility(poses: [&Pose; 2]) -> Covisibility {
     Covisibility { frames: vec![listed(0), listed(1)], hidden_by: HiddenBy::Distances, shares }
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, covisibility, split, free space and manifest.
+/// Flow from one frame to another.
+fn flow(from: &Pose, to: &Pose) -> Frame {
+    let (k, shown) = (intrinsics(), frame(from));
+    let positions = shown.get(Layer::Position).unwrap();
+    let [mut image, mut moved, mut seen] = [const { Vec::new() }; 3];
+    for pixel in 0..shown.pixels() {
+        let p = vector(positions, pixel);
+        let [before, after] = [from, to].map(|pose| pose.world_from_camera.transpose() * (p - pose.position));
+        let (x, y) = k.project(after);
+        let at = DVec2::new((pixel as u32 % k.width) as f64 + 0.5, (pixel as u32 / k.width) as f64 + 0.5);
+        let inside = after.z < 0.0 && (0.0..f64::from(k.width)).contains(&x) && (0.0..f64::from(k.height)).contains(&y);
+        image.extend((DVec2::new(x, y) - at).to_array());
+        moved.extend((after - before).to_array());
+        seen.push(f64::from(u8::from(inside)));
+    }
+    let mut flow = Frame::new(k.width, k.height);
+    for (layer, values) in [(Layer::OpticalFlow, image), (Layer::SceneFlow, moved), (Layer::FlowVisibility, seen)] {
+        flow.insert(layer, store(layer, values));
+    }
+    flow
+}
+
+/// Points of the first frame, followed into the second.
+fn tracks(poses: [&Pose; 2]) -> Tracks {
+    let (k, shown) = (intrinsics(), frame(poses[0]));
+    let positions = shown.get(Layer::Position).unwrap();
+    let mut tracks = Tracks { frames: poses.map(|pose| pose.frame).into(), ..Tracks::default() };
+    for pixel in (7..shown.pixels()).step_by(97).filter(|&pixel| vector(positions, pixel).is_finite()) {
+        let p = vector(positions, pixel);
+        let seed = [(pixel as u32 % k.width) as f32 + 0.5, (pixel as u32 / k.width) as f32 + 0.5];
+        tracks.positions.push(p);
+        tracks.seeds.push((0, seed));
+        for pose in poses {
+            let (x, y) = k.project(pose.world_from_camera.transpose() * (p - pose.position));
+            let (width, height) = (f64::from(k.width), f64::from(k.height));
+            tracks.points.push([(x / width) as f32, (y / height) as f32]);
+            tracks.occluded.push(!(0.0..width).contains(&x) || !(0.0..height).contains(&y));
+        }
+    }
+    tracks
+}
+
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, covisibility, flow, tracks, split, free space and manifest.
 pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
     use enfilade_geometry::{OccupancyTree, Voxel};
@@ -251,6 +293,9 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
     dataset.write_covisibility("room", &covisibility([&first, &second])).unwrap();
+    let pair = FramePair { scene: "room".into(), first: ("cam_00".into(), 0), second: ("cam_00".into(), 1) };
+    dataset.write_pair_layers(&pair, &flow(&first, &second)).unwrap();
+    dataset.write_tracks("room", "cam_00", &tracks([&first, &second])).unwrap();
     let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
     dataset.write_split(&[row(0), row(1)]).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();

@@ -3,8 +3,9 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
-use super::many_views::{self, Listed};
+use super::many_views::Listed;
 use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read_tree, readable};
+use super::relations;
 use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::trajectory::PlanRules;
@@ -13,8 +14,7 @@ use super::walk::{self, Walls};
 use super::whole;
 use super::{View, boxes, camera_files, check_frame, check_trajectory};
 use enfilade_dataset::{
-    BoxKind, ColorKind, CovisibleFrame, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide,
-    loader_problem,
+    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -45,7 +45,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let counted = Counted::new(cx, "frames", frames.len());
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
-    facts.check_covisibility(dataset, &mut card);
+    facts.check_relations(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
@@ -223,20 +223,22 @@ impl SceneFacts {
         }
     }
 
-    /// The matrix of covisibility, where there is one, against the distances of the frames that are there.
-    fn check_covisibility(&self, dataset: &Dataset, card: &mut Card) {
-        let Some(stored) = boxes::there(dataset.read_covisibility(&self.name)).and_then(|read| readable(card, read)) else { return };
-        let read = |frame: &CovisibleFrame| {
-            let filmed = self.filmed.iter().find(|filmed| filmed.trajectory.name == frame.camera)?;
-            let poses = &filmed.trajectory.poses;
-            let index = poses.iter().position(|pose| pose.frame == frame.frame && filmed.frames.contains(&pose.frame))?;
-            let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
-            // What cannot be read is told where that frame itself is checked.
-            let (read, _) = read_frame(self.stored(dataset), &frame.camera, frame.frame, &[Layer::DepthMeters], &mut Card::default())?;
-            let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
-            Some(Listed { view, distances })
-        };
-        many_views::check(&self.name, &stored, read, card);
+    /// What relates frames to each other.
+    fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
+        let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
+        relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
+    }
+
+    /// A frame's distances, where it is there.
+    fn listed<'a>(&'a self, dataset: &Dataset, camera: &str, number: u32) -> Option<Listed<'a>> {
+        let filmed = self.filmed.iter().find(|filmed| filmed.trajectory.name == camera)?;
+        let poses = &filmed.trajectory.poses;
+        let index = poses.iter().position(|pose| pose.frame == number && filmed.frames.contains(&pose.frame))?;
+        let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
+        // What cannot be read is told where that frame itself is checked.
+        let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
+        let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
+        Some(Listed { view, distances })
     }
 
     /// The frame's record states the pose and calibration that the tables state.

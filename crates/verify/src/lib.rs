@@ -17,13 +17,16 @@ mod geometry;
 mod labels;
 mod law;
 mod many_views;
+mod pair_flow;
 mod read;
+mod relations;
 mod release;
 mod report;
 mod rounding;
 mod scan;
 #[cfg(test)]
 mod tests;
+mod tracks;
 mod trajectory;
 mod two_views;
 mod view;

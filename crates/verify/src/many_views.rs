@@ -87,12 +87,21 @@ impl Listed<'_> {
     /// The surface points of a grid of pixels, world, metres.
     fn points(&self, step_px: u32) -> Vec<DVec3> {
         let [width, height] = self.view.camera().size();
-        let point = |[column, row]: [u32; 2]| {
-            let distance = self.distances.get((row * width + column) as usize);
-            let ray = self.view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5)?;
-            distance.is_finite().then(|| ray.origin + ray.direction * distance)
-        };
+        let point = |[column, row]: [u32; 2]| self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, (row * width + column) as usize);
         CovisibleFrame::grid([width, height], step_px).filter_map(point).collect()
+    }
+
+    /// The surface point that a pixel with its centre at (x, y) shows, world, metres.
+    pub(super) fn point(&self, x: f64, y: f64, pixel: usize) -> Option<DVec3> {
+        let distance = self.distances.get(pixel);
+        let ray = self.view.centre_ray(x, y).filter(|_| distance.is_finite())?;
+        Some(ray.origin + ray.direction * distance)
+    }
+
+    /// Whether a point that is said to be seen in this frame, or not to be, is hidden or seen there for sure.
+    pub(super) fn contradicts(&self, p_world: DVec3, is_seen: bool) -> bool {
+        let certain = self.certain(&[p_world]);
+        if is_seen { certain.unseen > 0 } else { certain.seen > 0 }
     }
 
     /// How many of the points this frame sees for sure, and how many not.

@@ -2,3 +2,5 @@
 
 mod common;
 mod covisibility;
+mod flow;
+mod tracks;
