@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 27] = [
+const FLOORS: [(&str, Floor); 28] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -33,6 +33,7 @@ const FLOORS: [(&str, Floor); 27] = [
     ("shapes", Floor::Number(3)),
     ("label", Floor::Number(4)),
     ("loader", Floor::Number(4)),
+    ("multiview", Floor::Number(4)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),
     ("pipeline", Floor::Number(7)),

@@ -10,8 +10,10 @@ mod args;
 mod estimate;
 mod export;
 mod farm;
+mod flow;
 mod ingest;
 mod outcome;
+mod pairs;
 mod pictures;
 mod price;
 mod progress;
@@ -21,6 +23,7 @@ mod shell;
 mod stats;
 mod suggest;
 mod summary;
+mod tracks;
 mod verbs;
 mod view;
 mod vray;
@@ -83,6 +86,9 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Preview(args) => pictures::preview(args, cli.quiet),
         Verb::Verify(args) => verbs::verify(args, cli.quiet),
         Verb::Split(args) => verbs::split(args),
+        Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
+        Verb::Flow(args) => flow::flow(args, cli.quiet),
+        Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),

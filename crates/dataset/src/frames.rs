@@ -416,7 +416,12 @@ pub(crate) fn attributes_of(layer: Layer) -> Vec<(&'static str, &'static str)> {
 }
 
 /// Writes one layer under the temporary name of `path`.
-fn write_layer_aside(path: &Path, [height, width]: [usize; 2], layer: Layer, values: &Values) -> Result<FileRecord, DatasetError> {
+pub(crate) fn write_layer_aside(
+    path: &Path,
+    [height, width]: [usize; 2],
+    layer: Layer,
+    values: &Values,
+) -> Result<FileRecord, DatasetError> {
     create_parent(path)?;
     let spec = layer.spec();
     let shape = [height, width, spec.channels];

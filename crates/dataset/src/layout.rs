@@ -1,17 +1,19 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
-//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `cameras_opencv.json`, `plan_report.json`, `frames/`
+//! `statistics/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays.
 
-use crate::DatasetError;
+use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};
 use std::path::{Path, PathBuf};
 
 /// The pipeline's own folder within a dataset: scenes, plans, hashes of what was made from what. No part of the dataset's format.
 pub const WORKDIR: &str = ".enfilade";
+/// The scene package in a scene's part of that folder.
+pub const SCENE_PACKAGE: &str = "scene.scene";
 
 /// The paths of a dataset. All methods are pure functions of the root and the names.
 ///
@@ -136,6 +138,16 @@ impl Layout {
         self.statistics_dir().join("statistics.json")
     }
 
+    /// Which frames see the same surfaces: pairs that were chosen among all, with the share that each sees of the other.
+    pub fn pairs(&self) -> PathBuf {
+        self.root.join("pairs.csv")
+    }
+
+    /// The scene that frames were rendered from, as a package in the work folder; only where the dataset was made here.
+    pub fn scene_package(&self, scene: &str) -> PathBuf {
+        self.root.join(WORKDIR).join(scene).join(SCENE_PACKAGE)
+    }
+
     /// Where the scenes lie.
     pub fn scenes_dir(&self) -> &Path {
         &self.scenes
@@ -169,6 +181,16 @@ impl Layout {
     /// Materials, as the `material_id` layer numbers them.
     pub fn metadata_materials(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_materials.csv")
+    }
+
+    /// The share of each frame's surfaces that each other frame of the scene sees.
+    pub fn covisibility(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("covisibility.hdf5")
+    }
+
+    /// The frames of its rows and columns.
+    pub fn covisibility_frames(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("covisibility_frames.csv")
     }
 
     /// A camera's trajectory and records.
@@ -290,6 +312,23 @@ impl Layout {
     /// The amodal masks of a frame.
     pub fn amodal_masks(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.amodal_masks_dir(scene, camera).join(format!("frame.{frame:04}.json"))
+    }
+
+    /// Layers that lead from a camera's frames to any others of the scene.
+    pub fn pair_layers_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("pairs")
+    }
+
+    /// A layer that leads from the first frame of a pair to the second: `frame.IIII.<second camera>.frame.JJJJ.<layer>.hdf5`.
+    pub fn pair_layer(&self, pair: &FramePair, layer: Layer) -> PathBuf {
+        let FramePair { scene, first: (camera, frame), second: (other, number) } = pair;
+        let name = format!("frame.{frame:04}.{other}.{}", layer_file_name(*number, layer));
+        self.pair_layers_dir(scene, camera).join(name)
+    }
+
+    /// Points on surfaces, followed through a camera's frames.
+    pub fn tracks(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("tracks.npz")
     }
 
     /// What the user's program has made of a camera's frames on the nodes of a farm.

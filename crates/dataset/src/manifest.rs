@@ -122,7 +122,7 @@ pub struct ManifestInfo {
 }
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 16] = [
+const NOTES: [(&str, &str); 17] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -168,6 +168,14 @@ const NOTES: [(&str, &str); 16] = [
         "gates",
         "_detail/<camera>/metadata_view_gates.csv says which views were found worth rendering; those rejected keep their poses and \
          numbers, have no images, and are shown in _detail/gates.html.",
+    ),
+    (
+        "many_views",
+        "Where enfilade pairs was run, _detail/covisibility.hdf5 (float32, frames x frames) has in row i, column j the share of frame i's surface \
+         pixels whose surface frame j sees, 0 to 1; covisibility_frames.csv beside it lists the frames and what told that something is hidden; \
+         pairs.csv has chosen pairs with baseline_m between the camera centres and angle_deg between the viewing axes. Where enfilade flow was \
+         run, _detail/<camera>/pairs/ has optical_flow (px), scene_flow (m) and flow_visibility from the frame named first to the one named second; where enfilade \
+         tracks was run, _detail/<camera>/tracks.npz has points (shares of width and height) and whether they are occluded, in TAP-Vid's layout.",
     ),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
     (

@@ -112,19 +112,7 @@ impl Dataset {
         layer: Layer,
         window: Option<Window>,
     ) -> Result<([usize; 2], Values), DatasetError> {
-        let path = self.layout().layer(scene, camera, frame, layer);
-        let array = window.map_or_else(|| read_array(&path), |window| read_window(&path, window))?;
-        let channels = layer.spec().channels;
-        let size = match (array.shape.as_slice(), channels) {
-            (&[height, width], 1) => [height, width],
-            (&[height, width, found], _) if found == channels => [height, width],
-            (shape, _) => {
-                let problem = format!("expected an image of {channels} channels, found an array of shape {shape:?}");
-                return Err(DatasetError::hdf5(&path, problem));
-            }
-        };
-        let unknown = |other: Elements| DatasetError::hdf5(&path, format!("expected image values, found {}", other.element().name()));
-        Ok((size, array.values.into_values().map_err(unknown)?))
+        read_image(&self.layout().layer(scene, camera, frame, layer), layer, window)
     }
 
     /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision where the table says
@@ -232,6 +220,22 @@ impl Dataset {
         }
         Ok(frames.into_iter().collect())
     }
+}
+
+/// A layer's image, or a rectangle of it, with height and width.
+pub(crate) fn read_image(path: &Path, layer: Layer, window: Option<Window>) -> Result<([usize; 2], Values), DatasetError> {
+    let array = window.map_or_else(|| read_array(path), |window| read_window(path, window))?;
+    let channels = layer.spec().channels;
+    let size = match (array.shape.as_slice(), channels) {
+        (&[height, width], 1) => [height, width],
+        (&[height, width, found], _) if found == channels => [height, width],
+        (shape, _) => {
+            let problem = format!("expected an image of {channels} channels, found an array of shape {shape:?}");
+            return Err(DatasetError::hdf5(path, problem));
+        }
+    };
+    let unknown = |other: Elements| DatasetError::hdf5(path, format!("expected image values, found {}", other.element().name()));
+    Ok((size, array.values.into_values().map_err(unknown)?))
 }
 
 /// The number in `frame.IIII.<rest>`.

@@ -13,6 +13,7 @@
 //! ```
 
 use crate::error::Error;
+pub(crate) use enfilade_dataset::SCENE_PACKAGE as PACKAGE;
 use enfilade_dataset::{WORKDIR, refuse_newer_layout, remove_folder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::{self, File, TryLockError};
@@ -34,8 +35,6 @@ pub(crate) const STATISTICS: &str = "statistics.json";
 const ASIDE: &str = ".estimate";
 /// The files beside the folders of scenes: no scene can have such a name.
 pub(crate) const OWN_FILES: [&str; 5] = [LOCK, RUN, GATHERED, CHOICE, STATISTICS];
-/// The scene package in a scene's part of the work folder.
-pub(crate) const PACKAGE: &str = "scene.scene";
 
 /// A dataset's work folder, locked for this process while the value lives.
 #[derive(Debug)]

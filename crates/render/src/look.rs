@@ -1,12 +1,14 @@
-//! A look at a view before any light is computed: its geometry layers alone, in full or through some of its pixels.
+//! A look at a view without any light: its geometry layers alone, in full or through some of its pixels, and where its points are in others.
 
 use crate::error::RenderError;
+use crate::extra::{add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::light::Lights;
 use crate::prepared::RenderScene;
 use crate::texture::Textures;
 use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
+use enfilade_math::DVec3;
 use enfilade_scene::{Alpha, CameraView, Scene};
 use rayon::prelude::*;
 
@@ -94,6 +96,21 @@ impl<'s> Lookout<'s> {
         frame.insert(Layer::RenderEntityId, Values::I16(entity));
         let seeing = pixels.iter().filter(|p| p.seeing).count();
         Look { frame, behind: pixels.iter().map(|p| p.behind).collect(), seeing }
+    }
+
+    /// Whether the picture of `view` shows the world point: it lies inside the image, and nothing is before it up to a thousandth of its
+    /// distance. What is half transparent or a pane is in the way, as it is in the geometry layers.
+    pub fn shows(&self, view: &CameraView<'_>, p_world: DVec3) -> bool {
+        view.project(p_world).is_some_and(|at| flow::shows(&self.scene, view, at, p_world))
+    }
+
+    /// `optical_flow`, `scene_flow` and `flow_visibility` from every pixel of the view `from` to the view `to`: of any two views, of
+    /// different cameras too, forward and backward in time. To the next frame of a trajectory they are the numbers of its layers.
+    pub fn flow(&self, from: &CameraView<'_>, to: &CameraView<'_>) -> Frame {
+        let [width, height] = from.camera().size();
+        let mut frame = Frame::new(width, height);
+        add_flow(&self.scene, from, to, &mut frame);
+        frame
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

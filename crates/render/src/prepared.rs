@@ -90,6 +90,12 @@ impl<'s> RenderScene<'s> {
         self.bvh.closest_filtered(ray, |hit| self.is_present(hit, test))
     }
 
+    /// Whether a ray meets any surface that is present by its opacity.
+    #[inline]
+    pub(crate) fn is_met(&self, ray: &Ray, test: AlphaTest) -> bool {
+        self.bvh.occluded_filtered(ray, |hit| self.is_present(hit, test))
+    }
+
     /// Fraction of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes dim it.
     #[inline]
     pub(crate) fn transmittance(&self, ray: &Ray) -> Rgb {
@@ -112,7 +118,7 @@ impl<'s> RenderScene<'s> {
 
     /// True when anything lies in the way of a shadow ray, panes as well.
     pub(crate) fn is_covered(&self, ray: &Ray) -> bool {
-        self.bvh.occluded_filtered(ray, |hit| self.is_present(hit, AlphaTest::Stochastic))
+        self.is_met(ray, AlphaTest::Stochastic)
     }
 
     fn material_at(&self, hit: &Hit) -> &'s Material {

@@ -3,11 +3,11 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_dataset::{BoxKind, InstanceView, Partition, SplitRow};
-use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits};
+use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Tracks};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
-use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, WorldMesh};
+use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Structure, StructureRoom, WorldMesh};
 
 /// Names of the parts, in the order of their numbers.
 pub const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
@@ -181,7 +181,83 @@ fn plan_report(first: &Pose) -> serde_json::Value {
     })
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, split, free space and manifest.
+/// What two frames see of each other: everything that lies in the image, since nothing hides anything here.
+fn covisibility(poses: [&Pose; 2]) -> Covisibility {
+    let (k, frames) = (intrinsics(), poses.map(frame));
+    let points = |i: usize| {
+        let positions = frames[i].get(Layer::Position).unwrap();
+        (0..frames[i].pixels()).map(|pixel| vector(positions, pixel)).filter(|p| p.is_finite()).collect::<Vec<_>>()
+    };
+    let share = |of: usize, by: usize| {
+        let is_seen = |p: &&DVec3| {
+            let p_camera = poses[by].world_from_camera.transpose() * (**p - poses[by].position);
+            let (x, y) = k.project(p_camera);
+            p_camera.z < 0.0 && (0.0..f64::from(k.width)).contains(&x) && (0.0..f64::from(k.height)).contains(&y)
+        };
+        let points = points(of);
+        if of == by { 1.0 } else { (points.iter().filter(is_seen).count() as f64 / points.len() as f64) as f32 }
+    };
+    let listed = |i: usize| {
+        let surface_pixels = points(i).len() as u32;
+        CovisibleFrame { camera: "cam_00".into(), frame: poses[i].frame, grid_step_px: 1, surface_pixels }
+    };
+    let shares = vec![share(0, 0), share(0, 1), share(1, 0), share(1, 1)];
+    Covisibility { frames: vec![listed(0), listed(1)], hidden_by: HiddenBy::Distances, shares }
+}
+
+/// Flow from one frame to another.
+fn flow(from: &Pose, to: &Pose) -> Frame {
+    let (k, shown) = (intrinsics(), frame(from));
+    let positions = shown.get(Layer::Position).unwrap();
+    let [mut image, mut moved, mut seen] = [const { Vec::new() }; 3];
+    for pixel in 0..shown.pixels() {
+        let p = vector(positions, pixel);
+        let [before, after] = [from, to].map(|pose| pose.world_from_camera.transpose() * (p - pose.position));
+        let (x, y) = k.project(after);
+        let at = DVec2::new((pixel as u32 % k.width) as f64 + 0.5, (pixel as u32 / k.width) as f64 + 0.5);
+        let inside = after.z < 0.0 && (0.0..f64::from(k.width)).contains(&x) && (0.0..f64::from(k.height)).contains(&y);
+        image.extend((DVec2::new(x, y) - at).to_array());
+        moved.extend((after - before).to_array());
+        seen.push(f64::from(u8::from(inside)));
+    }
+    let mut flow = Frame::new(k.width, k.height);
+    for (layer, values) in [(Layer::OpticalFlow, image), (Layer::SceneFlow, moved), (Layer::FlowVisibility, seen)] {
+        flow.insert(layer, store(layer, values));
+    }
+    flow
+}
+
+/// Points of the first frame, followed into the second.
+fn tracks(poses: [&Pose; 2]) -> Tracks {
+    let (k, shown) = (intrinsics(), frame(poses[0]));
+    let positions = shown.get(Layer::Position).unwrap();
+    let mut tracks = Tracks { frames: poses.map(|pose| pose.frame).into(), ..Tracks::default() };
+    for pixel in (7..shown.pixels()).step_by(97).filter(|&pixel| vector(positions, pixel).is_finite()) {
+        let p = vector(positions, pixel);
+        let seed = [(pixel as u32 % k.width) as f32 + 0.5, (pixel as u32 / k.width) as f32 + 0.5];
+        tracks.positions.push(p);
+        tracks.seeds.push((0, seed));
+        for pose in poses {
+            let (x, y) = k.project(pose.world_from_camera.transpose() * (p - pose.position));
+            let (width, height) = (f64::from(k.width), f64::from(k.height));
+            tracks.points.push([(x / width) as f32, (y / height) as f32]);
+            tracks.occluded.push(!(0.0..width).contains(&x) || !(0.0..height).contains(&y));
+        }
+    }
+    tracks
+}
+
+/// The layout that the floor and the wall belong to: a room of 16 by 10 metres behind the camera.
+pub fn structure() -> Structure {
+    let polygon = vec![[-8.0, -8.0], [8.0, -8.0], [8.0, 2.0], [-8.0, 2.0]];
+    let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+    let mut structure = Structure::default();
+    structure.push_room(room, &[(0.3, true); 4]);
+    structure
+}
+
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, layout, covisibility, flow, tracks, split, free
+/// space and manifest.
 pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
     use enfilade_geometry::{OccupancyTree, Voxel};
@@ -226,6 +302,11 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     BoxKind::ALL.iter().for_each(|&kind| dataset.write_boxes("room", kind, &[None, Some(mirror)]).unwrap());
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
+    dataset.write_structure("room", &structure()).unwrap();
+    dataset.write_covisibility("room", &covisibility([&first, &second])).unwrap();
+    let pair = FramePair { scene: "room".into(), first: ("cam_00".into(), 0), second: ("cam_00".into(), 1) };
+    dataset.write_pair_layers(&pair, &flow(&first, &second)).unwrap();
+    dataset.write_tracks("room", "cam_00", &tracks([&first, &second])).unwrap();
     let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
     dataset.write_split(&[row(0), row(1)]).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&enfilade_dataset::ManifestInfo::default()).unwrap()).unwrap();

@@ -3,7 +3,9 @@
 use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
+use super::many_views::Listed;
 use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read_tree, readable};
+use super::relations;
 use super::release::{self, Excused};
 use super::report::VerifyReport;
 use super::trajectory::PlanRules;
@@ -43,6 +45,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let counted = Counted::new(cx, "frames", frames.len());
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
+    facts.check_relations(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
@@ -225,6 +228,24 @@ impl SceneFacts {
         }
     }
 
+    /// What relates frames to each other.
+    fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
+        let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
+        relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
+    }
+
+    /// A frame's distances, where it is there.
+    fn listed<'a>(&'a self, dataset: &Dataset, camera: &str, number: u32) -> Option<Listed<'a>> {
+        let filmed = self.filmed.iter().find(|filmed| filmed.trajectory.name == camera)?;
+        let poses = &filmed.trajectory.poses;
+        let index = poses.iter().position(|pose| pose.frame == number && filmed.frames.contains(&pose.frame))?;
+        let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
+        // What cannot be read is told where that frame itself is checked.
+        let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
+        let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
+        Some(Listed { view, distances })
+    }
+
     /// The frame's record states the pose and calibration that the tables state.
     fn check_record(&self, dataset: &Dataset, name: &str, camera: Option<&Camera>, pose: &Pose, card: &mut Card) {
         let Some(Some(record)) = readable(card, dataset.frame_record(&self.name, name, pose.frame)) else { return };
@@ -384,6 +405,18 @@ mod tests {
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
         assert!(report.to_text().contains("laws hold over 2 frames of 1 scene\n"));
+    }
+
+    #[test]
+    fn a_layout_that_is_of_another_scene_is_found() {
+        let (laws, text) = failures(|dataset| {
+            let mut structure = testroom::structure();
+            structure.walls[2].from[1] += 0.1;
+            dataset.write_structure("room", &structure).unwrap();
+        });
+        assert_eq!(laws, [Law::LayoutPlanes], "{text}");
+        let (laws, _) = failures(|dataset| write_bytes(&dataset.layout().structure("room"), "{}").unwrap());
+        assert!(laws.contains(&Law::Readable), "{laws:?}");
     }
 
     #[test]

@@ -68,6 +68,11 @@ pub enum Law {
     TwoViewDistance,
     TwoViewIds,
     TwoViewReflectance,
+    Covisibility,
+    PairFlow,
+    PairVisibility,
+    TrackPoints,
+    TrackOcclusion,
 }
 
 /// What a law says.
@@ -92,7 +97,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 61] = laws![
+pub const LAWS: [LawSpec; 66] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -176,6 +181,16 @@ pub const LAWS: [LawSpec; 61] = laws![
     TwoViewIds 1e-3 "share", "neighbours see the same part and instance where they see the same point", "frames of different versions of the scene are mixed: render and label again";
     TwoViewReflectance 1e-2 "share", "neighbours see the same diffuse reflectance where they see the same part",
         "frames of different versions of the scene are mixed, or a texture is animated: render again";
+    Covisibility 1e-2 "share", "covisibility.hdf5 agrees with what the frames' distances tell, lies on [0, 1] and is 1 on its diagonal (share of the grid beyond)",
+        "frames were rendered again since: run enfilade pairs";
+    PairFlow 2e-2 "relative", "flow and scene flow of a pair of frames lead to where the second camera has the surface point (off, over their length from 1 px and 1 m on)",
+        "frames were rendered again since: run enfilade flow";
+    PairVisibility 1e-2 "share", "flow_visibility of a pair of frames agrees with the second one's distances where they tell for sure",
+        "frames were rendered again since: run enfilade flow";
+    TrackPoints 0.02 "px", "points of tracks are where each frame's camera has them, up to an image beyond its borders, and begin at their pixels",
+        "frames were rendered again since: run enfilade tracks";
+    TrackOcclusion 2e-2 "share", "points of tracks are occluded where a frame's distances tell so for sure, and seen where those do (share of a frame's points)",
+        "frames were rendered again since: run enfilade tracks";
 ];
 
 impl Law {

@@ -16,7 +16,10 @@ mod frame_values;
 mod geometry;
 mod labels;
 mod law;
+mod many_views;
+mod pair_flow;
 mod read;
+mod relations;
 mod release;
 mod report;
 mod rounding;
@@ -24,6 +27,7 @@ mod scan;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod tracks;
 mod trajectory;
 mod two_views;
 mod view;

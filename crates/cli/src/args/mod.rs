@@ -10,6 +10,7 @@ mod scenes;
 mod shell;
 mod stages;
 mod values;
+mod views;
 
 pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
 pub use ingest::{IngestArgs, IngestVerb, Pix3dArgs};
@@ -21,6 +22,7 @@ pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisA
 pub use shell::{CompletionsArgs, ManArgs};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
+pub use views::{FlowArgs, PairsArgs, TracksArgs};
 
 use crate::vray::VrayArgs;
 use clap::{Parser, Subcommand};
@@ -92,6 +94,12 @@ pub enum Verb {
     Verify(VerifyArgs),
     /// Divide the dataset by scene into train, val and test, from now on in this way
     Split(SplitArgs),
+    /// Which frames see the same surfaces: shares, baselines and angles of all pairs of a scene
+    Pairs(PairsArgs),
+    /// Flow between any two frames of a scene, of different cameras too, forward and backward
+    Flow(FlowArgs),
+    /// Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout
+    Tracks(TracksArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
     /// Render one frame again from its record, and compare the bytes

@@ -30,6 +30,20 @@ pub fn parse_share(text: &str) -> Result<f32, String> {
     parsed.map_err(|_| "expected a share or a percentage, as in 0.02 or 2%".into())
 }
 
+/// Shares from..to, of which one may be left out.
+pub fn parse_overlap(text: &str) -> Result<[f32; 2], String> {
+    let bound = |text: &str, default: f32| if text.trim().is_empty() { Ok(default) } else { parse_share(text) };
+    let parsed = text.split_once("..").and_then(|(least, most)| Some([bound(least, 0.0).ok()?, bound(most, 1.0).ok()?]));
+    let expected = "expected two shares from 0 to 1, as in 0.2..0.7, 20%.. or ..0.5";
+    parsed.filter(|[least, most]| 0.0 <= *least && least <= most && *most <= 1.0).ok_or_else(|| expected.into())
+}
+
+/// A camera and the number of one of its frames.
+pub fn parse_frame(text: &str) -> Result<(String, u32), String> {
+    let parsed = text.split_once('/').and_then(|(camera, number)| Some((camera.to_string(), number.parse().ok()?)));
+    parsed.ok_or_else(|| "expected a camera and the number of a frame, as in cam_00/3".into())
+}
+
 /// Seconds.
 pub fn parse_time(text: &str) -> Result<f64, String> {
     let text = text.trim();
@@ -62,6 +76,13 @@ mod tests {
         assert!(parse_shares("80,20").is_err() && parse_shares("a,b,c").is_err());
         assert_eq!((parse_share("2%"), parse_share("0.02")), (Ok(0.02), Ok(0.02)));
         assert!(parse_share("two").is_err());
+        assert_eq!(
+            (parse_overlap("0.2..0.7"), parse_overlap("20%.."), parse_overlap("..0.5")),
+            (Ok([0.2, 0.7]), Ok([0.2, 1.0]), Ok([0.0, 0.5]))
+        );
+        assert!(["0.2", "0.7..0.2", "0..2", "a..b"].iter().all(|text| parse_overlap(text).is_err()));
+        assert_eq!(parse_frame("cam_00/3"), Ok(("cam_00".into(), 3)));
+        assert!(parse_frame("3").is_err() && parse_frame("cam_00/three").is_err());
         assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));
         assert!(parse_time("soon").is_err() && parse_time("inf").is_err());
         assert_eq!((parse_range("0..10"), parse_range("5.."), parse_range("7")), (Ok(0..10), Ok(5..u32::MAX), Ok(7..8)));

@@ -9,6 +9,7 @@ mod farm_program;
 mod hypersim;
 mod ingest;
 mod look;
+mod pairs;
 mod rendering;
 mod replay;
 mod resume;

@@ -1,4 +1,4 @@
-//! Where a surface point is in the next frame. Scenes do not move; cameras do.
+//! Where a surface point is in another frame: the next one, or any. Scenes do not move; cameras do.
 
 use crate::prepared::{AlphaTest, RenderScene};
 use enfilade_math::{DVec3, Ray};
@@ -9,7 +9,7 @@ const REACH: f64 = 0.999;
 
 /// The motion of one surface point as the camera sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flow {
+pub(crate) struct Flow {
     /// Pixels, x right and y down; `None` when the next camera has no image of the point.
     pub image: Option<[f32; 2]>,
     /// Camera axes, metres.
@@ -43,7 +43,7 @@ pub(super) fn flow(
 }
 
 /// Whether the image point is inside the image, and nothing before the world point there.
-fn shows(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), p_world: DVec3) -> bool {
+pub(crate) fn shows(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), p_world: DVec3) -> bool {
     let [width, height] = view.camera().size().map(f64::from);
     if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
         return false;
@@ -52,5 +52,5 @@ fn shows(scene: &RenderScene<'_>, view: &CameraView<'_>, (x, y): (f64, f64), p_w
     let distance = origin.distance(p_world);
     let mut ray = Ray::new(origin.as_vec3(), ((p_world - origin) / distance).as_vec3());
     ray.t_max = (REACH * distance) as f32;
-    scene.closest(&ray, AlphaTest::Half).is_none()
+    !scene.is_met(&ray, AlphaTest::Half)
 }

@@ -3,7 +3,7 @@
 
 mod appearance;
 mod boundary;
-mod flow;
+pub(crate) mod flow;
 
 use crate::geometry_pass::{Sighting, sighting};
 use crate::prepared::{AlphaTest, RenderScene};
@@ -42,8 +42,6 @@ pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Op
         Values::F16(pixels.iter().flat_map(|p| p.as_ref().map_or([void; 3], f)).map(f16::from_f32).collect())
     };
     let number = |f: fn(&Extra) -> i16| Values::I16(pixels.iter().map(|p| p.as_ref().map_or(-1, f)).collect());
-    let flow = |p: &Option<Extra>| p.as_ref().and_then(|p| p.flow);
-    let image = |p: &Option<Extra>| flow(p).and_then(|f| f.image).unwrap_or([f32::NAN; 2]);
     frame.insert(Layer::MaterialId, number(|p| p.material));
     frame.insert(Layer::BaseColor, halves(|p| rgb(p.appearance.base_color), 0.0));
     frame.insert(Layer::Metallic, half(|p| p.appearance.metallic));
@@ -55,9 +53,25 @@ pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Op
     frame.insert(Layer::DepthBehindMeters, Values::F32(pixels.iter().map(|p| p.as_ref().map_or(f32::NAN, |p| p.behind_m)).collect()));
     frame.insert(Layer::EntityBehindId, number(|p| p.entity_behind));
     frame.insert(Layer::OcclusionBoundary, Values::U8(boundary));
-    frame.insert(Layer::OpticalFlow, Values::F32(pixels.iter().flat_map(image).collect()));
-    frame.insert(Layer::SceneFlow, Values::F32(pixels.iter().flat_map(|p| flow(p).map_or([f32::NAN; 3], |f| f.camera)).collect()));
-    frame.insert(Layer::FlowVisibility, Values::U8(pixels.iter().map(|p| u8::from(flow(p).is_some_and(|f| f.visible))).collect()));
+    insert_flow(frame, &pixels.iter().map(|p| p.as_ref().and_then(|p| p.flow)).collect::<Vec<_>>());
+}
+
+/// Adds `optical_flow`, `scene_flow` and `flow_visibility` from the view `from` to any other view of the scene to a frame of `from`'s
+/// size, with the same numbers as [`add_extra_layers`] has for the next view.
+pub(crate) fn add_flow(scene: &RenderScene<'_>, from: &CameraView<'_>, to: &CameraView<'_>, frame: &mut Frame) {
+    let pixel = |index: u32| {
+        let centre = (f64::from(index % frame.width) + 0.5, f64::from(index / frame.width) + 0.5);
+        flow::flow(scene, from, to, centre, sighting(scene, from, centre)?.p_world)
+    };
+    let flows: Vec<Option<Flow>> = (0..frame.width * frame.height).into_par_iter().map(pixel).collect();
+    insert_flow(frame, &flows);
+}
+
+fn insert_flow(frame: &mut Frame, flows: &[Option<Flow>]) {
+    let image = |flow: &Option<Flow>| flow.and_then(|flow| flow.image).unwrap_or([f32::NAN; 2]);
+    frame.insert(Layer::OpticalFlow, Values::F32(flows.iter().flat_map(image).collect()));
+    frame.insert(Layer::SceneFlow, Values::F32(flows.iter().flat_map(|flow| flow.map_or([f32::NAN; 3], |flow| flow.camera)).collect()));
+    frame.insert(Layer::FlowVisibility, Values::U8(flows.iter().map(|flow| u8::from(flow.is_some_and(|flow| flow.visible))).collect()));
 }
 
 /// The further layers of one pixel.

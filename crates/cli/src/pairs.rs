@@ -1,0 +1,71 @@
+//! `pairs`: from arguments to calls of the crate `multiview`, and what came of them.
+
+use crate::args::PairsArgs;
+use crate::outcome::{Problem, Verdict, say};
+use crate::progress::Progress;
+use enfilade_dataset::{Dataset, HiddenBy, counted, write_pairs};
+use enfilade_multiview::{CovisibilityConfig, Filmed, PairFilter, ScenePackage, choose_pairs, covisibility};
+use enfilade_scene::Cx;
+
+/// `pairs`: which frames see the same surfaces.
+pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let dataset = args.table.open(&args.dataset)?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
+    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
+    let config = CovisibilityConfig { grid_pixels: args.pixels };
+    let filter = PairFilter {
+        overlap: args.overlap.unwrap_or(PairFilter::default().overlap),
+        baseline_m: [args.min_baseline, args.max_baseline],
+        angle_deg: [args.min_angle, args.max_angle],
+    };
+    let (mut chosen, mut lines, mut frames) = (Vec::new(), Vec::new(), 0);
+    {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&args.dataset.display().to_string(), "pairs");
+        for scene in &scenes {
+            let filmed = Filmed::read(&dataset, scene, cameras.as_deref(), &cx)?;
+            if filmed.is_empty() {
+                continue;
+            }
+            let package = ScenePackage::read(&filmed, &cx)?;
+            let found = covisibility(&filmed, package.as_ref(), config, &cx)?;
+            dataset.write_covisibility(scene, &found)?;
+            let rows = choose_pairs(&filmed, &found, &filter);
+            let hidden = match found.hidden_by {
+                HiddenBy::Scene => "",
+                HiddenBy::Distances => "; what is hidden is told by distances alone, since the scene is not there",
+            };
+            let n = filmed.len();
+            lines.push(format!("{scene}: {}, {} of {} pairs{hidden}", counted(n, "frame"), rows.len(), n * (n - 1) / 2));
+            frames += n;
+            chosen.extend(rows);
+        }
+    }
+    if frames == 0 {
+        let problem = format!("no camera that was chosen has frames in {}", args.dataset.display());
+        return Err(Problem::of_data(problem, "make them with `enfilade run`, which also tells what has failed"));
+    }
+    let list = args.output.clone().unwrap_or_else(|| dataset.layout().pairs());
+    write_pairs(&list, &chosen)?;
+    lines.iter().for_each(|line| say(line));
+    say(&format!("see  {}", list.display()));
+    Ok(Verdict::Done)
+}
+
+/// The names of the cameras that a pattern means; `None` for all.
+pub fn cameras(dataset: &Dataset, scenes: &[String], pattern: Option<&str>) -> Result<Option<Vec<String>>, Problem> {
+    let Some(pattern) = pattern else { return Ok(None) };
+    Ok(Some(enfilade_pipeline::select("camera", &dataset.camera_names(scenes)?, Some(pattern))?))
+}
+
+/// The scene that was filmed, for verbs that cannot do without.
+///
+/// # Errors
+/// When it is not there, or is another one than the frames were rendered from.
+pub fn package(dataset: &Dataset, scene: &str, filmed: &Filmed<'_>, cx: &dyn Cx) -> Result<ScenePackage, Problem> {
+    ScenePackage::read(filmed, cx)?.ok_or_else(|| {
+        let message =
+            format!("{} is not the scene that {scene} was rendered from, or not there", dataset.layout().scene_package(scene).display());
+        Problem::of_data(message, "rays need it: use the dataset where `enfilade run` made it, and run it again where it is out of date")
+    })
+}

@@ -1,0 +1,133 @@
+//! Points on surfaces, followed through the frames of a camera.
+//!
+//! Points are seeded evenly over time and over the image: point i of N in frame i T / N of T, at the pixel that the R2 sequence of points of
+//! even spacing says (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); where that shows nothing, at the next one.
+//! Scenes do not move, so a point is one place in the world. It is occluded where it is outside of the image, or a ray from the camera meets
+//! something before it, as `flow_visibility` tells.
+
+use crate::{Filmed, MultiviewError, ScenePackage};
+use enfilade_dataset::Tracks;
+use enfilade_math::{DVec3, hash_u64};
+use enfilade_render::Lookout;
+use enfilade_scene::{CameraView, Counted, Cx};
+use rayon::prelude::*;
+
+/// The generalised golden ratio of two dimensions, the real root of x³ = x + 1.
+const GOLDEN: f64 = 1.324_717_957_244_746;
+/// Pixels that are tried for a point. A point that finds none is left out: its frame shows next to nothing.
+const TRIES: u64 = 64;
+
+/// How points are seeded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TracksConfig {
+    /// So many points.
+    pub points: u32,
+    /// Another seed gives other points.
+    pub seed: u64,
+}
+
+impl Default for TracksConfig {
+    fn default() -> Self {
+        Self { points: 256, seed: 0 }
+    }
+}
+
+/// A point, where it was seeded.
+struct Seed {
+    /// Place of the frame among those that are followed.
+    frame: u32,
+    pixel: [u32; 2],
+    p_world: DVec3,
+}
+
+/// Follows points through `frames`, which are of one camera, in their order.
+///
+/// # Errors
+/// When a frame or the scene cannot be used.
+pub fn tracks(
+    filmed: &Filmed<'_>,
+    package: &ScenePackage,
+    frames: &[usize],
+    config: TracksConfig,
+    cx: &dyn Cx,
+) -> Result<Tracks, MultiviewError> {
+    let lookout = Lookout::new(&package.scene).map_err(|error| package.error(error))?;
+    let counted = Counted::new(cx, "frames", frames.len());
+    let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
+    let seeds: Vec<Vec<Seed>> = (0..frames.len()).into_par_iter().map(seeds).collect::<Result<_, _>>()?;
+    let seeds: Vec<Seed> = seeds.into_iter().flatten().collect();
+    let views: Vec<CameraView<'_>> = frames.iter().map(|&frame| filmed.view(frame)).collect();
+    let follow = |seed: &Seed| {
+        let at = |(place, view): (usize, &CameraView<'_>)| image(&lookout, view, seed, place == seed.frame as usize);
+        views.iter().enumerate().map(at).collect::<Vec<_>>()
+    };
+    let followed: Vec<([f32; 2], bool)> = seeds.par_iter().flat_map_iter(follow).collect();
+    Ok(Tracks {
+        frames: frames.iter().map(|&frame| filmed.name(frame).1).collect(),
+        positions: seeds.iter().map(|seed| seed.p_world).collect(),
+        seeds: seeds.iter().map(|seed| (seed.frame, seed.pixel.map(|v| v as f32 + 0.5))).collect(),
+        points: followed.iter().map(|(point, _)| *point).collect(),
+        occluded: followed.iter().map(|(_, occluded)| *occluded).collect(),
+    })
+}
+
+/// The points that are seeded in a frame.
+fn seeds(filmed: &Filmed<'_>, frames: &[usize], place: usize, config: TracksConfig) -> Result<Vec<Seed>, MultiviewError> {
+    let (n, t) = (u64::from(config.points), frames.len() as u64);
+    // Those whose frame this is: i T / N rounded down.
+    let own = (place as u64 * n).div_ceil(t)..((place as u64 + 1) * n).div_ceil(t);
+    if own.is_empty() {
+        return Ok(Vec::new());
+    }
+    let frame = frames[place];
+    let (distances_m, size) = (filmed.distances_m(frame)?, filmed.view(frame).camera().size());
+    let seed = |point: u64| {
+        let pixels = (0..TRIES).map(|attempt| pixel(size, point + n * attempt, config.seed));
+        let mut shown = pixels.filter_map(|pixel| Some((pixel, filmed.points(frame, &distances_m, std::iter::once(pixel)).pop()?)));
+        shown.next().map(|(pixel, p_world)| Seed { frame: place as u32, pixel, p_world })
+    };
+    Ok(own.filter_map(seed).collect())
+}
+
+/// Column and row of a point of the R2 sequence, which begins elsewhere for each seed.
+fn pixel(size: [u32; 2], index: u64, seed: u64) -> [u32; 2] {
+    let begin = hash_u64(seed);
+    let begins = [begin >> 32, begin & 0xffff_ffff].map(|bits| bits as f64 / 4_294_967_296.0);
+    let steps = [1.0 / GOLDEN, 1.0 / (GOLDEN * GOLDEN)];
+    std::array::from_fn(|axis| {
+        let share = (begins[axis] + steps[axis] * (index + 1) as f64).fract();
+        ((share * f64::from(size[axis])) as u32).min(size[axis] - 1)
+    })
+}
+
+/// Where a view has a point, as shares of width and height, and whether it is occluded there; the frame that it was seeded in shows it.
+fn image(lookout: &Lookout<'_>, view: &CameraView<'_>, seed: &Seed, is_own: bool) -> ([f32; 2], bool) {
+    let size = view.camera().size().map(f64::from);
+    let share = |(x, y): (f64, f64)| [(x / size[0]) as f32, (y / size[1]) as f32];
+    if is_own {
+        return (share((f64::from(seed.pixel[0]) + 0.5, f64::from(seed.pixel[1]) + 0.5)), false);
+    }
+    match view.project(seed.p_world) {
+        None => ([-1.0; 2], true),
+        Some(at) => (share(at), !lookout.shows(view, seed.p_world)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_are_spread_evenly_and_differ_by_seed() {
+        let cells = |seed: u64| {
+            let mut counts = [0; 16];
+            for index in 0..256 {
+                let [x, y] = pixel([640, 480], index, seed);
+                counts[(y / 120 * 4 + x / 160) as usize] += 1;
+            }
+            counts
+        };
+        assert!(cells(0).iter().all(|count| (12..=20).contains(count)), "{:?}", cells(0));
+        assert_ne!(pixel([640, 480], 0, 0), pixel([640, 480], 0, 1));
+    }
+}

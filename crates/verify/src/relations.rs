@@ -1,0 +1,65 @@
+//! What relates frames of a scene to each other, as it is stored: the matrix of covisibility, layers that lead from frame to frame, and
+//! tracks.
+
+use super::boxes::there;
+use super::card::Card;
+use super::law::Law;
+use super::many_views::{self, Listed};
+use super::pair_flow::{self, PairLayers};
+use super::read::readable;
+use super::tracks;
+use enfilade_dataset::{Dataset, FramePair, Tracks};
+use enfilade_frame::Layer;
+use rayon::prelude::*;
+
+/// Gives a frame by camera and number; `None` where it is not there.
+type Listing<'l, 'a> = &'l (dyn Fn(&str, u32) -> Option<Listed<'a>> + Sync);
+
+/// Checks what a scene has of these; only frames that are there are compared. What cannot be read goes on the card.
+pub(super) fn check(dataset: &Dataset, (scene, cameras): (&str, &[&str]), listed: Listing<'_, '_>, card: &mut Card) {
+    if let Some(stored) = there(dataset.read_covisibility(scene)).and_then(|read| readable(card, read)) {
+        many_views::check(scene, &stored, |frame| listed(&frame.camera, frame.frame), card);
+    }
+    let pairs = cameras.iter().filter_map(|camera| readable(card, dataset.pairs_with_layers(scene, camera)));
+    let pairs: Vec<FramePair> = pairs.flatten().collect();
+    let cards: Vec<Card> = pairs.par_iter().map(|pair| check_pair(dataset, pair, listed)).collect();
+    cards.into_iter().for_each(|found| card.merge(found));
+    for camera in cameras {
+        if let Some(stored) = there(dataset.read_tracks(scene, camera)).and_then(|read| readable(card, read)) {
+            check_tracks(&format!("{scene}/{camera}"), &stored, &|number| listed(camera, number), card);
+        }
+    }
+}
+
+/// Checks the tracks of a camera in each of their frames.
+fn check_tracks<'a>(name: &str, stored: &Tracks, listed: &(dyn Fn(u32) -> Option<Listed<'a>> + Sync), card: &mut Card) {
+    let check = |place: usize| {
+        let mut card = Card::default();
+        if let Some(frame) = listed(stored.frames[place]) {
+            tracks::check(name, stored, place, &frame, &mut card);
+        }
+        card
+    };
+    let cards: Vec<Card> = (0..stored.frames.len()).into_par_iter().map(check).collect();
+    cards.into_iter().for_each(|found| card.merge(found));
+}
+
+/// Checks the layers that lead from a frame to another one.
+fn check_pair(dataset: &Dataset, pair: &FramePair, listed: Listing<'_, '_>) -> Card {
+    let mut card = Card::default();
+    let frames = [&pair.first, &pair.second].map(|(camera, number)| listed(camera, *number));
+    let [Some(first), Some(second)] = &frames else { return card };
+    let [width, height] = first.view.camera().size().map(|side| side as usize);
+    let mut read = |layer: Layer| {
+        let (size, values) = readable(&mut card, dataset.read_pair_layer(pair, layer))?;
+        let fits = size == [height, width] && values.dtype() == layer.spec().dtype;
+        let at = || format!("{}: expected {width}x{height} pixels", dataset.layout().pair_layer(pair, layer).display());
+        card.observe(Law::Readable, if fits { 0.0 } else { 1.0 }, at);
+        fits.then_some(values)
+    };
+    let layers = [read(Layer::OpticalFlow), read(Layer::SceneFlow), read(Layer::FlowVisibility)];
+    if let [Some(flow), Some(moved), Some(seen)] = layers {
+        pair_flow::check(pair, &PairLayers { flow, moved, seen }, [first, second], &mut card);
+    }
+    card
+}

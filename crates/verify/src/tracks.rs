@@ -1,0 +1,63 @@
+//! The laws of tracks: points are where the cameras have them, and occluded where distances tell so.
+
+use super::card::Card;
+use super::law::Law;
+use super::many_views::Listed;
+use enfilade_dataset::Tracks;
+use enfilade_math::DVec2;
+
+/// Points are compared where they lie at most so many images beyond the borders: farther out, float32 is coarser than the bound.
+const BEYOND: f64 = 1.0;
+
+/// Checks what the tracks of a camera say of one of their frames, the `place`-th.
+pub(super) fn check(name: &str, tracks: &Tracks, place: usize, frame: &Listed<'_>, card: &mut Card) {
+    let [width, height] = frame.view.camera().size().map(f64::from);
+    let mut contradictions = 0;
+    let number = tracks.frames[place];
+    for (point, &p) in tracks.positions.iter().enumerate() {
+        let at = point * tracks.frames.len() + place;
+        let [x, y] = tracks.points[at].map(f64::from);
+        let stored = DVec2::new(x * width, y * height);
+        let is_near = |at: &DVec2| {
+            (at.x / width).abs().max((at.y / height).abs()) < 1.0 + BEYOND && at.x > -BEYOND * width && at.y > -BEYOND * height
+        };
+        let expected = frame.view.project(p).map(DVec2::from).filter(is_near);
+        let (own, seed) = tracks.seeds[point];
+        let off = match expected {
+            Some(expected) if own as usize == place => expected.distance(stored).max(stored.distance(DVec2::from(seed.map(f64::from)))),
+            Some(expected) => expected.distance(stored),
+            None => 0.0,
+        };
+        card.observe(Law::TrackPoints, off, || format!("{name}, point {point} in frame {number}"));
+        contradictions += usize::from(frame.contradicts(p, !tracks.occluded[at]));
+    }
+    let n = tracks.positions.len();
+    let share = contradictions as f64 / n.max(1) as f64;
+    card.observe(Law::TrackOcclusion, share, || format!("{name}: {contradictions} of {n} points in frame {number}"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_scene::Quiet;
+    use enfilade_testroom as testroom;
+
+    fn failures(change: impl Fn(&mut Tracks)) -> Vec<Law> {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        let mut tracks = dataset.read_tracks("room", "cam_00").unwrap();
+        change(&mut tracks);
+        dataset.write_tracks("room", "cam_00", &tracks).unwrap();
+        let report = crate::verify_scene(&dataset, "room", &Quiet).unwrap();
+        report.failures().map(|law| law.law).collect()
+    }
+
+    #[test]
+    fn points_that_are_elsewhere_or_wrongly_occluded_are_found_and_nothing_else() {
+        assert_eq!(failures(|_| ()), []);
+        assert_eq!(failures(|tracks| tracks.points[1][0] += 0.001), [Law::TrackPoints]);
+        assert_eq!(failures(|tracks| tracks.seeds[0].1[1] += 1.0), [Law::TrackPoints]);
+        assert_eq!(failures(|tracks| tracks.occluded.iter_mut().for_each(|occluded| *occluded = true)), [Law::TrackOcclusion]);
+        assert_eq!(failures(|tracks| tracks.frames[1] = 9), [], "frames that are gone are not compared");
+    }
+}
