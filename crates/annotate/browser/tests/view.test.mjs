@@ -527,6 +527,20 @@ describe("view", () => {
         assert.deepEqual(problems, []);
     });
 
+    test("the gallery is there after the dataset was read again while a frame was open", async () => {
+        await page.goto("about:blank");
+        await page.goto(`${origin}/view/#scene=home&camera=cam_00&mode=gallery&within=camera`);
+        await page.locator("#gallery .place").first().waitFor();
+        const before = await places();
+        await page.locator("#gallery-frames").press("Enter");
+        await painted();
+        await page.keyboard.press("Shift+R");
+        await page.locator(".toast", { hasText: "Read again" }).waitFor();
+        await page.keyboard.press("a");
+        await page.locator("#gallery .place").nth(before.length - 1).waitFor();
+        assert.deepEqual(await places(), before);
+    });
+
     test("two pictures stand one above the other where that makes them larger", async () => {
         await open("mode=side&layer=color&other=depth_meters");
         const panes = () => page.evaluate(() => window.view.stage.panes().map(({ x, y }) => [x > 0, y > 0]));

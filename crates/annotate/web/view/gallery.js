@@ -25,6 +25,8 @@ export class Gallery {
         /** @type {Row[]} */
         this.shown = [];
         this.at = 0;
+        /** Rows were asked for, so that what cannot be read is not asked for again and again. */
+        this.asked = false;
         /** By what the frames are chosen and sorted. Another order begins at its first frame. */
         this.order = "";
         this.list = byId("gallery-frames");
@@ -52,10 +54,15 @@ export class Gallery {
 
     /** Reads all scenes again. */
     async reload() {
-        if (!this.isShown) return this.rows.forget();
+        if (!this.isShown) {
+            // They are asked for when the gallery is shown next.
+            this.asked = false;
+            return this.rows.forget();
+        }
+        const counted = [...this.rows.counted];
         this.rows.counted.clear();
         await this.rows.read(this.session.dataset.scenes, { anew: true });
-        if (this.store.state.shows || this.rows.classes.size) await this.rows.count(this.session.dataset.scenes);
+        await this.rows.count(counted);
     }
 
     /** Shows the frames that the state asks for. */
@@ -67,7 +74,7 @@ export class Gallery {
             this.asked = true;
             this.rows.read(scenes);
         }
-        if (state.shows) void this.rows.count(scenes);
+        if (state.shows) void this.rows.count(state.within === "all" ? scenes : [state.scene]);
         const order = JSON.stringify([state.sort, state.down, state.within, state.show, state.gate, state.law, state.shows, state.limits]);
         const isOther = this.order !== "" && this.order !== order;
         const before = isOther ? null : (this.shown[this.at] ?? state);
