@@ -35,6 +35,7 @@ mod shape;
 mod split;
 mod stroke;
 mod suggestions;
+mod surfaces;
 mod viewpoint;
 mod worklog;
 

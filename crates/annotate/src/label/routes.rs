@@ -10,12 +10,12 @@ use super::planned::PlannedFrame;
 use super::progress::views;
 use super::review::ReviewState;
 use super::session::ActionError;
+use super::surfaces;
 use super::viewpoint::Viewpoint;
-use crate::serve::{ApiProblem, beside, reply};
+use crate::serve::{ApiProblem, beside};
 use axum::body::Bytes;
-use axum::extract::rejection::QueryRejection;
-use axum::extract::{Path, Query, State};
-use axum::http::{HeaderMap, header};
+use axum::extract::{Query, State};
+use axum::http::HeaderMap;
 use axum::response::sse::{KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
@@ -35,17 +35,19 @@ const MAX_NOTE: usize = 2000;
 /// Clients and edits are named by random ids; longer ones are a mistake.
 const MAX_NAME: usize = 100;
 
-type Shared = State<Arc<App>>;
-type Answer = Result<Response, ApiProblem>;
+/// What a handler gets.
+pub type Shared = State<Arc<App>>;
+/// What a handler answers.
+pub type Answer = Result<Response, ApiProblem>;
 
 /// All routes, under `/api/annotate`.
 pub fn routes(app: Arc<App>) -> Router {
     Router::new()
         .route("/api/annotate/scene", get(scene))
-        .route("/api/annotate/geometry", get(geometry))
-        .route("/api/annotate/instance_colors", get(instance_colors_of_files))
-        .route("/api/annotate/face_colors", get(face_colors))
-        .route("/api/annotate/photograph/{camera}/{frame}", get(photograph))
+        .route("/api/annotate/geometry", get(surfaces::geometry))
+        .route("/api/annotate/instance_colors", get(surfaces::instance_colors_of_files))
+        .route("/api/annotate/face_colors", get(surfaces::face_colors))
+        .route("/api/annotate/photograph/{camera}/{frame}", get(surfaces::photograph))
         .route("/api/annotate/pieces", get(pieces))
         .route("/api/annotate/edit", post(edit))
         .route("/api/annotate/select", post(select))
@@ -122,55 +124,6 @@ async fn scene(State(app): Shared) -> Answer {
 /// The view that the page begins with.
 fn start_camera(app: &App) -> Option<PlannedFrame> {
     views(app.scene(), app.bvh()).1.into_iter().find_map(|camera| camera.frames.into_iter().next())
-}
-
-#[derive(Deserialize)]
-struct GeometryQuery {
-    /// Only the first levels, up to so many faces.
-    most: Option<usize>,
-}
-
-async fn geometry(State(app): Shared, query: Result<Query<GeometryQuery>, QueryRejection>, headers: HeaderMap) -> Answer {
-    let gzip = reply::takes_gzip(&headers);
-    let most = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "most is a number of faces"))?.0.most;
-    beside(move || {
-        let session = app.session();
-        let bytes = app.order().encode(session.pieces().of_face(), session.pieces().list().len(), most);
-        drop(session);
-        Ok(reply::array(bytes, gzip, &[]))
-    })
-    .await
-}
-
-/// Colours of all possible instance numbers, as the files have them: three bytes each, from number 0, which means none.
-async fn instance_colors_of_files() -> Answer {
-    beside(|| {
-        let colors = enfilade_dataset::instance_colors(i16::MAX as usize);
-        let bytes: Vec<u8> = colors.into_iter().flatten().map(|channel| u8::try_from(channel).unwrap_or(0)).collect();
-        Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
-    })
-    .await
-}
-
-async fn face_colors(State(app): Shared, headers: HeaderMap) -> Answer {
-    let gzip = reply::takes_gzip(&headers);
-    beside(move || match app.face_colors() {
-        Ok(colors) => Ok(reply::array(colors.to_vec(), gzip, &[])),
-        Err(problem) => Err(ApiProblem::not_found(problem.clone(), "look at the labels, or open the scene's file")),
-    })
-    .await
-}
-
-/// The rendered picture of a planned frame.
-async fn photograph(State(app): Shared, Path((camera, frame)): Path<(String, String)>) -> Answer {
-    beside(move || {
-        let frames = app.scene().cameras.iter().filter(|one| one.name == camera).flat_map(|one| &one.frames);
-        let path = frames.filter(|one| one.frame.to_string() == frame).find_map(|one| one.photograph.as_ref());
-        let none = || ApiProblem::not_found(format!("frame {frame} of {camera:?} has no picture here"), "render it, with previews");
-        let bytes = std::fs::read(path.ok_or_else(none)?).map_err(|_| none())?;
-        Ok(([(header::CONTENT_TYPE, "image/jpeg"), (header::CACHE_CONTROL, "no-cache")], bytes).into_response())
-    })
-    .await
 }
 
 async fn pieces(State(app): Shared) -> Answer {
