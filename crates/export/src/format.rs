@@ -27,6 +27,8 @@ pub enum Format {
     Opencv,
     Pix3d,
     Huggingface,
+    Tum,
+    Replica,
 }
 
 /// A row of the table of formats.
@@ -57,7 +59,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 13] = [
+pub const FORMATS: [FormatSpec; 15] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -161,6 +163,22 @@ pub const FORMATS: [FormatSpec; 13] = [
         needs: &[],
         takes: Some(LABELLED),
         readme: include_str!("readmes/huggingface.md"),
+    },
+    FormatSpec {
+        format: Format::Tum,
+        name: "tum",
+        about: "TUM RGB-D: colour and depth by time, and the trajectory",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/tum.md"),
+    },
+    FormatSpec {
+        format: Format::Replica,
+        name: "replica",
+        about: "Replica as NICE-SLAM has it: colour, depth, traj.txt and cam_params.json",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/replica.md"),
     },
 ];
 

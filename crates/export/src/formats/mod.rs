@@ -13,5 +13,7 @@ pub(crate) mod opencv;
 pub(crate) mod openexr;
 mod parquet_file;
 pub(crate) mod pix3d;
+pub(crate) mod replica;
 pub(crate) mod scannet;
+pub(crate) mod tum;
 pub(crate) mod webdataset;
