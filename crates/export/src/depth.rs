@@ -43,8 +43,13 @@ fn pixel_ray(view: View<'_>, frame: &Frame, i: usize) -> Option<enfilade_math::D
 /// Metres to the nearest whole millimetre of a 16-bit picture; 0 for NaN, infinity, what is not in front of the camera, and what
 /// is beyond 65.535 m.
 pub(crate) fn millimetres(depth_m: f64) -> u16 {
-    let mm = (depth_m * 1000.0).round();
-    if mm > 0.0 && mm <= f64::from(u16::MAX) { mm as u16 } else { 0 }
+    whole_units(depth_m, 1000.0)
+}
+
+/// As [`millimetres`], with so many units to the metre.
+pub(crate) fn whole_units(depth_m: f64, per_metre: f64) -> u16 {
+    let units = (depth_m * per_metre).round();
+    if units > 0.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
 }
 
 #[cfg(test)]

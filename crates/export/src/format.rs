@@ -29,6 +29,8 @@ pub enum Format {
     Huggingface,
     Spatiallm,
     Structured3d,
+    Tum,
+    Replica,
 }
 
 /// A row of the table of formats.
@@ -59,7 +61,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 15] = [
+pub const FORMATS: [FormatSpec; 17] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -179,6 +181,22 @@ pub const FORMATS: [FormatSpec; 15] = [
         needs: &[],
         takes: None,
         readme: include_str!("readmes/structured3d.md"),
+    },
+    FormatSpec {
+        format: Format::Tum,
+        name: "tum",
+        about: "TUM RGB-D: colour and depth by time, and the trajectory",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/tum.md"),
+    },
+    FormatSpec {
+        format: Format::Replica,
+        name: "replica",
+        about: "Replica as NICE-SLAM has it: colour, depth, traj.txt and cam_params.json",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/replica.md"),
     },
 ];
 

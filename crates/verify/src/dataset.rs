@@ -243,7 +243,7 @@ impl SceneFacts {
         // What cannot be read is told where that frame itself is checked.
         let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
         let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
-        Some(Listed { view, distances })
+        Some(Listed::new(view, distances))
     }
 
     /// The frame's record states the pose and calibration that the tables state.

@@ -189,7 +189,7 @@ pub const LAWS: [LawSpec; 66] = laws![
         "frames were rendered again since: run enfilade flow";
     TrackPoints 0.02 "px", "points of tracks are where each frame's camera has them, up to an image beyond its borders, and begin at their pixels",
         "frames were rendered again since: run enfilade tracks";
-    TrackOcclusion 2e-2 "share", "points of tracks are occluded where a frame's distances tell so for sure, and seen where those do (share of a frame's points)",
+    TrackOcclusion 1e-2 "share", "points of tracks are occluded where a frame's distances tell so for sure, and seen where those do (share of points in all frames)",
         "frames were rendered again since: run enfilade tracks";
 ];
 

@@ -62,16 +62,10 @@ fn off(layers: &PairLayers, pixel: usize, [from, to]: [&CameraView<'_>; 2], (x, 
         (-beyond * width..(1.0 + beyond) * width).contains(x) && (-beyond * height..(1.0 + beyond) * height).contains(y)
     };
     let flow = match there.filter(|there| within(there, BEYOND)) {
-        None => 0.0,
+        Some((to_x, to_y)) if !stored.is_nan() => stored.distance(DVec2::new(to_x - x, to_y - y)) / stored.length().max(1.0),
+        Some(there) if within(&there, 0.0) => f64::INFINITY,
         // At the border of what the second camera has an image of, beyond its picture, rounding decides.
-        Some(there) if stored.is_nan() => {
-            if within(&there, 0.0) {
-                f64::INFINITY
-            } else {
-                0.0
-            }
-        }
-        Some((to_x, to_y)) => stored.distance(DVec2::new(to_x - x, to_y - y)) / stored.length().max(1.0),
+        _ => 0.0,
     };
     let row = there.map_or(y, |(_, row)| row.clamp(0.0, height));
     let in_camera = |view: &CameraView<'_>, row: f64| {

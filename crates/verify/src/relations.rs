@@ -4,7 +4,7 @@
 use super::boxes::there;
 use super::card::Card;
 use super::law::Law;
-use super::many_views::{self, Listed};
+use super::many_views::{self, BETWEEN_SAMPLES, Listed};
 use super::pair_flow::{self, PairLayers};
 use super::read::readable;
 use super::tracks;
@@ -35,13 +35,15 @@ pub(super) fn check(dataset: &Dataset, (scene, cameras): (&str, &[&str]), listed
 fn check_tracks<'a>(name: &str, stored: &Tracks, listed: &(dyn Fn(u32) -> Option<Listed<'a>> + Sync), card: &mut Card) {
     let check = |place: usize| {
         let mut card = Card::default();
-        if let Some(frame) = listed(stored.frames[place]) {
-            tracks::check(name, stored, place, &frame, &mut card);
-        }
-        card
+        let contradictions = listed(stored.frames[place]).map(|frame| tracks::check(name, stored, place, &frame, &mut card));
+        (card, contradictions)
     };
-    let cards: Vec<Card> = (0..stored.frames.len()).into_par_iter().map(check).collect();
-    cards.into_iter().for_each(|found| card.merge(found));
+    let found: Vec<(Card, Option<usize>)> = (0..stored.frames.len()).into_par_iter().map(check).collect();
+    let there: Vec<usize> = found.iter().filter_map(|(_, contradictions)| *contradictions).collect();
+    let (wrong, all) = (there.iter().sum::<usize>(), there.len() * stored.positions.len());
+    let share = wrong.saturating_sub(BETWEEN_SAMPLES) as f64 / all.max(1) as f64;
+    card.observe(Law::TrackOcclusion, share, || format!("{name}: {wrong} of {all} points in frames"));
+    found.into_iter().for_each(|(found, _)| card.merge(found));
 }
 
 /// Checks the layers that lead from a frame to another one.

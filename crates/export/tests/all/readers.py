@@ -206,6 +206,51 @@ def scannet():
     return f"{len(record())} frames"
 
 
+def rotation(qx, qy, qz, qw):
+    """Of a unit quaternion, as the TUM benchmark's own tools have it."""
+    return np.array(
+        [
+            [1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy - qz * qw), 2 * (qx * qz + qy * qw)],
+            [2 * (qx * qy + qz * qw), 1 - 2 * (qx * qx + qz * qz), 2 * (qy * qz - qx * qw)],
+            [2 * (qx * qz - qy * qw), 2 * (qy * qz + qx * qw), 1 - 2 * (qx * qx + qy * qy)],
+        ]
+    )
+
+
+def tum():
+    for scene, camera in {(scene, camera) for scene, camera, _ in record()}:
+        folder = f"{EXPORT}/{scene}_{camera}"
+        frames = [frame for *of, frame in record() if of == [scene, camera]]
+        truth = np.atleast_2d(np.loadtxt(f"{folder}/groundtruth.txt"))
+        fx, fy, cx, cy, width, height, scale = np.loadtxt(f"{folder}/calibration.txt")
+        K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+        lists = [np.atleast_2d(np.loadtxt(f"{folder}/{name}.txt", dtype=str)) for name in ("rgb", "depth")]
+        assert np.array_equal(lists[0][:, 0], lists[1][:, 0]) and len(truth) == len(frames) == len(lists[0])
+        for row, rgb, depth, frame in zip(truth, lists[0][:, 1], lists[1][:, 1], frames):
+            to_world = np.eye(4)
+            to_world[:3, :3], to_world[:3, 3] = rotation(*row[4:]), row[1:4]
+            stored = picture(f"{folder}/{depth}")
+            assert stored.shape == (height, width) and picture(f"{folder}/{rgb}").shape == (height, width, 3)
+            check_points(scene, camera, frame, stored * (1000 / scale), K, to_world)
+    return f"{len(record())} frames"
+
+
+def replica():
+    for scene, camera in {(scene, camera) for scene, camera, _ in record()}:
+        folder = f"{EXPORT}/{scene}_{camera}"
+        with open(f"{folder}/cam_params.json") as file:
+            model = json.load(file)["camera"]
+        K = np.array([[model["fx"], 0, model["cx"]], [0, model["fy"], model["cy"]], [0, 0, 1]])
+        poses = np.loadtxt(f"{folder}/traj.txt").reshape(-1, 4, 4)
+        frames = [frame for *of, frame in record() if of == [scene, camera]]
+        assert len(poses) == len(frames)
+        for number, (to_world, frame) in enumerate(zip(poses, frames)):
+            stored = picture(f"{folder}/results/depth{number:06}.png")
+            assert picture(f"{folder}/results/frame{number:06}.jpg").shape == (model["h"], model["w"], 3)
+            check_points(scene, camera, frame, stored * (1000 / model["scale"]), K, to_world)
+    return f"{len(record())} frames"
+
+
 def depth_png():
     for scene, camera, frame in record():
         with open(f"{EXPORT}/{scene}/{camera}/cameras.json") as file:
