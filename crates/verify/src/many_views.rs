@@ -18,8 +18,9 @@ use std::sync::OnceLock;
 const HIDES: f64 = 0.98;
 /// A surface is before a point at most when it is nearer than this share of its distance: half of what rays leave before their end.
 const BEFORE: f64 = 0.9995;
-/// Pixels show one plane when their surface points lie within this share of their distance from it.
-const PLANE: f64 = 2e-3;
+/// Pixels show one plane, and a point lies in it, when they are off it along the way to them by no more than this share of the distance: half
+/// of what rays leave before their end. The far side of a lampshade is farther off.
+const PLANE: f64 = 5e-4;
 /// Cosine of the angle between a plane's normal and the way to it, from which on what it shows counts: 87 degrees.
 const GRAZING: f64 = 0.05;
 /// Pixels on each side of a point's image, in both directions, that are looked at.
@@ -163,8 +164,9 @@ impl<'a> Listed<'a> {
         let diagonals = [points[side * side - 1] - points[0], points[side * (side - 1)] - points[side - 1]];
         let Some(normal) = diagonals[0].cross(diagonals[1]).try_normalize() else { return false };
         let (middle, away) = (points.iter().sum::<DVec3>() / points.len() as f64, p_world - eye);
-        let in_plane = |p: &DVec3| normal.dot(*p - middle).abs() <= PLANE * away.length();
-        normal.dot(away).abs() > GRAZING * away.length() && points.iter().chain([&p_world]).all(in_plane)
+        let across = normal.dot(away).abs();
+        let in_plane = |p: &DVec3| normal.dot(*p - middle).abs() <= PLANE * across;
+        across > GRAZING * away.length() && points.iter().chain([&p_world]).all(in_plane)
     }
 
     fn all_points(&self) -> Vec<DVec3> {
