@@ -50,6 +50,15 @@ impl Calibration {
         found.ok_or_else(|| selected.unsuitable(track.folder(), "its camera is no pinhole, and the format has no distortion; leave it out"))
     }
 
+    /// That of a track whose camera must be a pinhole of rectangular pixels.
+    pub fn of_upright_pinhole(selected: &SelectedFrames<'_>, track: &Track) -> Result<Self, ExportError> {
+        let found = Self::of_pinhole(selected, track)?;
+        if found.intrinsics.skew != 0.0 {
+            return Err(selected.unsuitable(track.folder(), "its pixels are skewed, which the format cannot say; leave it out"));
+        }
+        Ok(found)
+    }
+
     /// Rotation from OpenCV's camera axes to the world.
     pub fn world_from_opencv(&self, view: View<'_>) -> DMat3 {
         view.pose().world_from_camera * self.turn.transpose() * OPENCV

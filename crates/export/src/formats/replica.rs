@@ -16,7 +16,7 @@ const PER_METRE: f64 = 6553.5;
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for track in &selected.tracks {
-        let calibration = Calibration::of_pinhole(selected, track)?;
+        let calibration = Calibration::of_upright_pinhole(selected, track)?;
         let line =
             |view: View<'_>| calibration.opencv_pose(view).as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(" ") + "\n";
         out.write(&format!("{}/traj.txt", folder(track)), track.views().map(line).collect::<String>().as_bytes())?;
@@ -36,7 +36,7 @@ fn folder(track: &Track) -> String {
 fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
     let number = view.track.chosen.iter().position(|&index| index == view.index).unwrap_or_default();
     let folder = format!("{}/results", folder(view.track));
-    let k = Calibration::of_pinhole(selected, view.track)?;
+    let k = Calibration::of_upright_pinhole(selected, view.track)?;
     let frame = selected.read(view, &[&SHOWN[..], &DEPTH].concat())?;
     let depth: Vec<u16> = planar_m(selected, view, &k, &frame)?.into_iter().map(|metres| whole_units(metres, PER_METRE)).collect();
     out.write(&format!("{folder}/depth{number:06}.png"), &grey16_png(frame.width, frame.height, &depth))?;

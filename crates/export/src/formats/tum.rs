@@ -1,7 +1,7 @@
 //! TUM RGB-D sequences (Sturm et al. 2012): `<scene>_<camera>/{rgb,depth}/<time>.png` with `rgb.txt`, `depth.txt` and `groundtruth.txt`.
 //!
-//! Depth is planar, 16-bit PNG, 5000 to the metre, 0 for none and from 13.107 m on. A line of `groundtruth.txt` is `time tx ty tz qx qy qz qw`: camera
-//! centre in metres, and the rotation from OpenCV's camera axes to the world. Times are in seconds from frame 0.
+//! Depth is planar, 16-bit PNG, 5000 to the metre, 0 for none and from 13.107 m on. A line of `groundtruth.txt` is `time tx ty tz qx qy qz
+//! qw`: camera centre in metres, and the rotation from OpenCV's camera axes to the world. Times are in seconds from frame 0.
 
 use crate::ExportError;
 use crate::calibration::Calibration;
@@ -17,7 +17,7 @@ const PER_METRE: f64 = 5000.0;
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for track in &selected.tracks {
-        let k = Calibration::of_pinhole(selected, track)?;
+        let k = Calibration::of_upright_pinhole(selected, track)?;
         let step_s = frame_time_s(selected, track)?;
         let (mut rgb, mut depth) = ("# timestamp filename\n".to_string(), "# timestamp filename\n".to_string());
         let mut truth = "# timestamp tx ty tz qx qy qz qw\n".to_string();
@@ -58,7 +58,7 @@ fn time(view: View<'_>, step_s: f64) -> String {
 
 fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
     let (folder, time) = (folder(view.track), time(view, frame_time_s(selected, view.track)?));
-    let k = Calibration::of_pinhole(selected, view.track)?;
+    let k = Calibration::of_upright_pinhole(selected, view.track)?;
     let frame = selected.read(view, &[&SHOWN[..], &DEPTH].concat())?;
     let depth: Vec<u16> = planar_m(selected, view, &k, &frame)?.into_iter().map(|metres| whole_units(metres, PER_METRE)).collect();
     out.write(&format!("{folder}/depth/{time}.png"), &grey16_png(frame.width, frame.height, &depth))?;
