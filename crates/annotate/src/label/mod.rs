@@ -10,6 +10,7 @@
 //! its own (`review.rs`).
 
 mod action;
+mod answer;
 mod app;
 mod camera;
 mod change;

@@ -1,6 +1,7 @@
 //! The routes of the annotation page. Whatever takes time runs on threads for blocking work.
 
 use super::action::{Action, Look, Refusal};
+use super::answer::{Answer, Shared};
 use super::app::App;
 use super::camera::CameraRequest;
 use super::change::material_name;
@@ -17,7 +18,6 @@ use axum::body::Bytes;
 use axum::extract::{Query, State};
 use axum::http::HeaderMap;
 use axum::response::sse::{KeepAlive, Sse};
-use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
 use serde::Deserialize;
@@ -34,11 +34,6 @@ const MAX_HISTORY: usize = 300;
 const MAX_NOTE: usize = 2000;
 /// Clients and edits are named by random ids; longer ones are a mistake.
 const MAX_NAME: usize = 100;
-
-/// What a handler gets.
-pub type Shared = State<Arc<App>>;
-/// What a handler answers.
-pub type Answer = Result<Response, ApiProblem>;
 
 /// All routes, under `/api/annotate`.
 pub fn routes(app: Arc<App>) -> Router {

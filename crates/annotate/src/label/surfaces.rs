@@ -1,6 +1,6 @@
 //! What the page draws: the faces, the colours of instances and of materials, and rendered pictures.
 
-use super::routes::{Answer, Shared};
+use super::answer::{Answer, Shared};
 use crate::serve::{ApiProblem, beside, reply};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};

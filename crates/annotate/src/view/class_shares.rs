@@ -1,9 +1,9 @@
 //! How much of each class the frames of a scene show. No table has that of things without an instance, such as walls, so the layer
 //! `semantic` is counted, when somebody asks for a class and not before.
 
-use super::cache::Weight;
 use super::place::{FramePlace, problem, stamp};
 use super::problems::Problems;
+use super::shares::Shares;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
 use axum::extract::{Path, State};
@@ -13,21 +13,9 @@ use enfilade_dataset::Elements;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_frame::Layer;
 use rayon::prelude::*;
-use serde::Serialize;
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// Share of the pixels of each class that a frame shows; -1 is what has none.
-#[derive(Debug, Default, Serialize)]
-#[serde(transparent)]
-pub struct Shares(BTreeMap<i16, f64>);
-
-impl Weight for Shares {
-    fn weight(&self) -> usize {
-        self.0.len() * size_of::<(i16, f64)>()
-    }
-}
 
 /// `GET /api/view/class_shares/{scene}`.
 pub async fn class_shares(
@@ -58,7 +46,7 @@ impl Viewer {
         let mut frames = Vec::new();
         for (place, shares) in places.iter().zip(counted) {
             let shares = lost.or_nothing("gallery", shares);
-            seen.extend(shares.0.keys().map(|&class| Some(i64::from(class))));
+            seen.extend(shares.classes().map(|class| Some(i64::from(class))));
             frames.push(json!({ "camera": place.camera, "frame": place.frame, "shares": *shares }));
         }
         let classes = lost.or_nothing("gallery", self.classes(scene));
@@ -75,11 +63,7 @@ impl Viewer {
                 let error = format!("{}: expected int16, found {}", path.display(), array.values.element().name());
                 return Err(ApiProblem::failed(error, "delete the file and make it again"));
             };
-            let mut pixels = vec![0u32; 1 << 16];
-            classes.iter().for_each(|&class| pixels[usize::from(class.cast_unsigned())] += 1);
-            let share = |class: u16| f64::from(pixels[usize::from(class)]) / classes.len() as f64;
-            let seen = (0..=u16::MAX).filter(|&class| pixels[usize::from(class)] > 0);
-            Ok(Shares(seen.map(|class| (class.cast_signed(), share(class))).collect()))
+            Ok(Shares::of(classes))
         })
     }
 }

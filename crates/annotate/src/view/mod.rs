@@ -26,6 +26,7 @@ mod problems;
 mod report;
 mod routes;
 mod scene;
+mod shares;
 mod space;
 mod summary;
 #[cfg(test)]

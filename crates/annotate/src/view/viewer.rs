@@ -1,10 +1,10 @@
 //! The dataset that is open: where it is, and what was read from it lately.
 
 use super::cache::Cache;
-use super::class_shares::Shares;
 use super::decoded_layer::DecodedLayer;
 use super::place::FramePlace;
 use super::report::ReportFile;
+use super::shares::Shares;
 use crate::serve::{ApiProblem, beside};
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::Layer;
@@ -17,7 +17,6 @@ const LAYER_CACHE_BYTES: usize = 512 << 20;
 const SCENE_CACHE_BYTES: usize = 512 << 20;
 /// Memory that small pictures may take: those of ten thousand frames.
 const THUMBNAIL_CACHE_BYTES: usize = 64 << 20;
-
 /// Memory that shares of classes may take: those of a hundred thousand frames.
 const SHARE_CACHE_BYTES: usize = 32 << 20;
 

@@ -117,7 +117,7 @@ fn write_name(drawing: &mut Drawing, page: &Page, room: &StructureRoom) {
         bold: false,
         anchor: Anchor::Middle,
         ink: Ink::solid(ink),
-        halo: None,
+        halo: Some(Ink::solid(FLOOR)),
     };
     drawing.write(line(room.name.clone(), y, 11.0, INK));
     drawing.write(line(format!("{:.1} m²", room.area_m2()), y + 18.0, 9.0, SOFT));
