@@ -2,6 +2,7 @@
 
 use crate::args::ExportArgs;
 use crate::outcome::{Problem, Verdict, say};
+use crate::pairs::cameras;
 use crate::progress::Progress;
 use enfilade_export::{Existing, ExportConfig, Format, Selection, export as export_dataset};
 
@@ -9,10 +10,7 @@ use enfilade_export::{Existing, ExportConfig, Format, Selection, export as expor
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let cameras = match args.camera.as_deref() {
-        None => None,
-        pattern => Some(enfilade_pipeline::select("camera", &dataset.camera_names(&scenes)?, pattern)?),
-    };
+    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
     let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");
     let config = ExportConfig {
         format: Format::from_name(&args.format).ok_or_else(unknown)?,

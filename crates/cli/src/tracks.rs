@@ -25,9 +25,10 @@ pub fn tracks(args: &TracksArgs, quiet: bool) -> Result<Verdict, Problem> {
                 continue;
             }
             let package = package(&dataset, scene, &filmed, &cx)?;
+            let lookout = package.lookout()?;
             for frames in frames.chunk_by(|&a, &b| filmed.name(a).0 == filmed.name(b).0) {
                 let camera = filmed.name(frames[0]).0;
-                let found = follow(&filmed, &package, frames, config, &cx)?;
+                let found = follow(&filmed, &lookout, frames, config, &cx)?;
                 dataset.write_tracks(scene, camera, &found)?;
                 let (points, frames) = (counted(found.positions.len(), "point"), counted(found.frames.len(), "frame"));
                 lines.push(format!("{scene}/{camera}: {points} through {frames}"));

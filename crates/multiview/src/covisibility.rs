@@ -58,7 +58,7 @@ pub fn covisibility(
     let counted = Counted::new(cx, "grids", n);
     let grid = |frame: usize| counted.unit(|| read_grid(filmed, frame, config));
     let grids: Vec<Grid> = (0..n).into_par_iter().map(grid).collect::<Result<_, _>>()?;
-    let lookout = package.map(|package| Lookout::new(&package.scene).map_err(|error| package.error(error))).transpose()?;
+    let lookout = package.map(ScenePackage::lookout).transpose()?;
 
     let counted = Counted::new(cx, "frames", n);
     let column = |by: usize| counted.unit(|| column(filmed, &grids, lookout.as_ref(), by));

@@ -3,7 +3,6 @@
 
 use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::FramePair;
-use enfilade_render::Lookout;
 use enfilade_scene::Cx;
 
 impl Filmed<'_> {
@@ -37,7 +36,7 @@ impl Filmed<'_> {
 /// # Errors
 /// When the scene cannot be used, or a file cannot be written.
 pub fn write_flow(filmed: &Filmed<'_>, package: &ScenePackage, pairs: &[[usize; 2]], cx: &dyn Cx) -> Result<(), MultiviewError> {
-    let lookout = Lookout::new(&package.scene).map_err(|error| package.error(error))?;
+    let lookout = package.lookout()?;
     let total = pairs.len() as u64;
     for (done, &[first, second]) in pairs.iter().enumerate() {
         cx.progress("pairs", done as u64, total);

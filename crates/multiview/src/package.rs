@@ -1,6 +1,7 @@
 //! The scene package that frames were rendered from, where the dataset still has it: with it a ray says what hides what.
 
 use crate::{Filmed, MultiviewError};
+use enfilade_render::{Lookout, RenderError};
 use enfilade_scene::{Cx, Scene, Warning, from_bytes};
 use std::path::PathBuf;
 
@@ -36,9 +37,13 @@ impl ScenePackage {
         Ok(Some(Self { path, scene }))
     }
 
-    /// An error about it.
-    pub(crate) fn error(&self, problem: impl ToString) -> MultiviewError {
-        MultiviewError::Package { path: self.path.clone(), problem: problem.to_string() }
+    /// The scene made ready for rays, which takes as long as its hierarchy: once for everything that is asked.
+    ///
+    /// # Errors
+    /// When the scene cannot be used.
+    pub fn lookout(&self) -> Result<Lookout<'_>, MultiviewError> {
+        let wrong = |error: RenderError| MultiviewError::Package { path: self.path.clone(), problem: error.to_string() };
+        Lookout::new(&self.scene).map_err(wrong)
     }
 }
 

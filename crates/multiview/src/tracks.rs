@@ -5,7 +5,7 @@
 //! Scenes do not move, so a point is one place in the world. It is occluded where it is outside of the image, or a ray from the camera meets
 //! something before it, as `flow_visibility` tells.
 
-use crate::{Filmed, MultiviewError, ScenePackage};
+use crate::{Filmed, MultiviewError};
 use enfilade_dataset::Tracks;
 use enfilade_math::{DVec3, hash_u64};
 use enfilade_render::Lookout;
@@ -40,25 +40,24 @@ struct Seed {
     p_world: DVec3,
 }
 
-/// Follows points through `frames`, which are of one camera, in their order.
+/// Follows points through `frames`, which are of one camera, in their order. `lookout` is that of the scene that was filmed.
 ///
 /// # Errors
-/// When a frame or the scene cannot be used.
+/// When a frame cannot be used.
 pub fn tracks(
     filmed: &Filmed<'_>,
-    package: &ScenePackage,
+    lookout: &Lookout<'_>,
     frames: &[usize],
     config: TracksConfig,
     cx: &dyn Cx,
 ) -> Result<Tracks, MultiviewError> {
-    let lookout = Lookout::new(&package.scene).map_err(|error| package.error(error))?;
     let counted = Counted::new(cx, "frames", frames.len());
     let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
     let seeds: Vec<Vec<Seed>> = (0..frames.len()).into_par_iter().map(seeds).collect::<Result<_, _>>()?;
     let seeds: Vec<Seed> = seeds.into_iter().flatten().collect();
     let views: Vec<CameraView<'_>> = frames.iter().map(|&frame| filmed.view(frame)).collect();
     let follow = |seed: &Seed| {
-        let at = |(place, view): (usize, &CameraView<'_>)| image(&lookout, view, seed, place == seed.frame as usize);
+        let at = |(place, view): (usize, &CameraView<'_>)| image(lookout, view, seed, place == seed.frame as usize);
         views.iter().enumerate().map(at).collect::<Vec<_>>()
     };
     let followed: Vec<([f32; 2], bool)> = seeds.par_iter().flat_map_iter(follow).collect();
