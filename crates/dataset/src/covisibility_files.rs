@@ -132,10 +132,7 @@ impl Dataset {
         let (path, list) = (self.layout().covisibility(scene), self.layout().covisibility_frames(scene));
         let array = read_array(&path)?;
         let table = Table::read(&list)?;
-        let mut at = [0; HEADER.len()];
-        for (at, name) in at.iter_mut().zip(HEADER) {
-            *at = table.column(name)?;
-        }
+        let at = table.columns(HEADER)?;
         let frame = |i: usize| {
             let camera = table.rows[i][at[1]].clone();
             let grid_step_px = table.parse(i, at[3])?;

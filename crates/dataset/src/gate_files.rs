@@ -90,10 +90,7 @@ impl Dataset {
             Err(error) if error.is_not_found() => return Ok(None),
             table => table?,
         };
-        let mut at = [0; HEADER.len()];
-        for (at, name) in at.iter_mut().zip(HEADER) {
-            *at = table.column(name)?;
-        }
+        let at = table.columns(HEADER)?;
         let view = |row: usize| {
             let name = &table.rows[row][at[1]];
             let known = ViewVerdict::ALL.iter().find(|(_, known)| known == name);

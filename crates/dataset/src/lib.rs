@@ -71,6 +71,7 @@ pub use layout::{Layout, SCENE_PACKAGE, WORKDIR, check_name};
 pub use layout_version::{LAYOUT_VERSION, refuse_newer_layout};
 pub use loader_camera::{LOADER_FOCAL_PX, LOADER_SIZE, loader_depth, loader_problem};
 pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry, Manifest, ManifestInfo, SceneEntry};
+pub use npz::npy_head;
 pub use number_ranges::{number_runs, parse_number_ranges, print_number_ranges};
 pub use object_files::{MeshFiles, MeshGeometry};
 pub use pair_files::{FramePair, PairRow, read_pairs, write_pairs};

@@ -20,18 +20,18 @@ pub(crate) struct NpyArray {
     pub bytes: Vec<u8>,
 }
 
-impl NpyArray {
-    /// What an array file begins with, up to its values.
-    fn head(&self) -> Vec<u8> {
-        // One axis needs the comma that makes it a tuple.
-        let shape: String = self.shape.iter().map(|length| format!("{length}, ")).collect();
-        let mut header = format!("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", self.dtype, shape.trim_end());
-        // Magic, version and length are 10 bytes; what comes before the values is a multiple of 64 and ends with a new line.
-        let padding = 63 - (10 + header.len()) % 64;
-        header.push_str(&" ".repeat(padding));
-        header.push('\n');
-        [MAGIC, &(header.len() as u16).to_le_bytes(), header.as_bytes()].concat()
-    }
+/// What an array file begins with, up to its values, which follow in C order, little-endian. `dtype` is numpy's description of an element, as in
+/// `<f4`.
+pub fn npy_head(dtype: &str, shape: &[usize]) -> Vec<u8> {
+    let axes = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    // One axis needs the comma that makes it a tuple.
+    let comma = if shape.len() == 1 { "," } else { "" };
+    let mut header = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({axes}{comma}), }}");
+    // Magic, version and length are 10 bytes; what comes before the values is a multiple of 64 and ends with a new line.
+    let padding = 63 - (10 + header.len()) % 64;
+    header.push_str(&" ".repeat(padding));
+    header.push('\n');
+    [MAGIC, &(header.len() as u16).to_le_bytes(), header.as_bytes()].concat()
 }
 
 /// The bytes of an archive of arrays; the same arrays give the same bytes.
@@ -40,7 +40,7 @@ pub(crate) fn npz(arrays: &[NpyArray]) -> std::io::Result<Vec<u8>> {
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).last_modified_time(DateTime::default());
     for array in arrays {
         archive.start_file(format!("{}.npy", array.name), options)?;
-        archive.write_all(&array.head())?;
+        archive.write_all(&npy_head(array.dtype, &array.shape))?;
         archive.write_all(&array.bytes)?;
     }
     Ok(archive.finish()?.into_inner())
@@ -88,6 +88,6 @@ mod tests {
         assert!(problem(NpyArray { dtype: "<f4", ..array("b", &[0], Vec::new()) }).contains("expected <f4"));
         assert!(problem(array("c", &[0], Vec::new())).starts_with("tracks.npz: c: "));
         assert!(read_npy(path, &bytes[..40], arrays[0].clone()).is_err());
-        assert!(arrays.iter().all(|array| array.head().len() % 64 == 0));
+        assert!(arrays.iter().all(|array| npy_head(array.dtype, &array.shape).len().is_multiple_of(64)));
     }
 }

@@ -56,10 +56,7 @@ pub fn write_pairs(path: &Path, rows: &[PairRow]) -> Result<(), DatasetError> {
 /// When the file is missing, lacks one of these columns, or has a frame number that is none.
 pub fn read_pairs(path: &Path) -> Result<Vec<FramePair>, DatasetError> {
     let table = Table::read(path)?;
-    let mut at = [0; NAMES.len()];
-    for (at, name) in at.iter_mut().zip(NAMES) {
-        *at = table.column(name)?;
-    }
+    let at = table.columns(NAMES)?;
     let pair = |i: usize| {
         let cell = |column: usize| table.rows[i][at[column]].clone();
         Ok(FramePair { scene: cell(0), first: (cell(1), table.parse(i, at[2])?), second: (cell(3), table.parse(i, at[4])?) })

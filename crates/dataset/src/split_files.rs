@@ -79,10 +79,7 @@ impl Dataset {
     pub fn read_split(&self) -> Result<Vec<SplitRow>, DatasetError> {
         let path = self.layout().split();
         let table = Table::read(&path)?;
-        let mut at = [0; HEADER.len()];
-        for (at, name) in at.iter_mut().zip(HEADER) {
-            *at = table.column(name)?;
-        }
+        let at = table.columns(HEADER)?;
         let row = |i: usize| {
             let cell = |column: usize| table.rows[i][at[column]].clone();
             let partition = match cell(3).as_str() {

@@ -51,6 +51,15 @@ impl Table {
             .ok_or_else(|| DatasetError::text(&self.path, format!("line 1: no column {name:?}, only {}", self.header.join(", "))))
     }
 
+    /// Indices of several columns.
+    pub fn columns<const N: usize>(&self, names: [&str; N]) -> Result<[usize; N], DatasetError> {
+        let mut at = [0; N];
+        for (at, name) in at.iter_mut().zip(names) {
+            *at = self.column(name)?;
+        }
+        Ok(at)
+    }
+
     /// The cell in `row` and `column` as a number or other plain value.
     pub fn parse<T: FromStr>(&self, row: usize, column: usize) -> Result<T, DatasetError> {
         let cell = &self.rows[row][column];

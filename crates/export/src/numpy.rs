@@ -1,5 +1,6 @@
 //! Layers as the bytes of `.npy` files, version 1.0 of the format (NEP 1).
 
+use enfilade_dataset::npy_head;
 use enfilade_frame::{Dtype, Values};
 
 /// The bytes of an array file in C order, little-endian.
@@ -10,15 +11,7 @@ pub(crate) fn npy(values: &Values, shape: &[usize]) -> Vec<u8> {
         Dtype::I16 => "<i2",
         Dtype::U8 => "|u1",
     };
-    let shape = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let mut header = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({shape}), }}");
-    // Magic, version and length are 10 bytes; what comes before the values is a multiple of 64 and ends with a new line.
-    let padding = 63 - (10 + header.len()) % 64;
-    header.push_str(&" ".repeat(padding));
-    header.push('\n');
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
+    let mut bytes = npy_head(dtype, shape);
     bytes.extend(values.as_bytes());
     bytes
 }

@@ -221,8 +221,17 @@ impl WallFace {
 
     /// A point of the plane by the way along the face from its beginning, and its height.
     pub fn point(&self, along_m: f64, z_m: f64) -> DVec3 {
-        let (from, to) = (DVec2::from(self.from), DVec2::from(self.to));
-        (from + (to - from).normalize_or_zero() * along_m).extend(z_m)
+        (DVec2::from(self.from) + self.direction() * along_m).extend(z_m)
+    }
+
+    /// The way along the face from its beginning to the foot of a point; [`WallFace::point`] goes back.
+    pub fn along_m(&self, point: DVec3) -> f64 {
+        (point.truncate() - DVec2::from(self.from)).dot(self.direction())
+    }
+
+    /// Unit vector from its beginning to its end.
+    fn direction(&self) -> DVec2 {
+        (DVec2::from(self.to) - DVec2::from(self.from)).normalize_or_zero()
     }
 }
 

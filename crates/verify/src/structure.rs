@@ -3,7 +3,7 @@
 use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, vector};
-use enfilade_math::{DVec2, DVec3};
+use enfilade_math::DVec3;
 use enfilade_scene::{Structure, WallFace, WallOpening};
 
 /// How far a surface may be from its plane, metres: plaster, gaps between boards.
@@ -47,7 +47,7 @@ fn is_elsewhere(structure: &Structure, class: i16, p: DVec3) -> Option<bool> {
 fn is_on(wall: &WallFace, p: DVec3) -> bool {
     let within = |value: f64, high: f64| (-NEAR_M..=high + NEAR_M).contains(&value);
     wall.distance_m(p).abs() <= NEAR_M
-        && within(along(wall, p), wall.length_m())
+        && within(wall.along_m(p), wall.length_m())
         && within(p.z - wall.floor_z_m, wall.ceiling_z_m - wall.floor_z_m)
 }
 
@@ -55,16 +55,10 @@ fn is_on(wall: &WallFace, p: DVec3) -> bool {
 fn is_reveal(structure: &Structure, opening: &WallOpening, p: DVec3) -> bool {
     let wall = &structure.walls[opening.walls[0]];
     let [left, right, upper, _] = opening.corners.map(DVec3::from);
-    let (low, high) = (along(wall, right) - NEAR_M, along(wall, left) + NEAR_M);
+    let (low, high) = (wall.along_m(right) - NEAR_M, wall.along_m(left) + NEAR_M);
     (-wall.thickness_m - NEAR_M..=NEAR_M).contains(&wall.distance_m(p))
-        && (low..=high).contains(&along(wall, p))
+        && (low..=high).contains(&wall.along_m(p))
         && (left.z - NEAR_M..=upper.z + NEAR_M).contains(&p.z)
-}
-
-/// The way along a face from its beginning.
-fn along(wall: &WallFace, p: DVec3) -> f64 {
-    let from = DVec2::from(wall.from);
-    (p.truncate() - from).dot((DVec2::from(wall.to) - from).normalize_or_zero())
 }
 
 #[cfg(test)]
