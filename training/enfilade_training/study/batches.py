@@ -14,7 +14,8 @@ from torch.nn import functional as F
 
 from ..segmentation import augment
 from ..segmentation.config import Augment
-from .config import DEPTH
+from . import camera as cameras
+from .config import DEPTH, Camera
 from .pictures import Pictures
 
 # Luma and chrominance of RGB (NTSC 1953).
@@ -33,9 +34,12 @@ def places(seed: int, step: int, batch_size: int, count: int) -> list[tuple[int,
 
 
 def batch(
-    pictures: Pictures, chosen: list[tuple[int, int]], seed: int, config: Augment, tasks: tuple[str, ...]
+    pictures: Pictures, chosen: list[tuple[int, int]], seed: int, config: Augment, tasks: tuple[str, ...], camera: Camera | None = None
 ) -> tuple[torch.Tensor, dict[str, torch.Tensor]]:
-    """Colours on [0, 1], N x 3 x the augmentation's size, and the truth by task at half of it: classes, or depth in metres."""
+    """Colours on [0, 1], N x 3 x the augmentation's size, and the truth by task at half of it: classes, or depth in metres.
+
+    camera: photographs the pictures anew, before all else.
+    """
     height, width = config.size
     half = -(-height // 2), -(-width // 2)
     colors, matrices, truths = [], [], {task: [] for task in tasks}
@@ -43,7 +47,10 @@ def batch(
         whole = pictures.color.shape[2:]
         drawn = augment.draw(augment.generator(seed, epoch, index), config, *whole)
         top, left, rows, columns = drawn.crop
-        part = pictures.color[index : index + 1, :, top : top + rows, left : left + columns]
+        frame = pictures.color[index]
+        if camera is not None:
+            frame = cameras.photographed(camera, cameras.generator(seed, epoch, index), frame)
+        part = frame[None, :, top : top + rows, left : left + columns]
         image = F.interpolate(part, size=config.size, mode="bilinear", antialias=True)[0]
         matrices.append(torch.from_numpy(color_matrix(drawn.jitter)).float())
         colors.append(image.flip(2) if drawn.flip else image)

@@ -42,6 +42,31 @@ class Recipe:
 
 
 @dataclass(frozen=True)
+class Camera:
+    """How homes are photographed before networks see them, each number drawn within its bounds for every picture; the defaults leave them."""
+
+    # How far the means of the channels are brought together: 0 leaves the colour of the light, 1 makes the mean grey.
+    white_balance: tuple[float, float] = (0.0, 0.0)
+    # The exponent of the tone curve, beside that of the tone map; more is darker and has more contrast.
+    tone: tuple[float, float] = (1.0, 1.0)
+    # A factor before the curve.
+    gain: tuple[float, float] = (1.0, 1.0)
+    # How much of the difference from the mean of 3 x 3 pixels is added.
+    sharpening: tuple[float, float] = (0.0, 0.0)
+    # Standard deviation of noise, of 0 to 1.
+    noise: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in vars(self).items():
+            if not 0 <= low <= high:
+                raise ValueError(f"{name} is {[low, high]}, expected two numbers of zero or more, the smaller first")
+
+    def bounds(self) -> list[tuple[float, float]]:
+        """In the order of its fields."""
+        return list(vars(self).values())
+
+
+@dataclass(frozen=True)
 class Study:
     """What is compared."""
 
@@ -66,6 +91,8 @@ class Study:
     # Runs of each arm and share, with the seeds 0, 1, ...
     seeds: int = 3
     augment: Augment = field(default_factory=lambda: Augment(size=(96, 96)))
+    # Of homes alone.
+    camera: Camera = field(default_factory=Camera)
     # Of the bootstrap.
     resamples: int = 2000
     # Where and how it is computed. Sums are added in another order by other threads and devices, so that last digits differ.

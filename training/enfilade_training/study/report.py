@@ -1,10 +1,13 @@
-"""What the study found, as nyuv2.json, nyuv2.md and nyuv2.svg."""
+"""What the study found, as nyuv2.json, nyuv2.md, nyuv2.svg, and nyuv2.npz with what each photograph scored."""
 
 import hashlib
 import json
 from collections import defaultdict
 from pathlib import Path
 from typing import Any, Sequence
+from zipfile import BadZipFile
+
+import numpy as np
 
 from ..common import config as settings
 from . import scores, tables
@@ -14,6 +17,8 @@ from .runs import Maker, Run, all_runs
 
 # A result of Maker.make, by run.
 Results = dict[Run, dict[str, Any]]
+# By task: what the scores of each photograph are made of.
+Images = dict[str, np.ndarray]
 
 
 class ReportError(ValueError):
@@ -21,11 +26,12 @@ class ReportError(ValueError):
 
 
 class Earlier:
-    """An earlier nyuv2.json, whose runs count as finished where their keys are those of the study's."""
+    """An earlier nyuv2.json, whose runs count as finished where their keys are those of the study's, and the nyuv2.npz beside it, if there."""
 
     def __init__(self, path: Path | None):
         self._runs: dict[str, dict[str, Any]] = {}
         self._differences: dict[tuple[str, str], list[dict[str, Any]]] = defaultdict(list)
+        self._images: dict[str, Images] = defaultdict(dict)
         if path is None:
             return
         try:
@@ -41,6 +47,19 @@ class Earlier:
             raise ReportError(f"{path}: cannot be read ({error.strerror}); --scores names the nyuv2.json of an earlier report") from error
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ReportError(f"{path}: is no report of this study ({error!r}); --scores names the nyuv2.json of an earlier one") from error
+        self._read_images(path.with_suffix(".npz"))
+
+    def _read_images(self, path: Path) -> None:
+        if not path.is_file():
+            return
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                for name in file.files:
+                    key, _, task = name.partition(".")
+                    self._images[key][task] = file[name].astype(np.float64)
+        except (OSError, ValueError, BadZipFile) as error:
+            advice = "fetch it again, or move it away to do without: differences that need it have no interval then"
+            raise ReportError(f"{path}: is no file of photographs' scores ({error}); {advice}") from error
 
     def result(self, key: str, tasks: Sequence[str]) -> dict[str, Any] | None:
         """The run of that key, if it has all tasks."""
@@ -51,15 +70,21 @@ class Earlier:
         """The rows of that key and task."""
         return self._differences[key, task]
 
+    def images(self, key: str) -> Images | None:
+        """What the photographs scored in the run of that key, if that is known."""
+        return self._images.get(key)
+
 
 def write(study: Study, maker: Maker, results: Results, earlier: Earlier, folder: Path) -> list[Path]:
-    """Writes nyuv2.json, .md and .svg into a folder, and gives their paths."""
+    """Writes nyuv2.json, .md, .svg and .npz into a folder, and gives their paths."""
     found = plain(study, maker, results, earlier)
     folder.mkdir(parents=True, exist_ok=True)
     texts = {"nyuv2.json": _json(found), "nyuv2.md": tables.markdown(found), "nyuv2.svg": svg(_panels(found))}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
-    return [folder / name for name in texts]
+    packed = {f"{run}.{task}": values for run, images in _images(maker, results, earlier).items() for task, values in images.items()}
+    np.savez_compressed(folder / "nyuv2.npz", allow_pickle=False, **{name: _packed(values) for name, values in packed.items()})
+    return [folder / name for name in (*texts, "nyuv2.npz")]
 
 
 def plain(study: Study, maker: Maker, results: Results, earlier: Earlier) -> dict[str, Any]:
@@ -85,7 +110,7 @@ def _add_differences(
     found: dict[str, Any], study: Study, maker: Maker, results: Results, earlier: Earlier, start: str, fraction: float, pairs: list[tuple[Run, Run]]
 ) -> None:
     key = hashlib.sha256(json.dumps([[results[run]["key"] for run in pair] for pair in pairs] + [study.resamples]).encode()).hexdigest()[:16]
-    images = [[maker.images(run) for run in pair] for pair in pairs]
+    images = [[_images_of(maker, run, earlier) for run in pair] for pair in pairs]
     for task in study.tasks:
         if known := earlier.differences(key, task):
             found["differences"] += known
@@ -96,8 +121,25 @@ def _add_differences(
                 row |= {bound: round(getattr(value, bound), 5) for bound in ("mean", "low", "high")}
                 found["differences"].append(row | {"key": key})
         else:
-            reason = "not all of its runs were made here; run it without --scores"
+            reason = "not all of its runs were made here, and the earlier report has no nyuv2.npz beside it that has them"
             found["without_interval"].append(f"{task} from {start}, {100 * fraction:g} %: {reason}")
+
+
+def _images_of(maker: Maker, run: Run, earlier: Earlier) -> Images | None:
+    return maker.images(run) or earlier.images(maker.key(run))
+
+
+def _images(maker: Maker, results: Results, earlier: Earlier) -> dict[str, Images]:
+    """By the runs' keys, of those of which it is known."""
+    found = {result["key"]: _images_of(maker, run, earlier) for run, result in results.items()}
+    return {key: images for key, images in found.items() if images is not None}
+
+
+def _packed(values: np.ndarray) -> np.ndarray:
+    """In as few bytes as keep what is meant: counts of pixels as they are, scores of depth in single precision."""
+    if values.ndim == 2:
+        return values.astype(np.float32)
+    return values.astype(np.uint16 if values.max() <= np.iinfo(np.uint16).max else np.uint32)
 
 
 def _described(study: Study, maker: Maker) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any, Callable
 import numpy as np
 
 from ..common import checkpoints
+from ..common import config as settings
 from . import homes
 from .config import HOMES, IMAGENET, RANDOM, SEMANTICS40, Study, meaning
 from .judge import judge
@@ -134,7 +135,7 @@ class Maker:
                 return Trained(network, state["losses"], state["pictures"])
         self.say(f"homes, from {start}, seed {seed}")
         begin = lambda: new_network(study, seed, start)  # noqa: E731
-        return train(study, study.pretraining, seed, key, folder, self.pictures("homes"), begin, say=self.say)
+        return train(study, study.pretraining, seed, key, folder, self.pictures("homes"), begin, camera=study.camera, say=self.say)
 
     def pictures(self, name: str) -> Pictures:
         """Of "train", "test" or "homes"."""
@@ -151,6 +152,7 @@ class Maker:
 
     def _homes_key(self, start: str, seed: int) -> str:
         said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
+        said["camera"] = settings.to_dict(self.study.camera)
         return _digest(said | {"training": meaning(self.study, self.study.pretraining)})
 
 

@@ -15,7 +15,7 @@ from ..common import checkpoints
 from ..common.checkpoints import CheckpointError
 from ..common.schedule import one_cycle_cosine, set_learning_rate
 from .batches import batch, places
-from .config import DEPTH, IMAGENET, Recipe, Study
+from .config import DEPTH, IMAGENET, Camera, Recipe, Study
 from .network import UNet, imagenet_file, take_imagenet
 from .pictures import VOID, Pictures
 
@@ -69,7 +69,7 @@ def autocast(study: Study, device: torch.device) -> Any:
 
 def train(
     study: Study, recipe: Recipe, seed: int, key: str, folder: Path, pictures: Pictures, begin: Callable[[], UNet],
-    *, stop_after: int | None = None, say: Callable[[str], None] = lambda _: None,
+    *, camera: Camera | None = None, stop_after: int | None = None, say: Callable[[str], None] = lambda _: None,
 ) -> Trained:  # fmt: skip
     """Trains what `begin` gives, or goes on from `last.pt` of the folder, which also a finished run leaves.
 
@@ -93,7 +93,7 @@ def train(
     weights = torch.tensor([study.depth_weight if task == DEPTH else 1.0 for task in study.tasks], device=device)
     while step < recipe.steps:
         chosen = places(seed, step, recipe.batch_size, len(pictures))
-        images, truths = batch(pictures, chosen, seed, study.augment, study.tasks)
+        images, truths = batch(pictures, chosen, seed, study.augment, study.tasks, camera)
         rate = one_cycle_cosine(step, base=recipe.learning_rate, epochs=recipe.steps, warmup_epochs=min(recipe.warmup_steps, recipe.steps))
         set_learning_rate(optimizer, rate)
         optimizer.zero_grad(set_to_none=True)

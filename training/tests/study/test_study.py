@@ -2,6 +2,7 @@ import contextlib
 import io
 import json
 import os
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -91,6 +92,21 @@ class Studies(unittest.TestCase):
         self.assertNotIn("seed", said)
         for name in ("nyuv2.json", "nyuv2.md", "nyuv2.svg"):
             self.assertEqual((self.folder / "other" / name).read_bytes(), (self.folder / "out" / name).read_bytes(), name)
+        # A bootstrap anew asks for what each photograph scored.
+        anew = (*other, "--set", "resamples=60")
+        self.run_study(*anew)
+        self.assertEqual((len(self.report("other")["differences"]), len(self.report("other")["without_interval"])), (0, 4))
+        packed = earlier.with_suffix(".npz")
+        shutil.copy(self.folder / "out" / "nyuv2.npz", packed)
+        self.run_study(*anew)
+        found = self.report("other")
+        means = {(row["fraction"], row["score"]): row["mean"] for row in self.report()["differences"]}
+        self.assertEqual(len(found["differences"]), len(means))
+        for row in found["differences"]:
+            self.assertAlmostEqual(row["mean"], means[row["fraction"], row["score"]], delta=2e-5)
+        packed.write_bytes(packed.read_bytes()[:100])
+        self.assertIn("earlier.npz: is no file of photographs' scores", self.run_study(*anew, status=2))
+        packed.unlink()
         # Other settings are other runs; homes change those alone that have seen them.
         (self.folder / "homes.toml").write_text(HOMES.replace("seed = 1", "seed = 2"))
         self.run_study(*other, "--only", "arm=random")
