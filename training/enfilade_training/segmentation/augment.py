@@ -26,9 +26,9 @@ class Draw:
     jitter: tuple[tuple[str, float], ...]
 
 
-def generator(seed: int, epoch: int, index: int) -> np.random.Generator:
-    """The random numbers of an image."""
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, epoch, index])))
+def generator(seed: int, epoch: int, index: int, *stream: int) -> np.random.Generator:
+    """The random numbers of an image. stream: tells apart what is drawn for other purposes."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, epoch, index, *stream])))
 
 
 def draw(random: np.random.Generator, config: Augment, height: int, width: int) -> Draw:

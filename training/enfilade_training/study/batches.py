@@ -16,10 +16,10 @@ from ..segmentation import augment
 from ..segmentation.config import Augment
 from . import camera as cameras
 from .config import DEPTH, Camera
-from .pictures import Pictures
+from .pictures import LUMA, Pictures
 
 # Luma and chrominance of RGB (NTSC 1953).
-YIQ = np.array([[0.299, 0.587, 0.114], [0.596, -0.274, -0.322], [0.211, -0.523, 0.312]])
+YIQ = np.array([LUMA, [0.596, -0.274, -0.322], [0.211, -0.523, 0.312]])
 RGB = np.linalg.inv(YIQ)
 
 

@@ -8,16 +8,17 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
+from ..segmentation import augment
 from .config import Camera
+from .pictures import LUMA
 
 # Told apart from what augmentation draws of the same seed, epoch and place.
 STREAM = 1
-LUMA = torch.tensor([0.299, 0.587, 0.114])
 
 
 def generator(seed: int, epoch: int, index: int) -> np.random.Generator:
     """The random numbers of a picture."""
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, epoch, index, STREAM])))
+    return augment.generator(seed, epoch, index, STREAM)
 
 
 def photographed(camera: Camera, random: np.random.Generator, frame: torch.Tensor) -> torch.Tensor:
@@ -27,7 +28,7 @@ def photographed(camera: Camera, random: np.random.Generator, frame: torch.Tenso
 
     # The grey world: means of the channels become as equal as the camera makes them.
     means = image.mean((1, 2)).clamp(min=1e-3)
-    image = image * ((LUMA * means).sum() / means).pow(balance)[:, None, None]
+    image = image * ((torch.tensor(LUMA) * means).sum() / means).pow(balance)[:, None, None]
 
     # The tone curve and the exposure, then sharpening by what a blurred picture lacks.
     image = (gain * image).clamp(0.0, 1.0).pow(tone)

@@ -22,7 +22,7 @@ from ..segmentation.evaluate import colored
 from . import tables
 from .config import DEPTH, HEADS, IMAGENET, RANDOM, SEMANTICS, Study
 from .judge import judge, predict
-from .pictures import FARTHEST_M, VOID, Pictures
+from .pictures import FARTHEST_M, LUMA, VOID, Pictures
 from .runs import Maker
 
 
@@ -71,7 +71,7 @@ def looks(pictures: Pictures) -> dict[str, float]:
     """Means over pictures: brightness, its deviation within a picture, saturation, and the step of brightness from pixel to pixel, of 0 to 1;
     median depth, and shares of pixels without class and without depth."""
     color = pictures.color.float() / 255.0
-    luma = (color * torch.tensor([0.299, 0.587, 0.114])[:, None, None]).sum(1)
+    luma = (color * torch.tensor(LUMA)[:, None, None]).sum(1)
     saturation = (color.amax(1) - color.amin(1)) / color.amax(1).clamp(min=1e-3)
     known = pictures.depth_m[pictures.depth_m > 0].float()
     return {

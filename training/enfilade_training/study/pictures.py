@@ -19,6 +19,8 @@ from .config import SEMANTICS40, UNIT
 VOID = 255
 # Metres beyond which there is no depth, in training and in scores.
 FARTHEST_M = 10.0
+# The weights of red, green and blue in luma (NTSC 1953).
+LUMA = (0.299, 0.587, 0.114)
 # Raised when what is packed changes its meaning.
 FORMAT = 1
 

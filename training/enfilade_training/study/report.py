@@ -77,17 +77,18 @@ class Earlier:
 
 def write(study: Study, maker: Maker, results: Results, earlier: Earlier, folder: Path) -> list[Path]:
     """Writes nyuv2.json, .md, .svg and .npz into a folder, and gives their paths."""
-    found = plain(study, maker, results, earlier)
+    images = _images(maker, results, earlier)
+    found = plain(study, maker, results, earlier, images)
     folder.mkdir(parents=True, exist_ok=True)
     texts = {"nyuv2.json": _json(found), "nyuv2.md": tables.markdown(found), "nyuv2.svg": svg(_panels(found))}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
-    packed = {f"{run}.{task}": values for run, images in _images(maker, results, earlier).items() for task, values in images.items()}
-    np.savez_compressed(folder / "nyuv2.npz", allow_pickle=False, **{name: _packed(values) for name, values in packed.items()})
+    packed = {f"{results[run]['key']}.{task}": _packed(values) for run, of in images.items() for task, values in of.items()}
+    np.savez_compressed(folder / "nyuv2.npz", allow_pickle=False, **packed)
     return [folder / name for name in (*texts, "nyuv2.npz")]
 
 
-def plain(study: Study, maker: Maker, results: Results, earlier: Earlier) -> dict[str, Any]:
+def plain(study: Study, maker: Maker, results: Results, earlier: Earlier, images: dict[Run, Images]) -> dict[str, Any]:
     """The JSON: settings, a row for each run and task, the differences that homes make, and runs that are not there."""
     rows = []
     for run, result in results.items():
@@ -101,21 +102,22 @@ def plain(study: Study, maker: Maker, results: Results, earlier: Earlier) -> dic
             pairs = [(Run(homes, fraction, seed), Run(start, fraction, seed)) for seed in range(study.seeds)]
             there = [pair for pair in pairs if all(run in results for run in pair)]
             if there:
-                _add_differences(found, study, maker, results, earlier, start, fraction, there)
+                _add_differences(found, study, results, earlier, images, start, fraction, there)
     found["missing"] = [str(run) for run in all_runs(study) if run not in results]
     return found
 
 
 def _add_differences(
-    found: dict[str, Any], study: Study, maker: Maker, results: Results, earlier: Earlier, start: str, fraction: float, pairs: list[tuple[Run, Run]]
-) -> None:
+    found: dict[str, Any], study: Study, results: Results, earlier: Earlier, images: dict[Run, Images],
+    start: str, fraction: float, pairs: list[tuple[Run, Run]],
+) -> None:  # fmt: skip
     key = hashlib.sha256(json.dumps([[results[run]["key"] for run in pair] for pair in pairs] + [study.resamples]).encode()).hexdigest()[:16]
-    images = [[_images_of(maker, run, earlier) for run in pair] for pair in pairs]
+    of_pairs = [[images.get(run) for run in pair] for pair in pairs]
     for task in study.tasks:
         if known := earlier.differences(key, task):
             found["differences"] += known
-        elif all(one and task in one for pair in images for one in pair):
-            arm, other = ([pair[i][task] for pair in images] for i in (0, 1))  # type: ignore[index]
+        elif all(one and task in one for pair in of_pairs for one in pair):
+            arm, other = ([pair[i][task] for pair in of_pairs] for i in (0, 1))  # type: ignore[index]
             for name, value in scores.differences(task, arm, other, study.resamples).items():
                 row = {"start": start, "fraction": fraction, "task": task, "score": name, "seeds": [a.seed for a, _ in pairs]}
                 row |= {bound: round(getattr(value, bound), 5) for bound in ("mean", "low", "high")}
@@ -125,14 +127,10 @@ def _add_differences(
             found["without_interval"].append(f"{task} from {start}, {100 * fraction:g} %: {reason}")
 
 
-def _images_of(maker: Maker, run: Run, earlier: Earlier) -> Images | None:
-    return maker.images(run) or earlier.images(maker.key(run))
-
-
-def _images(maker: Maker, results: Results, earlier: Earlier) -> dict[str, Images]:
-    """By the runs' keys, of those of which it is known."""
-    found = {result["key"]: _images_of(maker, run, earlier) for run, result in results.items()}
-    return {key: images for key, images in found.items() if images is not None}
+def _images(maker: Maker, results: Results, earlier: Earlier) -> dict[Run, Images]:
+    """What the photographs scored in each run of which it is known."""
+    found = {run: maker.images(run) or earlier.images(result["key"]) for run, result in results.items()}
+    return {run: images for run, images in found.items() if images is not None}
 
 
 def _packed(values: np.ndarray) -> np.ndarray:

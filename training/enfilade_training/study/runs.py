@@ -152,8 +152,8 @@ class Maker:
 
     def _homes_key(self, start: str, seed: int) -> str:
         said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
-        said["camera"] = settings.to_dict(self.study.camera)
-        return _digest(said | {"training": meaning(self.study, self.study.pretraining)})
+        pictured = {"camera": settings.to_dict(self.study.camera), "training": meaning(self.study, self.study.pretraining)}
+        return _digest(said | pictured)
 
 
 def subset(count: int, fraction: float, seed: int) -> list[int]:
