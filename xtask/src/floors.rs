@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 28] = [
+const FLOORS: [(&str, Floor); 29] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -34,6 +34,7 @@ const FLOORS: [(&str, Floor); 28] = [
     ("label", Floor::Number(4)),
     ("loader", Floor::Number(4)),
     ("multiview", Floor::Number(4)),
+    ("sensors", Floor::Number(4)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),
     ("pipeline", Floor::Number(7)),

@@ -19,6 +19,7 @@ mod price;
 mod progress;
 mod released;
 mod scene_files;
+mod sense;
 mod shell;
 mod stats;
 mod suggest;
@@ -89,6 +90,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
         Verb::Flow(args) => flow::flow(args, cli.quiet),
         Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
+        Verb::Sense(args) => sense::sense(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),

@@ -1,7 +1,7 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `statistics/`, `sensors/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
 //! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays.
@@ -141,6 +141,31 @@ impl Layout {
     /// Which frames see the same surfaces: pairs that were chosen among all, with the share that each sees of the other.
     pub fn pairs(&self) -> PathBuf {
         self.root.join("pairs.csv")
+    }
+
+    /// What sensors have made of frames.
+    pub fn sensors_dir(&self) -> PathBuf {
+        self.root.join("sensors")
+    }
+
+    /// The readings of one sensor.
+    pub fn sensor_dir(&self, sensor: &str) -> PathBuf {
+        self.sensors_dir().join(sensor)
+    }
+
+    /// What the sensor is.
+    pub fn sensor_settings(&self, sensor: &str) -> PathBuf {
+        self.sensor_dir(sensor).join("sensor.json")
+    }
+
+    /// What was drawn for the frames of a camera.
+    pub fn sensed_frames(&self, sensor: &str, scene: &str, camera: &str) -> PathBuf {
+        self.sensor_dir(sensor).join(scene).join(camera).join("metadata_sensed_frames.csv")
+    }
+
+    /// What the sensor has made of a frame (scene, camera, number): `frame.IIII.<what>`.
+    pub fn sensed(&self, sensor: &str, (scene, camera, frame): (&str, &str, u32), what: &str) -> PathBuf {
+        self.sensor_dir(sensor).join(scene).join(camera).join(format!("frame.{frame:04}.{what}"))
     }
 
     /// The scene that frames were rendered from, as a package in the work folder; only where the dataset was made here.

@@ -29,7 +29,7 @@ mod workdir;
 pub use assets::read_library;
 pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, FarmConfig, FileSource, LabelSource, Lamps, LensConfig, Overrides, Placeholder,
-    Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, select,
+    Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, read_sensors, select,
 };
 pub use enfilade_dataset::{ColorKind, WORKDIR};
 pub use enfilade_home::light::Moment;

@@ -8,6 +8,7 @@ use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read
 use super::relations;
 use super::release::{self, Excused};
 use super::report::VerifyReport;
+use super::sensed;
 use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
@@ -46,6 +47,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
     facts.check_relations(dataset, &mut card);
+    facts.check_sensed(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
@@ -232,6 +234,12 @@ impl SceneFacts {
     fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
         let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
         relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
+    }
+
+    /// What sensors have made of frames.
+    fn check_sensed(&self, dataset: &Dataset, card: &mut Card) {
+        let cameras = self.filmed.iter().filter_map(|filmed| Some((filmed.trajectory.name.as_str(), filmed.camera.as_ref()?)));
+        sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), card);
     }
 
     /// A frame's distances, where it is there.

@@ -73,6 +73,7 @@ pub enum Law {
     PairVisibility,
     TrackPoints,
     TrackOcclusion,
+    Sensed,
 }
 
 /// What a law says.
@@ -97,7 +98,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 66] = laws![
+pub const LAWS: [LawSpec; 67] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -191,6 +192,8 @@ pub const LAWS: [LawSpec; 66] = laws![
         "frames were rendered again since: run enfilade tracks";
     TrackOcclusion 1e-2 "share", "points of tracks are occluded where a frame's distances tell so for sure, and seen where those do (share of points in all frames)",
         "frames were rendered again since: run enfilade tracks";
+    Sensed 0.0 "files", "readings of sensors are what their settings make of the stored frames, bit by bit",
+        "frames were denoised or rendered again since, or this is another version: run enfilade sense";
 ];
 
 impl Law {

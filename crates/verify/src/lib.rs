@@ -24,6 +24,7 @@ mod release;
 mod report;
 mod rounding;
 mod scan;
+mod sensed;
 mod structure;
 #[cfg(test)]
 mod tests;

@@ -22,7 +22,7 @@ pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisA
 pub use shell::{CompletionsArgs, ManArgs};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
-pub use views::{FlowArgs, PairsArgs, TracksArgs};
+pub use views::{FlowArgs, PairsArgs, SenseArgs, TracksArgs};
 
 use crate::vray::VrayArgs;
 use clap::{Parser, Subcommand};
@@ -100,6 +100,8 @@ pub enum Verb {
     Flow(FlowArgs),
     /// Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout
     Tracks(TracksArgs),
+    /// What cameras and depth sensors would make of the frames; renders nothing
+    Sense(SenseArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
     /// Render one frame again from its record, and compare the bytes

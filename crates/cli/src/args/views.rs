@@ -1,4 +1,4 @@
-//! The verbs that relate frames of a scene to each other.
+//! The verbs that look at finished frames anew: related to each other, or through other sensors.
 
 use super::CamerasArg;
 use super::values::{parse_frame, parse_overlap, parse_range};
@@ -101,6 +101,32 @@ pub struct TracksArgs {
     /// Only the cameras of these names ("cam_00", "cam_0*")
     #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
     pub camera: Option<String>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub table: CamerasArg,
+}
+
+/// `sense`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  enfilade sense out examples/sensors.toml --frames 0..4\n\nNothing is rendered. sensors/NAME/SCENE/CAMERA in the \
+    dataset has what each sensor makes of each frame;\ndocs/sensors.md has the kinds of sensors and their keys."
+)]
+pub struct SenseArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// The sensors
+    #[arg(value_name = "SENSORS.toml")]
+    pub sensors: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Only the cameras of these names ("cam_00", "cam_0*")
+    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
+    pub camera: Option<String>,
+    /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
+    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
+    pub frames: Option<std::ops::Range<u32>>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,

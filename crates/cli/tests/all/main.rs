@@ -13,6 +13,7 @@ mod pairs;
 mod rendering;
 mod replay;
 mod resume;
+mod sense;
 mod shell;
 mod suggest;
 mod verbs;

@@ -16,6 +16,7 @@ mod patch;
 mod presets;
 mod resolve;
 mod select;
+mod sensors;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,7 @@ pub use choices::{Overrides, Quality, RenderChoices};
 pub use farm::{FarmConfig, Placeholder};
 pub(crate) use locate::closest;
 pub use select::select;
+pub use sensors::read_sensors;
 pub use settings::{CameraChoice, Config, FileSource, LabelSource, Lamps, SceneConfig, Source};
 
 impl Config {

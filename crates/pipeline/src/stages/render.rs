@@ -45,6 +45,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     if rendered > 0 {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
+        job.dataset.forget_sensed(&job.scene.name).map_err(Error::stage)?;
     }
     let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
     let [width, height] = job.scene.size;

@@ -1,0 +1,31 @@
+//! `sense`: from arguments to a call of the crate `sensors`, and what came of it.
+
+use crate::args::SenseArgs;
+use crate::outcome::{Problem, Verdict, say};
+use crate::pairs::cameras;
+use crate::progress::Progress;
+use enfilade_dataset::counted;
+use enfilade_pipeline::read_sensors;
+use enfilade_sensors::{Sense, sense as show};
+
+/// `sense`: what sensors would make of the frames.
+pub fn sense(args: &SenseArgs, quiet: bool) -> Result<Verdict, Problem> {
+    let dataset = args.table.open(&args.dataset)?;
+    let sensors = read_sensors(&args.sensors)?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
+    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
+    let chosen = Sense { scenes, cameras, frames: args.frames.clone() };
+    let frames = {
+        let progress = Progress::new(quiet);
+        let cx = progress.begin(&args.dataset.display().to_string(), "sense");
+        show(&dataset, &sensors, &chosen, &cx)?
+    };
+    if frames == 0 {
+        return Err(Problem::of_data("no frame that is there was chosen", "choose others, or render them: enfilade run"));
+    }
+    for sensor in sensors.all() {
+        say(&format!("{}: {}", sensor.name(), counted(frames, "frame")));
+    }
+    say(&format!("see  {}", dataset.layout().sensors_dir().display()));
+    Ok(Verdict::Done)
+}

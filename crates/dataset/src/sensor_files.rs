@@ -1,0 +1,129 @@
+//! What sensors make of frames: `sensors/<sensor>/<scene>/<camera>/frame.IIII.<what>`, and beside it what was drawn for every frame.
+
+use crate::atomic::{remove_folder, rename, temporary};
+use crate::frames::{read_json, write_layer_aside};
+use crate::read::{read_image, sorted_names};
+use crate::tables::Table;
+use crate::{Dataset, DatasetError, check_name, write_bytes};
+use enfilade_frame::{Layer, Values};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// What was drawn for a frame, by the names of the keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensedFrame {
+    /// Its number.
+    pub frame: u32,
+    /// Names and values.
+    pub drawn: Vec<(&'static str, f64)>,
+}
+
+impl Dataset {
+    /// Writes the settings of a sensor. Readings that are there of other settings are removed.
+    ///
+    /// # Errors
+    /// When the name cannot be part of a path, or the folder cannot be used.
+    pub fn begin_sensor(&self, sensor: &str, settings: &impl Serialize) -> Result<(), DatasetError> {
+        check_name("sensor name", sensor)?;
+        let path = self.layout().sensor_settings(sensor);
+        let unwritable = |error: serde_json::Error| DatasetError::io("write", &path, error.into());
+        let text = serde_json::to_string_pretty(settings).map_err(unwritable)? + "\n";
+        if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
+            return Ok(());
+        }
+        remove_folder(&self.layout().sensor_dir(sensor))?;
+        write_bytes(&path, text)
+    }
+
+    /// The names of the sensors that have readings.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn sensors(&self) -> Result<Vec<String>, DatasetError> {
+        let folder = self.layout().sensors_dir();
+        if folder.is_dir() { sorted_names(&folder) } else { Ok(Vec::new()) }
+    }
+
+    /// The settings of a sensor; `None` where there are none.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn sensor_settings<T: DeserializeOwned>(&self, sensor: &str) -> Result<Option<T>, DatasetError> {
+        read_json(&self.layout().sensor_settings(sensor), "run enfilade sense again")
+    }
+
+    /// The numbers of a camera's frames that a sensor has seen, sorted.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn sensed_frame_numbers(&self, sensor: &str, [scene, camera]: [&str; 2]) -> Result<Vec<u32>, DatasetError> {
+        let table = self.layout().sensed_frames(sensor, scene, camera);
+        let folder = table.parent().unwrap_or(&table);
+        if !folder.is_dir() {
+            return Ok(Vec::new());
+        }
+        let number = |name: &String| name.strip_prefix("frame.")?.split_once('.')?.0.parse().ok();
+        let mut numbers: Vec<u32> = sorted_names(folder)?.iter().filter_map(number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        Ok(numbers)
+    }
+
+    /// Removes what sensors have made of the frames of a scene, before these are made again.
+    ///
+    /// # Errors
+    /// When a folder cannot be removed.
+    pub fn forget_sensed(&self, scene: &str) -> Result<(), DatasetError> {
+        self.sensors()?.iter().try_for_each(|sensor| remove_folder(&self.layout().sensor_dir(sensor).join(scene)))
+    }
+
+    /// Writes a reading with the unit and the meaning of a layer.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_sensed_layer(
+        &self,
+        sensor: &str,
+        frame: (&str, &str, u32),
+        [width, height]: [usize; 2],
+        layer: Layer,
+        values: &Values,
+    ) -> Result<(), DatasetError> {
+        let path = self.layout().sensed(sensor, frame, &format!("{}.hdf5", layer.spec().name));
+        write_layer_aside(&path, [height, width], layer, values)?;
+        rename(&temporary(&path), &path)
+    }
+
+    /// Writes a reading that is a picture.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_sensed_picture(&self, sensor: &str, frame: (&str, &str, u32), what: &str, bytes: &[u8]) -> Result<(), DatasetError> {
+        write_bytes(&self.layout().sensed(sensor, frame, what), bytes)
+    }
+
+    /// Writes what was drawn for the frames of a camera.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_sensed_frames(&self, sensor: &str, [scene, camera]: [&str; 2], frames: &[&SensedFrame]) -> Result<(), DatasetError> {
+        let Some(first) = frames.first() else { return Ok(()) };
+        let names = first.drawn.iter().map(|(name, _)| *name);
+        let header: Vec<&str> = std::iter::once("frame_id").chain(names).collect();
+        let mut table = Table::new(&self.layout().sensed_frames(sensor, scene, camera), &header);
+        let row = |frame: &&SensedFrame| {
+            let values = frame.drawn.iter().map(|(_, value)| value.to_string());
+            std::iter::once(frame.frame.to_string()).chain(values).collect()
+        };
+        table.rows = frames.iter().map(row).collect();
+        table.write()
+    }
+
+    /// A reading that has the meaning of a layer, with its height and width.
+    ///
+    /// # Errors
+    /// When the file is missing, damaged, or not an image of the layer's channels.
+    pub fn read_sensed_layer(&self, sensor: &str, frame: (&str, &str, u32), layer: Layer) -> Result<([usize; 2], Values), DatasetError> {
+        read_image(&self.layout().sensed(sensor, frame, &format!("{}.hdf5", layer.spec().name)), layer, None)
+    }
+}

@@ -1,0 +1,83 @@
+//! The frames of a dataset are shown to sensors.
+
+use crate::{Sensor, SensorError, Sensors, Subject};
+use enfilade_dataset::{Dataset, SensedFrame};
+use enfilade_frame::Layer;
+use enfilade_scene::{Counted, Cx};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Which frames are shown.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sense {
+    /// Names of scenes of the dataset.
+    pub scenes: Vec<String>,
+    /// Names of cameras; `None`: all.
+    pub cameras: Option<Vec<String>>,
+    /// Frame numbers, the upper bound excluded; `None`: all.
+    pub frames: Option<Range<u32>>,
+}
+
+/// Shows frames to sensors, and writes what they give below `sensors/` of the dataset: a folder for each, with its settings, and in it scenes
+/// and cameras. Readings of a sensor of the same name but other settings are removed first. Gives the number of frames.
+///
+/// # Errors
+/// When a sensor's settings are wrong, a frame cannot be seen by it, or a file cannot be read or written.
+pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &Sense, cx: &dyn Cx) -> Result<usize, SensorError> {
+    sensors.check()?;
+    let sensors: Vec<Sensor> = sensors.all().collect();
+    let mut layers: Vec<Layer> = sensors.iter().flat_map(Sensor::layers).collect();
+    layers.sort_unstable();
+    layers.dedup();
+    for sensor in &sensors {
+        dataset.begin_sensor(sensor.name(), sensor)?;
+    }
+    let mut seen = 0;
+    for scene in &chosen.scenes {
+        let is_chosen = |name: &String| chosen.cameras.as_ref().is_none_or(|cameras| cameras.contains(name));
+        for camera in dataset.cameras(scene)?.into_iter().filter(is_chosen) {
+            let is_wanted = |frame: &u32| chosen.frames.as_ref().is_none_or(|range| range.contains(frame));
+            let frames: Vec<u32> =
+                dataset.whole_frames([scene, &camera], chosen.frames.as_ref(), cx)?.into_iter().filter(is_wanted).collect();
+            if frames.is_empty() {
+                continue;
+            }
+            show(dataset, &sensors, &layers, [scene, &camera], &frames, cx)?;
+            seen += frames.len();
+        }
+    }
+    Ok(seen)
+}
+
+/// Shows frames of one camera to all sensors.
+fn show(
+    dataset: &Dataset,
+    sensors: &[Sensor],
+    layers: &[Layer],
+    [scene, camera]: [&str; 2],
+    frames: &[u32],
+    cx: &dyn Cx,
+) -> Result<(), SensorError> {
+    let projection = dataset.read_camera(scene, camera)?.projection;
+    let counted = Counted::new(cx, "frames", frames.len());
+    let readings = |&number: &u32| {
+        counted.unit(|| -> Result<Vec<SensedFrame>, SensorError> {
+            let there: Vec<Layer> =
+                layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
+            let frame = dataset.read_frame(scene, camera, number, &there)?;
+            let subject = Subject { scene, camera, number, projection: &projection, frame: &frame };
+            let sensed = |sensor: &Sensor| {
+                let reading = sensor.sense(&subject)?;
+                reading.write(dataset, sensor.name(), &subject)?;
+                Ok(SensedFrame { frame: number, drawn: reading.drawn })
+            };
+            sensors.iter().map(sensed).collect()
+        })
+    };
+    let rows: Vec<Vec<SensedFrame>> = frames.par_iter().map(readings).collect::<Result<_, _>>()?;
+    for (i, sensor) in sensors.iter().enumerate() {
+        let rows: Vec<&SensedFrame> = rows.iter().map(|row| &row[i]).collect();
+        dataset.write_sensed_frames(sensor.name(), [scene, camera], &rows)?;
+    }
+    Ok(())
+}

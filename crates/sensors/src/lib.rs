@@ -1,0 +1,29 @@
+//! What real cameras and depth sensors would make of rendered frames.
+//!
+//! A rendered frame is what an ideal sensor sees. Here frames that are finished become what others would see: a [`CameraSensor`] with its
+//! exposure, noise and tone curve, depth by [`TimeOfFlight`], and depth by [`Triangulation`] (structured light and stereo). Nothing is
+//! rendered, and nothing is done that is not asked for: a sensor whose only key is its name gives the stored truth back, bit by bit.
+//!
+//! Every reading is a pure function of the sensor, the seed and the stored frame, so `verify` can make it again and compare.
+//! [`sense`] does it for a dataset.
+
+mod amount;
+mod camera;
+mod depth;
+mod driver;
+mod error;
+mod raw;
+mod reading;
+mod sensors;
+mod time_of_flight;
+mod triangulation;
+
+pub use amount::Amount;
+pub use camera::{CameraFormat, CameraSensor};
+pub use depth::Glass;
+pub use driver::{Sense, sense};
+pub use error::SensorError;
+pub use reading::{Data, Reading, Subject};
+pub use sensors::{Kind, Sensor, Sensors};
+pub use time_of_flight::TimeOfFlight;
+pub use triangulation::Triangulation;

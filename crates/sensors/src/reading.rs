@@ -1,0 +1,109 @@
+//! What a sensor is pointed at, and what it gives.
+
+use crate::SensorError;
+use enfilade_dataset::Dataset;
+use enfilade_frame::{Frame, Layer, Values, vector};
+use enfilade_math::{DVec3, Rng, hash_u64};
+use enfilade_scene::Projection;
+
+/// A finished frame in the place of what a sensor would be pointed at.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// Name of the camera that it was rendered for.
+    pub camera: &'a str,
+    /// Number of the frame.
+    pub number: u32,
+    /// Which direction belongs to which image point.
+    pub projection: &'a Projection,
+    /// At least the layers that the sensor looks at: [`Sensor::layers`](crate::Sensor::layers).
+    pub frame: &'a Frame,
+}
+
+/// What a sensor gives of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// What was drawn for this frame, by the names of the keys.
+    pub drawn: Vec<(&'static str, f64)>,
+    /// What was seen.
+    pub data: Data,
+}
+
+/// What was seen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// Values with the unit and the meaning of a layer.
+    Layer(Layer, Values),
+    /// A picture as a file.
+    Picture {
+        /// `color.jpg` and the like: what follows the number of the frame in its name.
+        name: &'static str,
+        /// The whole file.
+        bytes: Vec<u8>,
+    },
+}
+
+impl<'a> Subject<'a> {
+    /// Pixels per row, and rows.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.frame.width as usize, self.frame.height as usize]
+    }
+
+    /// A layer that the sensor cannot do without.
+    pub(crate) fn layer(&self, sensor: &str, layer: Layer) -> Result<&'a Values, SensorError> {
+        self.frame.get(layer).ok_or_else(|| {
+            let name = layer.spec().name;
+            self.unseen(sensor, format!("it has no layer {name}, which the sensor looks at; render it with `enfilade render --extra`"))
+        })
+    }
+
+    /// A layer of float32.
+    pub(crate) fn floats(&self, sensor: &str, layer: Layer) -> Result<&'a [f32], SensorError> {
+        match self.layer(sensor, layer)? {
+            Values::F32(values) => Ok(values),
+            other => unreachable!("{} is stored as {:?}", layer.spec().name, other.dtype()),
+        }
+    }
+
+    /// An error about this frame.
+    pub(crate) fn unseen(&self, sensor: &str, problem: String) -> SensorError {
+        let frame = format!("{}/{}/frame.{:04}", self.scene, self.camera, self.number);
+        SensorError::Frame { sensor: sensor.into(), frame, problem }
+    }
+
+    /// The ray through the centre of pixel `i`, camera space, unit length; `None` where the picture shows nothing.
+    pub(crate) fn ray(&self, i: usize) -> Option<DVec3> {
+        let [width, _] = self.size();
+        Some(self.projection.ray((i % width) as f64 + 0.5, (i / width) as f64 + 0.5)?.normalize())
+    }
+
+    /// Cosine of the angle between the surface's normal and the way back to the camera, by pixel; 0 where nothing was hit.
+    pub(crate) fn cosines(&self, sensor: &str) -> Result<Vec<f64>, SensorError> {
+        let normals = self.layer(sensor, Layer::NormalCam)?;
+        let cosine = |i| self.ray(i).map_or(0.0, |ray| vector(normals, i).dot(-ray).clamp(0.0, 1.0));
+        Ok((0..self.frame.pixels()).map(|i| Some(cosine(i)).filter(|v| v.is_finite()).unwrap_or(0.0)).collect())
+    }
+
+    /// The random numbers of a sensor in this frame.
+    pub(crate) fn rng(&self, seed: u64, sensor: &str) -> Rng {
+        let names = [sensor, self.scene, self.camera];
+        let mixed = names.iter().flat_map(|name| name.bytes().chain([0])).fold(seed, |hash, byte| hash_u64(hash ^ u64::from(byte)));
+        Rng::new(mixed).fork(u64::from(self.number))
+    }
+}
+
+impl Reading {
+    /// Puts the reading of a frame in its place below `sensors/` of the dataset.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub(crate) fn write(&self, dataset: &Dataset, sensor: &str, subject: &Subject<'_>) -> Result<(), SensorError> {
+        let frame = (subject.scene, subject.camera, subject.number);
+        match &self.data {
+            Data::Layer(layer, values) => dataset.write_sensed_layer(sensor, frame, subject.size(), *layer, values)?,
+            Data::Picture { name, bytes } => dataset.write_sensed_picture(sensor, frame, name, bytes)?,
+        }
+        Ok(())
+    }
+}

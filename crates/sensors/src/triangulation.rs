@@ -1,0 +1,226 @@
+//! Depth by two eyes beside each other, of which one may be a projector.
+
+use crate::depth::{Optics, check_within, in_steps, reflectances};
+use crate::reading::{Data, Reading, Subject};
+use crate::{Amount, Glass, SensorError};
+use enfilade_frame::{Layer, Values};
+use enfilade_math::Rng;
+use enfilade_scene::{Intrinsics, Projection};
+use serde::{Deserialize, Serialize};
+
+/// A structured-light or stereo sensor in the frame's camera: its second eye, a projector or another camera, stands beside it on the
+/// camera's x axis and looks the same way. It gives `depth_z_meters`: planar depth, NaN where nothing was matched.
+///
+/// A surface at depth z has the disparity f · b / z, where f is the focal length in pixels and b the baseline. Errors are those of the
+/// disparity, so that errors of depth grow with z² / (f b) (Khoshelham and Oude Elberink 2012, "Accuracy and resolution of Kinect depth
+/// data"). What the second eye does not see has no depth: the shadow beside near things.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Triangulation {
+    /// What its folder is called.
+    pub name: String,
+    /// How far the second eye stands to the right of the frame's camera (to the left where it is negative), metres. 0 casts no shadow.
+    #[serde(default)]
+    pub baseline_m: f64,
+    /// What lies nearer or farther is not seen, metres.
+    #[serde(default)]
+    pub range_m: Option<[f64; 2]>,
+    /// Standard deviation of the disparity, pixels.
+    #[serde(default = "nothing")]
+    pub noise_px: Amount,
+    /// Disparities are whole multiples of this, pixels: 0.125 for the first Kinect.
+    #[serde(default)]
+    pub step_px: f64,
+    /// Side of the square window that is matched, pixels, odd: a pixel has the median of its disparities, so that corners are rounded and
+    /// thin things vanish.
+    #[serde(default = "one")]
+    pub window_px: u32,
+    /// Surfaces that are seen at a greater angle to their normal are not matched, degrees.
+    #[serde(default = "any_angle")]
+    pub max_angle_deg: Amount,
+    /// Surfaces of a smaller diffuse reflectance are not matched.
+    #[serde(default = "nothing")]
+    pub min_reflectance: Amount,
+    /// The share of pixels that find no match for no reason.
+    #[serde(default = "nothing")]
+    pub dropout: Amount,
+    /// What is seen of glass.
+    #[serde(default)]
+    pub glass: Glass,
+    /// Whether smooth metals are seen, as surfaces.
+    #[serde(default = "seen")]
+    pub mirrors: bool,
+}
+
+const fn nothing() -> Amount {
+    Amount::of(0.0)
+}
+
+const fn any_angle() -> Amount {
+    Amount::of(90.0)
+}
+
+const fn one() -> u32 {
+    1
+}
+
+const fn seen() -> bool {
+    true
+}
+
+/// What the second eye is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SecondEye {
+    /// It lights everything that the camera sees but for shadows.
+    Projector,
+    /// It has the camera's field of view, and what lies outside of it has no match.
+    Camera,
+}
+
+impl Triangulation {
+    fn optics(&self) -> Optics {
+        Optics { glass: self.glass, mirrors: self.mirrors, range_m: self.range_m }
+    }
+
+    /// True when disparities are not what the stored depth says.
+    fn measures_disparity(&self) -> bool {
+        self.noise_px.bounds()[1] > 0.0 || self.step_px > 0.0 || self.window_px > 1
+    }
+
+    /// The layers that it looks at.
+    pub(crate) fn layers(&self) -> Vec<Layer> {
+        let mut layers = self.optics().layers();
+        layers.push(Layer::DepthZMeters);
+        if self.max_angle_deg.bounds()[0] < 90.0 {
+            layers.push(Layer::NormalCam);
+        }
+        if self.min_reflectance.bounds()[1] > 0.0 {
+            layers.push(Layer::DiffuseReflectance);
+        }
+        layers
+    }
+
+    /// Checks every key.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        self.optics().check()?;
+        check_within("noise_px", self.noise_px, [0.0, f64::INFINITY])?;
+        check_within("step_px", Amount::of(self.step_px), [0.0, f64::INFINITY])?;
+        check_within("max_angle_deg", self.max_angle_deg, [0.0, 90.0])?;
+        check_within("min_reflectance", self.min_reflectance, [0.0, 1.0])?;
+        check_within("dropout", self.dropout, [0.0, 1.0])?;
+        if self.window_px % 2 == 0 || self.window_px > 63 {
+            return Err(format!("window_px is {}, expected an odd number up to 63", self.window_px));
+        }
+        if !self.baseline_m.is_finite() || (self.baseline_m == 0.0 && self.measures_disparity()) {
+            return Err(format!("baseline_m is {}, expected how far apart the eyes stand, since disparities are measured", self.baseline_m));
+        }
+        Ok(())
+    }
+
+    /// What it gives of a frame.
+    pub(crate) fn sense(&self, eye: SecondEye, subject: &Subject<'_>, mut rng: Rng) -> Result<Reading, SensorError> {
+        let Projection::Pinhole(k) = subject.projection else {
+            let problem = "its camera is no pinhole; use a sensor of another kind, or choose cameras with --camera";
+            return Err(subject.unseen(&self.name, problem.into()));
+        };
+        let [noise_px, max_angle_deg, min_reflectance, dropout] =
+            [self.noise_px, self.max_angle_deg, self.min_reflectance, self.dropout].map(|amount| amount.draw(&mut rng));
+        let mut depths = self.depths_m(subject)?;
+        let focal_baseline = k.fx * self.baseline_m;
+        let is_lit = lit(k, focal_baseline, eye, &depths);
+        if max_angle_deg < 90.0 {
+            let least = max_angle_deg.to_radians().cos();
+            forget(&mut depths, subject.cosines(&self.name)?.iter().map(|&cosine| cosine < least));
+        }
+        if min_reflectance > 0.0 {
+            forget(&mut depths, reflectances(&self.name, subject)?.iter().map(|&reflectance| reflectance < min_reflectance));
+        }
+        forget(&mut depths, is_lit.iter().map(|is_lit| !is_lit));
+        let pixels = rng.fork(0);
+        if self.measures_disparity() {
+            let disparities: Vec<f32> = depths.iter().map(|&z| (focal_baseline.abs() / f64::from(z)) as f32).collect();
+            let matched = medians(subject.size(), &disparities, self.window_px as usize);
+            for (i, (depth, &disparity)) in depths.iter_mut().zip(&matched).enumerate() {
+                let noise = if noise_px > 0.0 { noise_px * pixels.fork(2 * i as u64).normal() } else { 0.0 };
+                let told = in_steps(f64::from(disparity) + noise, self.step_px);
+                *depth = if told > 0.0 { (focal_baseline.abs() / told) as f32 } else { f32::NAN };
+            }
+        }
+        if dropout > 0.0 {
+            forget(&mut depths, (0..).map(|i: u64| pixels.fork(2 * i + 1).next_f64() < dropout));
+        }
+        let optics = self.optics();
+        depths.iter_mut().filter(|depth| !optics.reaches(**depth)).for_each(|depth| *depth = f32::NAN);
+        let names = ["noise_px", "max_angle_deg", "min_reflectance", "dropout"];
+        let drawn = names.into_iter().zip([noise_px, max_angle_deg, min_reflectance, dropout]).collect();
+        Ok(Reading { drawn, data: Data::Layer(Layer::DepthZMeters, Values::F32(depths)) })
+    }
+
+    /// Planar depth of the surfaces that are seen, metres: what is stored, but for what is behind glass.
+    fn depths_m(&self, subject: &Subject<'_>) -> Result<Vec<f32>, SensorError> {
+        let distances = self.optics().distances_m(&self.name, subject)?;
+        let (stored, first) = (subject.floats(&self.name, Layer::DepthZMeters)?, subject.floats(&self.name, Layer::DepthMeters)?);
+        let depth = |i: usize| {
+            if distances[i] == first[i] {
+                return stored[i];
+            }
+            subject.ray(i).map_or(f32::NAN, |ray| (f64::from(distances[i]) * -ray.z) as f32)
+        };
+        Ok((0..distances.len()).map(depth).collect())
+    }
+}
+
+/// Leaves out the depth of some pixels.
+fn forget(depths: &mut [f32], unseen: impl Iterator<Item = bool>) {
+    depths.iter_mut().zip(unseen).filter(|(_, unseen)| *unseen).for_each(|(depth, _)| *depth = f32::NAN);
+}
+
+/// Which pixels show what the second eye sees, too. Surfaces move by their disparity from one image to the other, along their row and
+/// against the side of the second eye; a surface is hidden from it where one that is nearer has moved before it or past it.
+fn lit(k: &Intrinsics, focal_baseline: f64, eye: SecondEye, depths_m: &[f32]) -> Vec<bool> {
+    let width = k.width as usize;
+    let mut lit = vec![true; depths_m.len()];
+    if focal_baseline == 0.0 {
+        return lit;
+    }
+    let to_the_right = focal_baseline > 0.0;
+    for (depths, lit) in depths_m.chunks_exact(width).zip(lit.chunks_exact_mut(width)) {
+        // Counted from the side of the second eye, every surface moves away from it.
+        let mut farthest = f64::NEG_INFINITY;
+        for step in 0..width {
+            let x = if to_the_right { width - 1 - step } else { step };
+            let depth = f64::from(depths[x]);
+            if !(depth > 0.0) {
+                continue;
+            }
+            let moved = step as f64 + 0.5 + focal_baseline.abs() / depth;
+            let is_inside = eye == SecondEye::Projector || moved < width as f64;
+            lit[x] = moved > farthest && is_inside;
+            farthest = farthest.max(moved);
+        }
+    }
+    lit
+}
+
+/// The median of the values that are there in the square window around every pixel that has one, the lower of two in the middle.
+fn medians([width, height]: [usize; 2], values: &[f32], window: usize) -> Vec<f32> {
+    if window == 1 {
+        return values.to_vec();
+    }
+    let reach = window / 2;
+    let mut around = Vec::with_capacity(window * window);
+    let mut median = |i: usize| {
+        if values[i].is_nan() {
+            return f32::NAN;
+        }
+        let (x, y) = (i % width, i / width);
+        around.clear();
+        for v in y.saturating_sub(reach)..=(y + reach).min(height - 1) {
+            let row = &values[v * width..][x.saturating_sub(reach)..=(x + reach).min(width - 1)];
+            around.extend(row.iter().copied().filter(|value| !value.is_nan()));
+        }
+        let middle = (around.len() - 1) / 2;
+        *around.select_nth_unstable_by(middle, f32::total_cmp).1
+    };
+    (0..values.len()).map(&mut median).collect()
+}

@@ -1,0 +1,5 @@
+//! Sensors before frames whose answer is known.
+
+mod camera;
+mod common;
+mod depth;
