@@ -31,6 +31,7 @@ pub enum Format {
     Structured3d,
     Tum,
     Replica,
+    Panoptic,
 }
 
 /// A row of the table of formats.
@@ -61,7 +62,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 17] = [
+pub const FORMATS: [FormatSpec; 18] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -197,6 +198,14 @@ pub const FORMATS: [FormatSpec; 17] = [
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
         readme: include_str!("readmes/replica.md"),
+    },
+    FormatSpec {
+        format: Format::Panoptic,
+        name: "panoptic",
+        about: "COCO panoptic: images, PNG files of segments, panoptic.json",
+        needs: &[COLOR, INSTANCE, SEMANTIC],
+        takes: Some(LABELLED),
+        readme: include_str!("readmes/panoptic.md"),
     },
 ];
 

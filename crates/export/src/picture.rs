@@ -26,7 +26,12 @@ pub(crate) fn color_jpeg(selected: &SelectedFrames<'_>, view: View<'_>, frame: &
 pub(crate) fn color_png(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame) -> Result<Vec<u8>, ExportError> {
     let picture = tone_mapped(selected, view, frame)?;
     let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-    Ok(encode(frame.width, frame.height, png::ColorType::Rgb, png::BitDepth::Eight, &rgb))
+    Ok(rgb_png(frame.width, frame.height, &rgb))
+}
+
+/// The bytes of an RGB PNG file of 8 bits a channel.
+pub(crate) fn rgb_png(width: u32, height: u32, rgb: &[u8]) -> Vec<u8> {
+    encode(width, height, png::ColorType::Rgb, png::BitDepth::Eight, rgb)
 }
 
 /// The bytes of a grey PNG file of 8 bits.

@@ -62,8 +62,7 @@ fn show(
     let counted = Counted::new(cx, "frames", frames.len());
     let readings = |&number: &u32| {
         counted.unit(|| -> Result<Vec<SensedFrame>, SensorError> {
-            let there: Vec<Layer> =
-                layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
+            let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
             let frame = dataset.read_frame(scene, camera, number, &there)?;
             let subject = Subject { scene, camera, number, projection: &projection, frame: &frame };
             let sensed = |sensor: &Sensor| {

@@ -112,7 +112,10 @@ impl Triangulation {
             return Err(format!("window_px is {}, expected an odd number up to 63", self.window_px));
         }
         if !self.baseline_m.is_finite() || (self.baseline_m == 0.0 && self.measures_disparity()) {
-            return Err(format!("baseline_m is {}, expected how far apart the eyes stand, since disparities are measured", self.baseline_m));
+            return Err(format!(
+                "baseline_m is {}, expected how far apart the eyes stand, since disparities are measured",
+                self.baseline_m
+            ));
         }
         Ok(())
     }

@@ -16,8 +16,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)],
         let Some(sensor) = readable(card, dataset.sensor_settings::<Sensor>(&name)).flatten() else { continue };
         for (camera, model) in cameras {
             let frames = readable(card, dataset.sensed_frame_numbers(&name, [scene, camera])).unwrap_or_default();
-            let cards: Vec<Card> =
-                frames.par_iter().map(|&number| check_frame(dataset, &sensor, (scene, camera, number), model)).collect();
+            let cards: Vec<Card> = frames.par_iter().map(|&number| check_frame(dataset, &sensor, (scene, camera, number), model)).collect();
             cards.into_iter().for_each(|found| card.merge(found));
         }
     }
@@ -26,8 +25,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)],
 /// Checks one reading; where its frame is not there, that is told elsewhere.
 fn check_frame(dataset: &Dataset, sensor: &Sensor, (scene, camera, number): (&str, &str, u32), model: &Camera) -> Card {
     let mut card = Card::default();
-    let layers: Vec<Layer> =
-        sensor.layers().into_iter().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
+    let layers: Vec<Layer> = sensor.layers().into_iter().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
     let Some(frame) = there(dataset.read_frame(scene, camera, number, &layers)).and_then(|read| readable(&mut card, read)) else {
         return card;
     };

@@ -26,14 +26,15 @@ struct Annotations {
 }
 
 #[derive(Serialize)]
-struct Info {
+pub(super) struct Info {
     description: &'static str,
     version: &'static str,
 }
 
+/// A picture, as all files of COCO list them.
 #[derive(Serialize)]
-struct Image {
-    id: usize,
+pub(super) struct Image {
+    pub id: usize,
     file_name: String,
     width: u32,
     height: u32,
@@ -61,21 +62,24 @@ struct Rle {
     counts: String,
 }
 
+/// A class.
 #[derive(PartialEq, Serialize)]
-struct Category {
-    id: i16,
+pub(super) struct Category {
+    pub id: i16,
     name: String,
     supercategory: &'static str,
 }
 
+impl Category {
+    /// True for classes whose instances are counted.
+    pub fn is_thing(&self) -> bool {
+        self.supercategory == "thing"
+    }
+}
+
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
-    let mut all = Annotations {
-        info: Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") },
-        licenses: Vec::new(),
-        images: Vec::new(),
-        annotations: Vec::new(),
-        categories: categories(selected)?,
-    };
+    let mut all =
+        Annotations { info: info(), licenses: Vec::new(), images: Vec::new(), annotations: Vec::new(), categories: categories(selected)? };
     let frames = selected.each(|view| write_frame(selected, out, view, &all.categories))?;
     for (image, annotations) in frames {
         let image_id = all.images.len() + 1;
@@ -88,8 +92,13 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     out.write("annotations/instances.json", text.as_bytes())
 }
 
+/// What made the file.
+pub(super) fn info() -> Info {
+    Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") }
+}
+
 /// The classes of the scenes: of all the same, because a number has one meaning in a file.
-fn categories(selected: &SelectedFrames<'_>) -> Result<Vec<Category>, ExportError> {
+pub(super) fn categories(selected: &SelectedFrames<'_>) -> Result<Vec<Category>, ExportError> {
     let mut all: Option<(&str, Vec<Category>)> = None;
     for tracks in selected.scenes() {
         let scene = tracks[0].scene.as_str();
@@ -127,16 +136,21 @@ fn write_frame(
 ) -> Result<(Image, Vec<Annotation>), ExportError> {
     let [color, entity] = SHOWN;
     let frame = selected.read(view, &[color, entity, Layer::Semantic, Layer::SemanticInstance])?;
-    let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
-    out.write(&format!("images/{name}"), &color_jpeg(selected, view, &frame)?)?;
-    let (scene, camera) = (view.track.scene.clone(), view.track.name.clone());
-    let image = Image { id: 0, file_name: name, width: frame.width, height: frame.height, scene, camera, frame: view.frame() };
+    let image = write_image(selected, out, view, &frame)?;
     let classed = |instance: Instance| Some(annotation(&frame, &instance, class_of(&frame, &instance, categories)?));
     Ok((image, instances(&frame).into_iter().filter_map(classed).collect()))
 }
 
+/// Writes a frame's picture; what the file says of it but for the id.
+pub(super) fn write_image(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>, frame: &Frame) -> Result<Image, ExportError> {
+    let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
+    out.write(&format!("images/{name}"), &color_jpeg(selected, view, frame)?)?;
+    let (scene, camera) = (view.track.scene.clone(), view.track.name.clone());
+    Ok(Image { id: 0, file_name: name, width: frame.width, height: frame.height, scene, camera, frame: view.frame() })
+}
+
 /// The class of most of an instance's pixels, the lowest of several; `None` where they have none of the list.
-fn class_of(frame: &Frame, instance: &Instance, categories: &[Category]) -> Option<i16> {
+pub(super) fn class_of(frame: &Frame, instance: &Instance, categories: &[Category]) -> Option<i16> {
     let semantic = frame.get(Layer::Semantic)?;
     let mut counts: BTreeMap<i16, usize> = BTreeMap::new();
     instance.pixels.iter().for_each(|&i| *counts.entry(semantic.get(i) as i16).or_default() += 1);

@@ -11,6 +11,7 @@ pub(crate) mod huggingface;
 pub(crate) mod nerfstudio;
 pub(crate) mod opencv;
 pub(crate) mod openexr;
+pub(crate) mod panoptic;
 mod parquet_file;
 pub(crate) mod pix3d;
 pub(crate) mod replica;

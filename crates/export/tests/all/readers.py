@@ -134,6 +134,40 @@ def coco():
     return f"{masks} masks"
 
 
+def panoptic():
+    """The rules of panopticapi: its evaluation refuses a PNG and a JSON file that do not name the same segments."""
+    with open(f"{EXPORT}/annotations/panoptic.json") as file:
+        truth = json.load(file)
+    things = {category["id"]: category["isthing"] for category in truth["categories"]}
+    assert sorted(things) == list(range(1, 41)) and [one for one in things if not things[one]] == [1, 2, 22]
+    assert len(truth["images"]) == len(truth["annotations"]) == len(record())
+    images = {image["id"]: image for image in truth["images"]}
+    numbers, segments = {}, 0
+    for annotation in truth["annotations"]:
+        image = images[annotation["image_id"]]
+        at = (image["scene"], image["camera"], image["frame"])
+        instances, semantic = layer(*at, "semantic_instance"), layer(*at, "semantic")
+        assert annotation["file_name"] == image["file_name"].replace(".jpg", ".png")
+        ids = picture(f"{EXPORT}/panoptic/{annotation['file_name']}").astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
+        assert picture(f"{EXPORT}/images/{image['file_name']}").shape[:2] == ids.shape == semantic.shape
+        found = {segment["id"]: segment for segment in annotation["segments_info"]}
+        assert set(np.unique(ids)) - {0} == set(found) and len(found) == len(annotation["segments_info"])
+        assert np.array_equal(ids == 0, (semantic <= 0) & (instances <= 0))
+        for number, segment in found.items():
+            rows, columns = np.nonzero(ids == number)
+            left, top = columns.min(), rows.min()
+            assert segment["bbox"] == [left, top, columns.max() - left + 1, rows.max() - top + 1] and segment["area"] == len(rows)
+            assert segment["category_id"] in semantic[ids == number]
+            if things[segment["category_id"]] and not segment["iscrowd"]:
+                assert np.array_equal(ids == number, instances == segment["instance"])
+            else:
+                assert np.all(semantic[ids == number] == segment["category_id"]) and "instance" not in segment
+            what = (at[0], segment["category_id"], segment["iscrowd"], segment.get("instance"))
+            assert numbers.setdefault((at[0], number), what) == what, "a segment has one number in all frames of a scene"
+        segments += len(found)
+    return f"{segments} segments"
+
+
 def colmap_folder():
     return [os.path.dirname(path) for path in sorted(glob.glob(f"{EXPORT}/*/sparse/0/cameras.*"))]
 
