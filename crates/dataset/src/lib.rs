@@ -80,7 +80,7 @@ pub use record::{ColorKind, Denoised, FileRecord, FrameRecord, LabelRecord, Pose
 pub use release::{RELEASED_LAYERS, planar_depth, turn_planar_depth};
 pub use repack::Repacked;
 pub use scene_files::{Node, read_node_table};
-pub use sensor_files::SensedFrame;
+pub use sensor_files::{Scan, SensedFrame};
 pub use split_files::{Partition, SplitRow};
 pub use times::FrameTime;
 pub use tonemap_files::ToneMapRow;

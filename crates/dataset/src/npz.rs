@@ -20,6 +20,13 @@ pub(crate) struct NpyArray {
     pub bytes: Vec<u8>,
 }
 
+impl NpyArray {
+    /// The values of an array of `<f4`.
+    pub fn floats(&self) -> Vec<f32> {
+        self.bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+    }
+}
+
 /// What an array file begins with, up to its values, which follow in C order, little-endian. `dtype` is numpy's description of an element, as in
 /// `<f4`.
 pub fn npy_head(dtype: &str, shape: &[usize]) -> Vec<u8> {
@@ -49,7 +56,7 @@ pub(crate) fn npz(arrays: &[NpyArray]) -> std::io::Result<Vec<u8>> {
 /// Reads an array of `wanted`'s name, type and number of axes from an archive that [`npz`] has written; lengths of 0 in its shape may be any.
 pub(crate) fn read_npy(path: &Path, archive: &[u8], mut wanted: NpyArray) -> Result<NpyArray, DatasetError> {
     let name = wanted.name;
-    let wrong = |problem: String| DatasetError::text(path, format!("{name}: {problem}; run enfilade tracks"));
+    let wrong = |problem: String| DatasetError::text(path, format!("{name}: {problem}; make the file again"));
     let mut archive = ZipArchive::new(Cursor::new(archive)).map_err(|error| wrong(error.to_string()))?;
     let mut bytes = Vec::new();
     let mut file = archive.by_name(&format!("{name}.npy")).map_err(|error| wrong(error.to_string()))?;

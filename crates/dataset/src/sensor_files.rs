@@ -2,12 +2,14 @@
 
 use crate::atomic::{remove_folder, rename, temporary};
 use crate::frames::{read_json, write_layer_aside};
+use crate::npz::{NpyArray, npz, read_npy};
 use crate::read::{read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_frame::{Layer, Values};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::path::Path;
 
 /// What was drawn for a frame, by the names of the keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +18,68 @@ pub struct SensedFrame {
     pub frame: u32,
     /// Names and values.
     pub drawn: Vec<(&'static str, f64)>,
+}
+
+/// What a lidar has seen, beam by beam: rows of one elevation, from the first on, and columns of one azimuth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scan {
+    /// Rows and columns.
+    pub shape: [usize; 2],
+    /// Distances, metres; NaN where nothing returned.
+    pub distances_m: Vec<f32>,
+    /// Where the beams ended, camera axes (x right, y up, z backward), metres; NaN where nothing returned.
+    pub points: Vec<[f32; 3]>,
+    /// Diffuse reflectance times the cosine to the surface's normal, 0 to 1; 0 where nothing returned.
+    pub intensities: Vec<f32>,
+    /// Part number from 1, as in `render_entity_id`; -1 where nothing returned.
+    pub parts: Vec<i16>,
+}
+
+impl Scan {
+    /// One of which nothing has returned.
+    pub fn empty(shape: [usize; 2]) -> Self {
+        let beams = shape[0] * shape[1];
+        Self {
+            shape,
+            distances_m: vec![f32::NAN; beams],
+            points: vec![[f32::NAN; 3]; beams],
+            intensities: vec![0.0; beams],
+            parts: vec![-1; beams],
+        }
+    }
+
+    /// The bytes of a `.npz` file: `distances_m`, `points`, `intensities` (float32) and `render_entity_id` (int16).
+    pub fn to_npz(&self) -> Vec<u8> {
+        let [rows, columns] = self.shape;
+        let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        let array = |name, dtype, shape: &[usize], bytes| NpyArray { name, dtype, shape: shape.to_vec(), bytes };
+        let arrays = [
+            array("distances_m", "<f4", &[rows, columns], floats(&self.distances_m)),
+            array("points", "<f4", &[rows, columns, 3], floats(self.points.as_flattened())),
+            array("intensities", "<f4", &[rows, columns], floats(&self.intensities)),
+            array("render_entity_id", "<i2", &[rows, columns], self.parts.iter().flat_map(|v| v.to_le_bytes()).collect()),
+        ];
+        npz(&arrays).expect("writing to memory cannot fail")
+    }
+
+    /// The scan of the bytes of the file at `path`.
+    ///
+    /// # Errors
+    /// When they are not what [`Scan::to_npz`] gives.
+    pub fn from_npz(path: &Path, bytes: &[u8]) -> Result<Self, DatasetError> {
+        let read = |name, dtype, shape: &[usize]| read_npy(path, bytes, NpyArray { name, dtype, shape: shape.to_vec(), bytes: Vec::new() });
+        let distances = read("distances_m", "<f4", &[0, 0])?;
+        let [rows, columns] = [distances.shape[0], distances.shape[1]];
+        let (points, intensities) = (read("points", "<f4", &[rows, columns, 3])?, read("intensities", "<f4", &[rows, columns])?);
+        let parts = read("render_entity_id", "<i2", &[rows, columns])?;
+        Ok(Self {
+            shape: [rows, columns],
+            distances_m: distances.floats(),
+            points: points.floats().as_chunks().0.to_vec(),
+            intensities: intensities.floats(),
+            parts: parts.bytes.as_chunks().0.iter().map(|bytes| i16::from_le_bytes(*bytes)).collect(),
+        })
+    }
 }
 
 impl Dataset {
@@ -94,11 +158,11 @@ impl Dataset {
         rename(&temporary(&path), &path)
     }
 
-    /// Writes a reading that is a picture.
+    /// Writes a reading that is a file of its own kind.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn write_sensed_picture(&self, sensor: &str, frame: (&str, &str, u32), what: &str, bytes: &[u8]) -> Result<(), DatasetError> {
+    pub fn write_sensed_file(&self, sensor: &str, frame: (&str, &str, u32), what: &str, bytes: &[u8]) -> Result<(), DatasetError> {
         write_bytes(&self.layout().sensed(sensor, frame, what), bytes)
     }
 

@@ -54,7 +54,7 @@ impl Dataset {
         let positions = read("positions", "<f8", &[0, 3])?;
         let (n, t) = (positions.shape[0], frames.shape[0]);
         let (points, occluded) = (read("points", "<f4", &[n, t, 2])?, read("occluded", "|b1", &[n, t])?);
-        let queries = floats(&read("query_points", "<f4", &[n, 3])?);
+        let queries = read("query_points", "<f4", &[n, 3])?.floats();
         let number = |bytes: &[u8; 8]| u32::try_from(i64::from_le_bytes(*bytes));
         let frames: Result<Vec<u32>, _> = frames.bytes.as_chunks().0.iter().map(number).collect();
         let coordinates: Vec<f64> = positions.bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
@@ -62,7 +62,7 @@ impl Dataset {
             frames: frames.map_err(|_| DatasetError::text(&path, "frame_ids: expected numbers from 0; run enfilade tracks"))?,
             positions: coordinates.as_chunks().0.iter().map(|p| DVec3::from_array(*p)).collect(),
             seeds: queries.as_chunks().0.iter().map(|&[frame, y, x]| (frame as u32, [x, y])).collect(),
-            points: floats(&points).as_chunks().0.to_vec(),
+            points: points.floats().as_chunks().0.to_vec(),
             occluded: occluded.bytes.iter().map(|&v| v != 0).collect(),
         })
     }
@@ -70,10 +70,6 @@ impl Dataset {
 
 fn array(name: &'static str, dtype: &'static str, shape: &[usize], bytes: Vec<u8>) -> NpyArray {
     NpyArray { name, dtype, shape: shape.to_vec(), bytes }
-}
-
-fn floats(array: &NpyArray) -> Vec<f32> {
-    array.bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
 }
 
 #[cfg(test)]

@@ -205,7 +205,7 @@ impl CameraSensor {
         if self.format == CameraFormat::Raw {
             let largest = f64::from((1u32 << bits.unwrap_or(RAW_BITS)) - 1);
             let values: Vec<u16> = pixels.mosaic(size, &light, rng).iter().map(|&v| (f64::from(v) * largest).round() as u16).collect();
-            return Data::Picture { name: "raw.png", bytes: grey_png(size, &values) };
+            return Data::File { name: "raw.png", bytes: grey_png(size, &values) };
         }
         let sensed = if self.mosaic {
             demosaiced(size, &pixels.mosaic(size, &light, rng))
@@ -223,9 +223,9 @@ impl CameraSensor {
         let shown = if drawn.sharpening > 0.0 { sharpened(size, &shown, drawn.sharpening as f32) } else { shown };
         let bytes: Vec<u8> = shown.as_flattened().iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
         if self.format == CameraFormat::Png {
-            return Data::Picture { name: "color.png", bytes: rgb_png(size, &bytes) };
+            return Data::File { name: "color.png", bytes: rgb_png(size, &bytes) };
         }
-        Data::Picture { name: "color.jpg", bytes: jpeg(size, &bytes, drawn.jpeg_quality.round() as u8) }
+        Data::File { name: "color.jpg", bytes: jpeg(size, &bytes, drawn.jpeg_quality.round() as u8) }
     }
 }
 

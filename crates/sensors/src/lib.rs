@@ -1,8 +1,8 @@
 //! What real cameras and depth sensors would make of rendered frames.
 //!
 //! A rendered frame is what an ideal sensor sees. Here frames that are finished become what others would see: a [`CameraSensor`] with its
-//! exposure, noise and tone curve, depth by [`TimeOfFlight`], and depth by [`Triangulation`] (structured light and stereo). Nothing is
-//! rendered, and nothing is done that is not asked for: a sensor whose only key is its name gives the stored truth back, bit by bit.
+//! exposure, noise and tone curve, depth by [`TimeOfFlight`] and by [`Triangulation`] (structured light and stereo), and the beams of a [`Lidar`].
+//! Nothing is rendered, and nothing is done that is not asked for: a sensor whose only key is its name gives the stored truth back, bit by bit.
 //!
 //! Every reading is a pure function of the sensor, the seed and the stored frame, so `verify` can make it again and compare.
 //! [`sense`] does it for a dataset.
@@ -12,6 +12,7 @@ mod camera;
 mod depth;
 mod driver;
 mod error;
+mod lidar;
 mod raw;
 mod reading;
 mod sensors;
@@ -23,6 +24,7 @@ pub use camera::{CameraFormat, CameraSensor};
 pub use depth::Glass;
 pub use driver::{Sense, sense};
 pub use error::SensorError;
+pub use lidar::Lidar;
 pub use reading::{Data, Reading, Subject};
 pub use sensors::{Kind, Sensor, Sensors};
 pub use time_of_flight::TimeOfFlight;

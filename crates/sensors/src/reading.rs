@@ -35,8 +35,8 @@ pub struct Reading {
 pub enum Data {
     /// Values with the unit and the meaning of a layer.
     Layer(Layer, Values),
-    /// A picture as a file.
-    Picture {
+    /// A file of another kind: a picture, or the points of a scan.
+    File {
         /// `color.jpg` and the like: what follows the number of the frame in its name.
         name: &'static str,
         /// The whole file.
@@ -102,7 +102,7 @@ impl Reading {
         let frame = (subject.scene, subject.camera, subject.number);
         match &self.data {
             Data::Layer(layer, values) => dataset.write_sensed_layer(sensor, frame, subject.size(), *layer, values)?,
-            Data::Picture { name, bytes } => dataset.write_sensed_picture(sensor, frame, name, bytes)?,
+            Data::File { name, bytes } => dataset.write_sensed_file(sensor, frame, name, bytes)?,
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::reading::{Reading, Subject};
 use crate::triangulation::SecondEye;
-use crate::{CameraSensor, SensorError, TimeOfFlight, Triangulation};
+use crate::{CameraSensor, Lidar, SensorError, TimeOfFlight, Triangulation};
 use enfilade_dataset::check_name;
 use enfilade_frame::Layer;
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,9 @@ pub struct Sensors {
     /// Depth by a second camera beside the first.
     #[serde(default)]
     pub stereo: Vec<Triangulation>,
+    /// Scanners of laser beams.
+    #[serde(default)]
+    pub lidar: Vec<Lidar>,
 }
 
 /// One sensor, with everything that its readings depend on beside the frame.
@@ -63,6 +66,7 @@ pub enum Kind {
     TimeOfFlight(TimeOfFlight),
     StructuredLight(Triangulation),
     Stereo(Triangulation),
+    Lidar(Lidar),
 }
 
 impl Sensors {
@@ -72,7 +76,8 @@ impl Sensors {
         let timers = self.time_of_flight.iter().cloned().map(Kind::TimeOfFlight);
         let projectors = self.structured_light.iter().cloned().map(Kind::StructuredLight);
         let pairs = self.stereo.iter().cloned().map(Kind::Stereo);
-        cameras.chain(timers).chain(projectors).chain(pairs).map(|kind| Sensor { seed: self.seed, kind })
+        let scanners = self.lidar.iter().cloned().map(Kind::Lidar);
+        cameras.chain(timers).chain(projectors).chain(pairs).chain(scanners).map(|kind| Sensor { seed: self.seed, kind })
     }
 
     /// Checks every key of every sensor, and that no two have one name.
@@ -100,6 +105,7 @@ impl Sensor {
             Kind::Camera(sensor) => &sensor.name,
             Kind::TimeOfFlight(sensor) => &sensor.name,
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => &sensor.name,
+            Kind::Lidar(sensor) => &sensor.name,
         }
     }
 
@@ -109,6 +115,7 @@ impl Sensor {
             Kind::Camera(sensor) => sensor.layers(),
             Kind::TimeOfFlight(sensor) => sensor.layers(),
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => sensor.layers(),
+            Kind::Lidar(sensor) => sensor.layers(),
         }
     }
 
@@ -118,6 +125,7 @@ impl Sensor {
             Kind::Camera(sensor) => sensor.check(),
             Kind::TimeOfFlight(sensor) => sensor.check(),
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => sensor.check(),
+            Kind::Lidar(sensor) => sensor.check(),
         };
         checked.map_err(|problem| SensorError::Setting { sensor: self.name().into(), problem })
     }
@@ -133,6 +141,7 @@ impl Sensor {
             Kind::TimeOfFlight(sensor) => sensor.sense(subject, rng),
             Kind::StructuredLight(sensor) => sensor.sense(SecondEye::Projector, subject, rng),
             Kind::Stereo(sensor) => sensor.sense(SecondEye::Camera, subject, rng),
+            Kind::Lidar(sensor) => sensor.sense(subject, rng),
         }
     }
 }

@@ -49,7 +49,7 @@ fn is_stored(dataset: &Dataset, sensor: &str, frame: (&str, &str, u32), data: &D
             let (_, stored) = dataset.read_sensed_layer(sensor, frame, *layer)?;
             Ok(stored.as_bytes() == values.as_bytes())
         }
-        Data::Picture { name, bytes } => {
+        Data::File { name, bytes } => {
             let path = dataset.layout().sensed(sensor, frame, name);
             Ok(std::fs::read(&path).is_ok_and(|stored| stored == *bytes))
         }

@@ -1,8 +1,10 @@
 //! Frames to be seen, and sensors that see them.
 
+use enfilade_dataset::Scan;
 use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_scene::{Intrinsics, Projection};
 use enfilade_sensors::{Data, Reading, Sensor, Sensors, Subject};
+use std::path::Path;
 
 /// 80 by 60 pixels, 90 degrees wide: a focal length of 40 pixels.
 pub fn camera() -> Projection {
@@ -46,7 +48,7 @@ pub fn reading(text: &str, frame: &Frame) -> Reading {
 pub fn values(text: &str, frame: &Frame) -> (Layer, Values) {
     match reading(text, frame).data {
         Data::Layer(layer, values) => (layer, values),
-        Data::Picture { name, .. } => panic!("a picture {name}"),
+        Data::File { name, .. } => panic!("a file {name}"),
     }
 }
 
@@ -56,10 +58,18 @@ pub fn depths(text: &str, frame: &Frame) -> Vec<f64> {
     (0..values.len()).map(|i| values.get(i)).collect()
 }
 
+/// As the beams of a scan.
+pub fn scan(text: &str, frame: &Frame) -> Scan {
+    match reading(text, frame).data {
+        Data::File { bytes, .. } => Scan::from_npz(Path::new("scan.npz"), &bytes).unwrap(),
+        Data::Layer(layer, _) => panic!("a layer {layer:?}"),
+    }
+}
+
 /// As a picture of 8 bits a channel, or of 16.
 pub fn picture(text: &str, frame: &Frame) -> image::DynamicImage {
     match reading(text, frame).data {
-        Data::Picture { bytes, .. } => image::load_from_memory(&bytes).unwrap(),
+        Data::File { bytes, .. } => image::load_from_memory(&bytes).unwrap(),
         Data::Layer(layer, _) => panic!("a layer {layer:?}"),
     }
 }

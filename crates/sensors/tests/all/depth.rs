@@ -1,6 +1,6 @@
 //! Depth sensors before walls.
 
-use crate::common::{depths, facing, refused, values};
+use crate::common::{depths, facing, refused, scan, values};
 use enfilade_frame::{Layer, Values, traits};
 
 /// A wall four metres away.
@@ -155,6 +155,33 @@ fn glass_and_mirrors_are_seen_as_asked() {
 }
 
 #[test]
+fn beams_meet_flat_surfaces_where_they_are() {
+    let beams = "elevations_deg = [-20, 0, 13.7]\nazimuth_deg = [-50, 40]\ncolumns = 91";
+    let text = format!("[[lidar]]\nname = \"s\"\n{beams}");
+    // A wall that faces the axis, and one that runs away to the right.
+    let slanted = |x: usize| 2.0 / (1.0 - 0.4 * (x as f64 + 0.5 - 40.0) / 40.0);
+    for (frame, depth) in [(wall(), [4.0, 0.0]), (facing(|x, _| slanted(x), 0.5, [1.0; 3]), [2.0, 0.4])] {
+        let scan = scan(&text, &frame);
+        assert_eq!(scan.shape, [3, 91]);
+        for (beam, found) in scan.distances_m.iter().enumerate() {
+            let (elevation, azimuth) = ([-20f64, 0.0, 13.7][beam / 91].to_radians(), (-50.0 + (beam % 91) as f64).to_radians());
+            let outside = azimuth.tan().abs() >= 1.0 || (elevation.tan() / azimuth.cos()).abs() >= 0.75;
+            // z + slope * x is constant on the wall.
+            let expected = depth[0] / (elevation.cos() * (azimuth.cos() - depth[1] * azimuth.sin()));
+            assert!(found.is_nan() == outside, "beam {beam}");
+            assert!(outside || (f64::from(*found) / expected - 1.0).abs() < 1e-6, "beam {beam}: {found} m, expected {expected}");
+            let point = scan.points[beam].map(f64::from);
+            assert!(outside || (point[1] - expected * elevation.sin()).abs() < 1e-5 && scan.parts[beam] == 1);
+        }
+    }
+    let near = scan(&format!("{text}\nrange_m = [0, 4.5]\nstep_m = 0.5\nnoise_m = 0.01"), &wall());
+    assert!(near.distances_m.iter().all(|d| d.is_nan() || (d / 0.5).fract() == 0.0 && *d <= 4.5));
+    let strong = scan(&format!("{text}\nmin_intensity = 0.45"), &wall());
+    let back: Vec<f32> = strong.intensities.iter().zip(&strong.distances_m).filter(|(_, d)| !d.is_nan()).map(|(i, _)| *i).collect();
+    assert!(!back.is_empty() && back.iter().all(|intensity| (0.45..=0.5).contains(intensity)));
+}
+
+#[test]
 fn settings_out_of_their_domain_are_refused_by_name() {
     for (text, parts) in [
         ("[[time_of_flight]]\nname = \"tof\"\nmixing = 1.5", ["\"tof\"", "mixing is 1.5, expected 0 to 1"]),
@@ -164,6 +191,8 @@ fn settings_out_of_their_domain_are_refused_by_name() {
         ("[[stereo]]\nname = \"s\"\nbaseline_m = 0.1\nwindow_px = 4", ["window_px is 4", "odd"]),
         ("[[stereo]]\nname = \"a/b\"", ["sensor name \"a/b\"", "rename it"]),
         ("[[stereo]]\nname = \"s\"\n[[camera]]\nname = \"s\"", ["\"s\"", "one of its own"]),
+        ("[[lidar]]\nname = \"s\"\nelevations_deg = []\nazimuth_deg = [0, 9]\ncolumns = 9", ["elevations_deg", "one angle"]),
+        ("[[lidar]]\nname = \"s\"\nelevations_deg = [0]\nazimuth_deg = [9, 0]\ncolumns = 9", ["azimuth_deg", "the left one first"]),
         ("[[camera]]\nname = \"s\"\nread_noise_electrons = 2", ["read_noise_electrons needs full_well_electrons", ""]),
     ] {
         let message = refused(text);
