@@ -92,7 +92,7 @@ pub const TARGETS: &[Target] = &[
     own("pix3d", "Pix3D: pix3d.json, its splits, and voxels, MATLAB 5", 8 << 10, training::pix3d, training::pix3d_files),
     own("keyframes", "poses made by hand, CSV and JSON", 4 << 10, texts::keyframes, none),
     #[cfg(feature = "program")]
-    own("config", "configurations, TOML", 4 << 10, texts::config, none),
+    own("config", "configurations of datasets and sensors, TOML", 4 << 10, texts::config, none),
     #[cfg(feature = "program")]
     own("library", "furniture catalogues of Sweet Home 3D, and assets.toml", 8 << 10, homes::library, seeds::catalogues),
     #[cfg(feature = "program")]

@@ -12,13 +12,13 @@ pub fn keyframes(_: &Path) -> Run {
     })
 }
 
-/// Reads a configuration.
+/// Reads a configuration, and as one of sensors.
 #[cfg(feature = "program")]
 pub fn config(folder: &Path) -> Run {
-    use enfilade_pipeline::{Config, Overrides};
+    use enfilade_pipeline::{Config, Overrides, read_sensors};
     let file = folder.join("dataset.toml");
     Box::new(move |bytes| {
         std::fs::write(&file, bytes).expect("a folder that can be written");
-        drop(Config::read(&file, &Overrides::default()));
+        drop((Config::read(&file, &Overrides::default()), read_sensors(&file)));
     })
 }
