@@ -32,6 +32,7 @@ pub enum Format {
     Tum,
     Replica,
     Panoptic,
+    Wai,
 }
 
 /// A row of the table of formats.
@@ -62,7 +63,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 18] = [
+pub const FORMATS: [FormatSpec; 19] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -206,6 +207,14 @@ pub const FORMATS: [FormatSpec; 18] = [
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
         readme: include_str!("readmes/panoptic.md"),
+    },
+    FormatSpec {
+        format: Format::Wai,
+        name: "wai",
+        about: "WAI, the layout of MapAnything's data: images, depth, poses and covisibility of each scene",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/wai.md"),
     },
 ];
 

@@ -22,7 +22,7 @@ baseline_m = 0.075
 noise_px = 0.05
 
 [[lidar]]
-name = "beams"
+name = \"beams\"
 elevations_deg = [-10, 0, 10]
 azimuth_deg = [-30, 30]
 columns = 61

@@ -19,4 +19,5 @@ pub(crate) mod scannet;
 pub(crate) mod spatiallm;
 pub(crate) mod structured3d;
 pub(crate) mod tum;
+pub(crate) mod wai;
 pub(crate) mod webdataset;

@@ -38,6 +38,22 @@ fn file(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame, labels: &L
             attributes.other.insert(Text::new_or_panic(name), AttributeValue::Text(Text::new_or_panic(value)));
         }
     }
+    encoded(selected, view, frame, channels, attributes)
+}
+
+/// The bytes of a file of one channel, `Y`.
+pub(super) fn grey_exr(selected: &SelectedFrames<'_>, view: View<'_>, frame: &Frame, values: Vec<f32>) -> Result<Vec<u8>, ExportError> {
+    encoded(selected, view, frame, vec![channel("Y", FlatSamples::F32(values))], LayerAttributes::default())
+}
+
+/// The bytes of a file of these channels.
+fn encoded(
+    selected: &SelectedFrames<'_>,
+    view: View<'_>,
+    frame: &Frame,
+    channels: Vec<AnyChannel<FlatSamples>>,
+    attributes: LayerAttributes,
+) -> Result<Vec<u8>, ExportError> {
     let size = (frame.width as usize, frame.height as usize);
     let layer = ExrLayer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
     let mut bytes = Vec::new();

@@ -285,6 +285,32 @@ def replica():
     return f"{len(record())} frames"
 
 
+def wai():
+    """The rules of MapAnything's loaders: files are where scene_meta.json says, and the matrix begins at byte 128."""
+    import OpenEXR
+
+    seen = []
+    for scene in sorted({scene for scene, *_ in record()}):
+        with open(f"{EXPORT}/{scene}/scene_meta.json") as file:
+            meta = json.load(file)
+        assert meta["scene_name"] == scene and meta["camera_convention"] == "opencv" and meta["camera_model"] == "PINHOLE"
+        for entry in meta["frames"]:
+            camera, number = entry["frame_name"].rsplit("_", 1)
+            stored = OpenEXR.File(f"{EXPORT}/{scene}/{entry['depth']}", separate_channels=True).channels()
+            assert list(stored) == ["Y"] and stored["Y"].pixels.dtype == np.float32
+            assert picture(f"{EXPORT}/{scene}/{entry['image']}").shape == (entry["h"], entry["w"], 3) and entry["file_path"] == entry["image"]
+            K = np.array([[entry["fl_x"], 0, entry["cx"]], [0, entry["fl_y"], entry["cy"]], [0, 0, 1]])
+            check_points(scene, camera, int(number), stored["Y"].pixels * 1000.0, K, np.array(entry["transform_matrix"]))
+            seen.append((scene, camera, int(number)))
+        if "pairwise_covisibility" in meta["scene_modalities"]:
+            path = f"{EXPORT}/{scene}/{meta['scene_modalities']['pairwise_covisibility']['scene_key']}"
+            shape = tuple(map(int, path.split("--")[1].removesuffix(".npy").split("x")))
+            shares = np.memmap(path, np.float32, "r", 128, shape)
+            assert shape == 2 * (len(meta["frames"]),) and np.allclose(np.diag(shares), 1)
+    assert sorted(seen) == sorted(record())
+    return f"{len(seen)} frames"
+
+
 def depth_png():
     for scene, camera, frame in record():
         with open(f"{EXPORT}/{scene}/{camera}/cameras.json") as file:
