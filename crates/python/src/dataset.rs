@@ -4,9 +4,11 @@ use crate::arguments::{CropPosition, Names, layers, split};
 use crate::errors::IntoPy;
 use crate::loader::Loader;
 use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
+use enfilade_dataset::{Layout, read_pairs};
 use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -171,6 +173,20 @@ impl Dataset {
     fn place(&self, index: isize) -> PyResult<(&str, &str, u32)> {
         let place = self.samples.place(self.index(index)?);
         Ok((place.scene, place.camera, place.frame))
+    }
+
+    /// Pairs of frames that see the same surfaces, as `enfilade pairs` lists them: indices of samples, each pair once, for models that learn
+    /// from several views. Pairs of which this dataset lacks a frame, because of `split` or `scenes`, are left out.
+    ///
+    /// file: another list than pairs.csv in the dataset's folder.
+    #[pyo3(signature = (file=None))]
+    fn pairs(&self, file: Option<PathBuf>) -> PyResult<Vec<(usize, usize)>> {
+        let file = file.unwrap_or_else(|| Layout::new(&self.root).pairs());
+        let pairs = read_pairs(&file).map_err(IntoPy::into_py)?;
+        let places = (0..self.samples.len()).map(|index| (self.samples.place(index), index));
+        let index: HashMap<(&str, &str, u32), usize> = places.map(|(at, index)| ((at.scene, at.camera, at.frame), index)).collect();
+        let find = |scene: &str, (camera, frame): &(String, u32)| index.get(&(scene, camera.as_str(), *frame)).copied();
+        Ok(pairs.iter().filter_map(|pair| Some((find(&pair.scene, &pair.first)?, find(&pair.scene, &pair.second)?))).collect())
     }
 
     /// Names of the layers of each sample.

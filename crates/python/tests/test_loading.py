@@ -49,6 +49,15 @@ class Loading(unittest.TestCase):
                 self.frames[wrong]
         self.assertEqual([digest(sample) for sample in self.frames.__getitems__([2, 0])], [self.expected[2], self.expected[0]])
 
+    def test_pairs_of_frames_are_indices_of_its_samples(self):
+        rows = ["scene_name,first_camera_name,first_frame_id,second_camera_name,second_frame_id"]
+        rows += ["home,cam_00,2,cam_00,0", "home,cam_00,1,cam_07,0", "home,cam_00,0,cam_00,1"]
+        list_of_pairs = datasets.folder() / "pairs-of-people.csv"
+        list_of_pairs.write_text("\n".join(rows) + "\n")
+        self.assertEqual(self.frames.pairs(list_of_pairs), [(2, 0), (0, 1)])
+        with self.assertRaisesRegex(FileNotFoundError, "pairs.csv"):
+            self.frames.pairs()
+
     def test_a_subclass_gives_its_own_samples_in_batches_too(self):
         class Named(enfilade.Dataset):
             def __getitem__(self, index):
