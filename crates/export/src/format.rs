@@ -33,6 +33,7 @@ pub enum Format {
     Replica,
     Panoptic,
     Wai,
+    Points,
 }
 
 /// A row of the table of formats.
@@ -63,7 +64,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 19] = [
+pub const FORMATS: [FormatSpec; 20] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -215,6 +216,21 @@ pub const FORMATS: [FormatSpec; 19] = [
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
         readme: include_str!("readmes/wai.md"),
+    },
+    FormatSpec {
+        format: Format::Points,
+        name: "points",
+        about: "a labelled point cloud of each scene, fused from its frames, as PLY",
+        needs: &[COLOR, DISTANCE],
+        takes: Some(&[
+            Layer::Color,
+            Layer::RenderEntityId,
+            Layer::DepthMeters,
+            Layer::NormalWorld,
+            Layer::Semantic,
+            Layer::SemanticInstance,
+        ]),
+        readme: include_str!("readmes/points.md"),
     },
 ];
 

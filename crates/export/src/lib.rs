@@ -1,5 +1,6 @@
 //! A dataset in the layouts that other programs load: COCO (instances and panoptic), BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset,
-//! Croissant, OpenCV's cameras, Pix3D, Hugging Face's Parquet files, SpatialLM, Structured3D, TUM RGB-D, Replica and MapAnything's WAI.
+//! Croissant, OpenCV's cameras, Pix3D, Hugging Face's Parquet files, SpatialLM, Structured3D, TUM RGB-D, Replica, MapAnything's WAI, and
+//! labelled points (PLY).
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
@@ -85,6 +86,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Replica => formats::replica::write(&selected, &out),
         Format::Panoptic => formats::panoptic::write(&selected, &out),
         Format::Wai => formats::wai::write(&selected, &out),
+        Format::Points => formats::points::write(&selected, &out),
         Format::Huggingface => formats::huggingface::write(&selected, &out, config.shard_bytes),
         Format::Spatiallm => formats::spatiallm::write(&selected, &out),
         Format::Structured3d => formats::structured3d::write(&selected, &out),

@@ -14,6 +14,7 @@ pub(crate) mod openexr;
 pub(crate) mod panoptic;
 mod parquet_file;
 pub(crate) mod pix3d;
+pub(crate) mod points;
 pub(crate) mod replica;
 pub(crate) mod scannet;
 pub(crate) mod spatiallm;

@@ -311,6 +311,39 @@ def wai():
     return f"{len(seen)} frames"
 
 
+def points():
+    """Points lie on the surface of some pixel, with its labels, and no two in one cube."""
+    total = 0
+    for scene in {at[0] for at in record()}:
+        with open(f"{EXPORT}/{scene}.ply", "rb") as file:
+            lines = []
+            while not lines or lines[-1] != "end_header":
+                lines.append(file.readline().decode().strip())
+            kinds = {"float": "<f4", "uchar": "u1", "short": "<i2"}
+            fields = [(name, kinds[kind]) for _, kind, name in (line.split() for line in lines if line.startswith("property"))]
+            cloud = np.frombuffer(file.read(), np.dtype(fields))
+        assert f"element vertex {len(cloud)}" in lines and len(cloud) > 0
+        places = np.stack([cloud[axis] for axis in "xyz"], -1)
+        known = {}
+        for at in record():
+            if at[0] == scene and layer(*at, "position") is not None:
+                shown = [layer(*at, name) for name in ("position", "semantic", "semantic_instance", "render_entity_id")]
+                seen = np.isfinite(shown[0]).all(-1)
+                labels = np.stack([part[seen] for part in shown[1:]], -1)
+                rounded = np.floor(shown[0][seen].astype(float) * metres(scene) / 1e-3 + 0.5).astype(int)
+                known.update({tuple(key): tuple(value) for key, value in zip(rounded.tolist(), labels.tolist())})
+        if known:
+            rounded = np.floor(places.astype(float) / 1e-3 + 0.5).astype(int).tolist()
+            found = [known.get(tuple(key)) for key in rounded]
+            labels = np.stack([cloud[name] for name in ("semantic", "instance", "part")], -1).tolist()
+            same = [tuple(label) == other for label, other in zip(labels, found)]
+            assert np.mean(same) > 0.95, np.mean(same)
+        cubes = np.floor(places.astype(float) / 0.01 + 1e-6).astype(int)
+        assert len(np.unique(cubes, axis=0)) >= 0.99 * len(cubes)
+        total += len(cloud)
+    return f"{total} points"
+
+
 def depth_png():
     for scene, camera, frame in record():
         with open(f"{EXPORT}/{scene}/{camera}/cameras.json") as file:
