@@ -9,9 +9,10 @@ use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_frame::{Layer, Values};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What was drawn for a frame, by the names of the keys.
+/// What was drawn for a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedFrame {
     /// Its number.
@@ -105,7 +106,10 @@ impl Dataset {
     /// When the folder cannot be read.
     pub fn sensors(&self) -> Result<Vec<String>, DatasetError> {
         let folder = self.layout().sensors_dir();
-        if folder.is_dir() { sorted_names(&folder) } else { Ok(Vec::new()) }
+        if !folder.is_dir() {
+            return Ok(Vec::new());
+        }
+        Ok(sorted_names(&folder)?.into_iter().filter(|name| self.layout().sensor_settings(name).is_file()).collect())
     }
 
     /// The settings of a sensor; `None` where there are none.
@@ -166,20 +170,31 @@ impl Dataset {
         write_bytes(&self.layout().sensed(sensor, frame, what), bytes)
     }
 
-    /// Writes what was drawn for the frames of a camera.
+    /// Writes what was drawn for frames of a camera; what is there of others stays.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the file cannot be written, or what is there is no such table.
     pub fn write_sensed_frames(&self, sensor: &str, [scene, camera]: [&str; 2], frames: &[&SensedFrame]) -> Result<(), DatasetError> {
         let Some(first) = frames.first() else { return Ok(()) };
         let names = first.drawn.iter().map(|(name, _)| *name);
         let header: Vec<&str> = std::iter::once("frame_id").chain(names).collect();
-        let mut table = Table::new(&self.layout().sensed_frames(sensor, scene, camera), &header);
+        let path = self.layout().sensed_frames(sensor, scene, camera);
+        let mut table = Table::new(&path, &header);
         let row = |frame: &&SensedFrame| {
             let values = frame.drawn.iter().map(|(_, value)| value.to_string());
             std::iter::once(frame.frame.to_string()).chain(values).collect()
         };
-        table.rows = frames.iter().map(row).collect();
+        let mut rows: BTreeMap<u32, Vec<String>> = BTreeMap::new();
+        if path.is_file() {
+            let old = Table::read(&path)?;
+            let number = old.column("frame_id")?;
+            let same = old.header == table.header;
+            for row in (0..old.rows.len()).filter(|_| same) {
+                rows.insert(old.parse(row, number)?, old.rows[row].clone());
+            }
+        }
+        rows.extend(frames.iter().map(|frame| (frame.frame, row(frame))));
+        table.rows = rows.into_values().collect();
         table.write()
     }
 

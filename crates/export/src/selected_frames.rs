@@ -220,7 +220,21 @@ impl<'d> SelectedFrames<'d> {
         views: &[View<'_>],
         work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync,
     ) -> Result<Vec<T>, ExportError> {
-        let counted = Counted::new(self.cx, "frames", views.len());
+        self.each_counted(&self.counted(views.len()), views, work)
+    }
+
+    /// None of so many frames is done.
+    pub fn counted(&self, frames: usize) -> Counted<'d> {
+        Counted::new(self.cx, "frames", frames)
+    }
+
+    /// As [`SelectedFrames::each_of`], where these are not all that are counted.
+    pub fn each_counted<T: Send>(
+        &self,
+        counted: &Counted<'_>,
+        views: &[View<'_>],
+        work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync,
+    ) -> Result<Vec<T>, ExportError> {
         views.par_iter().map(|&view| counted.unit(|| work(view))).collect()
     }
 

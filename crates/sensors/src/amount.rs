@@ -13,6 +13,11 @@ pub struct Amount {
 }
 
 impl Amount {
+    /// Always 0.
+    pub(crate) const fn nothing() -> Self {
+        Self::of(0.0)
+    }
+
     /// Always this.
     pub const fn of(value: f64) -> Self {
         Self { low: value, high: value }

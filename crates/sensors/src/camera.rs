@@ -17,7 +17,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraFormat {
-    /// The layer `color`: linear RGB, radiance times the exposure. Without noise and `adc_bits` it is not clipped.
+    /// The layer `color`: linear RGB, radiance times the exposure. Without `full_well_electrons`, `adc_bits` and `mosaic` it is
+    /// not clipped.
     #[default]
     Linear,
     /// `color.jpg`: 8 bits.
@@ -45,19 +46,19 @@ pub struct CameraSensor {
     #[serde(default)]
     pub exposure: Option<Amount>,
     /// Exposure is changed by so many stops: factors of two.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub stops: Amount,
     /// How much of the fall-off of light with the fourth power of the cosine to the optical axis is left, 0 to 1.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub vignetting: Amount,
     /// How far the picture's mean is turned to grey, 0 to 1.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub white_balance: Amount,
     /// Electrons of a saturated pixel: shot noise is their Poisson distribution. A camera at ISO 100 has some 20,000, at ISO 1600 some 1,200.
     #[serde(default)]
     pub full_well_electrons: Option<Amount>,
     /// Standard deviation of what the sensor's electronics add, electrons.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub read_noise_electrons: Amount,
     /// The sensor's values are whole numbers of so many bits.
     #[serde(default)]
@@ -69,15 +70,11 @@ pub struct CameraSensor {
     #[serde(default = "one")]
     pub contrast: Amount,
     /// How much of the difference from the mean of the 3 × 3 pixels around is added.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub sharpening: Amount,
     /// Quality of JPEG, 1 to 100.
     #[serde(default = "quality")]
     pub jpeg_quality: Amount,
-}
-
-const fn nothing() -> Amount {
-    Amount::of(0.0)
 }
 
 const fn one() -> Amount {
@@ -219,7 +216,8 @@ impl CameraSensor {
             let values = sensed.iter().flat_map(|&rgb| [0, 1, 2].map(|c| f16::from_f64(balanced(rgb, c)))).collect();
             return Data::Layer(Layer::Color, Values::F16(values));
         }
-        let shown = sensed.par_iter().map(|&rgb| [0, 1, 2].map(|c| encode(balanced(rgb, c)).powf(drawn.contrast) as f32)).collect();
+        let shown: Vec<[f32; 3]> =
+            sensed.par_iter().map(|&rgb| [0, 1, 2].map(|c| encode(balanced(rgb, c)).powf(drawn.contrast) as f32)).collect();
         let shown = if drawn.sharpening > 0.0 { sharpened(size, &shown, drawn.sharpening as f32) } else { shown };
         let bytes: Vec<u8> = shown.as_flattened().iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
         if self.format == CameraFormat::Png {
@@ -230,7 +228,7 @@ impl CameraSensor {
 }
 
 fn drawn_or_none(amount: Option<Amount>, rng: &mut Rng) -> Option<f64> {
-    let drawn = amount.unwrap_or(nothing()).draw(rng);
+    let drawn = amount.unwrap_or(Amount::nothing()).draw(rng);
     amount.map(|_| drawn)
 }
 
@@ -248,7 +246,7 @@ fn white_balance(light: &[[f32; 3]], share: f64) -> [f64; 3] {
 }
 
 /// A picture whose difference from the mean of the 3 × 3 pixels around is enlarged.
-fn sharpened([width, height]: [usize; 2], picture: &Vec<[f32; 3]>, amount: f32) -> Vec<[f32; 3]> {
+fn sharpened([width, height]: [usize; 2], picture: &[[f32; 3]], amount: f32) -> Vec<[f32; 3]> {
     let pixel = |i: usize| {
         let (x, y) = (i % width, i / width);
         let mut sum = [0.0f32; 3];

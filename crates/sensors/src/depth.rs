@@ -23,7 +23,6 @@ pub enum Glass {
 pub(crate) struct Optics {
     pub glass: Glass,
     pub mirrors: bool,
-    pub range_m: Option<[f64; 2]>,
 }
 
 impl Optics {
@@ -33,37 +32,51 @@ impl Optics {
         if self.glass == Glass::Behind {
             layers.push(Layer::DepthBehindMeters);
         }
-        if self.glass == Glass::Nothing || !self.mirrors {
+        if self.hidden_traits() != 0 {
             layers.push(Layer::SurfaceTraits);
         }
         layers
     }
 
-    /// Distances along the rays, metres; NaN where there is nothing to be seen, or too near or too far.
-    pub fn distances_m(&self, sensor: &str, subject: &Subject<'_>) -> Result<Vec<f32>, SensorError> {
-        let layer = if self.glass == Glass::Behind { Layer::DepthBehindMeters } else { Layer::DepthMeters };
-        let mut distances = subject.floats(sensor, layer)?.to_vec();
-        let unseen = if self.glass == Glass::Nothing { traits::GLASS } else { 0 } | if self.mirrors { 0 } else { traits::MIRROR };
-        if unseen != 0 {
+    /// Bits of `surface_traits` of what it does not see.
+    fn hidden_traits(&self) -> u8 {
+        let glass = if self.glass == Glass::Nothing { traits::GLASS } else { 0 };
+        glass | if self.mirrors { 0 } else { traits::MIRROR }
+    }
+
+    /// Distances along the rays to the surfaces that are there, seen or not, metres; NaN where there are none.
+    pub fn distances_m<'a>(&self, sensor: &str, subject: &Subject<'a>) -> Result<&'a [f32], SensorError> {
+        subject.floats(sensor, if self.glass == Glass::Behind { Layer::DepthBehindMeters } else { Layer::DepthMeters })
+    }
+
+    /// Forgets the depth of what is not seen.
+    pub fn forget_unseen(&self, sensor: &str, subject: &Subject<'_>, depths: &mut [f32]) -> Result<(), SensorError> {
+        let hidden = self.hidden_traits();
+        if hidden != 0 {
             let found = subject.layer(sensor, Layer::SurfaceTraits)?;
-            distances.iter_mut().enumerate().filter(|(i, _)| found.get(*i) as u8 & unseen != 0).for_each(|(_, d)| *d = f32::NAN);
+            forget(depths, (0..found.len()).map(|i| found.get(i) as u8 & hidden != 0));
         }
-        Ok(distances)
+        Ok(())
     }
+}
 
-    /// True for what lies within the range.
-    pub fn reaches(&self, depth_m: f32) -> bool {
-        self.range_m.is_none_or(|[near, far]| (near..=far).contains(&f64::from(depth_m)))
-    }
+/// Leaves out the depth of some pixels.
+pub(crate) fn forget(depths: &mut [f32], unseen: impl Iterator<Item = bool>) {
+    depths.iter_mut().zip(unseen).filter(|(_, unseen)| *unseen).for_each(|(depth, _)| *depth = f32::NAN);
+}
 
-    /// Checks the range.
-    pub fn check(&self) -> Result<(), String> {
-        match self.range_m {
-            Some([near, far]) if !(near >= 0.0 && near < far) => {
-                Err(format!("range_m is [{near}, {far}], expected two distances from 0 on, the nearer one first"))
-            }
-            _ => Ok(()),
+/// True for what lies before the sensor, and within its range.
+pub(crate) fn reaches(range_m: Option<[f64; 2]>, depth_m: f64) -> bool {
+    depth_m > 0.0 && range_m.is_none_or(|[near, far]| (near..=far).contains(&depth_m))
+}
+
+/// Checks a range.
+pub(crate) fn check_range(range_m: Option<[f64; 2]>) -> Result<(), String> {
+    match range_m {
+        Some([near, far]) if !(near >= 0.0 && near < far && far.is_finite()) => {
+            Err(format!("range_m is [{near}, {far}], expected two distances from 0 on, the nearer one first"))
         }
+        _ => Ok(()),
     }
 }
 
@@ -76,12 +89,17 @@ pub(crate) fn reflectances(sensor: &str, subject: &Subject<'_>) -> Result<Vec<f6
 /// Checks that a number, or the whole range of one, lies between two bounds.
 pub(crate) fn check_within(key: &str, amount: Amount, [least, most]: [f64; 2]) -> Result<(), String> {
     let [low, high] = amount.bounds();
-    if low >= least && high <= most {
+    if low >= least && high <= most && high.is_finite() {
         return Ok(());
     }
     let found = if low == high { low.to_string() } else { format!("[{low}, {high}]") };
     let expected = if most == f64::INFINITY { format!("at least {least}") } else { format!("{least} to {most}") };
     Err(format!("{key} is {found}, expected {expected}"))
+}
+
+/// Of a switch that is on.
+pub(crate) const fn seen() -> bool {
+    true
 }
 
 /// Steps of a quantity: the nearest whole multiple; the value itself for a step of 0.

@@ -1,9 +1,9 @@
 //! The frames of a dataset are shown to sensors.
 
-use crate::{Sensor, SensorError, Sensors, Subject};
+use crate::{Reading, Sensor, SensorError, Sensors, Subject};
 use enfilade_dataset::{Dataset, SensedFrame};
-use enfilade_frame::Layer;
-use enfilade_scene::{Counted, Cx};
+use enfilade_frame::{Frame, Layer};
+use enfilade_scene::{Counted, Cx, Projection};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -49,6 +49,23 @@ pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &Sense, cx: &dyn Cx) 
     Ok(seen)
 }
 
+/// Those of the layers that a frame has; a frame of 0 × 0 pixels where it has none.
+fn read(dataset: &Dataset, (scene, camera, number): (&str, &str, u32), layers: &[Layer]) -> Result<Frame, SensorError> {
+    let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
+    Ok(if there.is_empty() { Frame::new(0, 0) } else { dataset.read_frame(scene, camera, number, &there)? })
+}
+
+impl Sensor {
+    /// What it gives of a stored frame (scene, camera, number).
+    ///
+    /// # Errors
+    /// When the frame cannot be read, or cannot be seen by the sensor.
+    pub fn look(&self, dataset: &Dataset, frame: (&str, &str, u32), projection: &Projection) -> Result<Reading, SensorError> {
+        let (scene, camera, number) = frame;
+        self.sense(&Subject { scene, camera, number, projection, frame: &read(dataset, frame, &self.layers())? })
+    }
+}
+
 /// Shows frames of one camera to all sensors.
 fn show(
     dataset: &Dataset,
@@ -62,8 +79,7 @@ fn show(
     let counted = Counted::new(cx, "frames", frames.len());
     let readings = |&number: &u32| {
         counted.unit(|| -> Result<Vec<SensedFrame>, SensorError> {
-            let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
-            let frame = dataset.read_frame(scene, camera, number, &there)?;
+            let frame = read(dataset, (scene, camera, number), layers)?;
             let subject = Subject { scene, camera, number, projection: &projection, frame: &frame };
             let sensed = |sensor: &Sensor| {
                 let reading = sensor.sense(&subject)?;

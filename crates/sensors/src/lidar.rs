@@ -1,11 +1,12 @@
 //! A scanner of laser beams in the place of the camera.
 
-use crate::depth::{check_within, in_steps, reflectances};
+use crate::depth::{check_range, check_within, in_steps, reaches, reflectances};
 use crate::reading::{Data, Reading, Subject};
 use crate::{Amount, SensorError};
 use enfilade_dataset::Scan;
 use enfilade_frame::Layer;
 use enfilade_math::{DVec3, Rng};
+use enfilade_scene::Projection;
 use serde::{Deserialize, Serialize};
 
 /// A lidar at the camera's centre, turned as the camera is: beams in rows of one elevation and columns of one azimuth, as far as the picture
@@ -28,13 +29,13 @@ pub struct Lidar {
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of distances, metres.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub noise_m: Amount,
     /// Weaker intensities do not return: ρ cos θ, 0 to 1.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub min_intensity: Amount,
     /// The share of beams that do not return for no reason.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub dropout: Amount,
     /// Distances are whole multiples of this, metres.
     #[serde(default)]
@@ -44,10 +45,6 @@ pub struct Lidar {
 /// A flat surface may be nearer between pixels than at them by this share of its distance: one that faces the scanner, seen by pixels of up to
 /// five degrees.
 const FLAT: f64 = 1e-3;
-
-const fn nothing() -> Amount {
-    Amount::of(0.0)
-}
 
 impl Lidar {
     /// The layers that it looks at.
@@ -67,11 +64,7 @@ impl Lidar {
         if self.columns == 0 || self.columns as usize * self.elevations_deg.len() > 1 << 26 {
             return Err(format!("columns is {}, expected at least one, and less than 67 million beams in all", self.columns));
         }
-        if let Some([near, far]) = self.range_m
-            && !(near >= 0.0 && near < far)
-        {
-            return Err(format!("range_m is [{near}, {far}], expected two distances from 0 on, the nearer one first"));
-        }
+        check_range(self.range_m)?;
         check_within("noise_m", self.noise_m, [0.0, f64::INFINITY])?;
         check_within("min_intensity", self.min_intensity, [0.0, 1.0])?;
         check_within("dropout", self.dropout, [0.0, 1.0])?;
@@ -106,8 +99,7 @@ impl Lidar {
             let lost = rng.next_f64() < dropout;
             let noise = if noise_m > 0.0 { noise_m * rng.normal() } else { 0.0 };
             let told = in_steps(distance + noise, self.step_m);
-            let reaches = self.range_m.is_none_or(|[near, far]| (near..=far).contains(&told));
-            if lost || intensity < min_intensity || !reaches {
+            if lost || intensity < min_intensity || !reaches(self.range_m, told) {
                 continue;
             }
             scan.distances_m[beam] = told as f32;
@@ -137,7 +129,14 @@ impl Surfaces<'_> {
     /// Where a beam from the camera's centre meets them: the pixel, and the distance in metres.
     fn meet(&self, direction: DVec3) -> Option<(usize, f64)> {
         let [width, height] = self.subject.size();
-        let (x, y) = self.subject.projection.project(direction)?;
+        let (x, y) = match self.subject.projection {
+            // All around: straight back is at either border, straight down at the lower one.
+            panorama @ Projection::Equirectangular { .. } => {
+                let (x, y) = panorama.project(direction)?;
+                (x.rem_euclid(width as f64), y.min((height as f64).next_down()))
+            }
+            projection => projection.project(direction)?,
+        };
         if !(0.0..width as f64).contains(&x) || !(0.0..height as f64).contains(&y) {
             return None;
         }

@@ -2,7 +2,7 @@
 
 use crate::SensorError;
 use enfilade_dataset::Dataset;
-use enfilade_frame::{Frame, Layer, Values, vector};
+use enfilade_frame::{Frame, Layer, LayerSpec, Pass, Values, vector};
 use enfilade_math::{DVec3, Rng, hash_u64};
 use enfilade_scene::Projection;
 
@@ -24,7 +24,7 @@ pub struct Subject<'a> {
 /// What a sensor gives of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What was drawn for this frame, by the names of the keys.
+    /// What was drawn for this frame, or follows from it: of a camera also the exposure, with its stops, and the three factors of white balance.
     pub drawn: Vec<(&'static str, f64)>,
     /// What was seen.
     pub data: Data,
@@ -53,8 +53,9 @@ impl<'a> Subject<'a> {
     /// A layer that the sensor cannot do without.
     pub(crate) fn layer(&self, sensor: &str, layer: Layer) -> Result<&'a Values, SensorError> {
         self.frame.get(layer).ok_or_else(|| {
-            let name = layer.spec().name;
-            self.unseen(sensor, format!("it has no layer {name}, which the sensor looks at; render it with `enfilade render --extra`"))
+            let LayerSpec { name, pass, .. } = layer.spec();
+            let remedy = if *pass == Pass::Extra { "render it with `enfilade render --extra`" } else { "render or download it" };
+            self.unseen(sensor, format!("it has no layer {name}, which the sensor looks at; {remedy}"))
         })
     }
 

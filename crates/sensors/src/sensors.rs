@@ -51,6 +51,8 @@ pub struct Sensors {
 /// One sensor, with everything that its readings depend on beside the frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensor {
+    /// The version of what sensors make of frames: [`Sensor::FORMAT`].
+    pub format: u32,
     /// Seed of its noise and of what is drawn for every frame.
     pub seed: u64,
     /// What it is.
@@ -77,7 +79,11 @@ impl Sensors {
         let projectors = self.structured_light.iter().cloned().map(Kind::StructuredLight);
         let pairs = self.stereo.iter().cloned().map(Kind::Stereo);
         let scanners = self.lidar.iter().cloned().map(Kind::Lidar);
-        cameras.chain(timers).chain(projectors).chain(pairs).chain(scanners).map(|kind| Sensor { seed: self.seed, kind })
+        cameras.chain(timers).chain(projectors).chain(pairs).chain(scanners).map(|kind| Sensor {
+            format: Sensor::FORMAT,
+            seed: self.seed,
+            kind,
+        })
     }
 
     /// Checks every key of every sensor, and that no two have one name.
@@ -99,6 +105,9 @@ impl Sensors {
 }
 
 impl Sensor {
+    /// Raised when the same settings give other readings.
+    pub const FORMAT: u32 = 1;
+
     /// What its folder is called.
     pub fn name(&self) -> &str {
         match &self.kind {
@@ -119,7 +128,11 @@ impl Sensor {
         }
     }
 
-    fn check(&self) -> Result<(), SensorError> {
+    /// Checks every key.
+    ///
+    /// # Errors
+    /// The first one that is out of its domain.
+    pub fn check(&self) -> Result<(), SensorError> {
         check_name("sensor name", self.name())?;
         let checked = match &self.kind {
             Kind::Camera(sensor) => sensor.check(),

@@ -1,6 +1,6 @@
 //! Depth by the time that light takes to a surface and back.
 
-use crate::depth::{Optics, check_within, in_steps, reflectances};
+use crate::depth::{Optics, check_range, check_within, in_steps, reaches, reflectances};
 use crate::reading::{Data, Reading, Subject};
 use crate::{Amount, Glass, SensorError};
 use enfilade_frame::{Layer, Values};
@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 /// The light that returns from a surface of diffuse reflectance ρ at distance d, seen at the angle θ, is proportional to the *signal*
 /// s = ρ cos θ / d² (1 for a white surface that faces the sensor at one metre), and the error of a distance to 1 / √s, as long as the
 /// noise is that of the sensor's own light (Lange 2000, "3D time-of-flight distance measurement with custom solid-state image sensors").
-/// The reflectance is the luminance of the visible one, although real sensors use infrared; gloss returns nothing; light that comes back
-/// by way of other surfaces (multi-path) is left out.
+/// The reflectance is the luminance of the visible one, although real sensors use infrared; gloss returns nothing, so that with noise glass and
+/// smooth metals have no distance; light that comes back by way of other surfaces (multi-path) is left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TimeOfFlight {
@@ -23,14 +23,14 @@ pub struct TimeOfFlight {
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of the distance to a white surface that faces the sensor at one metre, metres.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub noise_m: Amount,
     /// Pixels with a weaker signal than this see nothing, 1/m².
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub min_signal: Amount,
     /// How much of its light a pixel gets from its eight neighbours, 0 to 1: at edges the distances of both sides are mixed by their signals
     /// (flying pixels).
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub mixing: Amount,
     /// Distances are known up to whole multiples of this, metres: half the wavelength of the modulation (7.5 m at 20 MHz).
     #[serde(default)]
@@ -42,16 +42,8 @@ pub struct TimeOfFlight {
     #[serde(default)]
     pub glass: Glass,
     /// Whether smooth metals are seen, as surfaces.
-    #[serde(default = "seen")]
+    #[serde(default = "crate::depth::seen")]
     pub mirrors: bool,
-}
-
-const fn nothing() -> Amount {
-    Amount::of(0.0)
-}
-
-const fn seen() -> bool {
-    true
 }
 
 /// What was drawn for a frame.
@@ -63,7 +55,7 @@ struct Drawn {
 
 impl TimeOfFlight {
     fn optics(&self) -> Optics {
-        Optics { glass: self.glass, mirrors: self.mirrors, range_m: self.range_m }
+        Optics { glass: self.glass, mirrors: self.mirrors }
     }
 
     /// True when it matters how much light returns.
@@ -82,13 +74,16 @@ impl TimeOfFlight {
 
     /// Checks every key.
     pub(crate) fn check(&self) -> Result<(), String> {
-        self.optics().check()?;
+        check_range(self.range_m)?;
         check_within("noise_m", self.noise_m, [0.0, f64::INFINITY])?;
         check_within("min_signal", self.min_signal, [0.0, f64::INFINITY])?;
         check_within("mixing", self.mixing, [0.0, 1.0])?;
         check_within("step_m", Amount::of(self.step_m), [0.0, f64::INFINITY])?;
         match self.ambiguity_m {
             Some(m) if !(m > 0.0 && m.is_finite()) => Err(format!("ambiguity_m is {m}, expected a length above 0")),
+            _ if self.glass == Glass::Behind && self.measures_signal() => {
+                Err("glass = \"behind\" goes without noise_m, min_signal and mixing: what is behind glass has no stored reflectance".into())
+            }
             _ => Ok(()),
         }
     }
@@ -98,7 +93,8 @@ impl TimeOfFlight {
         let drawn =
             Drawn { noise_m: self.noise_m.draw(&mut rng), min_signal: self.min_signal.draw(&mut rng), mixing: self.mixing.draw(&mut rng) };
         let optics = self.optics();
-        let mut distances = optics.distances_m(&self.name, subject)?;
+        let mut distances = optics.distances_m(&self.name, subject)?.to_vec();
+        optics.forget_unseen(&self.name, subject, &mut distances)?;
         if self.measures_signal() {
             let (mut signals, reflectances) = (subject.cosines(&self.name)?, reflectances(&self.name, subject)?);
             for ((signal, reflectance), &distance) in signals.iter_mut().zip(reflectances).zip(&distances) {
@@ -117,7 +113,7 @@ impl TimeOfFlight {
             }
         }
         for distance in &mut distances {
-            *distance = if optics.reaches(*distance) { self.read_out(*distance) } else { f32::NAN };
+            *distance = if reaches(self.range_m, f64::from(*distance)) { self.read_out(*distance) } else { f32::NAN };
         }
         let drawn = vec![("noise_m", drawn.noise_m), ("min_signal", drawn.min_signal), ("mixing", drawn.mixing)];
         Ok(Reading { drawn, data: Data::Layer(Layer::DepthMeters, Values::F32(distances)) })
@@ -130,12 +126,12 @@ impl TimeOfFlight {
     }
 }
 
-/// Distances and signals where every pixel gets the share `mixing` of its light from its neighbours: two parts from each of the four
+/// Distances and signals where every pixel, but for what would lie beyond the border, gets the share `mixing` of its light from its neighbours: two parts from each of the four
 /// beside it to one from those at its corners.
 fn mixed([width, height]: [usize; 2], distances_m: &[f32], signals: &[f64], mixing: f64) -> (Vec<f32>, Vec<f64>) {
     let mixed = |i: usize| {
         let (x, y) = (i % width, i / width);
-        let (mut light, mut way) = (0.0, 0.0);
+        let (mut light, mut way, mut inside) = (0.0, 0.0, 0.0);
         for v in y.saturating_sub(1)..=(y + 1).min(height - 1) {
             for u in x.saturating_sub(1)..=(x + 1).min(width - 1) {
                 let share = match u.abs_diff(x) + v.abs_diff(y) {
@@ -143,13 +139,14 @@ fn mixed([width, height]: [usize; 2], distances_m: &[f32], signals: &[f64], mixi
                     1 => mixing / 6.0,
                     _ => mixing / 12.0,
                 };
+                inside += share;
                 let (signal, distance) = (share * signals[v * width + u], f64::from(distances_m[v * width + u]));
                 if signal > 0.0 && distance.is_finite() {
                     (light, way) = (light + signal, way + signal * distance);
                 }
             }
         }
-        (if light > 0.0 { (way / light) as f32 } else { f32::NAN }, light)
+        (if light > 0.0 { (way / light) as f32 } else { f32::NAN }, light / inside)
     };
     (0..distances_m.len()).map(mixed).unzip()
 }

@@ -1,6 +1,6 @@
 //! Depth by two eyes beside each other, of which one may be a projector.
 
-use crate::depth::{Optics, check_within, in_steps, reflectances};
+use crate::depth::{Optics, check_range, check_within, forget, in_steps, reaches, reflectances};
 use crate::reading::{Data, Reading, Subject};
 use crate::{Amount, Glass, SensorError};
 use enfilade_frame::{Layer, Values};
@@ -26,7 +26,7 @@ pub struct Triangulation {
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of the disparity, pixels.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub noise_px: Amount,
     /// Disparities are whole multiples of this, pixels: 0.125 for the first Kinect.
     #[serde(default)]
@@ -39,21 +39,17 @@ pub struct Triangulation {
     #[serde(default = "any_angle")]
     pub max_angle_deg: Amount,
     /// Surfaces of a smaller diffuse reflectance are not matched.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub min_reflectance: Amount,
     /// The share of pixels that find no match for no reason.
-    #[serde(default = "nothing")]
+    #[serde(default = "Amount::nothing")]
     pub dropout: Amount,
     /// What is seen of glass.
     #[serde(default)]
     pub glass: Glass,
     /// Whether smooth metals are seen, as surfaces.
-    #[serde(default = "seen")]
+    #[serde(default = "crate::depth::seen")]
     pub mirrors: bool,
-}
-
-const fn nothing() -> Amount {
-    Amount::of(0.0)
 }
 
 const fn any_angle() -> Amount {
@@ -62,10 +58,6 @@ const fn any_angle() -> Amount {
 
 const fn one() -> u32 {
     1
-}
-
-const fn seen() -> bool {
-    true
 }
 
 /// What the second eye is.
@@ -79,7 +71,7 @@ pub(crate) enum SecondEye {
 
 impl Triangulation {
     fn optics(&self) -> Optics {
-        Optics { glass: self.glass, mirrors: self.mirrors, range_m: self.range_m }
+        Optics { glass: self.glass, mirrors: self.mirrors }
     }
 
     /// True when disparities are not what the stored depth says.
@@ -102,12 +94,17 @@ impl Triangulation {
 
     /// Checks every key.
     pub(crate) fn check(&self) -> Result<(), String> {
-        self.optics().check()?;
+        check_range(self.range_m)?;
         check_within("noise_px", self.noise_px, [0.0, f64::INFINITY])?;
         check_within("step_px", Amount::of(self.step_px), [0.0, f64::INFINITY])?;
         check_within("max_angle_deg", self.max_angle_deg, [0.0, 90.0])?;
         check_within("min_reflectance", self.min_reflectance, [0.0, 1.0])?;
         check_within("dropout", self.dropout, [0.0, 1.0])?;
+        let looks_at_surface = self.min_reflectance.bounds()[1] > 0.0 || self.max_angle_deg.bounds()[0] < 90.0;
+        if self.glass == Glass::Behind && looks_at_surface {
+            let problem = "goes without min_reflectance and max_angle_deg: of what is behind glass these are not stored";
+            return Err(format!("glass = \"behind\" {problem}"));
+        }
         if self.window_px % 2 == 0 || self.window_px > 63 {
             return Err(format!("window_px is {}, expected an odd number up to 63", self.window_px));
         }
@@ -131,6 +128,8 @@ impl Triangulation {
         let mut depths = self.depths_m(subject)?;
         let focal_baseline = k.fx * self.baseline_m;
         let is_lit = lit(k, focal_baseline, eye, &depths);
+        let optics = self.optics();
+        optics.forget_unseen(&self.name, subject, &mut depths)?;
         if max_angle_deg < 90.0 {
             let least = max_angle_deg.to_radians().cos();
             forget(&mut depths, subject.cosines(&self.name)?.iter().map(|&cosine| cosine < least));
@@ -152,14 +151,13 @@ impl Triangulation {
         if dropout > 0.0 {
             forget(&mut depths, (0..).map(|i: u64| pixels.fork(2 * i + 1).next_f64() < dropout));
         }
-        let optics = self.optics();
-        depths.iter_mut().filter(|depth| !optics.reaches(**depth)).for_each(|depth| *depth = f32::NAN);
+        depths.iter_mut().filter(|depth| !reaches(self.range_m, f64::from(**depth))).for_each(|depth| *depth = f32::NAN);
         let names = ["noise_px", "max_angle_deg", "min_reflectance", "dropout"];
         let drawn = names.into_iter().zip([noise_px, max_angle_deg, min_reflectance, dropout]).collect();
         Ok(Reading { drawn, data: Data::Layer(Layer::DepthZMeters, Values::F32(depths)) })
     }
 
-    /// Planar depth of the surfaces that are seen, metres: what is stored, but for what is behind glass.
+    /// Planar depth of the surfaces that are there, seen or not, metres: what is stored, but for what is behind glass.
     fn depths_m(&self, subject: &Subject<'_>) -> Result<Vec<f32>, SensorError> {
         let distances = self.optics().distances_m(&self.name, subject)?;
         let (stored, first) = (subject.floats(&self.name, Layer::DepthZMeters)?, subject.floats(&self.name, Layer::DepthMeters)?);
@@ -173,33 +171,52 @@ impl Triangulation {
     }
 }
 
-/// Leaves out the depth of some pixels.
-fn forget(depths: &mut [f32], unseen: impl Iterator<Item = bool>) {
-    depths.iter_mut().zip(unseen).filter(|(_, unseen)| *unseen).for_each(|(depth, _)| *depth = f32::NAN);
-}
+/// Of how many parts a pixel of the second eye's image is told apart.
+const PARTS: f64 = 4.0;
+/// A surface hides those whose disparity is smaller by more than this, pixels: what is nearer by less casts no shadow that a pixel could show.
+const NEARER_PX: f64 = 1.0;
 
 /// Which pixels show what the second eye sees, too. Surfaces move by their disparity from one image to the other, along their row and
-/// against the side of the second eye; a surface is hidden from it where one that is nearer has moved before it or past it.
+/// away from the side of the second eye; what something nearer covers there is hidden.
 fn lit(k: &Intrinsics, focal_baseline: f64, eye: SecondEye, depths_m: &[f32]) -> Vec<bool> {
     let width = k.width as usize;
     let mut lit = vec![true; depths_m.len()];
     if focal_baseline == 0.0 {
         return lit;
     }
-    let to_the_right = focal_baseline > 0.0;
     for (depths, lit) in depths_m.chunks_exact(width).zip(lit.chunks_exact_mut(width)) {
-        // Counted from the side of the second eye, every surface moves away from it.
-        let mut farthest = f64::NEG_INFINITY;
+        // Counted from the side of the second eye.
+        let column = |step: usize| if focal_baseline > 0.0 { width - 1 - step } else { step };
+        let disparity = |step: usize| {
+            let depth = f64::from(depths[column(step)]);
+            if depth > 0.0 { focal_baseline.abs() / depth } else { f64::NAN }
+        };
+        let moved = |step: usize| step as f64 + 0.5 + disparity(step);
+
+        // Only what is moved to a place within the row's own length, or beyond it by the largest disparity, can hide anything.
+        let largest = (0..width).map(disparity).fold(0.0, f64::max).min(width as f64);
+        let part = |place: f64| (place * PARTS) as usize;
+        let mut nearest = vec![0.0f64; part(width as f64 + largest) + 2];
         for step in 0..width {
-            let x = if to_the_right { width - 1 - step } else { step };
-            let depth = f64::from(depths[x]);
-            if !(depth > 0.0) {
+            if moved(step).is_nan() || moved(step) > width as f64 + largest {
                 continue;
             }
-            let moved = step as f64 + 0.5 + focal_baseline.abs() / depth;
-            let is_inside = eye == SecondEye::Projector || moved < width as f64;
-            lit[x] = moved > farthest && is_inside;
-            farthest = farthest.max(moved);
+            // Up to halfway to the neighbours on the same surface, which may be stretched; half a pixel elsewhere.
+            let reach = |other: Option<usize>| {
+                let other = other.filter(|&other| (disparity(other) - disparity(step)).abs() <= NEARER_PX);
+                other.map_or(0.5, |other| 0.5 * (moved(other) - moved(step)).abs())
+            };
+            let before = reach(step.checked_sub(1));
+            let after = reach(Some(step + 1).filter(|&next| next < width));
+            let (first, last) = (part((moved(step) - before).max(0.0)), part(moved(step) + after));
+            for cell in nearest.iter_mut().take(last.max(first + 1)).skip(first) {
+                *cell = cell.max(disparity(step));
+            }
+        }
+        for step in (0..width).filter(|&step| !moved(step).is_nan()) {
+            let is_hidden = nearest.get(part(moved(step))).is_some_and(|&cover| cover > disparity(step) + NEARER_PX);
+            let is_inside = eye == SecondEye::Projector || moved(step) < width as f64;
+            lit[column(step)] = is_inside && !is_hidden;
         }
     }
     lit

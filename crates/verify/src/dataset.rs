@@ -47,7 +47,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
     let found: Vec<Found> = frames.par_iter().map(check).collect();
     facts.check_relations(dataset, &mut card);
-    facts.check_sensed(dataset, &mut card);
+    let unchecked = facts.check_sensed(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());
     for frame in found {
         card.merge(frame.card);
@@ -58,7 +58,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
-    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).collect();
+    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).chain(unchecked).collect();
     VerifyReport::new(&card, 1, values, pairs, excused).with_notes(notes)
 }
 
@@ -236,10 +236,10 @@ impl SceneFacts {
         relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
     }
 
-    /// What sensors have made of frames.
-    fn check_sensed(&self, dataset: &Dataset, card: &mut Card) {
+    /// What sensors have made of frames; tells what could not be checked.
+    fn check_sensed(&self, dataset: &Dataset, card: &mut Card) -> Vec<String> {
         let cameras = self.filmed.iter().filter_map(|filmed| Some((filmed.trajectory.name.as_str(), filmed.camera.as_ref()?)));
-        sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), card);
+        sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), card)
     }
 
     /// A frame's distances, where it is there.
@@ -408,11 +408,37 @@ mod tests {
     #[test]
     fn a_good_dataset_passes_and_every_law_was_checked() {
         let folder = tempfile::tempdir().unwrap();
-        let report = verified(&testroom::dataset(folder.path()));
+        let dataset = testroom::dataset(folder.path());
+        sensed(&dataset);
+        let report = verified(&dataset);
         assert!(report.passed, "{}", report.to_text());
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
         assert!(report.to_text().contains("laws hold over 2 frames of 1 scene\n"));
+    }
+
+    /// Shows the frames to a sensor.
+    fn sensed(dataset: &Dataset) {
+        let sensors: enfilade_sensors::Sensors =
+            serde_json::from_str(r#"{"time_of_flight": [{"name": "tof", "noise_m": 0.01, "step_m": 0.001}]}"#).unwrap();
+        let chosen = enfilade_sensors::Sense { scenes: vec!["room".into()], ..Default::default() };
+        assert_eq!(enfilade_sensors::sense(dataset, &sensors, &chosen, &enfilade_scene::Quiet).unwrap(), 2);
+    }
+
+    #[test]
+    fn readings_of_sensors_that_are_not_of_their_frames_are_found() {
+        let (laws, text) = failures(|dataset| {
+            sensed(dataset);
+            let path = |frame| dataset.layout().sensed("tof", ("room", "cam_00", frame), "depth_meters.hdf5");
+            std::fs::copy(path(0), path(1)).unwrap();
+        });
+        assert_eq!(laws, [Law::Sensed], "{text}");
+        assert!(text.contains("sensors/tof/room/cam_00/frame.0001"), "{text}");
+        let (laws, text) = failures(|dataset| {
+            sensed(dataset);
+            std::fs::rename(dataset.layout().sensor_dir("tof"), dataset.layout().sensor_dir("other")).unwrap();
+        });
+        assert_eq!(laws, [Law::Sensed], "{text}");
     }
 
     #[test]

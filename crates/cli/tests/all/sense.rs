@@ -61,6 +61,11 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
     succeed(d, &["sense", "out", "sensors.toml", "--frames", "2.."]);
     assert!(!sensed.join("frame.0001.depth_z_meters.hdf5").exists() && sensed.join("frame.0002.depth_z_meters.hdf5").exists());
     assert!(d.join("out/sensors/tof/room/cam_00/frame.0000.depth_meters.hdf5").exists());
+    let rows = |sensor: &str| {
+        let table = fs::read_to_string(d.join(format!("out/sensors/{sensor}/room/cam_00/metadata_sensed_frames.csv"))).unwrap();
+        table.lines().count() - 1
+    };
+    assert_eq!((rows("tof"), rows("kinect")), (3, 1));
     succeed(d, &["render", "out", "--force"]);
     assert!(!sensed.exists());
 }

@@ -12,7 +12,7 @@ use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
 use std::collections::BTreeMap;
 
-/// Side of the cubes, metres.
+/// Side of the cubes, metres. Their middles are at whole multiples, as floors and walls are.
 const CUBE_M: f64 = 0.01;
 
 /// Frames that are read before they are fused: what bounds the memory.
@@ -34,9 +34,9 @@ type Cubes = BTreeMap<[i64; 3], Fused>;
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for tracks in selected.scenes() {
         let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
-        let mut all = Cubes::new();
+        let (mut all, counted) = (Cubes::new(), selected.counted(views.len()));
         for views in views.chunks(AT_ONCE) {
-            for cubes in selected.each_of(views, |view| of_frame(selected, view))? {
+            for cubes in selected.each_counted(&counted, views, |view| of_frame(selected, view))? {
                 cubes.into_iter().for_each(|(place, cube)| add(&mut all, place, cube));
             }
         }
@@ -75,7 +75,7 @@ fn of_frame(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Cubes, Expo
             color: [red, green, blue],
             pixels: 1,
         };
-        add(&mut cubes, (position / CUBE_M).floor().to_array().map(|v| v as i64), cube);
+        add(&mut cubes, (position / CUBE_M).round().to_array().map(|v| v as i64), cube);
     }
     Ok(cubes)
 }

@@ -11,3 +11,4 @@ mod pix3d;
 mod readers;
 mod round_trips;
 mod scene_gltf;
+mod wai;

@@ -338,7 +338,7 @@ def points():
             labels = np.stack([cloud[name] for name in ("semantic", "instance", "part")], -1).tolist()
             same = [tuple(label) == other for label, other in zip(labels, found)]
             assert np.mean(same) > 0.95, np.mean(same)
-        cubes = np.floor(places.astype(float) / 0.01 + 1e-6).astype(int)
+        cubes = np.floor(places.astype(float) / 0.01 + 0.5).astype(int)
         assert len(np.unique(cubes, axis=0)) >= 0.99 * len(cubes)
         total += len(cloud)
     return f"{total} points"

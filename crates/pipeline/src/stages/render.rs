@@ -275,6 +275,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
             if number.is_none_or(|n| keep.contains(n)) {
                 continue;
             }
+            job.dataset.forget_sensed(name).map_err(Error::stage)?;
             if path.is_dir() {
                 remove_folder(&path)?;
             } else {

@@ -64,12 +64,10 @@ fn flying_pixels_lie_between_the_sides_of_an_edge_nearer_to_the_brighter_one() {
     let truth = frame.get(Layer::DepthMeters).unwrap();
     let row = 30 * 80;
     let (before, post) = (sensed[row + 39], sensed[row + 40]);
-    // Light of the post at one metre is 16 times that of the wall: two sixths and two twelfths of the mixed share are its.
     let signal = |i: usize| 0.5 * frame.get(Layer::DepthZMeters).unwrap().get(i) / truth.get(i).powi(3);
-    let parts = [(38, 1.0), (39, 2.0), (40, 1.0)].map(|(x, _)| x);
     let (mut light, mut way) = (0.0, 0.0);
     for y in 29..=31 {
-        for x in parts {
+        for x in 38..=40 {
             let share = match (y, x) {
                 (30, 39) => 0.7,
                 (30, _) | (_, 39) => 0.05,
@@ -96,6 +94,10 @@ fn a_second_eye_on_the_right_casts_a_shadow_to_the_left() {
             assert!(if shadow.contains(&x) { found.is_nan() } else { found == expected }, "{text}: column {x} has {found} m");
         }
     }
+    // What is thin covers no more than its own width.
+    let thread = facing(|x, _| if x == 40 { 1.0 } else { 4.0 }, 0.5, [1.0; 3]);
+    let sensed = depths("[[structured_light]]\nname = \"s\"\nbaseline_m = 0.2", &thread);
+    assert_eq!((0..80).filter(|x| sensed[x + 800].is_nan()).collect::<Vec<usize>>(), [34]);
     // A second camera does not see the first one's border, either.
     let sensed = depths("[[stereo]]\nname = \"s\"\nbaseline_m = 0.2", &frame);
     let missing: Vec<usize> = (0..80).filter(|x| sensed[x + 800].is_nan()).collect();
@@ -189,6 +191,8 @@ fn settings_out_of_their_domain_are_refused_by_name() {
         ("[[time_of_flight]]\nname = \"tof\"\nrange_m = [3, 1]", ["range_m is [3, 1]", "the nearer one first"]),
         ("[[stereo]]\nname = \"s\"\nnoise_px = 1", ["baseline_m is 0", "expected how far apart"]),
         ("[[stereo]]\nname = \"s\"\nbaseline_m = 0.1\nwindow_px = 4", ["window_px is 4", "odd"]),
+        ("[[time_of_flight]]\nname = \"tof\"\nnoise_m = 0.1\nglass = \"behind\"", ["goes without noise_m", "reflectance"]),
+        ("[[stereo]]\nname = \"s\"\nrange_m = [0, inf]", ["range_m is [0, inf]", "expected two distances"]),
         ("[[stereo]]\nname = \"a/b\"", ["sensor name \"a/b\"", "rename it"]),
         ("[[stereo]]\nname = \"s\"\n[[camera]]\nname = \"s\"", ["\"s\"", "one of its own"]),
         ("[[lidar]]\nname = \"s\"\nelevations_deg = []\nazimuth_deg = [0, 9]\ncolumns = 9", ["elevations_deg", "one angle"]),
