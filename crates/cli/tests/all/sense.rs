@@ -54,7 +54,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
     // A reading that is none of the frame is found.
     let sensed = d.join("out/sensors/kinect/room/cam_00");
     fs::copy(sensed.join("frame.0000.depth_z_meters.hdf5"), sensed.join("frame.0001.depth_z_meters.hdf5")).unwrap();
-    fail(d, &["verify", "out"], 1, &["sensed", "sensors/kinect/room/cam_00/frame.0001"]);
+    fail(d, &["verify", "out"], 1, &["readings of sensors", "sensors/kinect/room/cam_00/frame.0001"]);
 
     // Other settings replace what is there; frames that are made again lose it.
     fs::write(d.join("sensors.toml"), SENSORS.replace("noise_px = 0.05", "noise_px = 0.1")).unwrap();
