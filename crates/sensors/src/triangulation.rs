@@ -105,7 +105,7 @@ impl Triangulation {
             let problem = "goes without min_reflectance and max_angle_deg: of what is behind glass these are not stored";
             return Err(format!("glass = \"behind\" {problem}"));
         }
-        if self.window_px % 2 == 0 || self.window_px > 63 {
+        if self.window_px.is_multiple_of(2) || self.window_px > 63 {
             return Err(format!("window_px is {}, expected an odd number up to 63", self.window_px));
         }
         if !self.baseline_m.is_finite() || (self.baseline_m == 0.0 && self.measures_disparity()) {
