@@ -9,12 +9,12 @@ use enfilade_export::{Existing, ExportConfig, Format, Selection, export as expor
 /// `export`: the dataset in another layout.
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
+    let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
     let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");
     let config = ExportConfig {
         format: Format::from_name(&args.format).ok_or_else(unknown)?,
-        selection: Selection { scenes, cameras, frames: args.frames.clone(), layers: args.layers.clone() },
+        selection: Selection { scenes, cameras, frames: args.chosen.frames.clone(), layers: args.layers.clone() },
         shard_bytes: args.shard_mb * 1_000_000,
     };
     let existing = if args.force { Existing::SetAside } else { Existing::Refuse };

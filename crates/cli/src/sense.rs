@@ -12,9 +12,9 @@ use enfilade_sensors::{Sense, sense as show};
 pub fn sense(args: &SenseArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
     let sensors = read_sensors(&args.sensors)?;
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
-    let chosen = Sense { scenes, cameras, frames: args.frames.clone() };
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
+    let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
+    let chosen = Sense { scenes, cameras, frames: args.chosen.frames.clone() };
     let frames = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "sense");

@@ -21,6 +21,11 @@ pub(crate) struct NpyArray {
 }
 
 impl NpyArray {
+    /// An array of these bytes; without any, what [`read_npy`] is to look for.
+    pub fn new(name: &'static str, dtype: &'static str, shape: &[usize], bytes: Vec<u8>) -> Self {
+        Self { name, dtype, shape: shape.to_vec(), bytes }
+    }
+
     /// The values of an array of `<f4`.
     pub fn floats(&self) -> Vec<f32> {
         self.bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()

@@ -53,12 +53,11 @@ impl Scan {
     pub fn to_npz(&self) -> Vec<u8> {
         let [rows, columns] = self.shape;
         let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect();
-        let array = |name, dtype, shape: &[usize], bytes| NpyArray { name, dtype, shape: shape.to_vec(), bytes };
         let arrays = [
-            array("distances_m", "<f4", &[rows, columns], floats(&self.distances_m)),
-            array("points", "<f4", &[rows, columns, 3], floats(self.points.as_flattened())),
-            array("intensities", "<f4", &[rows, columns], floats(&self.intensities)),
-            array("render_entity_id", "<i2", &[rows, columns], self.parts.iter().flat_map(|v| v.to_le_bytes()).collect()),
+            NpyArray::new("distances_m", "<f4", &[rows, columns], floats(&self.distances_m)),
+            NpyArray::new("points", "<f4", &[rows, columns, 3], floats(self.points.as_flattened())),
+            NpyArray::new("intensities", "<f4", &[rows, columns], floats(&self.intensities)),
+            NpyArray::new("render_entity_id", "<i2", &[rows, columns], self.parts.iter().flat_map(|v| v.to_le_bytes()).collect()),
         ];
         npz(&arrays).expect("writing to memory cannot fail")
     }
@@ -68,7 +67,7 @@ impl Scan {
     /// # Errors
     /// When they are not what [`Scan::to_npz`] gives.
     pub fn from_npz(path: &Path, bytes: &[u8]) -> Result<Self, DatasetError> {
-        let read = |name, dtype, shape: &[usize]| read_npy(path, bytes, NpyArray { name, dtype, shape: shape.to_vec(), bytes: Vec::new() });
+        let read = |name, dtype, shape: &[usize]| read_npy(path, bytes, NpyArray::new(name, dtype, shape, Vec::new()));
         let distances = read("distances_m", "<f4", &[0, 0])?;
         let [rows, columns] = [distances.shape[0], distances.shape[1]];
         let (points, intensities) = (read("points", "<f4", &[rows, columns, 3])?, read("intensities", "<f4", &[rows, columns])?);

@@ -33,11 +33,16 @@ impl Dataset {
         let (n, t) = (tracks.positions.len(), tracks.frames.len());
         let queries = tracks.seeds.iter().flat_map(|&(frame, [x, y])| [frame as f32, y, x]);
         let arrays = [
-            array("points", "<f4", &[n, t, 2], tracks.points.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect()),
-            array("occluded", "|b1", &[n, t], tracks.occluded.iter().map(|&v| u8::from(v)).collect()),
-            array("query_points", "<f4", &[n, 3], queries.flat_map(f32::to_le_bytes).collect()),
-            array("positions", "<f8", &[n, 3], tracks.positions.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes).collect()),
-            array("frame_ids", "<i8", &[t], tracks.frames.iter().flat_map(|&frame| i64::from(frame).to_le_bytes()).collect()),
+            NpyArray::new("points", "<f4", &[n, t, 2], tracks.points.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect()),
+            NpyArray::new("occluded", "|b1", &[n, t], tracks.occluded.iter().map(|&v| u8::from(v)).collect()),
+            NpyArray::new("query_points", "<f4", &[n, 3], queries.flat_map(f32::to_le_bytes).collect()),
+            NpyArray::new(
+                "positions",
+                "<f8",
+                &[n, 3],
+                tracks.positions.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes).collect(),
+            ),
+            NpyArray::new("frame_ids", "<i8", &[t], tracks.frames.iter().flat_map(|&frame| i64::from(frame).to_le_bytes()).collect()),
         ];
         write_bytes(&path, npz(&arrays).map_err(|error| DatasetError::io("write", &path, error))?)
     }
@@ -49,7 +54,7 @@ impl Dataset {
     pub fn read_tracks(&self, scene: &str, camera: &str) -> Result<Tracks, DatasetError> {
         let path = self.layout().tracks(scene, camera);
         let archive = std::fs::read(&path).map_err(DatasetError::at("read", &path))?;
-        let read = |name, dtype, shape: &[usize]| read_npy(&path, &archive, array(name, dtype, shape, Vec::new()));
+        let read = |name, dtype, shape: &[usize]| read_npy(&path, &archive, NpyArray::new(name, dtype, shape, Vec::new()));
         let frames = read("frame_ids", "<i8", &[0])?;
         let positions = read("positions", "<f8", &[0, 3])?;
         let (n, t) = (positions.shape[0], frames.shape[0]);
@@ -66,10 +71,6 @@ impl Dataset {
             occluded: occluded.bytes.iter().map(|&v| v != 0).collect(),
         })
     }
-}
-
-fn array(name: &'static str, dtype: &'static str, shape: &[usize], bytes: Vec<u8>) -> NpyArray {
-    NpyArray { name, dtype, shape: shape.to_vec(), bytes }
 }
 
 #[cfg(test)]

@@ -191,10 +191,11 @@ fn lit(k: &Intrinsics, focal_baseline: f64, eye: SecondEye, depths_m: &[f32]) ->
             let depth = f64::from(depths[column(step)]);
             if depth > 0.0 { focal_baseline.abs() / depth } else { f64::NAN }
         };
-        let moved = |step: usize| step as f64 + 0.5 + disparity(step);
+        let disparities: Vec<f64> = (0..width).map(disparity).collect();
+        let moved = |step: usize| step as f64 + 0.5 + disparities[step];
 
         // Only what is moved to a place within the row's own length, or beyond it by the largest disparity, can hide anything.
-        let largest = (0..width).map(disparity).fold(0.0, f64::max).min(width as f64);
+        let largest = disparities.iter().copied().fold(0.0, f64::max).min(width as f64);
         let part = |place: f64| (place * PARTS) as usize;
         let mut nearest = vec![0.0f64; part(width as f64 + largest) + 2];
         for step in 0..width {
@@ -203,18 +204,18 @@ fn lit(k: &Intrinsics, focal_baseline: f64, eye: SecondEye, depths_m: &[f32]) ->
             }
             // Up to halfway to the neighbours on the same surface, which may be stretched; half a pixel elsewhere.
             let reach = |other: Option<usize>| {
-                let other = other.filter(|&other| (disparity(other) - disparity(step)).abs() <= NEARER_PX);
+                let other = other.filter(|&other| (disparities[other] - disparities[step]).abs() <= NEARER_PX);
                 other.map_or(0.5, |other| 0.5 * (moved(other) - moved(step)).abs())
             };
             let before = reach(step.checked_sub(1));
             let after = reach(Some(step + 1).filter(|&next| next < width));
             let (first, last) = (part((moved(step) - before).max(0.0)), part(moved(step) + after));
             for cell in nearest.iter_mut().take(last.max(first + 1)).skip(first) {
-                *cell = cell.max(disparity(step));
+                *cell = cell.max(disparities[step]);
             }
         }
         for step in (0..width).filter(|&step| !moved(step).is_nan()) {
-            let is_hidden = nearest.get(part(moved(step))).is_some_and(|&cover| cover > disparity(step) + NEARER_PX);
+            let is_hidden = nearest.get(part(moved(step))).is_some_and(|&cover| cover > disparities[step] + NEARER_PX);
             let is_inside = eye == SecondEye::Projector || moved(step) < width as f64;
             lit[column(step)] = is_inside && !is_hidden;
         }

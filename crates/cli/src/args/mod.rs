@@ -16,7 +16,7 @@ pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArg
 pub use ingest::{IngestArgs, IngestVerb, Pix3dArgs};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
-pub use reading::CamerasArg;
+pub use reading::{CamerasArg, FramesArg};
 pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
 pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisArg};
 pub use shell::{CompletionsArgs, ManArgs};

@@ -1,7 +1,7 @@
 //! The verbs that write a dataset in other forms.
 
-use super::CamerasArg;
-use super::values::{parse_layer, parse_range};
+use super::values::parse_layer;
+use super::{CamerasArg, FramesArg};
 use clap::{Args, ValueEnum};
 use enfilade_show::animation::AnimationFormat;
 use enfilade_show::drivers::Film;
@@ -22,15 +22,9 @@ pub struct ExportArgs {
     /// The folder to write; an earlier export there is replaced
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Only the scenes of these names ("bed*", "hall,bedroom")
-    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
-    pub scene: Option<String>,
-    /// Only the cameras of these names ("cam_00", "cam_0*")
-    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
-    pub camera: Option<String>,
-    /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
-    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
-    pub frames: Option<std::ops::Range<u32>>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
     /// Only these layers, of those that the format can hold
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
     pub layers: Option<Vec<enfilade_frame::Layer>>,

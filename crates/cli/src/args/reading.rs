@@ -1,8 +1,23 @@
-//! How datasets are opened that are read and not made.
+//! How datasets are opened that are read and not made, and which of their frames are chosen.
 
+use super::values::parse_range;
 use clap::Args;
 use enfilade_dataset::{CameraTable, Dataset, DatasetError};
 use std::path::{Path, PathBuf};
+
+/// `--scene`, `--camera` and `--frames`.
+#[derive(Args)]
+pub struct FramesArg {
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Only the cameras of these names ("cam_00", "cam_0*")
+    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
+    pub camera: Option<String>,
+    /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
+    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
+    pub frames: Option<std::ops::Range<u32>>,
+}
 
 /// `--cameras-csv`.
 #[derive(Args)]

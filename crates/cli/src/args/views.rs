@@ -1,7 +1,7 @@
 //! The verbs that look at finished frames anew: related to each other, or through other sensors.
 
-use super::CamerasArg;
 use super::values::{parse_frame, parse_overlap, parse_range};
+use super::{CamerasArg, FramesArg};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -118,15 +118,9 @@ pub struct SenseArgs {
     /// The sensors
     #[arg(value_name = "SENSORS.toml")]
     pub sensors: PathBuf,
-    /// Only the scenes of these names ("bed*", "hall,bedroom")
-    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
-    pub scene: Option<String>,
-    /// Only the cameras of these names ("cam_00", "cam_0*")
-    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
-    pub camera: Option<String>,
-    /// Only frames of these numbers: 0..10 (without 10), 5.. or 7
-    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
-    pub frames: Option<std::ops::Range<u32>>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,

@@ -267,6 +267,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         layout.after_frame_dir(name, camera),
     ];
     // Records first: a frame without one does not count.
+    let mut is_removed = false;
     for folder in folders {
         let Ok(entries) = std::fs::read_dir(&folder) else { continue };
         for entry in entries {
@@ -275,13 +276,16 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
             if number.is_none_or(|n| keep.contains(n)) {
                 continue;
             }
-            job.dataset.forget_sensed(name).map_err(Error::stage)?;
+            is_removed = true;
             if path.is_dir() {
                 remove_folder(&path)?;
             } else {
                 std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
             }
         }
+    }
+    if is_removed {
+        job.dataset.forget_sensed(name).map_err(Error::stage)?;
     }
     Ok(())
 }
