@@ -18,6 +18,7 @@ mod pictures;
 mod price;
 mod progress;
 mod released;
+mod relight;
 mod scene_files;
 mod sense;
 mod shell;
@@ -91,6 +92,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Flow(args) => flow::flow(args, cli.quiet),
         Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
         Verb::Sense(args) => sense::sense(args, cli.quiet),
+        Verb::Relight(args) => relight::relight(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),

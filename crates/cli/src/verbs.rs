@@ -104,6 +104,7 @@ fn choices(flags: &RenderFlags) -> RenderChoices {
         clamp: flags.clamp,
         time_limit_s: flags.time_limit,
         splits: flags.splits,
+        fixtures: flags.fixtures,
         extra: flags.extra,
         color: flags.color.map(ColorKind::from),
     }

@@ -1,6 +1,7 @@
 //! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
 
 use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
+use crate::fixture_files::attributes;
 use crate::hdf5::{ArrayView, Packing, Storage, missing_bytes, write_view};
 use crate::layout_version::newer;
 use crate::read::{frame_number, sorted_names};
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What a frame was made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -340,12 +341,12 @@ impl Dataset {
         frame: &Frame,
     ) -> Result<BTreeMap<String, FileRecord>, DatasetError> {
         let size = [frame.height as usize, frame.width as usize];
-        let layers: Vec<(Layer, &Values)> = frame.iter().collect();
-        let write = |&(layer, values): &(Layer, &Values)| {
-            let path = self.layout().layer(scene, camera, number, layer);
-            Ok((self.name_in_scene(scene, &path), write_layer_aside(&path, size, layer, values)?))
+        let files: Vec<_> = self.files_of(scene, camera, number, frame).collect();
+        let write = |(path, layer, values, description): &(PathBuf, Layer, &Values, Option<String>)| {
+            let record = write_file_aside(path, size, *layer, values, &attributes(*layer, description.as_deref()))?;
+            Ok((self.name_in_scene(scene, path), record))
         };
-        let written: Result<BTreeMap<_, _>, DatasetError> = layers.par_iter().map(write).collect();
+        let written: Result<BTreeMap<_, _>, DatasetError> = files.par_iter().map(write).collect();
         if written.is_err() {
             self.remove_aside(scene, camera, number, frame);
         }
@@ -354,19 +355,29 @@ impl Dataset {
 
     /// Removes what [`Self::write_aside`] wrote. Failures are ignored, since an earlier error is being returned.
     pub(crate) fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
-        for (layer, _) in frame.iter() {
-            let _ = fs::remove_file(temporary(&self.layout().layer(scene, camera, number, layer)));
+        for (path, ..) in self.files_of(scene, camera, number, frame) {
+            let _ = fs::remove_file(temporary(&path));
         }
+    }
+
+    /// The files of all that a frame has in memory: where each goes, the layer that it is or is a part of, its values, and its description
+    /// where that is not the layer's.
+    fn files_of<'f>(
+        &self,
+        scene: &str,
+        camera: &str,
+        number: u32,
+        frame: &'f Frame,
+    ) -> impl Iterator<Item = (PathBuf, Layer, &'f Values, Option<String>)> {
+        let layers = frame.iter().map(move |(layer, values)| (self.layout().layer(scene, camera, number, layer), layer, values, None));
+        layers.chain(self.fixture_layers(scene, camera, number, frame))
     }
 
     /// Renames the layers of `frame` from their temporary names, colour last: loaders that look for colour find all or nothing.
     pub(crate) fn put_in_place(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<(), DatasetError> {
-        let mut layers: Vec<Layer> = frame.iter().map(|(layer, _)| layer).collect();
-        layers.sort_by_key(|&layer| layer == Layer::Color);
-        layers.into_iter().try_for_each(|layer| {
-            let path = self.layout().layer(scene, camera, number, layer);
-            rename(&temporary(&path), &path)
-        })
+        let mut files: Vec<_> = self.files_of(scene, camera, number, frame).map(|(path, layer, ..)| (path, layer)).collect();
+        files.sort_by_key(|&(_, layer)| layer == Layer::Color);
+        files.iter().try_for_each(|(path, _)| rename(&temporary(path), path))
     }
 
     /// Puts layers that come after the frame in place of older ones, then writes their record.
@@ -392,6 +403,7 @@ impl Dataset {
         remove_if_there(&self.layout().frame_record(scene, camera, number))?;
         remove_if_there(&self.layout().label_record(scene, camera, number))?;
         LAYERS.iter().try_for_each(|spec| remove_if_there(&self.layout().layer(scene, camera, number, spec.layer)))?;
+        self.remove_fixture_layers(scene, camera, number)?;
         remove_folder(&self.layout().after_frame(scene, camera, number))?;
         // What versions up to 0.1 wrote beside rendered layers.
         remove_if_there(&self.layout().records_dir(scene, camera).join(format!("frame.{number:04}.denoised.json")))?;
@@ -416,19 +428,24 @@ pub(crate) fn attributes_of(layer: Layer) -> Vec<(&'static str, &'static str)> {
 }
 
 /// Writes one layer under the temporary name of `path`.
-pub(crate) fn write_layer_aside(
+pub(crate) fn write_layer_aside(path: &Path, size: [usize; 2], layer: Layer, values: &Values) -> Result<FileRecord, DatasetError> {
+    write_file_aside(path, size, layer, values, &attributes_of(layer))
+}
+
+/// The same of an image that is like a layer, with attributes of its own.
+fn write_file_aside(
     path: &Path,
     [height, width]: [usize; 2],
     layer: Layer,
     values: &Values,
+    attributes: &[(&str, &str)],
 ) -> Result<FileRecord, DatasetError> {
     create_parent(path)?;
     let spec = layer.spec();
     let shape = [height, width, spec.channels];
     let shape = if spec.channels == 1 { &shape[..2] } else { &shape[..] };
-    let attributes = attributes_of(layer);
     let aside = temporary(path);
-    write_view(&aside, ArrayView::of_values(shape, values), Storage::Image(Packing::of_layer(layer)), &attributes)?;
+    write_view(&aside, ArrayView::of_values(shape, values), Storage::Image(Packing::of_layer(layer)), attributes)?;
     FileRecord::of(&aside)
 }
 

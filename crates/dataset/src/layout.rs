@@ -1,7 +1,7 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `sensors/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
 //! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays.
@@ -143,6 +143,16 @@ impl Layout {
         self.root.join("pairs.csv")
     }
 
+    /// What mixes of fixtures have made of frames.
+    pub fn relit_dir(&self) -> PathBuf {
+        self.root.join("relit")
+    }
+
+    /// What a mix has made of a frame (scene, camera, number): `frame.IIII.<what>`.
+    pub fn relit(&self, mix: &str, (scene, camera, frame): (&str, &str, u32), what: &str) -> PathBuf {
+        self.relit_dir().join(mix).join(scene).join(camera).join(format!("frame.{frame:04}.{what}"))
+    }
+
     /// What sensors have made of frames.
     pub fn sensors_dir(&self) -> PathBuf {
         self.root.join("sensors")
@@ -206,6 +216,11 @@ impl Layout {
     /// Materials, as the `material_id` layer numbers them.
     pub fn metadata_materials(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_materials.csv")
+    }
+
+    /// What lights the scene, where frames have the light of each thing apart.
+    pub fn metadata_fixtures(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_fixtures.csv")
     }
 
     /// The share of each frame's surfaces that each other frame of the scene sees.
@@ -420,6 +435,12 @@ impl Layout {
     pub fn layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> PathBuf {
         let spec = layer.spec();
         self.layer_dir(scene, camera, spec.pass).join(layer_file_name(frame, layer))
+    }
+
+    /// The part of a layer of a frame that comes from one fixture.
+    pub fn fixture_layer(&self, scene: &str, camera: &str, frame: u32, fixture: u32, layer: Layer) -> PathBuf {
+        let spec = layer.spec();
+        self.layer_dir(scene, camera, spec.pass).join(format!("frame.{frame:04}.fixture_{fixture:02}_{}.hdf5", spec.name))
     }
 
     /// The previews of one pass of a camera.

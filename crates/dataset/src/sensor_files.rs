@@ -136,12 +136,13 @@ impl Dataset {
         Ok(numbers)
     }
 
-    /// Removes what sensors have made of the frames of a scene, before these are made again.
+    /// Removes what sensors and mixes of lamps have made of the frames of a scene, before these are made again.
     ///
     /// # Errors
     /// When a folder cannot be removed.
-    pub fn forget_sensed(&self, scene: &str) -> Result<(), DatasetError> {
-        self.sensors()?.iter().try_for_each(|sensor| remove_folder(&self.layout().sensor_dir(sensor).join(scene)))
+    pub fn forget_derived(&self, scene: &str) -> Result<(), DatasetError> {
+        self.sensors()?.iter().try_for_each(|sensor| remove_folder(&self.layout().sensor_dir(sensor).join(scene)))?;
+        self.forget_relit(scene)
     }
 
     /// Writes a reading with the unit and the meaning of a layer.

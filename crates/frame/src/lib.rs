@@ -99,12 +99,23 @@ pub struct Frame {
     /// Rows.
     pub height: u32,
     layers: BTreeMap<Layer, Values>,
+    fixtures: Vec<FixtureLayers>,
+}
+
+/// The light of one fixture: color = the sum over fixtures of diffuse_reflectance × diffuse_illumination + residual, as it was rendered, but
+/// for the rounding of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixtureLayers {
+    /// Its part of `diffuse_illumination`, float16; 0 where `diffuse_reflectance` is.
+    pub diffuse_illumination: Values,
+    /// Its part of `residual`, float16.
+    pub residual: Values,
 }
 
 impl Frame {
     /// A frame without layers.
     pub fn new(width: u32, height: u32) -> Self {
-        Self { width, height, layers: BTreeMap::new() }
+        Self { width, height, layers: BTreeMap::new(), fixtures: Vec::new() }
     }
 
     /// Adds or replaces a layer.
@@ -126,6 +137,28 @@ impl Frame {
     /// The layers present, in the order of [`LAYERS`].
     pub fn iter(&self) -> impl Iterator<Item = (Layer, &Values)> {
         self.layers.iter().map(|(&layer, values)| (layer, values))
+    }
+
+    /// Adds the light of one more fixture.
+    ///
+    /// # Panics
+    /// When the values are not three float16 per pixel.
+    pub fn push_fixture(&mut self, fixture: FixtureLayers) {
+        for values in [&fixture.diffuse_illumination, &fixture.residual] {
+            assert_eq!(
+                (values.len(), values.dtype()),
+                (3 * self.pixels(), Dtype::F16),
+                "light of a fixture of {}x{}",
+                self.width,
+                self.height
+            );
+        }
+        self.fixtures.push(fixture);
+    }
+
+    /// The light of each fixture, where it is kept apart.
+    pub fn fixtures(&self) -> &[FixtureLayers] {
+        &self.fixtures
     }
 
     /// Number of pixels.

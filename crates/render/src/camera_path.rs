@@ -4,9 +4,9 @@
 
 use crate::bsdf::Value;
 use crate::integrator::{Direct, Integrator, bsdf_set, roulette_throughput};
-use crate::pixel_sample::{CameraSample, PixelSample};
+use crate::pixel_sample::{CameraSample, FixtureLight, PixelSample};
 use crate::prepared::AlphaTest;
-use crate::split::Arriving;
+use crate::split::{Arriving, Origin};
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex};
 use enfilade_math::Rgb;
@@ -24,6 +24,7 @@ impl Integrator<'_, '_> {
             let background = self.scene.lights.background(ray.direction);
             sample.split.add_background(background);
             sample.residual = background.total();
+            self.background_by_origin(background).into_iter().for_each(|(from, light)| sample.add_seen(from, light));
             return sample;
         };
         let segment = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
@@ -34,6 +35,7 @@ impl Integrator<'_, '_> {
         if self.config.splits {
             sample.split.add_emission(sample.residual);
         }
+        sample.add_seen(self.origin_of_surface(&surface), sample.residual);
 
         // Sample a light and add what the surface reflects of it: next-event estimation, weighted against the BSDF's own directions.
         let bsdf = surface.bsdf(self.scene);
@@ -41,9 +43,9 @@ impl Integrator<'_, '_> {
         let sampler = &camera.sampler;
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;
-        if let Some(Direct { weight, light, kind, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {
+        if let Some(Direct { weight, light, from, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {
             let mut arriving = Arriving::default();
-            arriving.add(kind, light, !scattered);
+            arriving.add(from, light, !scattered);
             if scattered {
                 arriving = self.clamped(arriving, weight.total(sample.reflectance));
             }
@@ -74,6 +76,21 @@ impl Integrator<'_, '_> {
         if self.config.splits {
             sample.split.add_scattered(sample.reflectance, weight, light, crossed);
         }
+        let by_fixture = light.by_fixture.iter().map(|&(fixture, light)| FixtureLight {
+            fixture,
+            illumination: weight.diffuse * light,
+            residual: weight.specular * light,
+        });
+        sample.fixtures.extend(by_fixture);
         weight.diffuse * light.total
+    }
+}
+
+impl PixelSample {
+    /// Adds light that is seen where it comes from to what fixtures add; the residual has it already.
+    fn add_seen(&mut self, from: Origin, light: Rgb) {
+        if let Some(fixture) = from.fixture.filter(|_| !light.is_black()) {
+            self.fixtures.push(FixtureLight { fixture, illumination: Rgb::BLACK, residual: light });
+        }
     }
 }

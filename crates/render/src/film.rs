@@ -96,18 +96,23 @@ impl PixelSum {
         }
     }
 
+    /// The diffuse reflectance as it is stored.
+    fn stored_reflectance(&self) -> [f16; 3] {
+        (self.reflectance / self.samples.max(1) as f32).to_array().map(|v| f16::from_f32(v.clamp(0.0, 1.0)))
+    }
+
     /// The pixel's layers. The stored values satisfy color = reflectance × illumination + residual to the last bit: the first
     /// factors are rounded first and the sum is taken from the rounded values.
     pub fn resolve(&self) -> PixelColor {
         let n = self.samples.max(1) as f32;
-        let reflectance = (self.reflectance / n).map(|v| v.clamp(0.0, 1.0));
+        let reflectance = self.stored_reflectance();
         let diffuse = self.diffuse / n;
         let mean_illumination = self.illumination / self.illumination_samples.max(1) as f32;
         let residual = self.residual / n;
         let mut saturated = false;
         let mut out = PixelColor::default();
         for c in 0..3 {
-            let a = f16::from_f32(reflectance[c]);
+            let a = reflectance[c];
             let demodulated = if a > f16::ZERO { diffuse[c] / a.to_f32() } else { mean_illumination[c] };
             let stored = compose(a, demodulated, residual[c]);
             saturated |= stored.saturated;
@@ -127,6 +132,23 @@ impl PixelSum {
 pub(crate) fn resolve_split(sum: &Split, samples: u32) -> [[f16; 3]; Split::PARTS] {
     let n = samples.max(1) as f32;
     std::array::from_fn(|index| (sum.part(index) / n).to_array().map(|v| f16::from_f32(v.min(F16_LIMIT))))
+}
+
+/// The light of a fixture as it is stored: its part of the illumination and of the residual, given the sums of reflectance × illumination and
+/// of the residual over the pixel's samples.
+///
+/// Where the reflectance is zero nothing is reflected diffusely, and the illumination is zero. What it cannot hold is in the residual.
+pub(crate) fn resolve_fixture(pixel: &PixelSum, [diffuse, residual]: [Rgb; 2]) -> [[f16; 3]; 2] {
+    let n = pixel.samples.max(1) as f32;
+    let mut stored = [[f16::ZERO; 3]; 2];
+    for (c, a) in pixel.stored_reflectance().into_iter().enumerate() {
+        let a = a.to_f32();
+        let illumination = if a > 0.0 { diffuse[c] / n / a } else { 0.0 };
+        let beyond = a * (illumination - F16_LIMIT).max(0.0);
+        stored[0][c] = f16::from_f32(illumination.min(F16_LIMIT));
+        stored[1][c] = f16::from_f32((residual[c] / n + beyond).min(F16_LIMIT));
+    }
+    stored
 }
 
 #[cfg(test)]
@@ -219,6 +241,18 @@ mod tests {
         sum.add(&PixelSample { illumination: Some(Rgb::splat(3.0)), ..PixelSample::default() });
         sum.add(&PixelSample::default());
         assert_eq!(sum.resolve().illumination[1].to_f32(), 3.0);
+    }
+
+    #[test]
+    fn light_of_fixtures_sums_to_the_pixel_and_what_illumination_cannot_hold_is_residual() {
+        let mut sum = PixelSum::default();
+        let reflectance = Rgb::new(0.5, 1e-6, 0.0);
+        sum.add(&PixelSample { reflectance, illumination: Some(Rgb::splat(7.0)), residual: Rgb::splat(0.25), ..PixelSample::default() });
+        let [illumination, residual] = resolve_fixture(&sum, [Rgb::new(1.5, 1.0, 0.0), Rgb::splat(0.25)]).map(|part| part.map(f16::to_f32));
+        assert_eq!((illumination[0], residual[0], illumination[2], residual[2]), (3.0, 0.25, 0.0, 0.25));
+        assert_eq!(illumination[1], F16_LIMIT);
+        let a = f16::from_f32(1e-6).to_f32();
+        assert!((a * illumination[1] + residual[1] - 1.25).abs() < 1e-3, "{residual:?}");
     }
 
     #[test]

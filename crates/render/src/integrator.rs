@@ -6,9 +6,9 @@
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
 use crate::guide::Guide;
-use crate::light::{LightKind, power_heuristic};
+use crate::light::{Background, LightKind, power_heuristic};
 use crate::prepared::{AlphaTest, RenderScene};
-use crate::split::Arriving;
+use crate::split::{Arriving, Origin};
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
@@ -62,7 +62,7 @@ pub(crate) struct Direct {
     pub weight: Value,
     /// Radiance that arrives.
     pub light: Rgb,
-    pub kind: LightKind,
+    pub from: Origin,
     /// True when it reaches the surface from behind.
     pub crosses: bool,
     /// True when a glossy surface has scattered it before.
@@ -70,6 +70,26 @@ pub(crate) struct Direct {
 }
 
 impl<'a, 's> Integrator<'a, 's> {
+    /// The fixture, where fixtures are told apart.
+    #[inline]
+    fn fixture(&self, find: impl FnOnce() -> Option<u16>) -> Option<u16> {
+        if self.config.fixtures { find() } else { None }
+    }
+
+    /// What the emission of a surface comes from.
+    #[inline]
+    pub fn origin_of_surface(&self, surface: &Surface<'s>) -> Origin {
+        let part = || self.scene.triangles.get(surface.triangle).part;
+        Origin { kind: LightKind::Surfaces, fixture: self.fixture(|| self.scene.lights.fixtures.of_part(part())) }
+    }
+
+    /// What comes from beyond the scene, by its origin.
+    #[inline]
+    pub fn background_by_origin(&self, background: Background) -> [(Origin, Rgb); 2] {
+        [(LightKind::Environment, background.environment), (LightKind::Distant, background.distant)]
+            .map(|(kind, light)| (Origin { kind, fixture: self.fixture(|| self.scene.lights.fixtures.of_far(kind)) }, light))
+    }
+
     /// The surface at the end of a segment, and the throughput to it. What it emits, or the background in its place, is added to
     /// `radiance`, weighted against light sampling; `direct` says that nothing has scattered it.
     #[inline]
@@ -78,7 +98,9 @@ impl<'a, 's> Integrator<'a, 's> {
         let Some(hit) = self.scene.closest(&segment.ray, AlphaTest::Stochastic) else {
             let mut background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
             background.distant *= segment.sun;
-            radiance.add_background(background, throughput, direct);
+            for (from, light) in self.background_by_origin(background) {
+                radiance.add(from, throughput * light, direct);
+            }
             return None;
         };
         let surface = self.scene.surface(&hit, segment.ray.direction, &segment.cone);
@@ -86,7 +108,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let emission = surface.emission(self.scene);
         if !emission.is_black() {
             let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
-            radiance.add(LightKind::Surfaces, throughput * emission * weight, direct);
+            radiance.add(self.origin_of_surface(&surface), throughput * emission * weight, direct);
         }
         Some((surface, throughput))
     }
@@ -185,9 +207,9 @@ impl<'a, 's> Integrator<'a, 's> {
             // Sample a light and add its contribution. The sun's light on a glossy surface could have been found as a glint as well.
             let by_glints = segment.sampled.as_ref().filter(|_| !segment.straight);
             let sun = self.scene.lights.glint_weight(self.scene, &self.guide.choice, by_glints, &vertex.surface);
-            if let Some(Direct { weight, light, kind, scattered, .. }) = self.sample_lights(&vertex, bounce, sampler, segment.medium) {
-                let part = if kind == LightKind::Distant && !scattered { sun } else { 1.0 };
-                radiance.add(kind, throughput * weight.total(reflectance) * light * part, false);
+            if let Some(Direct { weight, light, from, scattered, .. }) = self.sample_lights(&vertex, bounce, sampler, segment.medium) {
+                let part = if from.kind == LightKind::Distant && !scattered { sun } else { 1.0 };
+                radiance.add(from, throughput * weight.total(reflectance) * light * part, false);
             }
 
             // Sample the next direction, unless Russian roulette ends the path.
@@ -251,7 +273,8 @@ impl<'a, 's> Integrator<'a, 's> {
         // Weight the sample against the BSDF's own chance to find the light.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
         let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
-        Some(Direct { weight: value * weight, light: radiance * arriving, kind: light.kind(), crosses, scattered })
+        let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.lights.fixture_of(&light)) };
+        Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.

@@ -3,7 +3,7 @@
 use crate::film::PixelColor;
 use crate::geometry_pass::PixelGeometry;
 use crate::split::Split;
-use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
+use enfilade_frame::{FixtureLayers, Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
 
 /// One pixel of all rendered layers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,6 +46,12 @@ pub(crate) fn add_splits(frame: &mut Frame, pixels: &[[[f16; 3]; Split::PARTS]])
     for (index, layer) in SPLIT_BY_PATH.into_iter().chain(SPLIT_BY_SOURCE).enumerate() {
         frame.insert(layer, Values::F16(pixels.iter().flat_map(|parts| parts[index]).collect()));
     }
+}
+
+/// Adds the light of one more fixture: illumination and residual of the pixels, given row by row.
+pub(crate) fn add_fixture(frame: &mut Frame, pixels: &[[[f16; 3]; 2]]) {
+    let channels = |part: usize| Values::F16(pixels.iter().flat_map(|light| light[part]).collect());
+    frame.push_fixture(FixtureLayers { diffuse_illumination: channels(0), residual: channels(1) });
 }
 
 fn validity(pixel: &Pixel) -> Validity {

@@ -1,16 +1,16 @@
 //! A frame in the making as bytes, so that it can go on in another process.
 //!
 //! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
-//! where light is split, the length of the key and the key; per pixel the samples it is to have in the end, row by row; per pixel its sums, tile by
+//! where light is split, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is to have in the end, row by row; per pixel its sums, tile by
 //! tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes on has the bytes of one that was never interrupted.
 
 use enfilade_math::hash_u64;
 
 const SIGNATURE: [u8; 8] = *b"enfilpar";
 /// Version of this form, and of what the sums mean.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Words before the key.
-const HEADER: usize = 6;
+const HEADER: usize = 7;
 
 /// Why a frame cannot go on from bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -34,6 +34,8 @@ pub(crate) struct Header<'a> {
     /// Passes in all, as far as is known.
     pub passes: u32,
     pub splits: bool,
+    /// Number of fixtures that are told apart.
+    pub fixtures: u32,
     /// The caller's name for everything that the frame depends on.
     pub key: &'a [u8],
 }
@@ -42,9 +44,10 @@ pub(crate) struct Header<'a> {
 pub(crate) fn write(header: &Header<'_>, words: impl Iterator<Item = u32>) -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
     let [width, height] = header.size;
-    let numbers: [u32; HEADER] = [width, height, header.done, header.passes, u32::from(header.splits), header.key.len() as u32];
+    let Header { done, passes, splits, fixtures, key, .. } = *header;
+    let numbers: [u32; HEADER] = [width, height, done, passes, u32::from(splits), fixtures, key.len() as u32];
     std::iter::once(VERSION).chain(numbers).for_each(|number| bytes.extend(number.to_le_bytes()));
-    bytes.extend(header.key);
+    bytes.extend(key);
     words.for_each(|word| bytes.extend(word.to_le_bytes()));
     let sum = checksum(&bytes);
     bytes.extend(sum.to_le_bytes());
@@ -67,6 +70,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     let (done, rest) = word(rest)?;
     let (passes, rest) = word(rest)?;
     let (splits, rest) = word(rest)?;
+    let (fixtures, rest) = word(rest)?;
     let (length, rest) = word(rest)?;
     let (key, rest) = rest.split_at_checked(length as usize).ok_or(PartialError::Damaged)?;
     let (words, checksum) = rest.as_chunks::<4>();
@@ -74,7 +78,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     if !checksum.is_empty() || words.len() < 2 {
         return Err(PartialError::Damaged);
     }
-    let header = Header { size: [width, height], done, passes, splits: splits != 0, key };
+    let header = Header { size: [width, height], done, passes, splits: splits != 0, fixtures, key };
     Ok((header, words[..words.len() - 2].iter().map(|word| u32::from_le_bytes(*word))))
 }
 
@@ -98,7 +102,7 @@ mod tests {
 
     #[test]
     fn what_was_written_is_read_and_every_damaged_byte_is_found() {
-        let header = Header { size: [3, 2], done: 4, passes: 6, splits: true, key: b"key" };
+        let header = Header { size: [3, 2], done: 4, passes: 6, splits: true, fixtures: 2, key: b"key" };
         let bytes = write(&header, 10..20);
         let (found, words) = read(&bytes).unwrap();
         assert_eq!((found, words.collect::<Vec<_>>()), (header, (10..20).collect()));

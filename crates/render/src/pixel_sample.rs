@@ -16,7 +16,7 @@ pub(crate) struct CameraSample {
 }
 
 /// One sample of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct PixelSample {
     /// Diffuse reflectance A of the first surface.
     pub reflectance: Rgb,
@@ -26,4 +26,16 @@ pub(crate) struct PixelSample {
     pub residual: Rgb,
     /// A·E + R in parts, where they are asked for.
     pub split: Split,
+    /// The same by fixture, where that is asked for; a fixture may be there several times.
+    pub fixtures: Vec<FixtureLight>,
+}
+
+/// What a fixture adds to a sample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FixtureLight {
+    pub fixture: u16,
+    /// Its part of E.
+    pub illumination: Rgb,
+    /// Its part of R.
+    pub residual: Rgb,
 }

@@ -12,6 +12,7 @@ use crate::integrator::Integrator;
 use crate::prepared::RenderScene;
 use crate::render::{Schedule, check_camera, integrator};
 use crate::sampling::add_samples;
+use crate::tile_film::TileFilm;
 use enfilade_scene::CameraView;
 
 /// A square of pixels of a frame.
@@ -19,7 +20,7 @@ pub struct Probe<'a, 's> {
     integrator: Integrator<'a, 's>,
     view: CameraView<'a>,
     corner: [u32; 2],
-    sums: Vec<PixelSum>,
+    film: TileFilm,
 }
 
 impl<'a, 's> Probe<'a, 's> {
@@ -45,15 +46,15 @@ impl<'a, 's> Probe<'a, 's> {
             return Err(RenderError::Camera { frame: view.pose().frame, problem });
         }
         let corner = [0, 1].map(|axis| corner[axis].min(size[axis] - Self::SIDE));
-        let sums = vec![PixelSum::default(); (Self::SIDE * Self::SIDE) as usize];
-        Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, sums })
+        let film = TileFilm::new((Self::SIDE * Self::SIDE) as usize, false, 0);
+        Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, corner, film })
     }
 
     /// Takes samples until every pixel has `samples`.
     pub fn take(&mut self, samples: u32) {
         let [x, y] = self.corner;
         let pixels: Vec<(u32, u32)> = (0..Self::SIDE * Self::SIDE).map(|i| (x + i % Self::SIDE, y + i / Self::SIDE)).collect();
-        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], &mut self.sums, &mut []);
+        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], &mut self.film);
     }
 }
 
@@ -66,7 +67,7 @@ pub fn samples_wanted(config: &RenderConfig, probes: &[Probe<'_, '_>]) -> Vec<f6
     }
     // The probes count as one image, one below the other. Where two meet, pixels count as neighbours that are none in the frame, which
     // changes the answer a little.
-    let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.sums).map(PixelSum::estimate).collect();
+    let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.film.sums).map(PixelSum::estimate).collect();
     let wanted = schedule.budget(config).allocate(Probe::SIDE as usize, &estimates);
     wanted.chunks(pixels).map(|probe| probe.iter().map(|n| f64::from(*n)).sum::<f64>() / pixels as f64).collect()
 }

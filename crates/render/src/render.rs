@@ -7,17 +7,19 @@
 use crate::budget::Budget;
 use crate::config::RenderConfig;
 use crate::error::RenderError;
-use crate::film::{PixelSum, resolve_split};
+use crate::film::{PixelSum, resolve_fixture, resolve_split};
 use crate::geometry_pass::pixel_geometry;
 use crate::guide::Guide;
 use crate::integrator::Integrator;
-use crate::layers::{Pixel, add_splits, layers};
+use crate::layers::{Pixel, add_fixture, add_splits, layers};
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
 use crate::sampling::add_samples;
 use crate::split::Split;
+use crate::tile_film::TileFilm;
 use crate::tiles::Tiles;
 use enfilade_frame::{Frame, f16, picture_noise};
+use enfilade_math::Rgb;
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -98,13 +100,6 @@ pub struct FrameRender<'a, 's> {
     done: u32,
 }
 
-/// The pixels of a tile.
-struct TileFilm {
-    sums: Vec<PixelSum>,
-    /// Empty unless light is split.
-    splits: Vec<Split>,
-}
-
 /// How a frame's samples are spread over passes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Schedule {
@@ -160,7 +155,8 @@ impl<'a, 's> FrameRender<'a, 's> {
         config.validate()?;
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
-        let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits)).collect();
+        let fixtures = if config.fixtures { scene.fixtures().len() } else { 0 };
+        let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits, fixtures)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, tiles, film, wanted, schedule, done: 0 })
@@ -214,7 +210,7 @@ impl<'a, 's> FrameRender<'a, 's> {
             let goal =
                 |(&(x, y), sum): (&(u32, u32), &PixelSum)| schedule.goal(pass, sum.samples(), wanted[(y * width + x) as usize]).min(max);
             let goals: Vec<u32> = pixels.iter().zip(&film.sums).map(goal).collect();
-            add_samples(integrator, view, &pixels, &goals, &mut film.sums, &mut film.splits);
+            add_samples(integrator, view, &pixels, &goals, film);
             cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
         });
         if goal < whole {
@@ -290,11 +286,11 @@ impl<'a, 's> FrameRender<'a, 's> {
 
     /// All of it as bytes, for [`FrameRender::restore`]. `key` names everything that the frame depends on.
     pub fn save(&self, key: &[u8]) -> Vec<u8> {
-        let config = self.integrator.config;
-        let header = Header { size: self.view.camera().size(), done: self.done, passes: self.schedule.passes, splits: config.splits, key };
+        let header = Header { done: self.done, passes: self.schedule.passes, ..self.header(key) };
         let sums = self.film.iter().flat_map(|film| &film.sums).flat_map(|sum| sum.to_words());
         let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(|split| split.to_words());
-        partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits))
+        let fixtures = self.film.iter().flat_map(|film| film.fixtures.as_flattened()).flat_map(|light| light.to_array()).map(f32::to_bits);
+        partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits).chain(fixtures))
     }
 
     /// Goes on from where [`FrameRender::save`] was called, in this process or another. The frame is to be a new one of the same
@@ -304,11 +300,11 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// When the bytes are damaged, or not of this frame. Then this frame is as it was.
     pub fn restore(&mut self, bytes: &[u8], key: &[u8]) -> Result<(), PartialError> {
         let (header, mut words) = partial::read(bytes)?;
-        let splits = self.integrator.config.splits;
-        if header.key != key || header.size != self.view.camera().size() || header.splits != splits || header.done > header.passes {
+        let expected = Header { done: header.done, passes: header.passes, ..self.header(key) };
+        if header != expected || header.done > header.passes {
             return Err(PartialError::OtherFrame);
         }
-        let per_pixel = 1 + PixelSum::WORDS + if splits { Split::WORDS } else { 0 };
+        let per_pixel = 1 + PixelSum::WORDS + if header.splits { Split::WORDS } else { 0 } + 6 * header.fixtures as usize;
         if words.len() != self.wanted.len() * per_pixel {
             return Err(PartialError::Damaged);
         }
@@ -319,7 +315,15 @@ impl<'a, 's> FrameRender<'a, 's> {
         sums.for_each(|sum| *sum = PixelSum::from_words(&std::array::from_fn(|_| next())));
         let splits = self.film.iter_mut().flat_map(|film| &mut film.splits);
         splits.for_each(|split| *split = Split::from_words(&std::array::from_fn(|_| next())));
+        let fixtures = self.film.iter_mut().flat_map(|film| film.fixtures.as_flattened_mut());
+        fixtures.for_each(|light| *light = Rgb::from([0; 3].map(|_: u32| f32::from_bits(next()))));
         Ok(())
+    }
+
+    /// What precedes the pixels of this frame, before the first pass.
+    fn header<'k>(&self, key: &'k [u8]) -> Header<'k> {
+        let fixtures = self.film.first().map_or(0, |film| film.fixture_count) as u32;
+        Header { size: self.view.camera().size(), done: 0, passes: 0, splits: self.integrator.config.splits, fixtures, key }
     }
 
     /// The layers as they are now, all but the labels and those of [`crate::add_extra_layers`].
@@ -345,13 +349,12 @@ impl<'a, 's> FrameRender<'a, 's> {
             let parts: Vec<Vec<_>> = self.film.par_iter().map(resolved).collect();
             add_splits(&mut frame, &tiles.rows(&parts));
         }
+        for fixture in 0..self.film.first().map_or(0, |film| film.fixture_count) {
+            let resolved = |film: &TileFilm| film.of_fixture(fixture).map(|(sum, light)| resolve_fixture(sum, light)).collect();
+            let lights: Vec<Vec<_>> = self.film.par_iter().map(resolved).collect();
+            add_fixture(&mut frame, &tiles.rows(&lights));
+        }
         frame
-    }
-}
-
-impl TileFilm {
-    fn new(pixels: usize, splits: bool) -> Self {
-        Self { sums: vec![PixelSum::default(); pixels], splits: vec![Split::default(); if splits { pixels } else { 0 }] }
     }
 }
 

@@ -1,32 +1,26 @@
 //! Takes the samples of a tile's pixels.
 
 use crate::config::RenderConfig;
-use crate::film::PixelSum;
 use crate::integrator::Integrator;
 use crate::pixel_sample::CameraSample;
-use crate::split::Split;
+use crate::tile_film::TileFilm;
 use enfilade_math::{Ray, Sampler};
 use enfilade_scene::CameraView;
 
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
-/// Adds samples to the pixels of a tile until each has its goal. `splits` is empty unless light is split.
+/// Adds samples to the pixels of a tile until each has its goal.
 pub(crate) fn add_samples(
     integrator: &Integrator<'_, '_>,
     view: &CameraView<'_>,
     pixels: &[(u32, u32)],
     goals: &[u32],
-    sums: &mut [PixelSum],
-    splits: &mut [Split],
+    film: &mut TileFilm,
 ) {
     for (i, &pixel) in pixels.iter().enumerate() {
-        for index in sums[i].samples()..goals[i] {
-            let sample = integrator.sample(&camera_sample(integrator.config, view, pixel, index));
-            sums[i].add(&sample);
-            if let Some(split) = splits.get_mut(i) {
-                *split += &sample.split;
-            }
+        for index in film.sums[i].samples()..goals[i] {
+            film.add(i, &integrator.sample(&camera_sample(integrator.config, view, pixel, index)));
         }
     }
 }

@@ -1,12 +1,21 @@
-//! Light split by its path to the camera and by its source, for the layers of `enfilade_frame::SPLIT_BY_PATH` and `SPLIT_BY_SOURCE`.
+//! Light split by its path to the camera and by its source, for the layers of `enfilade_frame::SPLIT_BY_PATH` and `SPLIT_BY_SOURCE`, and
+//! by fixture.
 
 use crate::bsdf::Value;
 use crate::light::{Background, LightKind};
 use enfilade_math::Rgb;
 use std::ops::AddAssign;
 
+/// What light comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Origin {
+    pub kind: LightKind,
+    /// `None` where fixtures are not told apart.
+    pub fixture: Option<u16>,
+}
+
 /// Light that arrives at a surface along a path.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Arriving {
     /// All of it.
     pub total: Rgb,
@@ -14,24 +23,22 @@ pub(crate) struct Arriving {
     direct: Rgb,
     /// By [`LightKind`].
     by_source: [Rgb; 4],
+    /// What came of fixtures, one after the other; empty where they are not told apart.
+    pub by_fixture: Vec<(u16, Rgb)>,
 }
 
 impl Arriving {
     /// Adds light of a source, which is `direct` when nothing but panes lies between.
     #[inline]
-    pub fn add(&mut self, kind: LightKind, light: Rgb, direct: bool) {
+    pub fn add(&mut self, from: Origin, light: Rgb, direct: bool) {
         self.total += light;
-        self.by_source[kind as usize] += light;
+        self.by_source[from.kind as usize] += light;
         if direct {
             self.direct += light;
         }
-    }
-
-    /// Adds what comes from beyond the scene, dimmed by `throughput`.
-    #[inline]
-    pub fn add_background(&mut self, background: Background, throughput: Rgb, direct: bool) {
-        self.add(LightKind::Environment, throughput * background.environment, direct);
-        self.add(LightKind::Distant, throughput * background.distant, direct);
+        if let Some(fixture) = from.fixture {
+            self.by_fixture.push((fixture, light));
+        }
     }
 
     /// All of it times `factor`.
@@ -39,6 +46,7 @@ impl Arriving {
         self.total *= factor;
         self.direct *= factor;
         self.by_source.iter_mut().for_each(|light| *light *= factor);
+        self.by_fixture.iter_mut().for_each(|(_, light)| *light *= factor);
         self
     }
 }
@@ -129,12 +137,14 @@ mod tests {
     #[test]
     fn both_kinds_of_parts_sum_to_the_whole() {
         let mut light = Arriving::default();
-        light.add(Surfaces, Rgb::new(1.0, 2.0, 3.0), true);
-        light.add(Environment, Rgb::splat(4.0), false);
+        let from = |kind| Origin { kind, fixture: Some(kind as u16) };
+        light.add(from(Surfaces), Rgb::new(1.0, 2.0, 3.0), true);
+        light.add(from(Environment), Rgb::splat(4.0), false);
+        assert_eq!(light.clone().scaled(2.0).by_fixture, [(2, Rgb::new(2.0, 4.0, 6.0)), (0, Rgb::splat(8.0))]);
         let (reflectance, weight) = (Rgb::new(0.5, 0.25, 0.0), Value { diffuse: Rgb::WHITE, specular: Rgb::splat(0.125) });
         let mut split = Split::default();
         split.add_emission(Rgb::splat(0.5));
-        split.add_scattered(reflectance, &weight, &light.scaled(2.0), true);
+        split.add_scattered(reflectance, &weight, &light.clone().scaled(2.0), true);
         let expected = Rgb::splat(0.5) + weight.total(reflectance) * light.total * 2.0;
         assert_eq!(split.by_path.into_iter().sum::<Rgb>(), expected);
         assert_eq!(split.by_source.into_iter().sum::<Rgb>(), expected);

@@ -4,9 +4,9 @@
 //! diffuse reflectance; one of its pixels is saturated.
 
 use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Tracks};
-use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
+use enfilade_frame::{DENOISED, FixtureLayers, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb};
+use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb, Vec3};
 use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Structure, StructureRoom, WorldMesh};
 
 /// Names of the parts, in the order of their numbers.
@@ -116,7 +116,38 @@ pub fn frame(pose: &Pose) -> Frame {
     for (spec, values) in LAYERS.iter().zip(layers) {
         frame.insert(spec.layer, store(spec.layer, values));
     }
+    add_fixtures(&mut frame);
     frame
+}
+
+/// Adds the light of two fixtures: the sky, which lights the floor and is seen in the void, and a lamp, which lights all else.
+fn add_fixtures(frame: &mut Frame) {
+    let [illumination, residual, reflectance] =
+        [Layer::DiffuseIllumination, Layer::Residual, Layer::DiffuseReflectance].map(|layer| frame.get(layer).unwrap().clone());
+    let ids = frame.get(Layer::RenderEntityId).unwrap().clone();
+    for is_sky in [true, false] {
+        let own = |values: &Values, has: &dyn Fn(usize) -> bool| {
+            let value = |i: usize| if (ids.get(i / 3) <= 1.0) == is_sky && has(i) { values.get(i) } else { 0.0 };
+            Values::F16((0..values.len()).map(|i| f16::from_f64(value(i))).collect())
+        };
+        let diffuse_illumination = own(&illumination, &|i| reflectance.get(i) > 0.0);
+        let light = FixtureLayers { diffuse_illumination, residual: own(&residual, &|_| true) };
+        frame.push_fixture(light);
+    }
+}
+
+/// What lights the room.
+pub fn fixtures() -> Vec<enfilade_dataset::Fixture> {
+    let fixture = |id, kind: &str, place: Option<Vec3>| enfilade_dataset::Fixture {
+        id,
+        kind: kind.into(),
+        name: kind.into(),
+        intensity: place.map(|_| 1.0),
+        position: place,
+        node_ids: Vec::new(),
+        lights: place.map(|_| "bulb".to_string()).into_iter().collect(),
+    };
+    vec![fixture(1, "sky", None), fixture(2, "lamp", Some(Vec3::new(0.0, 0.0, 2.4)))]
 }
 
 /// Values in the type of a layer.
@@ -278,6 +309,9 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             let mut part = Frame::new(whole.width, whole.height);
             let wanted = whole.iter().filter(|(layer, _)| passes.contains(&layer.spec().pass));
             wanted.for_each(|(layer, values)| part.insert(layer, values.clone()));
+            if passes.contains(&Pass::Final) {
+                whole.fixtures().iter().for_each(|fixture| part.push_fixture(fixture.clone()));
+            }
             part
         };
         let info = FrameInfo {
@@ -303,6 +337,7 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
     dataset.write_structure("room", &structure()).unwrap();
+    dataset.write_fixtures("room", &fixtures()).unwrap();
     dataset.write_covisibility("room", &covisibility([&first, &second])).unwrap();
     let pair = FramePair { scene: "room".into(), first: ("cam_00".into(), 0), second: ("cam_00".into(), 1) };
     dataset.write_pair_layers(&pair, &flow(&first, &second)).unwrap();

@@ -11,7 +11,7 @@ const NEAR_LIMIT: f64 = 65_000.0;
 /// The largest float16 but one: what a colour beyond the largest becomes where no residual makes A * S + R that.
 const BELOW_LIMIT: f64 = 65_472.0;
 /// Below this radiance the rounding of float16 is no longer relative.
-const DIM: f64 = 1e-3;
+pub(super) const DIM: f64 = 1e-3;
 
 const COLOR_LAYERS: [Layer; 7] = [
     Layer::Color,
@@ -109,7 +109,7 @@ fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
 }
 
 /// True where some channel of the colour, or of the illumination that is in it, may have been cut at the largest float16, or is no number.
-fn may_be_cut<'a>(scan: &Scan<'a>, color: &'a Values) -> impl Fn(usize) -> bool + use<'a> {
+pub(super) fn may_be_cut<'a>(scan: &Scan<'a>, color: &'a Values) -> impl Fn(usize) -> bool + use<'a> {
     let illumination = scan.rendered(Layer::DiffuseIllumination);
     let is_near_limit = |values: &Values, i: usize| values.get(i).is_nan() || values.get(i) >= NEAR_LIMIT;
     move |pixel| (3 * pixel..3 * pixel + 3).any(|i| is_near_limit(color, i) || illumination.is_some_and(|values| is_near_limit(values, i)))

@@ -8,14 +8,16 @@ use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read
 use super::relations;
 use super::release::{self, Excused};
 use super::report::VerifyReport;
+use super::scan::Scan;
 use super::sensed;
 use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, structure};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, fixtures, structure};
 use enfilade_dataset::{
-    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
+    BoxKind, ColorKind, Dataset, DatasetError, Fixture, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide,
+    loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -111,6 +113,8 @@ struct SceneFacts {
     boxes: Vec<(BoxKind, boxes::Boxes)>,
     /// Of scenes with a layout whose classes are NYU40's.
     structure: Option<Structure>,
+    /// What lights the scene, where frames have the light of each thing apart.
+    fixtures: Vec<Fixture>,
     filmed: Vec<Filmed>,
 }
 
@@ -147,6 +151,7 @@ impl SceneFacts {
             entities: nodes.len(),
             structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
             labels,
+            fixtures: readable(card, dataset.read_fixtures(name)).unwrap_or_default(),
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
         }
@@ -301,6 +306,11 @@ impl SceneFacts {
             last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),
         };
         found.card.merge(check_frame(&frame, &view, &place));
+        if !self.fixtures.is_empty() {
+            let mut scan = Scan::new(&frame, &view, &place);
+            found.card.merge(fixtures::check(dataset, [&self.name, name], number, &self.fixtures, &mut scan));
+            found.card.merge(scan.card);
+        }
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
         if let Some(structure) = &self.structure {
             structure::check(structure, &frame, &place, &mut found.card);

@@ -74,6 +74,7 @@ pub enum Law {
     TrackPoints,
     TrackOcclusion,
     Sensed,
+    LightFixtures,
 }
 
 /// What a law says.
@@ -98,7 +99,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 67] = laws![
+pub const LAWS: [LawSpec; 68] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -194,6 +195,8 @@ pub const LAWS: [LawSpec; 67] = laws![
         "frames were rendered again since: run enfilade tracks";
     Sensed 0.0 "files", "readings of sensors are what their settings make of the stored frames, bit by bit",
         "frames were denoised or rendered again since, or this is another version: run enfilade sense";
+    LightFixtures 2e-3 "relative", "light by fixture sums to color as it was rendered: diffuse_reflectance * diffuse_illumination + residual of each",
+        "layers of different renderings are mixed, or files of fixtures are missing: render the frame again";
 ];
 
 impl Law {

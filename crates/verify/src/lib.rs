@@ -10,6 +10,7 @@ mod card;
 mod color;
 mod dataset;
 mod extra;
+mod fixtures;
 mod frame;
 pub mod frame_gates;
 mod frame_values;

@@ -22,7 +22,7 @@ pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisA
 pub use shell::{CompletionsArgs, ManArgs};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
-pub use views::{FlowArgs, PairsArgs, SenseArgs, TracksArgs};
+pub use views::{FlowArgs, PairsArgs, RelightArgs, SenseArgs, TracksArgs};
 
 use crate::vray::VrayArgs;
 use clap::{Parser, Subcommand};
@@ -102,6 +102,8 @@ pub enum Verb {
     Tracks(TracksArgs),
     /// What cameras and depth sensors would make of the frames; renders nothing
     Sense(SenseArgs),
+    /// Frames with lamps switched, dimmed and tinted; renders nothing
+    Relight(RelightArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
     /// Render one frame again from its record, and compare the bytes

@@ -125,3 +125,21 @@ pub struct SenseArgs {
     #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
+
+/// `relight`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  enfilade render out --fixtures\n  enfilade relight out examples/mixes.csv --frames 0..4\n\nFrames must have been rendered \
+    with --fixtures. relit/MIX/SCENE/CAMERA in the dataset has color,\ndiffuse_illumination, residual and a picture of each frame; docs/relight.md \
+    has the table."
+)]
+pub struct RelightArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// The mixes: a table of mix, fixture, r, g, b
+    #[arg(value_name = "MIXES.csv")]
+    pub mixes: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
+}

@@ -10,6 +10,7 @@ mod hypersim;
 mod ingest;
 mod look;
 mod pairs;
+mod relight;
 mod rendering;
 mod replay;
 mod resume;

@@ -7,8 +7,8 @@ use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
 use std::path::Path;
 
 const KEY: &[u8] = b"key";
-/// Signature and version.
-const HEAD: [u8; 12] = *b"enfilpar\x01\0\0\0";
+/// Bytes of signature and version.
+const HEAD: usize = 12;
 
 /// Everything that a frame needs, for as long as the program lives.
 struct Stage {
@@ -25,7 +25,7 @@ impl Stage {
         let camera: &'static Camera = Box::leak(Box::new(Intrinsics::from_fov_x(6, 4, 1.0).into()));
         let pose = Pose::look_at(0, DVec3::new(0.3, 0.3, 2.0), DVec3::new(0.3, 0.4, 0.0), DVec3::Y).expect("a pose");
         let view = CameraView::still(camera, &pose);
-        let config = &*Box::leak(Box::new(RenderConfig { samples: 4, splits: true, ..RenderConfig::default() }));
+        let config = &*Box::leak(Box::new(RenderConfig { samples: 4, splits: true, fixtures: true, ..RenderConfig::default() }));
         let guide = &*Box::leak(Box::new(Guide::learn(scene, &[view], config)));
         Self { scene, guide, view, config }
     }
@@ -39,9 +39,10 @@ impl Stage {
 /// find.
 pub fn partial(_: &Path) -> Run {
     let stage = Stage::new();
+    let head: Vec<u8> = stage.frame().save(KEY)[..HEAD].to_vec();
     Box::new(move |bytes| {
         let _ = stage.frame().restore(bytes, KEY);
-        let content = [&HEAD[..], bytes].concat();
+        let content = [&head[..], bytes].concat();
         let whole = [&content[..], &checksum(&content).to_le_bytes()].concat();
         let mut frame = stage.frame();
         if frame.restore(&whole, KEY).is_ok() {
@@ -56,7 +57,7 @@ pub fn seeds() -> Vec<Seed> {
     let mut frame = Stage::new().frame();
     let kept = |frame: &FrameRender<'_, '_>, name: &str| {
         let bytes = frame.save(KEY);
-        Seed { name: name.into(), bytes: bytes[HEAD.len()..bytes.len() - 8].to_vec() }
+        Seed { name: name.into(), bytes: bytes[HEAD..bytes.len() - 8].to_vec() }
     };
     let begun = kept(&frame, "begun");
     frame.pass(&Quiet);

@@ -113,6 +113,8 @@ pub struct RenderChoices {
     pub time_limit_s: Option<f64>,
     /// Asks for layers of light by way and by source.
     pub splits: bool,
+    /// Asks for the light of each fixture by itself.
+    pub fixtures: bool,
     /// Asks for the further layers of geometry and material.
     pub extra: bool,
     /// What the colour layers hold.
@@ -143,6 +145,7 @@ impl RenderChoices {
         render.max_bounces = self.max_bounces.or(render.max_bounces);
         render.clamp = self.clamp.or(render.clamp);
         render.splits |= self.splits;
+        render.fixtures |= self.fixtures;
         render.extra |= self.extra;
     }
 }

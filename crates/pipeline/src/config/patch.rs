@@ -47,6 +47,7 @@ section!(RenderPatch => RenderConfig {
     max_bounces: u32,
     clamp: f32,
     splits: bool,
+    fixtures: bool,
     extra: bool,
     roulette_start: u32,
     filter: Filter,

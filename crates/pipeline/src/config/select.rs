@@ -21,7 +21,7 @@ pub fn select(what: &str, names: &[String], pattern: Option<&str>) -> Result<Vec
 }
 
 /// Whether `name` fits `pattern`, in which `*` stands for any run of characters.
-fn matches(pattern: &str, name: &str) -> bool {
+pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == name,
         Some((head, tail)) => name

@@ -5,9 +5,9 @@ use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, 
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, ColorKind, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
+use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
-use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
+use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     if rendered > 0 {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
-        job.dataset.forget_sensed(&job.scene.name).map_err(Error::stage)?;
+        job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
     }
     let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
     let [width, height] = job.scene.size;
@@ -169,6 +169,8 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     job.forget_world();
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
+    let fixtures = if job.scene.render.fixtures { fixtures(&scene) } else { Vec::new() };
+    job.dataset.write_fixtures(&job.scene.name, &fixtures).map_err(Error::stage)?;
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
         // One guide per trajectory: it learns from all views where light comes from.
@@ -198,6 +200,20 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
         }
     }
     Ok(timed_out)
+}
+
+/// What lights a scene, as the dataset lists it.
+fn fixtures(scene: &RenderScene) -> Vec<Fixture> {
+    let fixture = |(fixture, id): (&enfilade_render::Fixture, u32)| Fixture {
+        id,
+        kind: fixture.kind.name().into(),
+        name: fixture.name.clone(),
+        intensity: (!matches!(fixture.kind, FixtureKind::Sky | FixtureKind::Sun)).then_some(fixture.intensity),
+        position: fixture.position,
+        node_ids: fixture.parts.iter().map(|part| part + 1).collect(),
+        lights: fixture.lights.clone(),
+    };
+    scene.fixtures().iter().zip(1..).map(fixture).collect()
 }
 
 /// What a camera sees from every place of a trajectory.
@@ -237,7 +253,11 @@ pub(crate) fn program() -> String {
 /// Every file that rendering writes.
 fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
+    let fixtures = job.dataset.read_fixtures(name).map_err(Error::stage)?;
     let mut files = Vec::new();
+    if !fixtures.is_empty() {
+        files.push(layout.metadata_fixtures(name));
+    }
     for (camera, frame) in job.frames()? {
         files.push(layout.frame_record(name, &camera, frame));
         let config = &job.scene.render;
@@ -249,6 +269,10 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
         };
         let rendered = LAYERS.iter().filter(|spec| is_rendered(spec.pass));
         files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
+        let of_fixture = |fixture: &Fixture| {
+            [Layer::DiffuseIllumination, Layer::Residual].map(|layer| layout.fixture_layer(name, &camera, frame, fixture.id, layer))
+        };
+        files.extend(fixtures.iter().flat_map(of_fixture));
     }
     Ok(files)
 }
@@ -285,7 +309,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         }
     }
     if is_removed {
-        job.dataset.forget_sensed(name).map_err(Error::stage)?;
+        job.dataset.forget_derived(name).map_err(Error::stage)?;
     }
     Ok(())
 }

@@ -52,7 +52,7 @@ impl Stage {
             Self::Label => 2,
             Self::Boxes => 1,
             Self::Preview => 5,
-            Self::Verify => 8,
+            Self::Verify => 9,
         }
     }
 

@@ -27,14 +27,7 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
         let to_light = position - at.p;
         let distance_squared = to_light.length_squared();
         let wi = to_light.try_normalize()?;
-        Some(LightSample {
-            wi,
-            target: Some(position),
-            radiance: Some(intensity / distance_squared),
-            pdf: 1.0,
-            is_delta: true,
-            glint: None,
-        })
+        Some(LightSample { is_delta: true, ..LightSample::new(wi, Some(position), Some(intensity / distance_squared), 1.0) })
     };
     match light {
         Light::Point { position, intensity, .. } => towards(*position, *intensity),
@@ -50,19 +43,12 @@ pub(super) fn sample(light: &Light, at: &LightPoint, u: [f32; 2]) -> Option<Ligh
         }
         Light::Directional { direction, irradiance, angular_radius_rad, .. } => {
             if *angular_radius_rad <= 0.0 {
-                return Some(LightSample {
-                    wi: -*direction,
-                    target: None,
-                    radiance: Some(*irradiance),
-                    pdf: 1.0,
-                    is_delta: true,
-                    glint: None,
-                });
+                return Some(LightSample { is_delta: true, ..LightSample::new(-*direction, None, Some(*irradiance), 1.0) });
             }
             let limit = one_minus_cos_of(*angular_radius_rad);
             let wi = Onb::from_z(-*direction).to_world(warp::cone(u, limit)).normalize();
             let pdf = warp::cone_pdf(limit);
-            Some(LightSample { wi, target: None, radiance: Some(disk_radiance(*irradiance, limit)), pdf, is_delta: false, glint: None })
+            Some(LightSample::new(wi, None, Some(disk_radiance(*irradiance, limit)), pdf))
         }
     }
 }

@@ -25,6 +25,8 @@ pub(super) struct EmissiveSurfaces {
     pub patches: Vec<Patch>,
     /// Of each patch.
     pub bounds: Vec<LightBounds>,
+    /// Of each patch; those of a part follow each other.
+    pub part_of_patch: Vec<u32>,
     /// By part: first triangle and first entry of `pieces`; `None` for parts that do not emit.
     parts: Vec<Option<(u32, u32)>>,
     /// Of each triangle of the emissive parts.
@@ -67,6 +69,7 @@ impl EmissiveSurfaces {
             let even = material.emission.texture.is_none() && material.alpha == Alpha::Opaque;
             PartCutter { scene, triangles, emission: &material.emission, two_sided: material.emits_both_sides, even, cut_so_far: 0 }
                 .add(range, &mut found);
+            found.part_of_patch.resize(found.patches.len(), part as u32);
         }
         found
     }

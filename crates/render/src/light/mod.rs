@@ -15,6 +15,7 @@ mod delta;
 mod emissive_surfaces;
 mod emitter;
 mod environment;
+mod fixtures;
 mod glint;
 mod learn;
 mod lights;
@@ -28,5 +29,6 @@ mod tree;
 mod window;
 
 pub(crate) use choice::LightChoice;
+pub use fixtures::{Fixture, FixtureKind};
 pub(crate) use lights::Lights;
 pub(crate) use sample::{Background, LightKind, LightPoint, power_heuristic};

@@ -28,6 +28,8 @@ pub(crate) struct LightSample {
     pub is_delta: bool,
     /// Where the light is reflected that comes from the sun by way of a glossy surface; its `radiance` is `None`.
     pub glint: Option<Glint>,
+    /// The emitter of the light hierarchy that it comes from; `None` for what is far away.
+    pub emitter: Option<u32>,
 }
 
 /// A place that reflects the sun.
@@ -52,6 +54,12 @@ pub(crate) enum LightKind {
 }
 
 impl LightSample {
+    /// Light that other techniques can find too, from no emitter of the hierarchy.
+    #[inline]
+    pub fn new(wi: Vec3, target: Option<Vec3>, radiance: Option<Rgb>, pdf: f32) -> Self {
+        Self { wi, target, radiance, pdf, is_delta: false, glint: None, emitter: None }
+    }
+
     /// What the light comes from.
     #[inline]
     pub fn kind(&self) -> LightKind {

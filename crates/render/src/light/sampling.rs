@@ -62,9 +62,7 @@ impl Lights<'_> {
         u: [f32; 3],
         wanted: impl Fn(Vec3) -> bool,
     ) -> Option<LightSample> {
-        let from_sky = |wi: Vec3, pdf: f32| {
-            (pdf > 0.0 && wanted(wi)).then_some(LightSample { wi, target: None, radiance: None, pdf, is_delta: false, glint: None })
-        };
+        let from_sky = |wi: Vec3, pdf: f32| (pdf > 0.0 && wanted(wi)).then_some(LightSample::new(wi, None, None, pdf));
         match source {
             // Choose an emitter of the cluster by its importance to the point, and sample that.
             Source::Cluster(cluster) => {
@@ -75,6 +73,7 @@ impl Lights<'_> {
                     None => self.sample_patch(scene, emitter, at, [u[0], u[1]], wanted)?,
                 };
                 sample.pdf *= pmf;
+                sample.emitter = Some(emitter as u32);
                 Some(sample)
             }
             // Choose a distant light, where they count as one, and sample its direction.
@@ -117,7 +116,7 @@ impl Lights<'_> {
         if let Emission::Even { radiance, two_sided } = patch.emission() {
             let behind = point.wi.dot(patch.normal()) >= 0.0;
             let target = Some(offset_origin(point.q, if behind { -patch.normal() } else { patch.normal() }));
-            let sample = LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false, glint: None };
+            let sample = LightSample::new(point.wi, target, Some(radiance), point.pdf);
             return (two_sided || !behind).then_some(sample);
         }
         let (triangle, [b, c]) = patch.locate(point.q, |number| scene.triangles.get(number).corners);
@@ -133,7 +132,7 @@ impl Lights<'_> {
             return None;
         }
         let target = Some(offset_origin(point.q, surface.ng));
-        Some(LightSample { wi: point.wi, target, radiance: Some(radiance), pdf: point.pdf, is_delta: false, glint: None })
+        Some(LightSample::new(point.wi, target, Some(radiance), point.pdf))
     }
 
     /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, whose place is `p`

@@ -70,14 +70,8 @@ impl Glints {
         let cosine = triangle.winding.dot(wi);
         let target = offset_origin(at.p + to, if cosine > 0.0 { -triangle.winding } else { triangle.winding });
         let pdf = pmf * distance * distance / (area * cosine.abs());
-        pdf.is_finite().then_some(LightSample {
-            wi,
-            target: Some(target),
-            radiance: None,
-            pdf,
-            is_delta: false,
-            glint: Some(Glint { hit, u: u_left }),
-        })
+        let glint = Some(Glint { hit, u: u_left });
+        pdf.is_finite().then_some(LightSample { glint, ..LightSample::new(wi, Some(target), None, pdf) })
     }
 
     /// The cluster of a surface, and the density per solid angle with which [`Glints::sample`] at `from` finds it, given that cluster.

@@ -147,6 +147,62 @@ fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
     }
 }
 
+/// What a fixture adds to each channel of the picture.
+fn light_of(frame: &Frame, fixture: usize) -> Vec<f64> {
+    let reflectance = frame.get(Layer::DiffuseReflectance).unwrap();
+    let light = &frame.fixtures()[fixture];
+    (0..reflectance.len()).map(|i| reflectance.get(i) * light.diffuse_illumination.get(i) + light.residual.get(i)).collect()
+}
+
+#[test]
+fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
+    let scene = furnished();
+    for clamp in [None, Some(0.5)] {
+        let config = RenderConfig { clamp, fixtures: true, ..splitting(24) };
+        let apart = picture(&scene, [40, 30], &config);
+        let names: Vec<String> = RenderScene::new(&scene, &Quiet).unwrap().fixtures().iter().map(|fixture| fixture.name.clone()).collect();
+        assert_eq!(names, ["sky", "sun", "bulb", "part 2"]);
+        let color = apart.get(Layer::Color).unwrap();
+        let lights: Vec<Vec<f64>> = (0..4).map(|fixture| light_of(&apart, fixture)).collect();
+        for i in 0..color.len() {
+            let sum: f64 = lights.iter().map(|light| light[i]).sum();
+            assert!((sum - color.get(i)).abs() <= 2e-3 * color.get(i).max(1e-3), "value {i}: {sum}, color is {}", color.get(i));
+        }
+        // By kind they are the layers of light by source.
+        for (fixture, layer) in SPLIT_BY_SOURCE.iter().enumerate() {
+            let of_fixture = &lights[[0, 1, 3, 2][fixture]];
+            let stored = mean(&apart, *layer);
+            assert_close(&names[[0, 1, 3, 2][fixture]], of_fixture.iter().sum::<f64>() / of_fixture.len() as f64, stored, 2e-3 * stored);
+        }
+        let whole = picture(&scene, [40, 30], &RenderConfig { fixtures: false, ..config });
+        assert!(whole.fixtures().is_empty());
+        assert_eq!(bytes(&whole), bytes(&apart));
+    }
+}
+
+#[test]
+fn the_light_of_a_lamp_is_that_of_the_scene_where_no_other_is_on() {
+    // Two lamps, of which one is red; each is rendered alone as well.
+    let lamp = |y: f32, color: Rgb| {
+        (screen(Vec3::new(0.9, y, 0.5), 0.2), Material { emission: color.into(), ..Material::diffuse("lamp", Rgb::splat(0.5)) })
+    };
+    let scene_of =
+        |left: Rgb, right: Rgb| scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5))), lamp(-0.7, left), lamp(0.7, right)]);
+    let (red, white) = (Rgb::new(4.0, 0.5, 0.5), Rgb::splat(3.0));
+    let config = RenderConfig { samples: 512, fixtures: true, ..RenderConfig::default() };
+    let both = picture(&scene_of(red, white), [24, 18], &config);
+    // The white one is the stronger.
+    for (fixture, alone) in [(0, scene_of(Rgb::BLACK, white)), (1, scene_of(red, Rgb::BLACK))] {
+        let alone = picture(&alone, [24, 18], &config);
+        let (light, expected) = (light_of(&both, fixture), alone.get(Layer::Color).unwrap());
+        for channel in 0..3 {
+            let sum = |value: &dyn Fn(usize) -> f64| (0..24 * 18).map(|pixel| value(3 * pixel + channel)).sum::<f64>();
+            let (found, expected) = (sum(&|i| light[i]), sum(&|i| expected.get(i)));
+            assert_close(&format!("fixture {fixture}, channel {channel}"), found, expected, 0.01 * expected);
+        }
+    }
+}
+
 #[test]
 fn in_a_box_that_glows_every_reflection_has_its_place() {
     // Emission 1, reflected once directly, and then the series of further reflections.
@@ -309,13 +365,19 @@ fn bytes(frame: &Frame) -> Vec<u8> {
     frame.iter().flat_map(|(_, values)| values.as_bytes().to_vec()).collect()
 }
 
+/// The light of all fixtures, one after the other.
+fn fixture_bytes(frame: &Frame) -> Vec<u8> {
+    let parts = frame.fixtures().iter().flat_map(|light| [&light.diffuse_illumination, &light.residual]);
+    parts.flat_map(|values| values.as_bytes().to_vec()).collect()
+}
+
 #[test]
 fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
     let scene = furnished();
     let prepared = RenderScene::new(&scene, &Quiet).unwrap();
     let (camera, pose) = place([37, 21]);
     let view = CameraView::still(&camera, &pose);
-    let config = splitting(90);
+    let config = RenderConfig { fixtures: true, ..splitting(90) };
     let guide = Guide::learn(&prepared, &[view], &config);
     let new = || FrameRender::new(&prepared, &guide, &view, &config).unwrap();
     let with = |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -331,6 +393,7 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
         next.restore(&kept, b"key").unwrap();
         if next.is_done() {
             assert_eq!(bytes(&next.frame()), bytes(&whole.frame()));
+            assert!(fixture_bytes(&next.frame()) == fixture_bytes(&whole.frame()) && next.frame().fixtures().len() == 4);
             break;
         }
         let before = next.samples();
@@ -347,6 +410,9 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
     let whole_config = RenderConfig { splits: false, ..config.clone() };
     let mut unsplit = FrameRender::new(&prepared, &guide, &view, &whole_config).unwrap();
     assert_eq!(unsplit.restore(&kept, b"key"), Err(PartialError::OtherFrame));
+    let together_config = RenderConfig { fixtures: false, ..config.clone() };
+    let mut together = FrameRender::new(&prepared, &guide, &view, &together_config).unwrap();
+    assert_eq!(together.restore(&kept, b"key"), Err(PartialError::OtherFrame));
     assert_eq!(other.samples(), 0.0, "what is refused changes nothing");
 }
 

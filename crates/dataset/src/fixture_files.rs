@@ -1,0 +1,236 @@
+//! Fixtures: `_detail/metadata_fixtures.csv`, and for each of them the files `fixture_NN_diffuse_illumination` and `fixture_NN_residual`
+//! of every frame, beside its other layers; and in `relit/<mix>/` what mixes of them make of frames.
+
+use crate::atomic::{remove_folder, remove_if_there, rename, temporary};
+use crate::frames::{attributes_of, write_layer_aside};
+use crate::read::{read_image, sorted_names};
+use crate::tables::Table;
+use crate::{Dataset, DatasetError, check_name, write_bytes};
+use enfilade_frame::{FixtureLayers, Frame, Layer, Values};
+use enfilade_math::Vec3;
+use std::path::PathBuf;
+
+/// The layers that a fixture has a part of.
+const PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
+/// The most fixtures of a scene.
+const MAX_FIXTURES: u32 = 99;
+
+/// Something that lights a scene: the sky, the sun, or a lamp with all its bulbs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixture {
+    /// From 1 on, without gaps: the number in the names of its files.
+    pub id: u32,
+    /// `sky`, `sun`, `lamp`, or `rest`: the weakest of very many lamps.
+    pub kind: String,
+    /// Name of its strongest part or light.
+    pub name: String,
+    /// Luminance of its radiant intensity, W/sr; `None` for the sky and the sun.
+    pub intensity: Option<f32>,
+    /// Its middle in the world, metres; `None` for what has no place.
+    pub position: Option<Vec3>,
+    /// Its emissive parts, as `render_entity_id` numbers them.
+    pub node_ids: Vec<u32>,
+    /// Names of its lights without a surface.
+    pub lights: Vec<String>,
+}
+
+impl Dataset {
+    /// Writes the fixtures of a scene; none remove the table.
+    ///
+    /// # Errors
+    /// When the name cannot be part of a path, or the file cannot be written.
+    pub fn write_fixtures(&self, scene: &str, fixtures: &[Fixture]) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        let path = self.layout().metadata_fixtures(scene);
+        if fixtures.is_empty() {
+            return remove_if_there(&path);
+        }
+        let header =
+            ["fixture_id", "kind", "name", "intensity_w_per_sr", "position_x", "position_y", "position_z", "node_ids", "light_names"];
+        let mut table = Table::new(&path, &header);
+        let text = |value: Option<f32>| value.map_or_else(String::new, |value| value.to_string());
+        let row = |fixture: &Fixture| {
+            let [x, y, z] = [0, 1, 2].map(|axis| text(fixture.position.map(|p| p[axis])));
+            let ids: Vec<String> = fixture.node_ids.iter().map(ToString::to_string).collect();
+            let (kind, name) = (fixture.kind.clone(), fixture.name.clone());
+            vec![fixture.id.to_string(), kind, name, text(fixture.intensity), x, y, z, ids.join(" "), fixture.lights.join("|")]
+        };
+        table.rows = fixtures.iter().map(row).collect();
+        table.write()
+    }
+
+    /// The fixtures of a scene; none where their light is not kept apart.
+    ///
+    /// # Errors
+    /// When the table cannot be read.
+    pub fn read_fixtures(&self, scene: &str) -> Result<Vec<Fixture>, DatasetError> {
+        let path = self.layout().metadata_fixtures(scene);
+        if !path.is_file() {
+            return Ok(Vec::new());
+        }
+        let table = Table::read(&path)?;
+        let [id, kind, name, intensity, x, ids, lights] =
+            table.columns(["fixture_id", "kind", "name", "intensity_w_per_sr", "position_x", "node_ids", "light_names"])?;
+        let [y, z] = table.columns(["position_y", "position_z"])?;
+        let number = |row: usize, column: usize| match table.rows[row][column].as_str() {
+            "" => Ok(None),
+            _ => table.parse::<f32>(row, column).map(Some),
+        };
+        let wrong = |row: usize, found: &str| {
+            DatasetError::text(&path, format!("line {}: expected node_ids from 1, found {found:?}; render the scene again", row + 2))
+        };
+        let fixture = |row: usize| {
+            let cell = |column: usize| table.rows[row][column].clone();
+            let (found, lights) = (cell(ids), cell(lights));
+            let node_ids: Result<Vec<u32>, _> = found.split_whitespace().map(str::parse).collect();
+            Ok(Fixture {
+                id: table.parse(row, id)?,
+                kind: cell(kind),
+                name: cell(name),
+                intensity: number(row, intensity)?,
+                position: match [number(row, x)?, number(row, y)?, number(row, z)?] {
+                    [Some(x), Some(y), Some(z)] => Some(Vec3::new(x, y, z)),
+                    _ => None,
+                },
+                node_ids: node_ids.map_err(|_| wrong(row, &found))?,
+                lights: lights.split('|').filter(|name| !name.is_empty()).map(String::from).collect(),
+            })
+        };
+        (0..table.rows.len()).map(fixture).collect()
+    }
+
+    /// The light of a fixture in a frame, with height and width.
+    ///
+    /// # Errors
+    /// When a file is missing or damaged, the two differ in size, or they are no images of three float16 per pixel.
+    pub fn read_fixture_layers(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: u32,
+        fixture: u32,
+    ) -> Result<([usize; 2], FixtureLayers), DatasetError> {
+        let read = |part: Layer| {
+            let path = self.layout().fixture_layer(scene, camera, frame, fixture, part);
+            let (size, values) = read_image(&path, part, None)?;
+            match values {
+                Values::F16(_) => Ok((size, values, path)),
+                other => Err(DatasetError::hdf5(&path, format!("expected float16, found {:?}; render the frame again", other.dtype()))),
+            }
+        };
+        let [(size, diffuse_illumination, _), (other, residual, path)] = [read(PARTS[0])?, read(PARTS[1])?];
+        if other != size {
+            let problem = format!("{}x{} pixels, but the other part has {}x{}", other[1], other[0], size[1], size[0]);
+            return Err(DatasetError::hdf5(&path, format!("{problem}; render the frame again")));
+        }
+        Ok((size, FixtureLayers { diffuse_illumination, residual }))
+    }
+
+    /// Writes what a mix of fixtures makes of a frame (scene, camera, number): layers, and the bytes of a JPEG picture.
+    ///
+    /// # Errors
+    /// When a name cannot be part of a path, or a file cannot be written.
+    pub fn write_relit(&self, mix: &str, frame: (&str, &str, u32), layers: &Frame, picture: &[u8]) -> Result<(), DatasetError> {
+        check_name("mix", mix)?;
+        let size = [layers.height as usize, layers.width as usize];
+        for (layer, values) in layers.iter() {
+            let path = self.layout().relit(mix, frame, &format!("{}.hdf5", layer.spec().name));
+            write_layer_aside(&path, size, layer, values)?;
+            rename(&temporary(&path), &path)?;
+        }
+        write_bytes(&self.layout().relit(mix, frame, "display.jpg"), picture)
+    }
+
+    /// A layer that a mix of fixtures makes of a frame, with height and width.
+    ///
+    /// # Errors
+    /// When the file is missing, damaged, or not an image of the layer's channels.
+    pub fn read_relit_layer(&self, mix: &str, frame: (&str, &str, u32), layer: Layer) -> Result<([usize; 2], Values), DatasetError> {
+        read_image(&self.layout().relit(mix, frame, &format!("{}.hdf5", layer.spec().name)), layer, None)
+    }
+
+    /// Removes what mixes have made of the frames of a scene.
+    pub(crate) fn forget_relit(&self, scene: &str) -> Result<(), DatasetError> {
+        let folder = self.layout().relit_dir();
+        let mixes = if folder.is_dir() { sorted_names(&folder)? } else { Vec::new() };
+        mixes.iter().try_for_each(|mix| remove_folder(&folder.join(mix).join(scene)))
+    }
+
+    /// The files of the fixtures that a frame has in memory.
+    pub(crate) fn fixture_layers<'f>(
+        &self,
+        scene: &str,
+        camera: &str,
+        number: u32,
+        frame: &'f Frame,
+    ) -> impl Iterator<Item = (PathBuf, Layer, &'f Values, Option<String>)> {
+        let layout = self.layout();
+        frame.fixtures().iter().zip(1..).flat_map(move |(light, fixture)| {
+            PARTS.into_iter().zip([&light.diffuse_illumination, &light.residual]).map(move |(part, values)| {
+                let path = layout.fixture_layer(scene, camera, number, fixture, part);
+                (path, part, values, Some(description(part, fixture)))
+            })
+        })
+    }
+
+    /// Removes what a frame has of fixtures.
+    pub(crate) fn remove_fixture_layers(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
+        (1..=MAX_FIXTURES)
+            .flat_map(|fixture| PARTS.map(|part| self.layout().fixture_layer(scene, camera, frame, fixture, part)))
+            .try_for_each(|path| remove_if_there(&path))
+    }
+}
+
+/// The attributes of a file, with a description of its own where it has one.
+pub(crate) fn attributes(layer: Layer, description: Option<&str>) -> Vec<(&'static str, &str)> {
+    let mut attributes = attributes_of(layer);
+    if let Some(own) = description {
+        attributes.iter_mut().filter(|(name, _)| *name == "description").for_each(|(_, text)| *text = own);
+    }
+    attributes
+}
+
+fn description(part: Layer, fixture: u32) -> String {
+    let whole = part.spec().name;
+    let zero = if part == Layer::DiffuseIllumination { "; 0 where diffuse_reflectance is" } else { "" };
+    format!("Part of {whole}, as it was rendered, that comes from fixture {fixture} of metadata_fixtures.csv{zero}.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fixtures_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        let sky = Fixture {
+            id: 1,
+            kind: "sky".into(),
+            name: "sky".into(),
+            intensity: None,
+            position: None,
+            node_ids: Vec::new(),
+            lights: Vec::new(),
+        };
+        let lamp = Fixture {
+            id: 2,
+            kind: "lamp".into(),
+            name: "bulb, left".into(),
+            intensity: Some(0.1),
+            position: Some(Vec3::new(0.1, -2.0, 3.5)),
+            node_ids: vec![7, 12],
+            lights: vec!["a b".into(), "c".into()],
+        };
+        assert!(dataset.read_fixtures("room").unwrap().is_empty());
+        let fixtures = [sky, lamp];
+        dataset.write_fixtures("room", &fixtures).unwrap();
+        assert_eq!(dataset.read_fixtures("room").unwrap(), fixtures);
+        let path = dataset.layout().metadata_fixtures("room");
+        std::fs::write(&path, std::fs::read_to_string(&path).unwrap().replace("7 12", "7 x")).unwrap();
+        let message = dataset.read_fixtures("room").unwrap_err().to_string();
+        assert!(message.contains("metadata_fixtures.csv: line 3: expected node_ids from 1, found \"7 x\""), "{message}");
+        dataset.write_fixtures("room", &[]).unwrap();
+        assert!(!path.exists());
+    }
+}

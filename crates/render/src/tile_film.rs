@@ -1,0 +1,47 @@
+//! What the pixels of a tile have gathered.
+
+use crate::film::PixelSum;
+use crate::pixel_sample::PixelSample;
+use crate::split::Split;
+use enfilade_math::Rgb;
+
+/// The film of a tile's pixels, in their order.
+pub(crate) struct TileFilm {
+    pub sums: Vec<PixelSum>,
+    /// Empty unless light is split.
+    pub splits: Vec<Split>,
+    /// For each pixel and then each fixture, the sums of reflectance × illumination and of the residual; empty unless fixtures are told
+    /// apart.
+    pub fixtures: Vec<[Rgb; 2]>,
+    /// Number of fixtures that are told apart.
+    pub fixture_count: usize,
+}
+
+impl TileFilm {
+    /// Without samples.
+    pub fn new(pixels: usize, splits: bool, fixture_count: usize) -> Self {
+        let splits = vec![Split::default(); if splits { pixels } else { 0 }];
+        Self { sums: vec![PixelSum::default(); pixels], splits, fixtures: vec![[Rgb::BLACK; 2]; pixels * fixture_count], fixture_count }
+    }
+
+    /// Adds a sample to a pixel.
+    pub fn add(&mut self, pixel: usize, sample: &PixelSample) {
+        self.sums[pixel].add(sample);
+        if let Some(split) = self.splits.get_mut(pixel) {
+            *split += &sample.split;
+        }
+        if self.fixture_count > 0 {
+            let own = &mut self.fixtures[pixel * self.fixture_count..][..self.fixture_count];
+            for light in &sample.fixtures {
+                let [diffuse, residual] = &mut own[usize::from(light.fixture)];
+                *diffuse += sample.reflectance * light.illumination;
+                *residual += light.residual;
+            }
+        }
+    }
+
+    /// What a fixture has sent to each pixel, with the pixel's sum.
+    pub fn of_fixture(&self, fixture: usize) -> impl Iterator<Item = (&PixelSum, [Rgb; 2])> {
+        self.sums.iter().enumerate().map(move |(pixel, sum)| (sum, self.fixtures[pixel * self.fixture_count + fixture]))
+    }
+}

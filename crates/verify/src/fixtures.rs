@@ -1,0 +1,68 @@
+//! The law of fixtures: what each of them sends sums to the picture.
+
+use super::card::Card;
+use super::color::{DIM, may_be_cut};
+use super::law::Law;
+use super::read::readable;
+use super::scan::Scan;
+use enfilade_dataset::{Dataset, Fixture};
+use enfilade_frame::Layer;
+
+/// What rounding to a float16 below 2⁻¹⁴ adds to each of a fixture's two layers, at most.
+const SUBNORMAL: f64 = 1.0 / (1 << 25) as f64;
+
+/// Checks the light of each fixture in a frame, of which one is held at a time. Nothing is checked where none is kept apart, or where what was
+/// rendered is gone.
+pub(super) fn check(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, fixtures: &[Fixture], scan: &mut Scan<'_>) -> Card {
+    let mut card = Card::default();
+    let layers = [scan.layer(Layer::DiffuseReflectance), scan.rendered(Layer::Color)];
+    let [Some(reflectance), Some(color)] = layers else { return card };
+    if fixtures.is_empty() {
+        return card;
+    }
+    let size = [scan.frame.height as usize, scan.frame.width as usize];
+    let mut sum = vec![0.0; color.len()];
+    for fixture in fixtures {
+        let Some((found, light)) = readable(&mut card, dataset.read_fixture_layers(scene, camera, number, fixture.id)) else { return card };
+        if found != size {
+            let problem = || format!("{scene}/{camera}/frame.{number:04}: fixture {} has {}x{} pixels", fixture.id, found[1], found[0]);
+            card.observe(Law::LightFixtures, f64::INFINITY, problem);
+            return card;
+        }
+        for (i, sum) in sum.iter_mut().enumerate() {
+            *sum += reflectance.get(i) * light.diffuse_illumination.get(i) + light.residual.get(i);
+        }
+    }
+    let is_cut = may_be_cut(scan, color);
+    let rounding = 2.0 * SUBNORMAL * fixtures.len() as f64;
+    let error = |i: usize| ((sum[i] - color.get(i)).abs() - rounding).max(0.0) / color.get(i).max(DIM);
+    let errors = (0..color.len()).filter(|i| !is_cut(i / 3)).map(|i| (i / 3, error(i)));
+    scan.worst(Law::LightFixtures, "the light of fixtures does not sum to color", errors);
+    card
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_scene::Quiet;
+    use enfilade_testroom as testroom;
+
+    /// What fails where the layers of the lamp in the first frame have the values of the sky's.
+    fn failures(changed: &[Layer]) -> Vec<Law> {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        let path = |fixture, layer| dataset.layout().fixture_layer("room", "cam_00", 0, fixture, layer);
+        for &layer in changed {
+            std::fs::copy(path(1, layer), path(2, layer)).unwrap();
+        }
+        let report = crate::verify_scene(&dataset, "room", &Quiet).unwrap();
+        report.failures().map(|law| law.law).filter(|law| !matches!(law, Law::Checksums | Law::FramesComplete)).collect()
+    }
+
+    #[test]
+    fn light_that_does_not_sum_to_the_picture_is_found() {
+        assert_eq!(failures(&[]), []);
+        assert!(failures(&[Layer::DiffuseIllumination]).contains(&Law::LightFixtures));
+        assert!(failures(&[Layer::Residual]).contains(&Law::LightFixtures));
+    }
+}
