@@ -34,10 +34,11 @@ const BENCHES: [Bench; 7] = [
 ];
 
 /// Measurements that run only when they are named, and what they measure; `main` starts them.
-const ALONE: [(&str, &str); 5] = [
+const ALONE: [(&str, &str); 6] = [
     ("render", "what pictures of rooms and homes cost, rendered and denoised, against Mitsuba 3"),
     ("cycles", "what pictures of homes cost, rendered and denoised, against Blender's Cycles"),
     ("homes", "cost and contents of 200 generated homes, beside published numbers"),
+    ("products", "what each kind of ground truth costs, in the demo's room, with a picture"),
     ("loader", "layers as arrays by the Python module, against h5py"),
     ("storage", "size and reading time of the files of layers, against Hypersim's"),
 ];

@@ -24,6 +24,7 @@ mod loader;
 mod oidn;
 mod peers;
 mod pictures;
+mod products;
 mod python;
 mod readers;
 mod simulate;
@@ -53,6 +54,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask bench render [CASE...]         what pictures of rooms and homes cost, against Mitsuba 3
        cargo xtask bench cycles [CASE...]         what pictures of homes cost, against Blender's Cycles
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
+       cargo xtask bench products                 what each kind of ground truth costs, with a picture
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
        cargo xtask bench homes [COUNT] [FIRST]    what generated homes cost and what is in them, beside published numbers";
 
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         ["bench", "cycles", rest @ ..] => cycles::run(&house, rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
+        ["bench", "products"] => products::run(&house),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
         ["pictures"] => pictures::make(&house),
         ["simulate"] => simulate::run(&house),

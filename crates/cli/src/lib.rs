@@ -25,6 +25,7 @@ mod shell;
 mod stats;
 mod suggest;
 mod summary;
+mod surfaces;
 mod tracks;
 mod verbs;
 mod view;
@@ -91,6 +92,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
         Verb::Flow(args) => flow::flow(args, cli.quiet),
         Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
+        Verb::Surfaces(args) => surfaces::surfaces(args, cli.quiet),
         Verb::Sense(args) => sense::sense(args, cli.quiet),
         Verb::Relight(args) => relight::relight(args, cli.quiet),
         Verb::Inspect(args) => verbs::inspect(args),

@@ -10,8 +10,8 @@ use enfilade_multiview::{Filmed, TracksConfig, tracks as follow};
 /// `tracks`: points on surfaces through the frames of each camera.
 pub fn tracks(args: &TracksArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
-    let cameras = cameras(&dataset, &scenes, args.camera.as_deref())?;
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
+    let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
     let config = TracksConfig { points: args.points, seed: args.seed };
     let mut lines = Vec::new();
     {
@@ -19,8 +19,7 @@ pub fn tracks(args: &TracksArgs, quiet: bool) -> Result<Verdict, Problem> {
         let cx = progress.begin(&args.dataset.display().to_string(), "tracks");
         for scene in &scenes {
             let filmed = Filmed::read(&dataset, scene, cameras.as_deref(), &cx)?;
-            let is_chosen = |frame: &usize| args.frames.as_ref().is_none_or(|range| range.contains(&filmed.name(*frame).1));
-            let frames: Vec<usize> = (0..filmed.len()).filter(is_chosen).collect();
+            let frames = filmed.numbered(args.chosen.frames.as_ref());
             if frames.is_empty() {
                 continue;
             }

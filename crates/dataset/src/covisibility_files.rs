@@ -109,7 +109,7 @@ impl Dataset {
     }
 
     /// Removes what relates frames of a scene to each other, before frames are made again: the matrix with its list, layers that lead from
-    /// frame to frame, tracks, and the dataset's list of pairs.
+    /// frame to frame, tracks, surfaces along rays, and the dataset's list of pairs.
     ///
     /// # Errors
     /// When the scene's folder cannot be read, or a file cannot be removed.
@@ -120,6 +120,7 @@ impl Dataset {
         let cameras = self.cameras_by_files(scene)?;
         cameras.iter().try_for_each(|camera| {
             remove_if_there(&layout.tracks(scene, camera))?;
+            self.forget_surfaces(scene, camera)?;
             remove_folder(&layout.pair_layers_dir(scene, camera))
         })
     }

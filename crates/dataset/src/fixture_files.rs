@@ -6,14 +6,15 @@ use crate::frames::{attributes_of, write_layer_aside};
 use crate::read::{read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
-use enfilade_frame::{FixtureLayers, Frame, Layer, Values};
+use enfilade_frame::{FixtureLayers, Frame, Layer, MAX_FIXTURES, Values};
 use enfilade_math::Vec3;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// The layers that a fixture has a part of.
-const PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
-/// The most fixtures of a scene.
-const MAX_FIXTURES: u32 = 99;
+pub(crate) const FIXTURE_PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
+/// How the rules of a mix are kept.
+const RULES: &str = "mix.json";
 
 /// Something that lights a scene: the sky, the sun, or a lamp with all its bulbs.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,7 @@ pub struct Fixture {
     pub position: Option<Vec3>,
     /// Its emissive parts, as `render_entity_id` numbers them.
     pub node_ids: Vec<u32>,
-    /// Names of its lights without a surface.
+    /// Names of its lights without a surface, in the table as a list in JSON.
     pub lights: Vec<String>,
 }
 
@@ -53,7 +54,7 @@ impl Dataset {
             let [x, y, z] = [0, 1, 2].map(|axis| text(fixture.position.map(|p| p[axis])));
             let ids: Vec<String> = fixture.node_ids.iter().map(ToString::to_string).collect();
             let (kind, name) = (fixture.kind.clone(), fixture.name.clone());
-            vec![fixture.id.to_string(), kind, name, text(fixture.intensity), x, y, z, ids.join(" "), fixture.lights.join("|")]
+            vec![fixture.id.to_string(), kind, name, text(fixture.intensity), x, y, z, ids.join(" "), json_list(&fixture.lights)]
         };
         table.rows = fixtures.iter().map(row).collect();
         table.write()
@@ -76,15 +77,19 @@ impl Dataset {
             "" => Ok(None),
             _ => table.parse::<f32>(row, column).map(Some),
         };
-        let wrong = |row: usize, found: &str| {
-            DatasetError::text(&path, format!("line {}: expected node_ids from 1, found {found:?}; render the scene again", row + 2))
+        let wrong = |row: usize, what: &str, found: &str| {
+            DatasetError::text(&path, format!("line {}: expected {what}, found {found:?}; render the scene again", row + 2))
         };
         let fixture = |row: usize| {
             let cell = |column: usize| table.rows[row][column].clone();
             let (found, lights) = (cell(ids), cell(lights));
-            let node_ids: Result<Vec<u32>, _> = found.split_whitespace().map(str::parse).collect();
+            let node_ids: Option<Vec<u32>> = found.split_whitespace().map(|id| id.parse().ok().filter(|&id| id > 0)).collect();
+            let number_of_row = row as u32 + 1;
+            if cell(id) != number_of_row.to_string() {
+                return Err(wrong(row, &format!("fixture_id {number_of_row}"), &cell(id)));
+            }
             Ok(Fixture {
-                id: table.parse(row, id)?,
+                id: number_of_row,
                 kind: cell(kind),
                 name: cell(name),
                 intensity: number(row, intensity)?,
@@ -92,8 +97,8 @@ impl Dataset {
                     [Some(x), Some(y), Some(z)] => Some(Vec3::new(x, y, z)),
                     _ => None,
                 },
-                node_ids: node_ids.map_err(|_| wrong(row, &found))?,
-                lights: lights.split('|').filter(|name| !name.is_empty()).map(String::from).collect(),
+                node_ids: node_ids.ok_or_else(|| wrong(row, "node_ids from 1", &found))?,
+                lights: serde_json::from_str(&lights).map_err(|_| wrong(row, "light_names as a list in JSON", &lights))?,
             })
         };
         (0..table.rows.len()).map(fixture).collect()
@@ -118,12 +123,42 @@ impl Dataset {
                 other => Err(DatasetError::hdf5(&path, format!("expected float16, found {:?}; render the frame again", other.dtype()))),
             }
         };
-        let [(size, diffuse_illumination, _), (other, residual, path)] = [read(PARTS[0])?, read(PARTS[1])?];
+        let [(size, diffuse_illumination, _), (other, residual, path)] = [read(FIXTURE_PARTS[0])?, read(FIXTURE_PARTS[1])?];
         if other != size {
             let problem = format!("{}x{} pixels, but the other part has {}x{}", other[1], other[0], size[1], size[0]);
             return Err(DatasetError::hdf5(&path, format!("{problem}; render the frame again")));
         }
         Ok((size, FixtureLayers { diffuse_illumination, residual }))
+    }
+
+    /// The number of fixtures whose light a frame has apart, by its record; 0 without one.
+    ///
+    /// # Errors
+    /// When the record cannot be read.
+    pub fn fixtures_of_frame(&self, scene: &str, camera: &str, frame: u32) -> Result<u32, DatasetError> {
+        let files = self.frame_record(scene, camera, frame)?.map_or_else(Default::default, |record| record.files);
+        let has = |fixture: &u32| {
+            let path = self.layout().fixture_layer(scene, camera, frame, *fixture, FIXTURE_PARTS[0]);
+            files.contains_key(&self.name_in_scene(scene, &path))
+        };
+        Ok((1..=MAX_FIXTURES as u32).take_while(has).last().unwrap_or(0))
+    }
+
+    /// Begins a mix by these rules. What is there of a mix of the same name and other rules is removed.
+    ///
+    /// # Errors
+    /// When the name cannot be part of a path, or the folder cannot be used.
+    pub fn begin_mix(&self, mix: &str, rules: &impl Serialize) -> Result<(), DatasetError> {
+        check_name("mix", mix)?;
+        let folder = self.layout().relit_dir().join(mix);
+        let path = folder.join(RULES);
+        let unwritable = |error: serde_json::Error| DatasetError::io("write", &path, error.into());
+        let text = serde_json::to_string_pretty(rules).map_err(unwritable)? + "\n";
+        if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
+            return Ok(());
+        }
+        remove_folder(&folder)?;
+        write_bytes(&path, text)
     }
 
     /// Writes what a mix of fixtures makes of a frame (scene, camera, number): layers, and the bytes of a JPEG picture.
@@ -149,8 +184,11 @@ impl Dataset {
         read_image(&self.layout().relit(mix, frame, &format!("{}.hdf5", layer.spec().name)), layer, None)
     }
 
-    /// Removes what mixes have made of the frames of a scene.
-    pub(crate) fn forget_relit(&self, scene: &str) -> Result<(), DatasetError> {
+    /// Removes what mixes have made of the frames of a scene, before these change.
+    ///
+    /// # Errors
+    /// When a folder cannot be removed.
+    pub fn forget_relit(&self, scene: &str) -> Result<(), DatasetError> {
         let folder = self.layout().relit_dir();
         let mixes = if folder.is_dir() { sorted_names(&folder)? } else { Vec::new() };
         mixes.iter().try_for_each(|mix| remove_folder(&folder.join(mix).join(scene)))
@@ -166,7 +204,7 @@ impl Dataset {
     ) -> impl Iterator<Item = (PathBuf, Layer, &'f Values, Option<String>)> {
         let layout = self.layout();
         frame.fixtures().iter().zip(1..).flat_map(move |(light, fixture)| {
-            PARTS.into_iter().zip([&light.diffuse_illumination, &light.residual]).map(move |(part, values)| {
+            FIXTURE_PARTS.into_iter().zip([&light.diffuse_illumination, &light.residual]).map(move |(part, values)| {
                 let path = layout.fixture_layer(scene, camera, number, fixture, part);
                 (path, part, values, Some(description(part, fixture)))
             })
@@ -175,10 +213,14 @@ impl Dataset {
 
     /// Removes what a frame has of fixtures.
     pub(crate) fn remove_fixture_layers(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
-        (1..=MAX_FIXTURES)
-            .flat_map(|fixture| PARTS.map(|part| self.layout().fixture_layer(scene, camera, frame, fixture, part)))
+        (1..=MAX_FIXTURES as u32)
+            .flat_map(|fixture| FIXTURE_PARTS.map(|part| self.layout().fixture_layer(scene, camera, frame, fixture, part)))
             .try_for_each(|path| remove_if_there(&path))
     }
+}
+
+fn json_list(names: &[String]) -> String {
+    serde_json::to_string(names).expect("texts have a JSON text")
 }
 
 /// The attributes of a file, with a description of its own where it has one.
@@ -220,16 +262,16 @@ mod tests {
             intensity: Some(0.1),
             position: Some(Vec3::new(0.1, -2.0, 3.5)),
             node_ids: vec![7, 12],
-            lights: vec!["a b".into(), "c".into()],
+            lights: vec!["a | b, \"c\"".into(), "c".into()],
         };
         assert!(dataset.read_fixtures("room").unwrap().is_empty());
         let fixtures = [sky, lamp];
         dataset.write_fixtures("room", &fixtures).unwrap();
         assert_eq!(dataset.read_fixtures("room").unwrap(), fixtures);
         let path = dataset.layout().metadata_fixtures("room");
-        std::fs::write(&path, std::fs::read_to_string(&path).unwrap().replace("7 12", "7 x")).unwrap();
+        std::fs::write(&path, std::fs::read_to_string(&path).unwrap().replace("7 12", "7 0")).unwrap();
         let message = dataset.read_fixtures("room").unwrap_err().to_string();
-        assert!(message.contains("metadata_fixtures.csv: line 3: expected node_ids from 1, found \"7 x\""), "{message}");
+        assert!(message.contains("metadata_fixtures.csv: line 3: expected node_ids from 1, found \"7 0\""), "{message}");
         dataset.write_fixtures("room", &[]).unwrap();
         assert!(!path.exists());
     }

@@ -281,7 +281,7 @@ impl Dataset {
         let layout = self.layout();
         let folders_of = |pass| [layout.layer_dir(scene, camera, pass), layout.preview_dir(scene, camera, pass)];
         let images = [Pass::Final, Pass::Geometry].map(folders_of);
-        let details = [layout.camera_dir(scene, camera), layout.records_dir(scene, camera)];
+        let details = [layout.camera_dir(scene, camera), layout.records_dir(scene, camera), layout.surfaces_dir(scene, camera)];
         for folder in images.as_flattened().iter().chain(&details).filter(|folder| folder.is_dir()) {
             for name in sorted_names(folder)?.iter().filter(|name| crate::atomic::is_temporary(name)) {
                 remove_if_there(&folder.join(name))?;

@@ -1,10 +1,11 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
-//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
+//! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames,
+//! `_detail/metadata_fixtures.csv`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
+//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
 //! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
-//! `camera.json` and its arrays.
+//! `camera.json` and its arrays. Beside the layers of `scene_<camera>_final_hdf5` lie those of fixtures.
 
 use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};
@@ -364,6 +365,16 @@ impl Layout {
         let FramePair { scene, first: (camera, frame), second: (other, number) } = pair;
         let name = format!("frame.{frame:04}.{other}.{}", layer_file_name(*number, layer));
         self.pair_layers_dir(scene, camera).join(name)
+    }
+
+    /// Surfaces along the rays of a camera's frames.
+    pub fn surfaces_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("surfaces")
+    }
+
+    /// What is known of the surfaces along the rays of a frame: `frame.IIII.<what>.hdf5`.
+    pub fn surfaces(&self, scene: &str, camera: &str, frame: u32, what: &str) -> PathBuf {
+        self.surfaces_dir(scene, camera).join(format!("frame.{frame:04}.{what}.hdf5"))
     }
 
     /// Points on surfaces, followed through a camera's frames.

@@ -122,7 +122,7 @@ pub struct ManifestInfo {
 }
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 17] = [
+const NOTES: [(&str, &str); 18] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -135,6 +135,11 @@ const NOTES: [(&str, &str); 17] = [
     ),
     ("opencv", "_detail/<camera>/cameras_opencv.json has K and world_from_camera with x right, y down, z forward, in metres."),
     ("pixels", "Row 0 is the top; the ray of pixel (row i, column j) is M_cam_from_uv (u, v, 1), u = -1 + (2j+1)/W, v = 1 - (2i+1)/H."),
+    (
+        "fixtures",
+        "Where _detail/metadata_fixtures.csv is there, frames may have fixture_NN_diffuse_illumination and fixture_NN_residual: over all fixtures \
+            diffuse_reflectance * diffuse_illumination + residual sums to color as it was rendered.",
+    ),
     ("sampling", "Final layers are filtered over the pixel; geometry and label layers are point samples at pixel centres."),
     (
         "identity",

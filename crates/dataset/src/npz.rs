@@ -1,6 +1,7 @@
 //! numpy's archives: arrays as `.npy` files (version 1.0 of the format, NEP 1) in an uncompressed zip archive.
 
 use crate::DatasetError;
+use std::borrow::Cow;
 use std::io::{Cursor, Read, Write};
 use std::path::Path;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter, write::SimpleFileOptions};
@@ -10,24 +11,25 @@ const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 
 /// An array of an archive, in C order, little-endian.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct NpyArray {
+pub struct NpyArray {
     /// Its key in the archive.
     pub name: &'static str,
     /// numpy's description of an element, as in `<f4`.
-    pub dtype: &'static str,
+    pub dtype: Cow<'static, str>,
     /// Length of each axis.
     pub shape: Vec<usize>,
+    /// The elements.
     pub bytes: Vec<u8>,
 }
 
 impl NpyArray {
-    /// An array of these bytes; without any, what [`read_npy`] is to look for.
-    pub fn new(name: &'static str, dtype: &'static str, shape: &[usize], bytes: Vec<u8>) -> Self {
-        Self { name, dtype, shape: shape.to_vec(), bytes }
+    /// An array of these bytes; without any, what is to be looked for in an archive.
+    pub fn new(name: &'static str, dtype: impl Into<Cow<'static, str>>, shape: &[usize], bytes: Vec<u8>) -> Self {
+        Self { name, dtype: dtype.into(), shape: shape.to_vec(), bytes }
     }
 
     /// The values of an array of `<f4`.
-    pub fn floats(&self) -> Vec<f32> {
+    pub(crate) fn floats(&self) -> Vec<f32> {
         self.bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
     }
 }
@@ -47,12 +49,15 @@ pub fn npy_head(dtype: &str, shape: &[usize]) -> Vec<u8> {
 }
 
 /// The bytes of an archive of arrays; the same arrays give the same bytes.
-pub(crate) fn npz(arrays: &[NpyArray]) -> std::io::Result<Vec<u8>> {
+///
+/// # Errors
+/// When a name is used twice, or there is no memory.
+pub fn npz(arrays: &[NpyArray]) -> std::io::Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).last_modified_time(DateTime::default());
     for array in arrays {
         archive.start_file(format!("{}.npy", array.name), options)?;
-        archive.write_all(&npy_head(array.dtype, &array.shape))?;
+        archive.write_all(&npy_head(&array.dtype, &array.shape))?;
         archive.write_all(&array.bytes)?;
     }
     Ok(archive.finish()?.into_inner())
@@ -88,7 +93,7 @@ mod tests {
 
     #[test]
     fn arrays_come_back_and_damage_is_told() {
-        let array = |name, shape: &[usize], bytes: Vec<u8>| NpyArray { name, dtype: "|u1", shape: shape.to_vec(), bytes };
+        let array = |name, shape: &[usize], bytes: Vec<u8>| NpyArray { name, dtype: "|u1".into(), shape: shape.to_vec(), bytes };
         let arrays = [array("a", &[2, 3], vec![1, 2, 3, 4, 5, 6]), array("b", &[4], vec![0, 1, 0, 1])];
         let bytes = npz(&arrays).unwrap();
         assert_eq!(bytes, npz(&arrays).unwrap());
@@ -97,9 +102,9 @@ mod tests {
         assert_eq!(read_npy(path, &bytes, array("b", &[4], Vec::new())).unwrap(), arrays[1]);
         let problem = |wanted| read_npy(path, &bytes, wanted).unwrap_err().to_string();
         assert!(problem(array("a", &[0, 2], Vec::new())).contains("expected |u1 of shape [0, 2], found"));
-        assert!(problem(NpyArray { dtype: "<f4", ..array("b", &[0], Vec::new()) }).contains("expected <f4"));
+        assert!(problem(NpyArray { dtype: "<f4".into(), ..array("b", &[0], Vec::new()) }).contains("expected <f4"));
         assert!(problem(array("c", &[0], Vec::new())).starts_with("tracks.npz: c: "));
         assert!(read_npy(path, &bytes[..40], arrays[0].clone()).is_err());
-        assert!(arrays.iter().all(|array| npy_head(array.dtype, &array.shape).len().is_multiple_of(64)));
+        assert!(arrays.iter().all(|array| npy_head(&array.dtype, &array.shape).len().is_multiple_of(64)));
     }
 }

@@ -1,6 +1,7 @@
 //! A copy of a dataset whose images are stored for fast reading.
 
 use crate::atomic::remove_folder;
+use crate::fixture_files::FIXTURE_PARTS;
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
 use crate::read::sorted_names;
@@ -106,6 +107,14 @@ impl Dataset {
                 let (from, to) = (self.layout().layer(scene, camera, frame, layer), copy.layer(scene, camera, frame, layer));
                 if from.is_file() {
                     images.push(ImageCopy { from, to, attributes: if released { Vec::new() } else { attributes_of(layer) } });
+                }
+            }
+            if layers.is_none_or(|layers| FIXTURE_PARTS.iter().all(|part| layers.contains(part))) {
+                for fixture in 1..=self.fixtures_of_frame(scene, camera, frame)? {
+                    for layer in FIXTURE_PARTS {
+                        let place = |layout: &Layout| layout.fixture_layer(scene, camera, frame, fixture, layer);
+                        images.push(ImageCopy { from: place(self.layout()), to: place(copy), attributes: attributes_of(layer) });
+                    }
                 }
             }
         }

@@ -34,6 +34,7 @@ pub enum Format {
     Panoptic,
     Wai,
     Points,
+    Dust3r,
 }
 
 /// A row of the table of formats.
@@ -64,7 +65,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 20] = [
+pub const FORMATS: [FormatSpec; 21] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -231,6 +232,14 @@ pub const FORMATS: [FormatSpec; 20] = [
             Layer::SemanticInstance,
         ]),
         readme: include_str!("readmes/points.md"),
+    },
+    FormatSpec {
+        format: Format::Dust3r,
+        name: "dust3r",
+        about: "pairs for DUSt3R and MASt3R: images, 16-bit depth, K, poses, and pairs.csv as a list",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/dust3r.md"),
     },
 ];
 

@@ -86,6 +86,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Replica => formats::replica::write(&selected, &out),
         Format::Panoptic => formats::panoptic::write(&selected, &out),
         Format::Wai => formats::wai::write(&selected, &out),
+        Format::Dust3r => formats::dust3r::write(&selected, &out),
         Format::Points => formats::points::write(&selected, &out),
         Format::Huggingface => formats::huggingface::write(&selected, &out, config.shard_bytes),
         Format::Spatiallm => formats::spatiallm::write(&selected, &out),

@@ -102,6 +102,9 @@ pub struct Frame {
     fixtures: Vec<FixtureLayers>,
 }
 
+/// The most fixtures of a scene: the weakest lamps beyond count as one.
+pub const MAX_FIXTURES: usize = 40;
+
 /// The light of one fixture: color = the sum over fixtures of diffuse_reflectance × diffuse_illumination + residual, as it was rendered, but
 /// for the rounding of each.
 #[derive(Clone, Debug, PartialEq)]

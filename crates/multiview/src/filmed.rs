@@ -5,6 +5,7 @@ use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Cx, Pose};
+use std::ops::Range;
 
 /// What a scene was filmed with, and which frames are there.
 pub struct Filmed<'d> {
@@ -57,6 +58,11 @@ impl<'d> Filmed<'d> {
     pub fn name(&self, frame: usize) -> (&str, u32) {
         let (track, index) = self.frames[frame];
         (&self.tracks[track].name, self.tracks[track].poses[index].frame)
+    }
+
+    /// The frames whose numbers lie in a range; all without one.
+    pub fn numbered(&self, range: Option<&Range<u32>>) -> Vec<usize> {
+        (0..self.len()).filter(|&frame| range.is_none_or(|range| range.contains(&self.name(frame).1))).collect()
     }
 
     /// Where the camera of a frame stood.

@@ -13,6 +13,7 @@ mod filmed;
 mod flow;
 mod package;
 mod pairs;
+mod surfaces;
 mod surroundings;
 mod tracks;
 
@@ -22,4 +23,5 @@ pub use filmed::Filmed;
 pub use flow::write_flow;
 pub use package::ScenePackage;
 pub use pairs::{PairFilter, choose_pairs};
+pub use surfaces::write_surfaces;
 pub use tracks::{TracksConfig, tracks};

@@ -42,8 +42,19 @@ impl ScenePackage {
     /// # Errors
     /// When the scene cannot be used.
     pub fn lookout(&self) -> Result<Lookout<'_>, MultiviewError> {
-        let wrong = |error: RenderError| MultiviewError::Package { path: self.path.clone(), problem: error.to_string() };
-        Lookout::new(&self.scene).map_err(wrong)
+        Lookout::new(&self.scene).map_err(|error| self.wrong(&error))
+    }
+
+    /// The same for what looks through surfaces.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn lookout_through_surfaces(&self) -> Result<Lookout<'_>, MultiviewError> {
+        Lookout::through_surfaces(&self.scene).map_err(|error| self.wrong(&error))
+    }
+
+    fn wrong(&self, error: &RenderError) -> MultiviewError {
+        MultiviewError::Package { path: self.path.clone(), problem: error.to_string() }
     }
 }
 

@@ -76,7 +76,7 @@ pub(crate) fn geometry_of(scene: &RenderScene<'_>, view: &CameraView<'_>, y: f64
 }
 
 /// Distance along the exact ray to the plane of a triangle. `None` when the ray lies in the plane.
-fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
+pub(crate) fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let n = (b - a).cross(c - a);
     let t = (a - origin).dot(n) / direction.dot(n);

@@ -1,6 +1,7 @@
 //! A look at a view without any light: its geometry layers alone, in full or through some of its pixels, and where its points are in others.
 
 use crate::error::RenderError;
+use crate::extra::surfaces::{RaySurfaces, surfaces};
 use crate::extra::{add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::light::Lights;
@@ -39,6 +40,8 @@ use rayon::prelude::*;
 pub struct Lookout<'s> {
     /// Has no lights and no tables, since no light is asked for.
     scene: RenderScene<'s>,
+    /// Rays ask about every surface that they meet, not only about those with an opacity.
+    asks_always: bool,
 }
 
 /// What a look has met.
@@ -65,12 +68,24 @@ impl<'s> Lookout<'s> {
     /// # Errors
     /// When the scene has more parts than ids.
     pub fn new(scene: &'s Scene) -> Result<Self, RenderError> {
+        Self::with(scene, false)
+    }
+
+    /// As [`Lookout::new`], for [`Lookout::surfaces`]: rays ask about every surface that they meet, which makes the other ones slower.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn through_surfaces(scene: &'s Scene) -> Result<Self, RenderError> {
+        Self::with(scene, true)
+    }
+
+    fn with(scene: &'s Scene, asks_always: bool) -> Result<Self, RenderError> {
         RenderScene::check_parts(scene)?;
         let triangles = Triangles::new(scene);
-        let bvh = triangles.hierarchy(|material| material.alpha != Alpha::Opaque);
+        let bvh = triangles.hierarchy(|material| asks_always || material.alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self { scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new() } })
+        Ok(Self { asks_always, scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new() } })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.
@@ -111,6 +126,16 @@ impl<'s> Lookout<'s> {
         let mut frame = Frame::new(width, height);
         add_flow(&self.scene, from, to, &mut frame);
         frame
+    }
+
+    /// The first `count` surfaces that the ray through each pixel's centre meets, straight on through all of them, and the first that lets no
+    /// light through on the way that glass bends. Of surfaces of one part in one place that face the same way one is met.
+    ///
+    /// # Panics
+    /// When this was not made by [`Lookout::through_surfaces`].
+    pub fn surfaces(&self, view: &CameraView<'_>, count: usize) -> RaySurfaces {
+        assert!(self.asks_always, "made by Lookout::through_surfaces");
+        surfaces(&self.scene, view, count)
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

@@ -2,7 +2,7 @@
 
 use crate::bsdf::{TableMaker, Tables};
 use crate::error::RenderError;
-use crate::light::{Fixture, Lights};
+use crate::light::Lights;
 use crate::texture::{Cone, Footprint, Textures};
 use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
@@ -77,11 +77,6 @@ impl<'s> RenderScene<'s> {
     /// The smallest box around the scene, in metres of the world.
     pub fn bounds(&self) -> Bounds3 {
         self.triangles.bounds()
-    }
-
-    /// What lights the scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig).
-    pub fn fixtures(&self) -> &[Fixture] {
-        &self.lights.fixtures.list
     }
 
     /// Number of triangles in world space.

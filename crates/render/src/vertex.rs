@@ -74,7 +74,7 @@ impl Medium {
 }
 
 /// Index and absorption of the body that a material is the border of, if it is one.
-fn body(model: &Model) -> Option<(f32, Rgb)> {
+pub(crate) fn body(model: &Model) -> Option<(f32, Rgb)> {
     match model {
         Model::Dielectric { eta, absorption, .. } => Some((*eta, *absorption)),
         Model::Principled(p) if p.solid => Some((p.ior, p.absorption)),

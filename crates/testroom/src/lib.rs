@@ -3,7 +3,7 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Tracks};
+use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Surfaces, Tracks};
 use enfilade_frame::{DENOISED, FixtureLayers, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb, Vec3};
@@ -287,8 +287,32 @@ pub fn structure() -> Structure {
     structure
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, layout, covisibility, flow, tracks, split, free
-/// space and manifest.
+/// The surfaces along the rays of a frame: what it shows, and 1 m behind it the back of the same part.
+pub fn surfaces(frame: &Frame) -> Surfaces {
+    let value = |layer: Layer, i: usize| frame.get(layer).unwrap().get(i);
+    let seen = |pixel: usize| value(Layer::RenderEntityId, pixel) as i16;
+    let each = |pixel: usize| [pixel, pixel];
+    let labels = labels();
+    let class = |entity: i16| usize::try_from(entity - 1).map_or(-1, |part| labels.parts[part].semantic);
+    let distance = |pixel: usize| value(Layer::DepthMeters, pixel) as f32;
+    let normal = |pixel: usize| [0, 1, 2].map(|axis| f16::from_f64(value(Layer::NormalGeometricWorld, 3 * pixel + axis)));
+    let pixels = || 0..frame.pixels();
+    Surfaces {
+        size: [frame.height as usize, frame.width as usize],
+        count: 2,
+        distance_m: pixels().flat_map(|pixel| [distance(pixel), distance(pixel) + 1.0]).collect(),
+        entity: pixels().flat_map(each).map(seen).collect(),
+        semantic: pixels().flat_map(each).map(|pixel| class(seen(pixel))).collect(),
+        side: pixels().flat_map(|pixel| if seen(pixel) == -1 { [0, 0] } else { [1, 2] }).collect(),
+        normal_world: pixels().flat_map(each).flat_map(normal).collect(),
+        bent_distance_m: pixels().map(distance).collect(),
+        bent_position: pixels().flat_map(|pixel| [0, 1, 2].map(|axis| value(Layer::Position, 3 * pixel + axis) as f32)).collect(),
+        bent_entity: pixels().map(seen).collect(),
+    }
+}
+
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, layout, fixtures, covisibility, flow, tracks,
+/// surfaces along rays, split, free space and manifest.
 pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     use enfilade_dataset::{Dataset, FrameInfo, FrameTime};
     use enfilade_geometry::{OccupancyTree, Voxel};
@@ -327,6 +351,7 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
             .write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default())
             .unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
+        dataset.write_surfaces("room", "cam_00", pose.frame, surfaces(&whole)).unwrap();
         let mut denoised = Frame::new(whole.width, whole.height);
         DENOISED.iter().for_each(|(layer, _)| denoised.insert(*layer, whole.get(*layer).unwrap().clone()));
         dataset.write_denoised(["room", "cam_00"], pose.frame, &denoised, ["Smoother 3.1", "test"], true).unwrap();

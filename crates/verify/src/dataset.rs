@@ -14,10 +14,9 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, fixtures, structure};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, fixtures, structure, surfaces};
 use enfilade_dataset::{
-    BoxKind, ColorKind, Dataset, DatasetError, Fixture, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide,
-    loader_problem,
+    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -113,8 +112,6 @@ struct SceneFacts {
     boxes: Vec<(BoxKind, boxes::Boxes)>,
     /// Of scenes with a layout whose classes are NYU40's.
     structure: Option<Structure>,
-    /// What lights the scene, where frames have the light of each thing apart.
-    fixtures: Vec<Fixture>,
     filmed: Vec<Filmed>,
 }
 
@@ -151,7 +148,6 @@ impl SceneFacts {
             entities: nodes.len(),
             structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
             labels,
-            fixtures: readable(card, dataset.read_fixtures(name)).unwrap_or_default(),
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
         }
@@ -306,9 +302,11 @@ impl SceneFacts {
             last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),
         };
         found.card.merge(check_frame(&frame, &view, &place));
-        if !self.fixtures.is_empty() {
+        surfaces::check(dataset, [&self.name, name], number, &frame, &view, &mut found.card);
+        let fixtures = readable(&mut found.card, dataset.fixtures_of_frame(&self.name, name, number)).unwrap_or(0);
+        if fixtures > 0 {
             let mut scan = Scan::new(&frame, &view, &place);
-            found.card.merge(fixtures::check(dataset, [&self.name, name], number, &self.fixtures, &mut scan));
+            found.card.merge(fixtures::check(dataset, [&self.name, name], number, fixtures, &mut scan));
             found.card.merge(scan.card);
         }
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
@@ -506,7 +504,7 @@ mod tests {
         });
         assert_eq!(laws, [Law::Readable, Law::LayersPresent, Law::Checksums], "{text}");
         let (laws, _) = failures(|d| write_bytes(&d.layout().metadata_nodes("room"), "node_id,node_name,object_id,object_name\n").unwrap());
-        assert_eq!(laws, [Law::EntityIds, Law::SemanticJoin, Law::InstanceJoin]);
+        assert_eq!(laws, [Law::EntityIds, Law::SemanticJoin, Law::InstanceJoin, Law::RaySurfaces]);
         let swapped = "node_id,node_name,object_id,object_name\n2,a,0,a\n1,b,1,b\n3,c,2,c\n";
         let (laws, text) = failures(|d| write_bytes(&d.layout().metadata_nodes("room"), swapped).unwrap());
         assert!(laws.contains(&Law::Nodes) && text.contains("node_id is 2, expected 1"), "{text}");
@@ -553,7 +551,11 @@ mod tests {
         };
         let (laws, text) = failures(half);
         // They are looked at nevertheless, and are not as exact as they should be.
-        assert_eq!(laws, [Law::Readable, Law::FramesComplete, Law::ExtraLayers, Law::Distance, Law::PlanarDepth], "{text}");
+        assert_eq!(
+            laws,
+            [Law::Readable, Law::FramesComplete, Law::ExtraLayers, Law::Distance, Law::PlanarDepth, Law::RaySurfaces],
+            "{text}"
+        );
         assert!(text.contains("frame.0000.depth_meters.hdf5: expected an image of 1 channels of F32"), "{text}");
     }
 

@@ -75,6 +75,7 @@ pub enum Law {
     TrackOcclusion,
     Sensed,
     LightFixtures,
+    RaySurfaces,
 }
 
 /// What a law says.
@@ -99,7 +100,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 68] = laws![
+pub const LAWS: [LawSpec; 69] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -197,6 +198,8 @@ pub const LAWS: [LawSpec; 68] = laws![
         "frames were denoised or rendered again since, or this is another version: run enfilade sense";
     LightFixtures 2e-3 "relative", "light by fixture sums to color as it was rendered: diffuse_reflectance * diffuse_illumination + residual of each",
         "layers of different renderings are mixed, or files of fixtures are missing: render the frame again";
+    RaySurfaces 0.0 "pixels", "surfaces along rays go from near to far, begin with the frame's own, and have the classes of their parts",
+        "frames were rendered or labelled again since: run enfilade surfaces";
 ];
 
 impl Law {

@@ -27,6 +27,7 @@ mod rounding;
 mod scan;
 mod sensed;
 mod structure;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 mod tracks;

@@ -1,6 +1,6 @@
 //! The verbs that look at finished frames anew: related to each other, or through other sensors.
 
-use super::values::{parse_frame, parse_overlap, parse_range};
+use super::values::{parse_frame, parse_overlap};
 use super::{CamerasArg, FramesArg};
 use clap::Args;
 use std::path::PathBuf;
@@ -92,15 +92,30 @@ pub struct TracksArgs {
     /// Another seed gives other points
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
-    /// Only through frames of these numbers: 0..10 (without 10), 5.. or 7
-    #[arg(long, value_name = "RANGE", value_parser = parse_range, allow_negative_numbers = true)]
-    pub frames: Option<std::ops::Range<u32>>,
-    /// Only the scenes of these names ("bed*", "hall,bedroom")
-    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
-    pub scene: Option<String>,
-    /// Only the cameras of these names ("cam_00", "cam_0*")
-    #[arg(long, value_name = "PATTERN", visible_alias = "cameras")]
-    pub camera: Option<String>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub table: CamerasArg,
+}
+
+/// `surfaces`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  enfilade surfaces out\n  enfilade surfaces out --layers 4 --frames 0..4\n\nNothing is rendered, but the scene must be \
+    there, as where the dataset was made. _detail/CAMERA/surfaces of each scene\nhas distance, normal, part, class and side of each surface; \
+    docs/surfaces.md says more."
+)]
+pub struct SurfacesArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// So many surfaces per pixel at most, from near to far
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub layers: u32,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,

@@ -36,14 +36,24 @@ pub struct Packing {
 impl Packing {
     /// The packing of a layer's file.
     pub fn of_layer(layer: Layer) -> Self {
-        let plain = Self { chunk: [128, 128], channels_together: true, shuffle: true, level: 6 };
         match layer.spec().dtype {
+            Dtype::I16 => Self::of_numbers(Element::I16),
+            Dtype::U8 => Self::of_numbers(Element::U8),
+            Dtype::F32 => Self::of_numbers(Element::F32),
+            Dtype::F16 if layer == Layer::TexCoord => Self { channels_together: false, ..Self::of_numbers(Element::F16) },
+            Dtype::F16 => Self::of_numbers(Element::F16),
+        }
+    }
+
+    /// The packing of an image of such numbers.
+    pub fn of_numbers(element: Element) -> Self {
+        let plain = Self { chunk: [128, 128], channels_together: true, shuffle: true, level: 6 };
+        match element {
             // Runs of equal numbers: shuffling costs readers time and saves nothing.
-            Dtype::I16 | Dtype::U8 => Self { shuffle: false, level: 9, ..plain },
+            Element::I16 | Element::I64 | Element::U8 => Self { shuffle: false, level: 9, ..plain },
             // Channels that vary smoothly and apart from each other.
-            Dtype::F32 => Self { channels_together: false, ..plain },
-            Dtype::F16 if layer == Layer::TexCoord => Self { channels_together: false, ..plain },
-            Dtype::F16 => plain,
+            Element::F32 | Element::F64 => Self { channels_together: false, ..plain },
+            Element::F16 => plain,
         }
     }
 

@@ -3,6 +3,7 @@
 mod bop;
 mod coco;
 mod common;
+mod dust3r;
 mod export_folder;
 mod huggingface;
 mod incomplete;

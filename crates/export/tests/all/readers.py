@@ -311,6 +311,24 @@ def wai():
     return f"{len(seen)} frames"
 
 
+def dust3r():
+    """The rules of DUSt3R's class ScanNetpp: everything is in all_metadata.npz, depth is in millimetres."""
+    with np.load(f"{EXPORT}/all_metadata.npz") as data:
+        scenes, sceneids, images, pairs = (data[key] for key in ("scenes", "sceneids", "images", "pairs"))
+        intrinsics, trajectories = data["intrinsics"].astype(np.float32), data["trajectories"].astype(np.float32)
+    seen = []
+    for sceneid, image, K, pose in zip(sceneids, images, intrinsics, trajectories):
+        scene, (camera, number) = str(scenes[sceneid]), image.rsplit("_", 1)
+        depth = picture(f"{EXPORT}/{scene}/depth/{image}.png")
+        assert depth.dtype == np.uint16 or depth.dtype == np.int32, depth.dtype
+        assert picture(f"{EXPORT}/{scene}/images/{image}.jpg").shape == (*depth.shape, 3)
+        check_points(scene, camera, int(number), depth, K, pose)
+        seen.append((scene, camera, int(number)))
+    assert sorted(seen) == sorted(record())
+    assert len(pairs) and all(sceneids[first] == sceneids[second] and first != second for first, second in pairs[:, :2].astype(int))
+    return f"{len(seen)} frames, {len(pairs)} pairs"
+
+
 def points():
     """Points lie on the surface of some pixel, with its labels, and no two in one cube."""
     total = 0

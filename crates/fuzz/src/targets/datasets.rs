@@ -44,6 +44,7 @@ pub fn hdf5(folder: &Path) -> Run {
         drop(dataset.read_free_space(SCENE));
         BoxKind::ALL.iter().for_each(|&kind| drop(dataset.read_boxes(SCENE, kind)));
         LAYERS.iter().for_each(|spec| drop(dataset.read_frame(SCENE, CAMERA, 0, &[spec.layer])));
+        drop((dataset.read_surfaces(SCENE, CAMERA, 0), dataset.read_fixture_layers(SCENE, CAMERA, 0, 1)));
         let mesh = dataset.mesh_files(SCENE);
         drop((mesh.read(), mesh.read_labels(), mesh.read_last_class(), mesh.read_objects_of_faces()));
     })
@@ -57,7 +58,7 @@ pub fn tables(folder: &Path) -> Run {
         drop((dataset.read_times(), dataset.read_split(), dataset.cameras(SCENE), dataset.read_nodes(SCENE)));
         drop((dataset.table_projection(SCENE), dataset.projection_matrix(SCENE), dataset.meters_per_asset_unit(SCENE)));
         drop((dataset.read_frame_time(SCENE, CAMERA), dataset.rejected_views(SCENE, CAMERA)));
-        drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA)));
+        drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA), dataset.read_fixtures(SCENE)));
         drop(dataset.mesh_files(SCENE).read_splits());
         #[cfg(feature = "program")]
         drop(enfilade_label::LabelTable::parse(bytes, "labels.csv"));

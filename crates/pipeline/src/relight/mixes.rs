@@ -4,6 +4,7 @@ use crate::config::matches;
 use crate::error::Error;
 use enfilade_dataset::{Fixture, check_name};
 use enfilade_math::Rgb;
+use serde::Serialize;
 use std::path::Path;
 
 /// The columns of the table.
@@ -11,15 +12,16 @@ const COLUMNS: [&str; 5] = ["mix", "fixture", "r", "g", "b"];
 const HINT: &str = "a table of mixes has the columns mix, fixture, r, g and b, as in docs/relight.md";
 
 /// A mix: what each fixture's light is multiplied by.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Mix {
     pub name: String,
     rules: Vec<Rule>,
 }
 
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct Rule {
+    #[serde(skip)]
     line: u64,
     /// Number of a fixture, or a pattern of names.
     fixture: String,
@@ -35,7 +37,10 @@ impl Mix {
 
 impl Rule {
     fn means(&self, fixture: &Fixture) -> bool {
-        self.fixture.parse() == Ok(fixture.id) || self.fixture == fixture.kind || matches(&self.fixture, &fixture.name)
+        match self.fixture.parse::<u32>() {
+            Ok(id) => id == fixture.id,
+            Err(_) => self.fixture == fixture.kind || matches(&self.fixture, &fixture.name),
+        }
     }
 }
 
@@ -83,9 +88,12 @@ fn parse(file: &Path, text: &[u8]) -> Result<Vec<Mix>, Error> {
     Ok(mixes)
 }
 
-/// Refuses rows that mean no fixture of any scene.
+/// Kinds of fixtures: rows may name those that a scene lacks.
+const KINDS: [&str; 4] = ["sky", "sun", "lamp", "rest"];
+
+/// Refuses rows that mean no fixture of any scene by its number or name.
 pub(super) fn check(file: &Path, mixes: &[Mix], fixtures: &[&Fixture]) -> Result<(), Error> {
-    let idle = |rule: &&Rule| !fixtures.iter().any(|fixture| rule.means(fixture));
+    let idle = |rule: &&Rule| !KINDS.contains(&rule.fixture.as_str()) && !fixtures.iter().any(|fixture| rule.means(fixture));
     let Some(rule) = mixes.iter().flat_map(|mix| &mix.rules).find(idle) else { return Ok(()) };
     let names: Vec<&str> = fixtures.iter().map(|fixture| fixture.name.as_str()).take(12).collect();
     let more = if fixtures.len() > names.len() { ", …" } else { "" };
@@ -119,6 +127,7 @@ mod tests {
         check(Path::new("mixes.csv"), &mixes, &fixtures.each_ref()).unwrap();
         let message = check(Path::new("mixes.csv"), &mixes, &[&fixtures[0]]).unwrap_err().to_string();
         assert_eq!(message, "mixes.csv:3: no fixture is \"*bulb*\"");
+        check(Path::new("mixes.csv"), &mixes[1..], &[&fixtures[0]]).unwrap();
     }
 
     #[test]

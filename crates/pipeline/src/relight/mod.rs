@@ -8,7 +8,7 @@ use enfilade_denoise::{Denoiser, INPUTS, denoise};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
 use enfilade_math::Rgb;
-use enfilade_scene::{Counted, Cx};
+use enfilade_scene::{Counted, Cx, Warning};
 use enfilade_show::display::Display;
 use enfilade_show::exposure::Exposure;
 use enfilade_show::preview::{PreviewSpec, Subject};
@@ -17,8 +17,14 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 
+/// So many mixes are made at once: each takes 24 bytes per pixel.
+const AT_ONCE: usize = 8;
+
 /// The picture of a mix, exposed as the frame's own.
 const PICTURE: PreviewSpec = PreviewSpec { pass: enfilade_frame::Pass::Final, name: "display.jpg", subject: Subject::Displayed };
+
+/// What denoising and exposure go by: the frame's own.
+const GUIDES: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
 
 /// Which frames are lit anew.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,8 +38,8 @@ pub struct Relight {
 }
 
 /// Lights frames by the mixes of the table `file`, and writes `color`, `diffuse_illumination` and `residual` of each, and a picture, below
-/// `relit/MIX/SCENE/CAMERA` of the dataset. They are denoised where the frame's own are. Gives the number of frames, of which each has as
-/// many pictures as there are mixes.
+/// `relit/MIX/SCENE/CAMERA` of the dataset. They are denoised where the frame's own are, by the network in the program. What is there of mixes of
+/// the same names and other rules is removed first. Gives the number of frames, of which each has as many pictures as there are mixes.
 ///
 /// # Errors
 /// When the table is wrong or means fixtures that no scene has, no chosen scene has fixtures, or a file cannot be read or written.
@@ -47,6 +53,13 @@ pub fn relight(dataset: &Dataset, file: &Path, chosen: &Relight, cx: &dyn Cx) ->
         return Err(Error::usage(message, "render it with --fixtures (or fixtures = true below [render])"));
     }
     mixes::check(file, &mixes, &all)?;
+    for (scene, _) in lit.iter().filter(|(_, fixtures)| fixtures.is_empty()) {
+        let message = "it is left out, since the light of its fixtures is not apart; render it with --fixtures".into();
+        cx.warn(Warning { place: scene.clone(), message });
+    }
+    for mix in &mixes {
+        dataset.begin_mix(&mix.name, mix)?;
+    }
 
     // Light the frames of every camera.
     let denoiser = Denoiser::built_in();
@@ -61,9 +74,12 @@ pub fn relight(dataset: &Dataset, file: &Path, chosen: &Relight, cx: &dyn Cx) ->
             let counted = Counted::new(cx, "frames", frames.len());
             let light = |&number: &u32| {
                 let exposure = exposures.iter().find(|row| row.frame == number).map(exposure);
-                counted.unit(|| relight_frame(dataset, (scene, &camera, number), fixtures, &mixes, exposure, &denoiser))
+                counted.unit(|| {
+                    let mut mixes = mixes.chunks(AT_ONCE);
+                    mixes.try_for_each(|mixes| relight_frame(dataset, (scene, &camera, number), fixtures, mixes, exposure, &denoiser))
+                })
             };
-            // One after the other: each holds all mixes, and denoising uses all threads.
+            // One after the other: each holds several mixes, and denoising uses all threads.
             frames.iter().try_for_each(light)?;
             count += frames.len();
         }
@@ -86,7 +102,8 @@ fn relight_frame(
     denoiser: &Denoiser,
 ) -> Result<(), Error> {
     let (scene, camera, number) = frame;
-    let guides = dataset.read_frame(scene, camera, number, &[Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId])?;
+    let guides = dataset.read_frame(scene, camera, number, &GUIDES)?;
+    let exposure = exposure.unwrap_or_else(|| ToneMap::of_frame(&guides).unwrap_or_default().into());
     let record = dataset.frame_record(scene, camera, number)?;
     let is_denoised = record.is_some_and(|record| record.color == ColorKind::Denoised);
 
@@ -114,15 +131,8 @@ fn relight_frame(
             noisy.for_each(|(layer, values)| whole.insert(layer, values));
             lit = denoise(&whole, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
         }
-        let picture = match exposure {
-            Some(exposure) => PICTURE.file(&lit, exposure),
-            None => {
-                let mut seen = lit.clone();
-                guides.get(Layer::RenderEntityId).into_iter().for_each(|ids| seen.insert(Layer::RenderEntityId, ids.clone()));
-                PICTURE.file(&seen, ToneMap::of_frame(&seen).unwrap_or_default().into())
-            }
-        };
-        dataset.write_relit(&mix.name, frame, &lit, &picture.unwrap_or_default())?;
+        let picture = PICTURE.file(&lit, exposure).expect("it has color");
+        dataset.write_relit(&mix.name, frame, &lit, &picture)?;
     }
     Ok(())
 }
@@ -191,9 +201,16 @@ mod tests {
         let (a, s) = (dataset.read_layer("room", "cam_00", 1, Layer::DiffuseReflectance).unwrap(), lit("same", Layer::DiffuseIllumination));
         let recomposed = |i: usize| f16::from_f32(a.get(i) as f32 * s.get(i) as f32 + residual.get(i) as f32).to_f64();
         assert!((0..same.len()).all(|i| same.get(i) == recomposed(i)));
-        assert!(folder.path().join("relit/red/room/cam_00/frame.0001.display.jpg").is_file());
+        let picture = |mix: &str| folder.path().join(format!("relit/{mix}/room/cam_00/frame.0001.display.jpg"));
+        assert!(picture("red").is_file());
+
+        // Other rules take the place of all that is there; frames that change lose it.
+        std::fs::write(&file, table.replace("red,lamp,1", "red,lamp,0.5")).unwrap();
+        let none = Relight { frames: Some(9..10), ..chosen };
+        assert_eq!(relight(&dataset, &file, &none, &enfilade_scene::Quiet).unwrap(), 0);
+        assert!(!picture("red").exists() && picture("same").is_file());
         dataset.forget_derived("room").unwrap();
-        assert!(!folder.path().join("relit/red/room").exists());
+        assert!(!picture("same").exists());
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
-use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
+use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers, fixtures};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -47,6 +47,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
         job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
     }
+    list_fixtures(job)?;
     let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
     let [width, height] = job.scene.size;
     let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
@@ -169,8 +170,6 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     job.forget_world();
     let scene = job.load_scene()?;
     let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
-    let fixtures = if job.scene.render.fixtures { fixtures(&scene) } else { Vec::new() };
-    job.dataset.write_fixtures(&job.scene.name, &fixtures).map_err(Error::stage)?;
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
         // One guide per trajectory: it learns from all views where light comes from.
@@ -202,8 +201,9 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
     Ok(timed_out)
 }
 
-/// What lights a scene, as the dataset lists it.
-fn fixtures(scene: &RenderScene) -> Vec<Fixture> {
+/// Lists what lights the scene, where the light of each is kept apart.
+fn list_fixtures(job: &Job) -> Result<(), Error> {
+    let found = if job.scene.render.fixtures { fixtures(&*job.load_scene()?) } else { Vec::new() };
     let fixture = |(fixture, id): (&enfilade_render::Fixture, u32)| Fixture {
         id,
         kind: fixture.kind.name().into(),
@@ -213,7 +213,8 @@ fn fixtures(scene: &RenderScene) -> Vec<Fixture> {
         node_ids: fixture.parts.iter().map(|part| part + 1).collect(),
         lights: fixture.lights.clone(),
     };
-    scene.fixtures().iter().zip(1..).map(fixture).collect()
+    let listed: Vec<Fixture> = found.iter().zip(1..).map(fixture).collect();
+    job.dataset.write_fixtures(&job.scene.name, &listed).map_err(Error::stage)
 }
 
 /// What a camera sees from every place of a trajectory.
@@ -288,6 +289,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         layout.layer_dir(name, camera, Pass::Geometry),
         layout.preview_dir(name, camera, Pass::Final),
         layout.preview_dir(name, camera, Pass::Geometry),
+        layout.surfaces_dir(name, camera),
         layout.after_frame_dir(name, camera),
     ];
     // Records first: a frame without one does not count.

@@ -4,6 +4,7 @@
 mod appearance;
 mod boundary;
 pub(crate) mod flow;
+pub(crate) mod surfaces;
 
 use crate::geometry_pass::{Sighting, sighting};
 use crate::prepared::{AlphaTest, RenderScene};

@@ -4,12 +4,15 @@
 //! joined where their boxes are close, and large ones, such as a ceiling that glows, stand for themselves.
 
 use super::bounds::{Emitters, LightBounds};
+use super::lights::Lights;
 use super::sample::LightKind;
+use crate::triangles::Triangles;
+use enfilade_frame::MAX_FIXTURES;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Light, PartId, Scene};
 use std::collections::BTreeMap;
 
-/// Bulbs of one lamp are at most this far apart, metres.
+/// Bulbs of one lamp are at most this far apart along each axis, metres.
 const GAP_M: f32 = 0.25;
 /// Whatever is longer than this, metres, is a fixture of its own.
 const LARGE_M: f32 = 2.0;
@@ -59,6 +62,12 @@ impl FixtureKind {
     }
 }
 
+/// What lights a scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig). Takes
+/// no ray-tracing hierarchy, and so but a moment.
+pub fn fixtures(scene: &Scene) -> Vec<Fixture> {
+    Lights::new(scene, &Triangles::new(scene)).fixtures.list
+}
+
 /// The fixtures of a scene, and which of them light comes from.
 #[derive(Debug, Default)]
 pub(crate) struct Fixtures {
@@ -80,9 +89,6 @@ struct Source {
 }
 
 impl Fixtures {
-    /// The most fixtures: the weakest lamps beyond count as one.
-    pub const MAX: usize = 40;
-
     /// Those of a scene. `parts` are the parts of the first emitters of the hierarchy, whose bounds are `bounds`; the others are the lights
     /// of the scene with the numbers `lights`.
     pub(super) fn new(scene: &Scene, bounds: &[LightBounds], parts: &[PartId], lights: &[usize], [has_sky, has_sun]: [bool; 2]) -> Self {
@@ -110,7 +116,7 @@ impl Fixtures {
             let suns = scene.lights.iter().filter(|light| matches!(light, Light::Directional { .. }));
             list.push(Fixture { lights: suns.map(|light| light.name().to_string()).collect(), ..Fixture::of_kind(FixtureKind::Sun) });
         }
-        let room = Self::MAX - list.len();
+        let room = MAX_FIXTURES - list.len();
         let mut lamps = lamps(&sources);
         let rest = if lamps.len() > room { lamps.split_off(room - 1) } else { Vec::new() };
         let mut of_source = vec![NONE; sources.len()];
@@ -254,7 +260,7 @@ mod tests {
     #[test]
     fn the_weakest_of_too_many_lamps_are_one() {
         let found = fixtures(&(0..50).map(|i| Vec3::Y * i as f32).collect::<Vec<_>>());
-        assert_eq!(found.list.len(), Fixtures::MAX);
+        assert_eq!(found.list.len(), MAX_FIXTURES);
         let rest = found.list.last().unwrap();
         assert_eq!((rest.kind, rest.lights.len(), rest.position), (FixtureKind::Rest, 12, None));
         assert_eq!((found.of_emitter(0), found.of_emitter(49)), (Some(39), Some(1)));

@@ -29,6 +29,6 @@ mod tree;
 mod window;
 
 pub(crate) use choice::LightChoice;
-pub use fixtures::{Fixture, FixtureKind};
+pub use fixtures::{Fixture, FixtureKind, fixtures};
 pub(crate) use lights::Lights;
 pub(crate) use sample::{Background, LightKind, LightPoint, power_heuristic};

@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
-use enfilade_render::{Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
+use enfilade_render::{Guide, Lookout, RenderConfig, RenderScene, add_extra_layers, render_frame};
 use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Principled, Quiet, Scene, Shutter};
 
 const CAMERA: Intrinsics = Intrinsics { width: 48, height: 36, fx: 40.0, fy: 42.0, cx: 23.0, cy: 18.5, skew: 0.0 };
@@ -241,4 +241,72 @@ fn metals_mirrors_lamps_and_mixtures_say_what_they_are() {
     assert!(near(base[0], 0.7) && near(metallic, 0.75) && near(roughness, 0.37f64.sqrt()) && kind == 0, "{base:?} {metallic} {roughness}");
     let (_, metallic, roughness, emitted, kind, _) = one(lamp);
     assert_eq!((metallic, roughness, emitted, kind), (0.0, 1.0, 3.0, traits::EMITTER));
+}
+
+#[test]
+fn every_surface_along_a_ray_is_met_in_order_with_its_side() {
+    let mut turned = board(3.0, -30.0, 30.0);
+    turned.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    let s = scene(vec![(board(2.0, -30.0, 30.0), of(thin(0.9))), (turned, grey()), (board(4.0, -30.0, 30.0), grey())]);
+    let (camera, pose) = (Camera::from(CAMERA), pose(0, DVec3::ZERO));
+    let view = CameraView::still(&camera, &pose);
+    let lookout = Lookout::through_surfaces(&s).unwrap();
+    let found = lookout.surfaces(&view, 4);
+    for (pixel, ray) in pixels() {
+        let direction = pose.world_from_camera * ray.normalize();
+        for (layer, x) in [2.0, 3.0, 4.0].into_iter().enumerate() {
+            let at = 4 * pixel + layer;
+            let off = f64::from(found.distance_m[at]) * direction.x / x - 1.0;
+            assert!(off.abs() < 1e-6, "pixel {pixel}, surface {layer}: {off}");
+            assert_eq!((found.entity[at], found.side[at]), (layer as i16 + 1, if layer == 1 { 2 } else { 1 }));
+            assert_eq!(found.normal_world[at].map(|v| v.to_f32()), [-1.0, 0.0, 0.0]);
+        }
+        let beyond = 4 * pixel + 3;
+        assert!(found.distance_m[beyond].is_nan() && found.entity[beyond] == -1 && found.side[beyond] == 0);
+        // A pane bends nothing, so the way ends on the board behind it.
+        let off = found.bent[pixel].way_m / found.distance_m[4 * pixel + 1] - 1.0;
+        assert!(found.bent[pixel].entity == 2 && off.abs() < 3e-5, "pixel {pixel}: {off}");
+    }
+    let nearest = lookout.surfaces(&view, 1);
+    assert!(pixels().all(|(pixel, _)| nearest.distance_m[pixel] == found.distance_m[4 * pixel]));
+}
+
+#[test]
+fn surfaces_in_one_place_are_all_met_and_the_edge_of_two_triangles_is_one_surface() {
+    // Two boards in one place that face each other, and a third one that is of two triangles, whose common edge the middle ray meets.
+    let mut turned = board(2.0, -30.0, 30.0);
+    turned.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    let s = scene(vec![(board(2.0, -30.0, 30.0), grey()), (turned, grey()), (board(3.0, -30.0, 30.0), grey())]);
+    let camera = Camera::from(Intrinsics { width: 2, height: 2, fx: 1.0, fy: 1.0, cx: 0.5, cy: 0.5, skew: 0.0 });
+    let pose = Pose::look_at(0, DVec3::ZERO, DVec3::X, DVec3::Z).unwrap();
+    let found = Lookout::through_surfaces(&s).unwrap().surfaces(&CameraView::still(&camera, &pose), 4);
+    for pixel in 0..4 {
+        let mut entities = found.entity[4 * pixel..4 * pixel + 4].to_vec();
+        entities[..2].sort_unstable();
+        assert_eq!(entities, [1, 2, 3, -1], "pixel {pixel}");
+    }
+}
+
+#[test]
+fn a_slab_of_glass_moves_what_is_behind_it_aside() {
+    // Half a metre of glass across x, and a wall 1.5 m behind it.
+    let mut back = board(2.5, -30.0, 30.0);
+    back.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    let glass = Bsdf::Dielectric { eta: 1.5, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
+    let s = scene(vec![(board(2.0, -30.0, 30.0), of(glass.clone())), (back, of(glass)), (board(4.0, -30.0, 30.0), grey())]);
+    let (camera, pose) = (Camera::from(CAMERA), pose(0, DVec3::ZERO));
+    let found = Lookout::through_surfaces(&s).unwrap().surfaces(&CameraView::still(&camera, &pose), 2);
+    for (pixel, ray) in pixels() {
+        let direction = pose.world_from_camera * ray.normalize();
+        let (along, aside) = (direction.x, direction.y.hypot(direction.z));
+        let within = aside / 1.5;
+        let (tan, tan_within) = (aside / along, within / (1.0 - within * within).sqrt());
+        let expected = 3.5 * tan + 0.5 * tan_within;
+        let way = 3.5 * tan.hypot(1.0) + 0.5 * tan_within.hypot(1.0);
+        let bent = found.bent[pixel];
+        let p = DVec3::from(bent.position.map(f64::from));
+        assert!((p.x - 4.0).abs() < 1e-5 && bent.entity == 3, "{bent:?}");
+        assert!((p.y.hypot(p.z) - expected).abs() < 1e-4, "pixel {pixel}: {} aside, expected {expected}", p.y.hypot(p.z));
+        assert!((f64::from(bent.way_m) - way).abs() < 1e-4, "pixel {pixel}: {} m, expected {way}", bent.way_m);
+    }
 }

@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
+use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, fixtures, render_frame};
 use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Quiet, Scene};
 use enfilade_testkit::Mean;
 
@@ -157,10 +157,10 @@ fn light_of(frame: &Frame, fixture: usize) -> Vec<f64> {
 #[test]
 fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
     let scene = furnished();
-    for clamp in [None, Some(0.5)] {
-        let config = RenderConfig { clamp, fixtures: true, ..splitting(24) };
+    for (clamp, max_bounces) in [(None, None), (Some(0.5), None), (None, Some(1))] {
+        let config = RenderConfig { clamp, max_bounces, fixtures: true, ..splitting(24) };
         let apart = picture(&scene, [40, 30], &config);
-        let names: Vec<String> = RenderScene::new(&scene, &Quiet).unwrap().fixtures().iter().map(|fixture| fixture.name.clone()).collect();
+        let names: Vec<String> = fixtures(&scene).into_iter().map(|fixture| fixture.name).collect();
         assert_eq!(names, ["sky", "sun", "bulb", "part 2"]);
         let color = apart.get(Layer::Color).unwrap();
         let lights: Vec<Vec<f64>> = (0..4).map(|fixture| light_of(&apart, fixture)).collect();
@@ -178,6 +178,22 @@ fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
         assert!(whole.fixtures().is_empty());
         assert_eq!(bytes(&whole), bytes(&apart));
     }
+}
+
+#[test]
+fn of_very_many_lamps_the_weakest_have_their_light_together() {
+    let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
+    let position = |i: u32| Vec3::new(0.3 * (i % 7) as f32 - 0.9, 0.3 * (i / 7) as f32 - 0.9, 0.3 * (i % 5) as f32 - 0.6);
+    s.lights = (0..49).map(|i| Light::Point { name: format!("{i}"), position: position(i), intensity: Rgb::splat(0.01) }).collect();
+    let frame = picture(&s, [12, 9], &RenderConfig { samples: 32, fixtures: true, ..RenderConfig::default() });
+    let color = frame.get(Layer::Color).unwrap();
+    assert_eq!(frame.fixtures().len(), enfilade_frame::MAX_FIXTURES);
+    let lights: Vec<Vec<f64>> = (0..frame.fixtures().len()).map(|fixture| light_of(&frame, fixture)).collect();
+    for i in 0..color.len() {
+        let sum: f64 = lights.iter().map(|light| light[i]).sum();
+        assert!((sum - color.get(i)).abs() <= 2e-3 * color.get(i).max(1e-3), "value {i}: {sum}, color is {}", color.get(i));
+    }
+    assert!(lights.last().unwrap().iter().sum::<f64>() > 3.0 * lights[0].iter().sum::<f64>() / 40.0);
 }
 
 #[test]

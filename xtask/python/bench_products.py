@@ -1,0 +1,156 @@
+"""What each kind of ground truth costs: python bench_products.py PROGRAM WORK DOCS.
+
+Makes the demo's room at 1024x768 plain and with each kind asked for, and what is derived from it by each verb. Writes
+DOCS/benchmarks/products.md and products.json, and the pictures of DOCS/ground-truth.md.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import product_pictures
+from machine import processor
+
+FRAMES = 2
+SIZE = "1024x768"
+# Few samples: what does not depend on their number counts the more.
+QUALITY = "draft"
+# As `enfilade run --demo` has them.
+SCENE, CAMERA = "home", "cam_00"
+
+
+@dataclass
+class Cost:
+    """Processor and wall-clock seconds of a command, and the most memory that it held."""
+
+    cpu_s: float
+    wall_s: float
+    peak_bytes: int
+
+
+class Program:
+    """The program, its dataset, and what its commands cost."""
+
+    def __init__(self, program: Path, work: Path):
+        self.program, self.out = program, work / "out"
+
+    def run(self, *arguments) -> Cost:
+        words = [str(word) for word in arguments]
+        print("  enfilade", *words, flush=True)
+        start = time.monotonic()
+        with tempfile.TemporaryFile("w+") as printed:
+            process = subprocess.Popen([self.program, "--quiet", *words], stdout=printed, stderr=printed)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            if process.returncode != 0:
+                printed.seek(0)
+                sys.exit(f"enfilade {' '.join(words)}\n{printed.read()}")
+        # Linux counts ru_maxrss in KiB, macOS in bytes.
+        unit = 1 if sys.platform == "darwin" else 1024
+        return Cost(usage.ru_utime + usage.ru_stime, time.monotonic() - start, unit * usage.ru_maxrss)
+
+    def bytes_of(self, pattern: str) -> int:
+        return sum(path.stat().st_size for path in self.out.glob(pattern) if path.is_file())
+
+
+def demo(program: Program, *flags: str) -> None:
+    """The demo with these flags and no others, whatever was asked for before."""
+    program.run("run", "--demo", program.out, "--size", SIZE, "--frames", FRAMES, "--quality", QUALITY, *flags)
+
+
+def rendered(program: Program) -> list[dict]:
+    """What the layers cost that are rendered: the stage with each kind asked for, and plain at the beginning and in between."""
+    final, geometry = (f"scenes/{SCENE}/images/scene_{CAMERA}_{kind}_hdf5/frame.*" for kind in ("final", "geometry"))
+    kinds = [("plain", []), ("splits", ["--splits"]), ("fixtures", ["--fixtures"]), ("plain", []), ("extra", ["--extra"]),
+             ("everything", ["--splits", "--fixtures", "--extra"])]
+    rows = []
+    for name, flags in kinds:
+        demo(program, *flags)
+        size = program.bytes_of(final) + program.bytes_of(geometry)
+        cost = program.run("render", program.out, "--force")
+        rows.append(dict(name=name, cpu_s=cost.cpu_s / FRAMES, bytes=size / FRAMES, peak_bytes=cost.peak_bytes))
+    plain = [row for row in rows if row["name"] == "plain"]
+    assert plain[0]["bytes"] == plain[1]["bytes"], "plain frames have the same files"
+    base = dict(plain[0], cpu_s=sum(row["cpu_s"] for row in plain) / len(plain))
+    rows = [base] + [row for row in rows if row["name"] != "plain"]
+    return [row | dict(ratio=row["cpu_s"] / base["cpu_s"], more_bytes=row["bytes"] - base["bytes"]) for row in rows]
+
+
+def derived(program: Program, work: Path) -> list[dict]:
+    """What is made of finished frames."""
+    mixes = work / "mixes.csv"
+    mixes.write_text("mix,fixture,r,g,b\n" + "".join(f"only_{k},*,0,0,0\nonly_{k},{k},1,1,1\n" for k in (1, 2, 3))
+                     + "evening,sky,0.1,0.12,0.2\nevening,sun,0,0,0\nevening,lamp,12,10,7\n")
+    detail = f"scenes/{SCENE}/_detail"
+    verbs = [
+        ("pairs", [], [f"{detail}/covisibility*", "pairs.csv"]),
+        ("flow", ["--step", "1"], [f"{detail}/{CAMERA}/pairs/*"]),
+        ("tracks", [], [f"{detail}/{CAMERA}/tracks.npz"]),
+        ("surfaces", [], [f"{detail}/{CAMERA}/surfaces/*"]),
+        ("sense", ["examples/sensors.toml"], ["sensors/**/*"]),
+        ("relight", [mixes], ["relit/**/*"]),
+    ]
+    rows = []
+    for verb, arguments, patterns in verbs:
+        cost = program.run(verb, program.out, *arguments)
+        size = sum(program.bytes_of(pattern) for pattern in patterns)
+        rows.append(dict(name=verb, cpu_s=cost.cpu_s / FRAMES, bytes=size / FRAMES, peak_bytes=cost.peak_bytes))
+    return rows
+
+
+def page(told: dict):
+    """The page about the costs."""
+    number = lambda value: f"{value:.2f}" if value < 10 else f"{value:.0f}"
+    mb = lambda value: number(value / 1e6)
+    yield "# What each kind of ground truth costs"
+    yield ""
+    yield f"Made by `cargo xtask bench products`: the demo's room, {FRAMES} frames of {SIZE} at {told['samples']} samples per pixel, on {told['processor']}."
+    yield "Seconds are those of one core, per frame; memory is the largest resident set. [Ground truth](../ground-truth.md) says what each is."
+    yield ""
+    yield "## Rendered with the picture"
+    yield ""
+    yield f"The whole stage, scene preparation and writing included, beside the mean of two plain runs. There are {told['fixtures']} fixtures."
+    yield ""
+    yield "| asked for | core-s | of plain | more MB | memory, GB |"
+    yield "|---|---|---|---|---|"
+    for row in told["rendered"]:
+        more = "" if row["name"] == "plain" else mb(row["more_bytes"])
+        yield f"| {row['name']} | {number(row['cpu_s'])} | {row['ratio']:.2f} | {more} | {row['peak_bytes'] / 1e9:.2f} |"
+    yield ""
+    yield "## Derived from finished frames"
+    yield ""
+    yield "| verb | core-s | MB | memory, GB |"
+    yield "|---|---|---|---|"
+    for row in told["derived"]:
+        yield f"| `{row['name']}` | {number(row['cpu_s'])} | {mb(row['bytes'])} | {row['peak_bytes'] / 1e9:.2f} |"
+    yield ""
+    yield "`relight` makes four mixes of each frame, `sense` has the six sensors of `examples/sensors.toml`. `pairs`,"
+    yield "`flow`, `tracks` and `surfaces` prepare the scene for rays first."
+
+
+def main() -> None:
+    program, work, docs = (Path(word) for word in sys.argv[1:4])
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    made = Program(program.resolve(), work.resolve())
+    told = dict(processor=processor(), rendered=rendered(made))
+    fixtures = (made.out / f"scenes/{SCENE}/_detail/metadata_fixtures.csv").read_text().splitlines()
+    record = json.loads((made.out / f"scenes/{SCENE}/_detail/{CAMERA}/frames/frame.0000.json").read_text())
+    told |= dict(fixtures=len(fixtures) - 1, samples=record["samples"])
+    demo(made, "--splits", "--fixtures", "--extra")
+    told["derived"] = derived(made, work)
+    verified = made.run("verify", made.out, "--strict")
+    told["verify_cpu_s"] = verified.cpu_s / FRAMES
+    (docs / "benchmarks/products.json").write_text(json.dumps(told, indent=1) + "\n")
+    (docs / "benchmarks/products.md").write_text("\n".join(page(told)) + "\n")
+    product_pictures.make(made.out, docs / "products", SCENE, CAMERA)
+
+
+if __name__ == "__main__":
+    main()
