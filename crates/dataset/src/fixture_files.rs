@@ -2,7 +2,7 @@
 //! of every frame, beside its other layers; and in `relit/<mix>/` what mixes of them make of frames.
 
 use crate::atomic::{remove_folder, remove_if_there, rename, temporary};
-use crate::frames::{attributes_of, write_layer_aside};
+use crate::frames::write_layer_aside;
 use crate::read::{read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
@@ -221,15 +221,6 @@ impl Dataset {
 
 fn json_list(names: &[String]) -> String {
     serde_json::to_string(names).expect("texts have a JSON text")
-}
-
-/// The attributes of a file, with a description of its own where it has one.
-pub(crate) fn attributes(layer: Layer, description: Option<&str>) -> Vec<(&'static str, &str)> {
-    let mut attributes = attributes_of(layer);
-    if let Some(own) = description {
-        attributes.iter_mut().filter(|(name, _)| *name == "description").for_each(|(_, text)| *text = own);
-    }
-    attributes
 }
 
 fn description(part: Layer, fixture: u32) -> String {

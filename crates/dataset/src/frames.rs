@@ -1,7 +1,6 @@
 //! Frames go in whole: layers under temporary names, then all renamed, then the commit record.
 
 use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
-use crate::fixture_files::attributes;
 use crate::hdf5::{ArrayView, Packing, Storage, missing_bytes, write_view};
 use crate::layout_version::newer;
 use crate::read::{frame_number, sorted_names};
@@ -425,6 +424,15 @@ pub(crate) fn attributes_of(layer: Layer) -> Vec<(&'static str, &'static str)> {
     let spec = layer.spec();
     let attributes = [("unit", spec.unit), ("space", spec.space), ("sentinel", spec.sentinel), ("description", spec.description)];
     attributes.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+}
+
+/// The attributes of a file, with a description of its own where it has one.
+fn attributes(layer: Layer, description: Option<&str>) -> Vec<(&'static str, &str)> {
+    let mut attributes = attributes_of(layer);
+    if let Some(own) = description {
+        attributes.iter_mut().filter(|(name, _)| *name == "description").for_each(|(_, text)| *text = own);
+    }
+    attributes
 }
 
 /// Writes one layer under the temporary name of `path`.

@@ -4,9 +4,7 @@
 //! joined where their boxes are close, and large ones, such as a ceiling that glows, stand for themselves.
 
 use super::bounds::{Emitters, LightBounds};
-use super::lights::Lights;
 use super::sample::LightKind;
-use crate::triangles::Triangles;
 use enfilade_frame::MAX_FIXTURES;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Light, PartId, Scene};
@@ -60,12 +58,6 @@ impl FixtureKind {
             Self::Rest => "rest",
         }
     }
-}
-
-/// What lights a scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig). Takes
-/// no ray-tracing hierarchy, and so but a moment.
-pub fn fixtures(scene: &Scene) -> Vec<Fixture> {
-    Lights::new(scene, &Triangles::new(scene)).fixtures.list
 }
 
 /// The fixtures of a scene, and which of them light comes from.

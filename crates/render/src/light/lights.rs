@@ -3,7 +3,7 @@
 use super::delta;
 use super::emissive_surfaces::EmissiveSurfaces;
 use super::environment::Sky;
-use super::fixtures::Fixtures;
+use super::fixtures::{Fixture, Fixtures};
 use super::glint::Glints;
 use super::sample::{Background, LightKind, LightPoint, LightSample};
 use super::tree::LightTree;
@@ -52,6 +52,12 @@ pub(super) enum Source {
     Sky,
     /// The environment through a portal in a window.
     Portal(usize),
+}
+
+/// What lights a scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig). Takes
+/// no ray-tracing hierarchy, and so but a moment.
+pub fn fixtures(scene: &Scene) -> Vec<Fixture> {
+    Lights::new(scene, &Triangles::new(scene)).fixtures.list
 }
 
 impl<'s> Lights<'s> {

@@ -29,6 +29,7 @@ mod tree;
 mod window;
 
 pub(crate) use choice::LightChoice;
-pub use fixtures::{Fixture, FixtureKind, fixtures};
+pub use fixtures::{Fixture, FixtureKind};
 pub(crate) use lights::Lights;
+pub use lights::fixtures;
 pub(crate) use sample::{Background, LightKind, LightPoint, power_heuristic};
