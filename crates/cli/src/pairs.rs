@@ -1,9 +1,9 @@
 //! `pairs`: from arguments to calls of the crate `multiview`, and what came of them.
 
-use crate::args::PairsArgs;
+use crate::args::{FramesArg, PairsArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_dataset::{Dataset, HiddenBy, counted, write_pairs};
+use enfilade_dataset::{ChosenFrames, Dataset, HiddenBy, counted, write_pairs};
 use enfilade_multiview::{CovisibilityConfig, Filmed, PairFilter, ScenePackage, choose_pairs, covisibility};
 use enfilade_scene::Cx;
 
@@ -56,6 +56,35 @@ pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
 pub fn cameras(dataset: &Dataset, scenes: &[String], pattern: Option<&str>) -> Result<Option<Vec<String>>, Problem> {
     let Some(pattern) = pattern else { return Ok(None) };
     Ok(Some(enfilade_pipeline::select("camera", &dataset.camera_names(scenes)?, Some(pattern))?))
+}
+
+/// The frames that `--scene`, `--camera` and `--frames` mean.
+pub fn chosen_frames(dataset: &Dataset, args: &FramesArg) -> Result<ChosenFrames, Problem> {
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scene.as_deref())?;
+    let cameras = cameras(dataset, &scenes, args.camera.as_deref())?;
+    Ok(ChosenFrames { scenes, cameras, frames: args.frames.clone() })
+}
+
+/// What to say where these mean no frame that is there.
+pub fn nothing_chosen() -> Problem {
+    Problem::of_data("no frame that is there was chosen", "choose others, or render them: enfilade run")
+}
+
+/// Calls `work` for every scene of which frames are chosen, with what was filmed, these frames and the scene itself.
+pub fn each_filmed(
+    dataset: &Dataset,
+    chosen: &ChosenFrames,
+    cx: &dyn Cx,
+    mut work: impl FnMut(&str, &Filmed<'_>, &[usize], &ScenePackage) -> Result<(), Problem>,
+) -> Result<(), Problem> {
+    for scene in &chosen.scenes {
+        let filmed = Filmed::read(dataset, scene, chosen.cameras.as_deref(), cx)?;
+        let frames = filmed.numbered(chosen.frames.as_ref());
+        if !frames.is_empty() {
+            work(scene, &filmed, &frames, &package(dataset, scene, &filmed, cx)?)?;
+        }
+    }
+    Ok(())
 }
 
 /// The scene that was filmed, for verbs that cannot do without.

@@ -2,24 +2,21 @@
 
 use crate::args::RelightArgs;
 use crate::outcome::{Problem, Verdict, say};
-use crate::pairs::cameras;
+use crate::pairs::{chosen_frames, nothing_chosen};
 use crate::progress::Progress;
 use enfilade_dataset::{Dataset, counted};
-use enfilade_pipeline::Relight;
 
 /// `relight`: frames with other lamps on.
 pub fn relight(args: &RelightArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = Dataset::open(&args.dataset)?;
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
-    let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
-    let chosen = Relight { scenes, cameras, frames: args.chosen.frames.clone() };
+    let chosen = chosen_frames(&dataset, &args.chosen)?;
     let frames = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "relight");
         enfilade_pipeline::relight(&dataset, &args.mixes, &chosen, &cx)?
     };
     if frames == 0 {
-        return Err(Problem::of_data("no frame that is there was chosen", "choose others, or render them: enfilade run"));
+        return Err(nothing_chosen());
     }
     say(&format!("{} by every mix", counted(frames, "frame")));
     say(&format!("see  {}", dataset.layout().relit_dir().display()));

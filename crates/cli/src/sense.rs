@@ -2,26 +2,24 @@
 
 use crate::args::SenseArgs;
 use crate::outcome::{Problem, Verdict, say};
-use crate::pairs::cameras;
+use crate::pairs::{chosen_frames, nothing_chosen};
 use crate::progress::Progress;
 use enfilade_dataset::counted;
 use enfilade_pipeline::read_sensors;
-use enfilade_sensors::{Sense, sense as show};
+use enfilade_sensors::sense as show;
 
 /// `sense`: what sensors would make of the frames.
 pub fn sense(args: &SenseArgs, quiet: bool) -> Result<Verdict, Problem> {
     let dataset = args.table.open(&args.dataset)?;
     let sensors = read_sensors(&args.sensors)?;
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
-    let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
-    let chosen = Sense { scenes, cameras, frames: args.chosen.frames.clone() };
+    let chosen = chosen_frames(&dataset, &args.chosen)?;
     let frames = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "sense");
         show(&dataset, &sensors, &chosen, &cx)?
     };
     if frames == 0 {
-        return Err(Problem::of_data("no frame that is there was chosen", "choose others, or render them: enfilade run"));
+        return Err(nothing_chosen());
     }
     for sensor in sensors.all() {
         say(&format!("{}: {}", sensor.name(), counted(frames, "frame")));

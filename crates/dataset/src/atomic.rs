@@ -63,8 +63,21 @@ pub fn write_changed(path: &Path, text: &str) -> Result<(), DatasetError> {
 /// # Errors
 /// When the file cannot be written, or a map in `value` has keys other than text.
 pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), DatasetError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| DatasetError::io("write", path, error.into()))?;
-    write_bytes(path, text + "\n")
+    write_bytes(path, json_text(path, value)?)
+}
+
+fn json_text(path: &Path, value: &impl serde::Serialize) -> Result<String, DatasetError> {
+    Ok(serde_json::to_string_pretty(value).map_err(|error| DatasetError::io("write", path, error.into()))? + "\n")
+}
+
+/// Begins a folder of what is made by `settings`, which are kept at `path` in it. What is there of other settings is removed.
+pub(crate) fn begin_folder(folder: &Path, path: &Path, settings: &impl serde::Serialize) -> Result<(), DatasetError> {
+    let text = json_text(path, settings)?;
+    if fs::read(path).is_ok_and(|old| old == text.as_bytes()) {
+        return Ok(());
+    }
+    remove_folder(folder)?;
+    write_bytes(path, text)
 }
 
 /// Puts a temporary file in its place.

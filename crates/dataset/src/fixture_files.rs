@@ -1,8 +1,9 @@
 //! Fixtures: `_detail/metadata_fixtures.csv`, and for each of them the files `fixture_NN_diffuse_illumination` and `fixture_NN_residual`
 //! of every frame, beside its other layers; and in `relit/<mix>/` what mixes of them make of frames.
 
-use crate::atomic::{remove_folder, remove_if_there, rename, temporary};
-use crate::frames::write_layer_aside;
+use crate::atomic::{begin_folder, remove_folder, remove_if_there};
+use crate::frames::write_layer;
+use crate::layout::FIXTURE_PARTS;
 use crate::read::{read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
@@ -11,8 +12,6 @@ use enfilade_math::Vec3;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// The layers that a fixture has a part of.
-pub(crate) const FIXTURE_PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
 /// How the rules of a mix are kept.
 const RULES: &str = "mix.json";
 
@@ -131,19 +130,6 @@ impl Dataset {
         Ok((size, FixtureLayers { diffuse_illumination, residual }))
     }
 
-    /// The number of fixtures whose light a frame has apart, by its record; 0 without one.
-    ///
-    /// # Errors
-    /// When the record cannot be read.
-    pub fn fixtures_of_frame(&self, scene: &str, camera: &str, frame: u32) -> Result<u32, DatasetError> {
-        let files = self.frame_record(scene, camera, frame)?.map_or_else(Default::default, |record| record.files);
-        let has = |fixture: &u32| {
-            let path = self.layout().fixture_layer(scene, camera, frame, *fixture, FIXTURE_PARTS[0]);
-            files.contains_key(&self.name_in_scene(scene, &path))
-        };
-        Ok((1..=MAX_FIXTURES as u32).take_while(has).last().unwrap_or(0))
-    }
-
     /// Begins a mix by these rules. What is there of a mix of the same name and other rules is removed.
     ///
     /// # Errors
@@ -151,14 +137,7 @@ impl Dataset {
     pub fn begin_mix(&self, mix: &str, rules: &impl Serialize) -> Result<(), DatasetError> {
         check_name("mix", mix)?;
         let folder = self.layout().relit_dir().join(mix);
-        let path = folder.join(RULES);
-        let unwritable = |error: serde_json::Error| DatasetError::io("write", &path, error.into());
-        let text = serde_json::to_string_pretty(rules).map_err(unwritable)? + "\n";
-        if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
-            return Ok(());
-        }
-        remove_folder(&folder)?;
-        write_bytes(&path, text)
+        begin_folder(&folder, &folder.join(RULES), rules)
     }
 
     /// Writes what a mix of fixtures makes of a frame (scene, camera, number): layers, and the bytes of a JPEG picture.
@@ -170,8 +149,7 @@ impl Dataset {
         let size = [layers.height as usize, layers.width as usize];
         for (layer, values) in layers.iter() {
             let path = self.layout().relit(mix, frame, &format!("{}.hdf5", layer.spec().name));
-            write_layer_aside(&path, size, layer, values)?;
-            rename(&temporary(&path), &path)?;
+            write_layer(&path, size, layer, values)?;
         }
         write_bytes(&self.layout().relit(mix, frame, "display.jpg"), picture)
     }

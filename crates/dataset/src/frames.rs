@@ -435,12 +435,13 @@ fn attributes(layer: Layer, description: Option<&str>) -> Vec<(&'static str, &st
     attributes
 }
 
-/// Writes one layer under the temporary name of `path`.
-pub(crate) fn write_layer_aside(path: &Path, size: [usize; 2], layer: Layer, values: &Values) -> Result<FileRecord, DatasetError> {
-    write_file_aside(path, size, layer, values, &attributes_of(layer))
+/// Writes one layer, or an image with the meaning of one, in one step.
+pub(crate) fn write_layer(path: &Path, size: [usize; 2], layer: Layer, values: &Values) -> Result<(), DatasetError> {
+    write_file_aside(path, size, layer, values, &attributes_of(layer))?;
+    rename(&temporary(path), path)
 }
 
-/// The same of an image that is like a layer, with attributes of its own.
+/// Writes an image that is like a layer under the temporary name of `path`, with attributes of its own.
 fn write_file_aside(
     path: &Path,
     [height, width]: [usize; 2],

@@ -11,6 +11,9 @@ use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};
 use std::path::{Path, PathBuf};
 
+/// The layers that a fixture has a part of.
+pub(crate) const FIXTURE_PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
+
 /// The pipeline's own folder within a dataset: scenes, plans, hashes of what was made from what. No part of the dataset's format.
 pub const WORKDIR: &str = ".enfilade";
 /// The scene package in a scene's part of that folder.

@@ -1,8 +1,7 @@
 //! Layers that lead from one frame to another of the same scene, whichever two they are: `optical_flow`, `scene_flow` and
 //! `flow_visibility`, in `_detail/<camera>/pairs/`.
 
-use crate::atomic::{rename, temporary};
-use crate::frames::write_layer_aside;
+use crate::frames::write_layer;
 use crate::read::{read_image, sorted_names};
 use crate::{Dataset, DatasetError, FramePair, check_name};
 use enfilade_frame::{Frame, Layer, Values};
@@ -22,11 +21,7 @@ impl Dataset {
         check_name("camera name", &pair.second.0)?;
         let size = [layers.height as usize, layers.width as usize];
         let each: Vec<(Layer, &Values)> = layers.iter().collect();
-        each.par_iter().try_for_each(|&(layer, values)| {
-            let path = self.layout().pair_layer(pair, layer);
-            write_layer_aside(&path, size, layer, values)?;
-            rename(&temporary(&path), &path)
-        })
+        each.par_iter().try_for_each(|&(layer, values)| write_layer(&self.layout().pair_layer(pair, layer), size, layer, values))
     }
 
     /// One layer that leads from the first frame of a pair to the second, with the first one's height and width.

@@ -1,6 +1,7 @@
 //! The commit records: small JSON files that say that a frame, or its labels, are complete, and what they are made of.
 
 use crate::CameraRecord;
+use crate::layout::FIXTURE_PARTS;
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, Intrinsics, Pose};
 use serde::{Deserialize, Serialize};
@@ -157,6 +158,12 @@ pub struct Denoised {
 }
 
 impl FrameRecord {
+    /// The number of fixtures whose light the frame has apart.
+    pub fn fixtures(&self) -> u32 {
+        let end = format!("_{}.hdf5", FIXTURE_PARTS[0].spec().name);
+        self.files.keys().filter(|name| name.contains(".fixture_") && name.ends_with(&end)).count() as u32
+    }
+
     /// `intrinsics` and `camera_model` of a camera.
     pub(crate) fn of_camera(camera: &Camera) -> (Option<Intrinsics>, Option<CameraRecord>) {
         match camera.plain_pinhole() {

@@ -1,9 +1,9 @@
 //! A copy of a dataset whose images are stored for fast reading.
 
 use crate::atomic::remove_folder;
-use crate::fixture_files::FIXTURE_PARTS;
 use crate::frames::attributes_of;
 use crate::hdf5::{Storage, read_array, write_array};
+use crate::layout::FIXTURE_PARTS;
 use crate::read::sorted_names;
 use crate::{Dataset, DatasetError, FileRecord, FrameEntry, Layout, replace_file, write_bytes, write_json};
 use enfilade_frame::{LAYERS, Layer};
@@ -110,7 +110,8 @@ impl Dataset {
                 }
             }
             if layers.is_none_or(|layers| FIXTURE_PARTS.iter().all(|part| layers.contains(part))) {
-                for fixture in 1..=self.fixtures_of_frame(scene, camera, frame)? {
+                let record = self.frame_record(scene, camera, frame)?;
+                for fixture in 1..=record.map_or(0, |record| record.fixtures()) {
                     for layer in FIXTURE_PARTS {
                         let place = |layout: &Layout| layout.fixture_layer(scene, camera, frame, fixture, layer);
                         images.push(ImageCopy { from: place(self.layout()), to: place(copy), attributes: attributes_of(layer) });

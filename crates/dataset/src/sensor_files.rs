@@ -1,7 +1,7 @@
 //! What sensors make of frames: `sensors/<sensor>/<scene>/<camera>/frame.IIII.<what>`, and beside it what was drawn for every frame.
 
-use crate::atomic::{remove_folder, rename, temporary};
-use crate::frames::{read_json, write_layer_aside};
+use crate::atomic::{begin_folder, remove_folder};
+use crate::frames::{read_json, write_layer};
 use crate::npz::{NpyArray, npz, read_npy};
 use crate::read::{read_image, sorted_names};
 use crate::tables::Table;
@@ -89,14 +89,7 @@ impl Dataset {
     /// When the name cannot be part of a path, or the folder cannot be used.
     pub fn begin_sensor(&self, sensor: &str, settings: &impl Serialize) -> Result<(), DatasetError> {
         check_name("sensor name", sensor)?;
-        let path = self.layout().sensor_settings(sensor);
-        let unwritable = |error: serde_json::Error| DatasetError::io("write", &path, error.into());
-        let text = serde_json::to_string_pretty(settings).map_err(unwritable)? + "\n";
-        if std::fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
-            return Ok(());
-        }
-        remove_folder(&self.layout().sensor_dir(sensor))?;
-        write_bytes(&path, text)
+        begin_folder(&self.layout().sensor_dir(sensor), &self.layout().sensor_settings(sensor), settings)
     }
 
     /// The names of the sensors that have readings.
@@ -158,8 +151,7 @@ impl Dataset {
         values: &Values,
     ) -> Result<(), DatasetError> {
         let path = self.layout().sensed(sensor, frame, &format!("{}.hdf5", layer.spec().name));
-        write_layer_aside(&path, [height, width], layer, values)?;
-        rename(&temporary(&path), &path)
+        write_layer(&path, [height, width], layer, values)
     }
 
     /// Writes a reading that is a file of its own kind.

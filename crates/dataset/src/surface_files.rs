@@ -46,6 +46,12 @@ const FILES: [(&str, &str, &str); 8] = [
     ("refracted_entity_id", "", "Part number of the surface that it ends on; -1 where it meets none."),
 ];
 
+/// The shape of each file.
+fn shapes([height, width]: [usize; 2], count: usize) -> [Vec<usize>; FILES.len()] {
+    let image = |channels: usize| vec![height, width, channels];
+    [image(count), image(count), image(count), image(count), image(3 * count), vec![height, width], image(3), vec![height, width]]
+}
+
 impl Dataset {
     /// Writes the surfaces along the rays of a frame.
     ///
@@ -54,20 +60,21 @@ impl Dataset {
     pub fn write_surfaces(&self, scene: &str, camera: &str, frame: u32, surfaces: Surfaces) -> Result<(), DatasetError> {
         check_name("scene name", scene)?;
         check_name("camera name", camera)?;
-        let ([height, width], n) = (surfaces.size, surfaces.count);
-        let arrays = [
-            Array::new(&[height, width, n], Elements::F32(surfaces.distance_m)),
-            Array::new(&[height, width, n], Elements::I16(surfaces.entity)),
-            Array::new(&[height, width, n], Elements::I16(surfaces.semantic)),
-            Array::new(&[height, width, n], Elements::U8(surfaces.side)),
-            Array::new(&[height, width, 3 * n], Elements::F16(surfaces.normal_world)),
-            Array::new(&[height, width], Elements::F32(surfaces.bent_distance_m)),
-            Array::new(&[height, width, 3], Elements::F32(surfaces.bent_position)),
-            Array::new(&[height, width], Elements::I16(surfaces.bent_entity)),
+        let shapes = shapes(surfaces.size, surfaces.count);
+        let values = [
+            Elements::F32(surfaces.distance_m),
+            Elements::I16(surfaces.entity),
+            Elements::I16(surfaces.semantic),
+            Elements::U8(surfaces.side),
+            Elements::F16(surfaces.normal_world),
+            Elements::F32(surfaces.bent_distance_m),
+            Elements::F32(surfaces.bent_position),
+            Elements::I16(surfaces.bent_entity),
         ];
         // That the first file is there says that all are.
         remove_if_there(&self.layout().surfaces(scene, camera, frame, FIRST))?;
-        for ((name, unit, description), array) in FILES.iter().zip(arrays).rev() {
+        for (((name, unit, description), shape), values) in FILES.iter().zip(shapes).zip(values).rev() {
+            let array = Array::new(&shape, values);
             let path = self.layout().surfaces(scene, camera, frame, name);
             create_parent(&path)?;
             let attributes = [("unit", *unit), ("description", *description)];
@@ -98,16 +105,11 @@ impl Dataset {
                 return Err(DatasetError::hdf5(&path, format!("{expected}, found {found}; run enfilade surfaces")));
             }
         };
-        let shape = |index: usize| match index {
-            4 => vec![height, width, 3 * n],
-            5 | 7 => vec![height, width],
-            6 => vec![height, width, 3],
-            _ => vec![height, width, n],
-        };
+        let shapes = shapes([height, width], n);
         let values = |index: usize| {
             let (array, path) = read(index)?;
-            if array.shape != shape(index) {
-                let problem = format!("expected the shape {:?}, found {:?}; run enfilade surfaces", shape(index), array.shape);
+            if array.shape != shapes[index] {
+                let problem = format!("expected the shape {:?}, found {:?}; run enfilade surfaces", shapes[index], array.shape);
                 return Err(DatasetError::hdf5(&path, problem));
             }
             Ok((array.values, path))

@@ -62,6 +62,11 @@ impl Track {
 }
 
 impl<'s> View<'s> {
+    /// `<camera>_<IIII>`: its name where frames of all cameras of a scene stand side by side.
+    pub fn file_stem(&self) -> String {
+        format!("{}_{:04}", self.track.name, self.frame())
+    }
+
     /// Frame number.
     pub fn frame(&self) -> u32 {
         self.pose().frame

@@ -44,7 +44,7 @@ pub use forecast::{Expected, Forecast};
 pub use in_memory::{LoadedScene, Shot};
 pub use look::{Looked, look};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
-pub use relight::{Relight, relight};
+pub use relight::relight;
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};

@@ -42,8 +42,7 @@ pub(crate) struct Header<'a> {
 
 /// The bytes of a frame whose pixels are these words.
 pub(crate) fn write(header: &Header<'_>, words: impl Iterator<Item = u32>) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(64 + header.key.len() + 4 * words.size_hint().0);
-    bytes.extend(SIGNATURE);
+    let mut bytes = SIGNATURE.to_vec();
     let [width, height] = header.size;
     let Header { done, passes, splits, fixtures, key, .. } = *header;
     let numbers: [u32; HEADER] = [width, height, done, passes, u32::from(splits), fixtures, key.len() as u32];

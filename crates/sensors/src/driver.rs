@@ -1,29 +1,17 @@
 //! The frames of a dataset are shown to sensors.
 
 use crate::{Reading, Sensor, SensorError, Sensors, Subject};
-use enfilade_dataset::{Dataset, SensedFrame};
+use enfilade_dataset::{ChosenFrames, Dataset, SensedFrame};
 use enfilade_frame::{Frame, Layer};
 use enfilade_scene::{Counted, Cx, Projection};
 use rayon::prelude::*;
-use std::ops::Range;
-
-/// Which frames are shown.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Sense {
-    /// Names of scenes of the dataset.
-    pub scenes: Vec<String>,
-    /// Names of cameras; `None`: all.
-    pub cameras: Option<Vec<String>>,
-    /// Frame numbers, the upper bound excluded; `None`: all.
-    pub frames: Option<Range<u32>>,
-}
 
 /// Shows frames to sensors, and writes what they give below `sensors/` of the dataset: a folder for each, with its settings, and in it scenes
 /// and cameras. Readings of a sensor of the same name but other settings are removed first. Gives the number of frames.
 ///
 /// # Errors
 /// When a sensor's settings are wrong, a frame cannot be seen by it, or a file cannot be read or written.
-pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &Sense, cx: &dyn Cx) -> Result<usize, SensorError> {
+pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &ChosenFrames, cx: &dyn Cx) -> Result<usize, SensorError> {
     sensors.check()?;
     let sensors: Vec<Sensor> = sensors.all().collect();
     let mut layers: Vec<Layer> = sensors.iter().flat_map(Sensor::layers).collect();
@@ -34,14 +22,7 @@ pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &Sense, cx: &dyn Cx) 
     }
     let mut seen = 0;
     for scene in &chosen.scenes {
-        let is_chosen = |name: &String| chosen.cameras.as_ref().is_none_or(|cameras| cameras.contains(name));
-        for camera in dataset.cameras(scene)?.into_iter().filter(is_chosen) {
-            let is_wanted = |frame: &u32| chosen.frames.as_ref().is_none_or(|range| range.contains(frame));
-            let frames: Vec<u32> =
-                dataset.whole_frames([scene, &camera], chosen.frames.as_ref(), cx)?.into_iter().filter(is_wanted).collect();
-            if frames.is_empty() {
-                continue;
-            }
+        for (camera, frames) in chosen.of_scene(dataset, scene, cx)? {
             show(dataset, &sensors, &layers, [scene, &camera], &frames, cx)?;
             seen += frames.len();
         }

@@ -22,7 +22,7 @@ mod triangulation;
 pub use amount::Amount;
 pub use camera::{CameraFormat, CameraSensor};
 pub use depth::Glass;
-pub use driver::{Sense, sense};
+pub use driver::sense;
 pub use error::SensorError;
 pub use lidar::Lidar;
 pub use reading::{Data, Reading, Subject};

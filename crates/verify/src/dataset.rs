@@ -303,7 +303,7 @@ impl SceneFacts {
         };
         found.card.merge(check_frame(&frame, &view, &place));
         surfaces::check(dataset, [&self.name, name], number, &frame, &view, &mut found.card);
-        let fixtures = readable(&mut found.card, dataset.fixtures_of_frame(&self.name, name, number)).unwrap_or(0);
+        let fixtures = record.as_ref().map_or(0, FrameRecord::fixtures);
         if fixtures > 0 {
             let mut scan = Scan::new(&frame, &view, &place);
             found.card.merge(fixtures::check(dataset, [&self.name, name], number, fixtures, &mut scan));
@@ -429,7 +429,7 @@ mod tests {
     fn sensed(dataset: &Dataset) {
         let sensors: enfilade_sensors::Sensors =
             serde_json::from_str(r#"{"time_of_flight": [{"name": "tof", "noise_m": 0.01, "step_m": 0.001}]}"#).unwrap();
-        let chosen = enfilade_sensors::Sense { scenes: vec!["room".into()], ..Default::default() };
+        let chosen = enfilade_dataset::ChosenFrames { scenes: vec!["room".into()], ..Default::default() };
         assert_eq!(enfilade_sensors::sense(dataset, &sensors, &chosen, &enfilade_scene::Quiet).unwrap(), 2);
     }
 

@@ -30,7 +30,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         trajectories.extend(calibration.opencv_pose(view).as_flattened().iter().flat_map(|v| (*v as f32).to_le_bytes()));
     }
     let pairs = pairs(selected, &views)?;
-    let (n, images) = (views.len(), views.iter().map(|&view| name(view)).collect::<Vec<_>>());
+    let (n, images) = (views.len(), views.iter().map(View::file_stem).collect::<Vec<_>>());
     let arrays = [
         texts("scenes", &scenes),
         NpyArray::new("sceneids", "<i8", &[n], views.iter().flat_map(|view| scene_of(view).to_le_bytes()).collect()),
@@ -42,16 +42,12 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     out.write("all_metadata.npz", &npz(&arrays).expect("writing to memory cannot fail"))
 }
 
-fn name(view: View<'_>) -> String {
-    format!("{}_{:04}", view.track.name, view.frame())
-}
-
 fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
     let calibration = Calibration::of_upright_pinhole(selected, view.track)?;
     let frame = selected.read(view, &[&SHOWN[..], &DEPTH].concat())?;
     let depth: Vec<u16> =
         planar_m(selected, view, &calibration, &frame)?.into_iter().map(|metres| whole_units(metres, PER_METRE)).collect();
-    let (scene, name) = (&view.track.scene, name(view));
+    let (scene, name) = (&view.track.scene, view.file_stem());
     out.write(&format!("{scene}/images/{name}.jpg"), &color_jpeg(selected, view, &frame)?)?;
     out.write(&format!("{scene}/depth/{name}.png"), &grey16_png(frame.width, frame.height, &depth))
 }

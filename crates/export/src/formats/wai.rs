@@ -27,16 +27,12 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     Ok(())
 }
 
-fn name(view: View<'_>) -> String {
-    format!("{}_{:04}", view.track.name, view.frame())
-}
-
 fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
     let calibration = Calibration::of_upright_pinhole(selected, view.track)?;
     let frame = selected.read(view, &[&SHOWN[..], &DEPTH].concat())?;
     let known = |metres: f64| if metres.is_finite() && metres > 0.0 { metres as f32 } else { 0.0 };
     let depth = planar_m(selected, view, &calibration, &frame)?.into_iter().map(known).collect();
-    let (scene, name) = (&view.track.scene, name(view));
+    let (scene, name) = (&view.track.scene, view.file_stem());
     out.write(&format!("{scene}/images/{name}.png"), &color_png(selected, view, &frame)?)?;
     out.write(&format!("{scene}/depth/{name}.exr"), &grey_exr(selected, view, &frame, depth)?)
 }
@@ -74,7 +70,7 @@ fn write_scene(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Trac
 /// An entry of the list of frames.
 fn described(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Value, ExportError> {
     let calibration = Calibration::of_upright_pinhole(selected, view.track)?;
-    let ([[fl_x, _, cx], [_, fl_y, cy], _], name) = (calibration.intrinsics.opencv_k(), name(view));
+    let ([[fl_x, _, cx], [_, fl_y, cy], _], name) = (calibration.intrinsics.opencv_k(), view.file_stem());
     let (image, depth) = (format!("images/{name}.png"), format!("depth/{name}.exr"));
     Ok(json!({
         "frame_name": name,

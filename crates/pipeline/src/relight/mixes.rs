@@ -4,6 +4,7 @@ use crate::config::matches;
 use crate::error::Error;
 use enfilade_dataset::{Fixture, check_name};
 use enfilade_math::Rgb;
+use enfilade_render::FixtureKind;
 use serde::Serialize;
 use std::path::Path;
 
@@ -88,12 +89,10 @@ fn parse(file: &Path, text: &[u8]) -> Result<Vec<Mix>, Error> {
     Ok(mixes)
 }
 
-/// Kinds of fixtures: rows may name those that a scene lacks.
-const KINDS: [&str; 4] = ["sky", "sun", "lamp", "rest"];
-
-/// Refuses rows that mean no fixture of any scene by its number or name.
+/// Refuses rows that mean no fixture of any scene by its number or name; kinds may be named that a scene lacks.
 pub(super) fn check(file: &Path, mixes: &[Mix], fixtures: &[&Fixture]) -> Result<(), Error> {
-    let idle = |rule: &&Rule| !KINDS.contains(&rule.fixture.as_str()) && !fixtures.iter().any(|fixture| rule.means(fixture));
+    let is_kind = |rule: &Rule| FixtureKind::ALL.iter().any(|kind| kind.name() == rule.fixture);
+    let idle = |rule: &&Rule| !is_kind(rule) && !fixtures.iter().any(|fixture| rule.means(fixture));
     let Some(rule) = mixes.iter().flat_map(|mix| &mix.rules).find(idle) else { return Ok(()) };
     let names: Vec<&str> = fixtures.iter().map(|fixture| fixture.name.as_str()).take(12).collect();
     let more = if fixtures.len() > names.len() { ", …" } else { "" };

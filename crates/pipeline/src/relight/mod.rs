@@ -3,7 +3,7 @@
 mod mixes;
 
 use crate::error::Error;
-use enfilade_dataset::{ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
+use enfilade_dataset::{ChosenFrames, ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
 use enfilade_denoise::{Denoiser, INPUTS, denoise};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
@@ -14,7 +14,6 @@ use enfilade_show::exposure::Exposure;
 use enfilade_show::preview::{PreviewSpec, Subject};
 use mixes::Mix;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::path::Path;
 
 /// So many mixes are made at once: each takes 24 bytes per pixel.
@@ -26,24 +25,13 @@ const PICTURE: PreviewSpec = PreviewSpec { pass: enfilade_frame::Pass::Final, na
 /// What denoising and exposure go by: the frame's own.
 const GUIDES: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
 
-/// Which frames are lit anew.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Relight {
-    /// Names of scenes of the dataset.
-    pub scenes: Vec<String>,
-    /// Names of cameras; `None`: all.
-    pub cameras: Option<Vec<String>>,
-    /// Frame numbers, the upper bound excluded; `None`: all.
-    pub frames: Option<Range<u32>>,
-}
-
 /// Lights frames by the mixes of the table `file`, and writes `color`, `diffuse_illumination` and `residual` of each, and a picture, below
 /// `relit/MIX/SCENE/CAMERA` of the dataset. They are denoised where the frame's own are, by the network in the program. What is there of mixes of
 /// the same names and other rules is removed first. Gives the number of frames, of which each has as many pictures as there are mixes.
 ///
 /// # Errors
 /// When the table is wrong or means fixtures that no scene has, no chosen scene has fixtures, or a file cannot be read or written.
-pub fn relight(dataset: &Dataset, file: &Path, chosen: &Relight, cx: &dyn Cx) -> Result<usize, Error> {
+pub fn relight(dataset: &Dataset, file: &Path, chosen: &ChosenFrames, cx: &dyn Cx) -> Result<usize, Error> {
     let mixes = mixes::read(file)?;
     let fixtures = |scene: &String| Ok((scene.clone(), dataset.read_fixtures(scene)?));
     let lit: Vec<(String, Vec<Fixture>)> = chosen.scenes.iter().map(fixtures).collect::<Result<_, DatasetError>>()?;
@@ -65,11 +53,7 @@ pub fn relight(dataset: &Dataset, file: &Path, chosen: &Relight, cx: &dyn Cx) ->
     let denoiser = Denoiser::built_in();
     let mut count = 0;
     for (scene, fixtures) in lit.iter().filter(|(_, fixtures)| !fixtures.is_empty()) {
-        let is_chosen = |name: &String| chosen.cameras.as_ref().is_none_or(|cameras| cameras.contains(name));
-        for camera in dataset.cameras(scene)?.into_iter().filter(is_chosen) {
-            let is_wanted = |frame: &u32| chosen.frames.as_ref().is_none_or(|range| range.contains(frame));
-            let frames = dataset.whole_frames([scene, &camera], chosen.frames.as_ref(), cx)?;
-            let frames: Vec<u32> = frames.into_iter().filter(is_wanted).collect();
+        for (camera, frames) in chosen.of_scene(dataset, scene, cx)? {
             let exposures = dataset.read_tone_maps(scene, &camera)?;
             let counted = Counted::new(cx, "frames", frames.len());
             let light = |&number: &u32| {
@@ -187,7 +171,7 @@ mod tests {
         let file = folder.path().join("mixes.csv");
         let table = "mix,fixture,r,g,b\nsame,*,1,1,1\nnone,*,0,0,0\nred,lamp,1,0,0\nred,sky,0,0,0\n";
         std::fs::write(&file, table).unwrap();
-        let chosen = Relight { scenes: vec!["room".into()], frames: Some(1..2), ..Relight::default() };
+        let chosen = ChosenFrames { scenes: vec!["room".into()], frames: Some(1..2), ..ChosenFrames::default() };
         assert_eq!(relight(&dataset, &file, &chosen, &enfilade_scene::Quiet).unwrap(), 1);
         let lit = |mix: &str, layer| dataset.read_relit_layer(mix, ("room", "cam_00", 1), layer).unwrap().1;
         let rendered = dataset.read_layer("room", "cam_00", 1, Layer::ColorRendered).unwrap();
@@ -206,7 +190,7 @@ mod tests {
 
         // Other rules take the place of all that is there; frames that change lose it.
         std::fs::write(&file, table.replace("red,lamp,1", "red,lamp,0.5")).unwrap();
-        let none = Relight { frames: Some(9..10), ..chosen };
+        let none = ChosenFrames { frames: Some(9..10), ..chosen };
         assert_eq!(relight(&dataset, &file, &none, &enfilade_scene::Quiet).unwrap(), 0);
         assert!(!picture("red").exists() && picture("same").is_file());
         dataset.forget_derived("room").unwrap();
@@ -220,7 +204,7 @@ mod tests {
         dataset.write_fixtures("room", &[]).unwrap();
         let file = folder.path().join("mixes.csv");
         std::fs::write(&file, "mix,fixture,r,g,b\na,sky,0,0,0\n").unwrap();
-        let chosen = Relight { scenes: vec!["room".into()], ..Relight::default() };
+        let chosen = ChosenFrames { scenes: vec!["room".into()], ..ChosenFrames::default() };
         let error = relight(&dataset, &file, &chosen, &enfilade_scene::Quiet).unwrap_err();
         assert!(error.to_string().contains("no scene that was chosen") && error.hint().unwrap().contains("--fixtures"), "{error}");
     }

@@ -49,6 +49,9 @@ pub enum FixtureKind {
 }
 
 impl FixtureKind {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Sky, Self::Sun, Self::Lamp, Self::Rest];
+
     /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
