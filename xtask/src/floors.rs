@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 29] = [
+const FLOORS: [(&str, Floor); 30] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -35,6 +35,7 @@ const FLOORS: [(&str, Floor); 29] = [
     ("loader", Floor::Number(4)),
     ("multiview", Floor::Number(4)),
     ("sensors", Floor::Number(4)),
+    ("describe", Floor::Number(5)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),
     ("pipeline", Floor::Number(7)),

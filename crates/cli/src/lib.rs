@@ -7,6 +7,7 @@
 mod animate;
 mod annotate;
 mod args;
+mod describe;
 mod estimate;
 mod export;
 mod farm;
@@ -92,6 +93,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
         Verb::Flow(args) => flow::flow(args, cli.quiet),
         Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
+        Verb::Describe(args) => describe::describe(args, cli.quiet),
         Verb::Surfaces(args) => surfaces::surfaces(args, cli.quiet),
         Verb::Sense(args) => sense::sense(args, cli.quiet),
         Verb::Relight(args) => relight::relight(args, cli.quiet),

@@ -2,9 +2,10 @@
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames,
-//! `_detail/metadata_fixtures.csv`, `_detail/plan_preview/`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`,
-//! `metadata_tonemap.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `tracks.npz`, `cameras_opencv.json`, `plan_report.json`, `frames/`
-//! with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
+//! `_detail/metadata_fixtures.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
+//! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
+//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `tracks.npz`, `captions.jsonl`, `questions.jsonl`,
+//! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays. Beside the layers of `scene_<camera>_final_hdf5` lie those of fixtures.
 
 use crate::{DatasetError, FramePair};
@@ -235,6 +236,26 @@ impl Layout {
     /// The frames of its rows and columns.
     pub fn covisibility_frames(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("covisibility_frames.csv")
+    }
+
+    /// What the scene's instances are.
+    pub fn described_instances(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_instances.csv")
+    }
+
+    /// How they stand to each other.
+    pub fn instance_relations(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_instance_relations.csv")
+    }
+
+    /// What is said of a camera's frames.
+    pub fn captions(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("captions.jsonl")
+    }
+
+    /// What is asked about them.
+    pub fn questions(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("questions.jsonl")
     }
 
     /// A camera's trajectory and records.

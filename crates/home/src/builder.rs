@@ -73,6 +73,8 @@ pub struct Builder {
     scene: Scene,
     labels: Labels,
     families: BTreeMap<String, u32>,
+    /// To where the fronts of objects look, by the objects' names.
+    fronts: BTreeMap<String, DVec3>,
     instances: i16,
     /// Where the models of the library that were used are in the scene, by their numbers.
     loaned: BTreeMap<usize, Arc<Loaned>>,
@@ -101,6 +103,7 @@ impl Builder {
             scene: Scene::default(),
             labels: Labels::default(),
             families: BTreeMap::new(),
+            fronts: BTreeMap::new(),
             instances: 0,
             loaned: BTreeMap::new(),
             models: BTreeMap::new(),
@@ -124,7 +127,9 @@ impl Builder {
             self.instances += 1;
             self.instances
         };
-        Object { name: format!("{family}_{count}"), label: PartLabel { semantic, instance }, pose }
+        let name = format!("{family}_{count}");
+        self.fronts.insert(name.clone(), pose.transform_vector3(DVec3::Y));
+        Object { name, label: PartLabel { semantic, instance }, pose }
     }
 
     /// Adds a part of `object`, its mesh in the object's space.
@@ -204,6 +209,11 @@ impl Builder {
     pub fn image(&mut self, image: Image) -> u32 {
         self.scene.images.push(image);
         self.scene.images.len() as u32 - 1
+    }
+
+    /// To where the fronts of objects look, by the objects' names.
+    pub fn fronts(&self) -> &BTreeMap<String, DVec3> {
+        &self.fronts
     }
 
     /// The scene for its last touches, and the labels.

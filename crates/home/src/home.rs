@@ -1,9 +1,13 @@
 //! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
-use crate::check::Fault;
+use crate::check::{Fault, family_of, object_of};
 use crate::plan::FloorPlan;
-use enfilade_math::Vec3;
-use enfilade_scene::{Labels, Scene};
+use enfilade_math::{DVec3, Vec3};
+use enfilade_scene::{Labels, Scene, Structure, StructureThing};
+use std::collections::BTreeMap;
+
+/// The front of a thing that looks up or down more than this share of a unit vector is none.
+const UPRIGHT: f64 = 0.5;
 
 /// A home and what its parts are called.
 #[derive(Clone, Debug)]
@@ -14,12 +18,29 @@ pub struct Home {
     pub labels: Labels,
     /// Where its rooms are.
     pub plan: FloorPlan,
+    /// To where the fronts of objects look, by their names; also of objects that were removed.
+    pub fronts: BTreeMap<String, DVec3>,
     /// Objects that could not stay where they had been put, and were removed.
     pub removed: Vec<Removal>,
     /// Objects that were moved a little so that they could stay.
     pub moved: Vec<Shift>,
     /// The models of others in the scene, with their files and licences; sorted, each once.
     pub credits: Vec<String>,
+}
+
+impl Home {
+    /// Its rooms, walls and openings, and what its instances are called.
+    pub fn structure(&self) -> Structure {
+        let parts = self.scene.parts.iter().zip(&self.labels.parts);
+        let names: BTreeMap<i16, &str> =
+            parts.filter(|(_, label)| label.instance >= 1).map(|(part, label)| (label.instance, object_of(&part.name))).collect();
+        let thing = |(instance, name): (i16, &str)| {
+            let front = self.fronts.get(name).map(|front| front.truncate()).filter(|front| front.length() > UPRIGHT);
+            let front = front.map(|front| front.normalize().to_array());
+            StructureThing { instance, name: name.into(), family: family_of(name).into(), front }
+        };
+        Structure { things: names.into_iter().map(thing).collect(), ..self.plan.structure() }
+    }
 }
 
 /// An object that was removed, and why.

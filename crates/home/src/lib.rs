@@ -68,9 +68,9 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
     rooms::furnish(&mut builder, &plan, &decor, config, library);
-    let models = builder.models().clone();
+    let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
     let (scene, labels) = builder.finish();
-    let mut home = Home { scene, labels, plan, removed: Vec::new(), moved: Vec::new(), credits: Vec::new() };
+    let mut home = Home { scene, labels, plan, fronts, removed: Vec::new(), moved: Vec::new(), credits: Vec::new() };
     settle::settle(&mut home);
     home.credits = credits(&home.scene, &models);
     light.illuminate(&mut home.scene, &outlooks(&home.plan));

@@ -39,7 +39,7 @@ pub use package::{
 pub use photometry::PhotometricWeb;
 pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
-pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, WallFace, WallOpening};
+pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, StructureThing, WallFace, WallOpening};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};
 pub use world::{TriangleSource, WorldMesh};

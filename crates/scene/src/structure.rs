@@ -1,4 +1,4 @@
-//! What a building is made of besides things: rooms, the faces of their walls, and the doors and windows in them.
+//! What a building is made of: rooms, the faces of their walls, the doors and windows in them, and what its things are called.
 //!
 //! World coordinates in metres, z up. Every wall face is a vertical rectangle that bounds one room; a wall between two rooms has two faces,
 //! `thickness_m` apart. It is stored as `_detail/layout.json`.
@@ -35,6 +35,22 @@ pub struct Structure {
     pub walls: Vec<WallFace>,
     /// Doors, passages and windows.
     pub openings: Vec<WallOpening>,
+    /// The labelled instances, in ascending order.
+    #[serde(default)]
+    pub things: Vec<StructureThing>,
+}
+
+/// What a labelled instance is, finer than by its class.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StructureThing {
+    /// Its number, as in the images.
+    pub instance: i16,
+    /// Family and number: `coffee_table_1`.
+    pub name: String,
+    /// What people call it: `coffee_table`.
+    pub family: String,
+    /// Unit vector to where its front looks, seen from above; `None` for what lies on its back.
+    pub front: Option<[f64; 2]>,
 }
 
 /// A room between floor and ceiling, both level.
@@ -127,7 +143,7 @@ pub enum Hinge {
 
 impl Default for Structure {
     fn default() -> Self {
-        Self { format: FORMAT.into(), rooms: Vec::new(), walls: Vec::new(), openings: Vec::new() }
+        Self { format: FORMAT.into(), rooms: Vec::new(), walls: Vec::new(), openings: Vec::new(), things: Vec::new() }
     }
 }
 
@@ -186,6 +202,13 @@ impl Structure {
     /// The room above whose polygon a point lies, between its floor and ceiling.
     pub fn room_at(&self, point: DVec3) -> Option<usize> {
         self.rooms.iter().position(|room| room.contains(point))
+    }
+
+    /// The room that a point is in or, in a wall or its openings, the one whose wall is nearest, up to `reach_m` away.
+    pub fn room_near(&self, point: DVec3, reach_m: f64) -> Option<usize> {
+        let within = |wall: &&WallFace| (0.0..=wall.length_m()).contains(&wall.along_m(point)) && wall.distance_m(point).abs() <= reach_m;
+        let nearest = |a: &&WallFace, b: &&WallFace| a.distance_m(point).abs().total_cmp(&b.distance_m(point).abs());
+        self.room_at(point).or_else(|| self.walls.iter().filter(within).min_by(nearest).map(|wall| wall.room))
     }
 }
 

@@ -3,7 +3,8 @@
 //! Floor (part 1, z = 0), wall (part 2, y = 2, up to z = 2.5) and a mirror in the wall (part 3), void above. The mirror has no
 //! diffuse reflectance; one of its pixels is saturated.
 
-use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceView, Partition, SplitRow, Surfaces, Tracks};
+use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, FramePair, HiddenBy, InstanceRelation, InstanceView, Partition};
+use enfilade_dataset::{RelationKind, SplitRow, Surfaces, Tracks};
 use enfilade_frame::{DENOISED, FixtureLayers, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb, Vec3};
@@ -363,6 +364,8 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
     dataset.write_structure("room", &structure()).unwrap();
     dataset.write_fixtures("room", &fixtures()).unwrap();
+    let hangs = InstanceRelation { subject: 1, kind: RelationKind::HangsFrom, object: -1, object_semantic: 1, distance_m: 0.0 };
+    dataset.write_instance_relations("room", &[hangs]).unwrap();
     dataset.write_covisibility("room", &covisibility([&first, &second])).unwrap();
     let pair = FramePair { scene: "room".into(), first: ("cam_00".into(), 0), second: ("cam_00".into(), 1) };
     dataset.write_pair_layers(&pair, &flow(&first, &second)).unwrap();

@@ -14,7 +14,7 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, fixtures, structure, surfaces};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, structure, surfaces};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
@@ -231,9 +231,10 @@ impl SceneFacts {
         }
     }
 
-    /// What relates frames to each other.
+    /// What relates frames to each other, and instances.
     fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
         let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
+        described::check(dataset, &self.name, card);
         relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
     }
 

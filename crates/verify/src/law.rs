@@ -76,6 +76,7 @@ pub enum Law {
     Sensed,
     LightFixtures,
     RaySurfaces,
+    InstanceRelations,
 }
 
 /// What a law says.
@@ -100,7 +101,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 69] = laws![
+pub const LAWS: [LawSpec; 70] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -200,6 +201,8 @@ pub const LAWS: [LawSpec; 69] = laws![
         "layers of different renderings are mixed, or files of fixtures are missing: render the frame again";
     RaySurfaces 0.0 "pixels", "surfaces along rays go from near to far, begin with the frame's own, and have the classes of their parts",
         "frames were rendered or labelled again since: run enfilade surfaces";
+    InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, and those in others are in them",
+        "labels or the scene were changed since: run enfilade describe";
 ];
 
 impl Law {

@@ -9,6 +9,7 @@ mod camera_files;
 mod card;
 mod color;
 mod dataset;
+mod described;
 mod extra;
 mod fixtures;
 mod frame;

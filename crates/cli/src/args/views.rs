@@ -121,6 +121,21 @@ pub struct SurfacesArgs {
     pub table: CamerasArg,
 }
 
+/// `describe`.
+#[derive(Args)]
+#[command(after_help = "Example:\n  enfilade describe out\n\nNothing is rendered. _detail of each scene then has what its instances are \
+    and how they stand to each other; each camera's folder\nin it captions and questions with answers. docs/words.md says more.")]
+pub struct DescribeArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub table: CamerasArg,
+}
+
 /// `sense`.
 #[derive(Args)]
 #[command(

@@ -60,7 +60,7 @@ fn instance_points(scene: &Scene, labels: &Labels) -> Vec<Vec<DVec3>> {
 pub fn boxes_around(points: &[DVec3]) -> Option<InstanceBoxes> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let axis_aligned = OrientedBox::around(points.iter().copied(), DMat3::IDENTITY)?;
-    let upright = upright(points, mean)?;
+    let upright = upright_box(points)?;
     let free = OrientedBox::around(points.iter().copied(), least::least_orientation(points))?;
     let least = [axis_aligned, upright, free].into_iter().min_by(|a, b| size(a).total_cmp(&size(b)))?;
     Some([axis_aligned, upright, ordered(&least, mean)])
@@ -72,8 +72,9 @@ fn size(b: &OrientedBox) -> f64 {
     b.extents.max(DVec3::splat(thickness)).element_product()
 }
 
-/// `object_aligned_2d`.
-fn upright(points: &[DVec3], mean: DVec3) -> Option<OrientedBox> {
+/// The box of the kind `object_aligned_2d` around the corners of triangles; `None` without points.
+pub fn upright_box(points: &[DVec3]) -> Option<OrientedBox> {
+    let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let mut ground: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
     let (along, _) = rectangle::least_rectangle(&mut ground);
     let with_x = |x: DVec2| {

@@ -85,7 +85,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
             // Its files were known before, and hashed.
-            (home.scene, Some(home.labels), Some(home.plan.structure()), None, report, None)
+            let structure = home.structure();
+            (home.scene, Some(home.labels), Some(structure), None, report, None)
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);

@@ -45,6 +45,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     if rendered > 0 {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
+        job.dataset.forget_words(&job.scene.name).map_err(Error::stage)?;
         job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
     }
     list_fixtures(job)?;

@@ -1,0 +1,172 @@
+//! What is said of a frame: what there is, how it stands, how far it is.
+
+use crate::seen::{SeenFrame, Sight};
+use crate::things::Things;
+use crate::words;
+use enfilade_dataset::{Caption, DescribedInstance, InstanceRelation, RelationKind};
+use enfilade_math::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A thing is spoken of when it covers this share of the image.
+const SPOKEN: f64 = 3e-3;
+/// It may be mistaken for another of its name that covers this share.
+const NOTICED: f64 = 2e-4;
+/// The things that the first sentence lists, at most, things of one name being one.
+const LISTED: usize = 6;
+/// Sentences on how things stand, at most.
+const SENTENCES: usize = 4;
+/// What one of them says of a thing, at most.
+const CLAUSES: usize = 2;
+/// The class of floors.
+const FLOOR: i16 = 2;
+
+/// What is known of a scene, and what a frame shows of it.
+pub struct Scope<'a> {
+    pub things: &'a Things,
+    pub described: &'a [DescribedInstance],
+    pub relations: &'a [InstanceRelation],
+    pub seen: &'a SeenFrame,
+}
+
+impl<'a> Scope<'a> {
+    /// What an instance is; `None` for numbers without triangles.
+    pub fn thing(&self, instance: i16) -> Option<&'a DescribedInstance> {
+        self.things.place(instance).map(|place| &self.described[place])
+    }
+
+    /// Things that have a name and cover at least this share of the image, the largest first.
+    pub fn visible(&self, share: f64) -> Vec<(&'a DescribedInstance, &'a Sight)> {
+        let large = self.seen.sights.iter().filter(|(_, sight)| sight.pixels as f64 >= share * self.seen.pixels as f64);
+        let named = large.filter_map(|(&instance, sight)| Some((self.thing(instance)?, sight))).filter(|(thing, _)| !thing.noun.is_empty());
+        let mut found: Vec<_> = named.collect();
+        found.sort_by_key(|(thing, sight)| (std::cmp::Reverse(sight.pixels), thing.instance));
+        found
+    }
+
+    /// "the sofa", "the blue sofa": words that mean this thing and no other that the frame shows; `None` where there are none.
+    pub fn definite(&self, thing: &DescribedInstance) -> Option<String> {
+        let others: Vec<_> = self.visible(NOTICED).into_iter().filter(|(other, _)| other.instance != thing.instance).collect();
+        let mistaken = |with_color: bool| {
+            others
+                .iter()
+                .any(|(other, _)| other.noun == thing.noun && (!with_color || other.color.is_empty() || other.color == thing.color))
+        };
+        if !mistaken(false) {
+            return Some(format!("the {}", thing.noun));
+        }
+        (!thing.color.is_empty() && !mistaken(true)).then(|| format!("the {} {}", thing.color, thing.noun))
+    }
+
+    /// What the other side of a relation is called: a wall or ceiling, or a thing that the frame shows.
+    pub fn object(&self, relation: &InstanceRelation) -> Option<String> {
+        if relation.object < 1 {
+            return Some(format!("the {}", enfilade_label::class_name(relation.object_semantic)));
+        }
+        let shown = self.seen.sights.get(&relation.object).is_some_and(|sight| sight.pixels as f64 >= NOTICED * self.seen.pixels as f64);
+        let thing = self.thing(relation.object).filter(|thing| shown && !thing.noun.is_empty())?;
+        self.definite(thing)
+    }
+}
+
+/// What is said of a frame that was taken from `eye`.
+pub fn caption(scope: &Scope<'_>, [scene, camera]: [&str; 2], eye: DVec3) -> Caption {
+    let visible = scope.visible(SPOKEN);
+    let mut instances = BTreeSet::new();
+    let mut sentences = vec![format!("{}.", words::sentence(&inventory(scope, &visible, eye, &mut instances)))];
+    let mut said = BTreeSet::new();
+    for (thing, _) in &visible {
+        if sentences.len() > SENTENCES {
+            break;
+        }
+        let clauses = clauses(scope, thing, &mut said, &mut instances);
+        if let Some(subject) = scope.definite(thing).filter(|_| !clauses.is_empty()) {
+            instances.insert(thing.instance);
+            sentences.push(format!("{} {}.", words::sentence(&subject), words::list(&clauses)));
+        }
+    }
+    let nearest = visible.iter().filter(|(_, sight)| sight.nearest_m.is_finite()).min_by(|a, b| a.1.nearest_m.total_cmp(&b.1.nearest_m));
+    if let Some((thing, sight)) = nearest
+        && let Some(subject) = scope.definite(thing)
+    {
+        instances.insert(thing.instance);
+        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        sentences.push(format!("{} {are} {:.1} m from the camera.", words::sentence(&subject), sight.nearest_m));
+    }
+    Caption {
+        id: format!("{scene}/{camera}/{:04}", scope.seen.frame),
+        scene_name: scene.into(),
+        camera: camera.into(),
+        frame: scope.seen.frame,
+        caption: sentences.join(" "),
+        instances: instances.into_iter().collect(),
+    }
+}
+
+/// "a bedroom with a white bed, two nightstands and some books".
+fn inventory(scope: &Scope<'_>, visible: &[(&DescribedInstance, &Sight)], eye: DVec3, instances: &mut BTreeSet<i16>) -> String {
+    let room = scope.things.structure.as_ref().and_then(|structure| structure.room_at(eye).map(|room| &structure.rooms[room].kind));
+    let room = room.map_or_else(|| "an interior".into(), |kind| words::a_room(kind));
+    let mut groups: Vec<(&str, Vec<&DescribedInstance>)> = Vec::new();
+    for (thing, _) in visible {
+        match groups.iter_mut().find(|(noun, _)| *noun == thing.noun) {
+            Some((_, group)) => group.push(thing),
+            None => groups.push((&thing.noun, vec![thing])),
+        }
+    }
+    groups.truncate(LISTED);
+    let items: Vec<String> = groups
+        .iter()
+        .map(|(noun, group)| {
+            instances.extend(group.iter().map(|thing| thing.instance));
+            match group.as_slice() {
+                [one] => words::a(&one.color, noun),
+                many if words::is_countable(noun) => format!("{} {}", words::number(many.len()), words::plural(noun)),
+                _ => words::a("", noun),
+            }
+        })
+        .collect();
+    if items.is_empty() { room } else { format!("{room} with {}", words::list(&items)) }
+}
+
+/// How a thing stands, as verbs with their objects. What is said of two things is said once.
+fn clauses(scope: &Scope<'_>, thing: &DescribedInstance, said: &mut BTreeSet<[i16; 2]>, instances: &mut BTreeSet<i16>) -> Vec<String> {
+    let many = words::is_plural(&thing.noun);
+    let mut found: BTreeMap<RelationKind, String> = BTreeMap::new();
+    for relation in scope.relations.iter().filter(|relation| relation.subject == thing.instance) {
+        let plain = match relation.kind {
+            RelationKind::On => relation.object_semantic == FLOOR,
+            RelationKind::In => relation.object < 1,
+            _ => false,
+        };
+        let pair = [relation.subject.min(relation.object), relation.subject.max(relation.object)];
+        if found.len() >= CLAUSES || found.contains_key(&relation.kind) || plain || (relation.object >= 1 && said.contains(&pair)) {
+            continue;
+        }
+        let Some(object) = scope.object(relation) else { continue };
+        if relation.object >= 1 {
+            said.insert(pair);
+            instances.insert(relation.object);
+        }
+        found.insert(relation.kind, format!("{} {object}", verb(relation, many)));
+    }
+    // "is on the rug and beside the sofa"
+    let are = if many { "are " } else { "is " };
+    let shorter = |(place, clause): (usize, String)| if place == 0 { clause } else { clause.strip_prefix(are).unwrap_or(&clause).into() };
+    found.into_values().enumerate().map(shorter).collect()
+}
+
+/// The words of a relation.
+fn verb(relation: &InstanceRelation, many: bool) -> String {
+    let are = if many { "are" } else { "is" };
+    let s = if many { "" } else { "s" };
+    match relation.kind {
+        RelationKind::On => format!("{are} on"),
+        RelationKind::In => format!("{are} in"),
+        RelationKind::HangsFrom if relation.object_semantic == 22 => format!("hang{s} from"),
+        RelationKind::HangsFrom => format!("hang{s} on"),
+        RelationKind::Against => format!("{are} against"),
+        RelationKind::Under => format!("{are} under"),
+        RelationKind::Beside => format!("{are} beside"),
+        RelationKind::Facing => format!("face{s}"),
+    }
+}

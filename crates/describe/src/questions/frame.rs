@@ -1,0 +1,124 @@
+//! Questions about a single frame, at most one of each kind.
+
+use super::{Answer, Asker};
+use crate::captions::Scope;
+use crate::colors::NAMES;
+use crate::seen::Sight;
+use crate::words;
+use enfilade_dataset::{DescribedInstance, RelationKind};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A thing is asked about when it covers this share of the image.
+const ASKED: f64 = 3e-3;
+/// The nearer of two things is nearer by this share and by this many metres, both at its nearest pixel and at its median one.
+const NEARER: f32 = 0.2;
+const NEARER_M: f32 = 0.3;
+/// Wrong answers beside the right one.
+const WRONG: usize = 3;
+
+/// A thing with the words that mean it and no other.
+type Meant<'a> = (&'a DescribedInstance, &'a Sight, String);
+
+/// Asks about a frame.
+pub fn of_frame(asker: &mut Asker<'_>, scope: &Scope<'_>) {
+    let visible = scope.visible(ASKED);
+    let mut meant: Vec<Meant<'_>> = visible.iter().filter_map(|&(thing, sight)| Some((thing, sight, scope.definite(thing)?))).collect();
+    asker.shuffle(&mut meant);
+    let frame = scope.seen.frame;
+    standing(asker, scope, &meant, frame);
+    color(asker, &meant, frame);
+    nearer(asker, &meant, frame);
+    sides(asker, &meant, frame);
+    count(asker, scope, frame);
+}
+
+/// What a thing is on, in, or hangs from. No other answer is true, not even by way of others.
+fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame: u32) {
+    for (thing, _, name) in meant {
+        let carrying = scope.relations.iter().filter(|relation| relation.subject == thing.instance);
+        let mut carrying = carrying.filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In));
+        let (Some(relation), None) = (carrying.next(), carrying.next()) else { continue };
+        let Some(right) = scope.object(relation).filter(|_| relation.object >= 1) else { continue };
+        let under = carriers(scope, thing.instance);
+        let others = meant.iter().filter(|(other, ..)| other.instance != thing.instance && !under.contains(&other.instance));
+        let wrong: Vec<String> = others.map(|(_, _, name)| name.clone()).filter(|name| *name != right).take(WRONG).collect();
+        if wrong.len() < WRONG {
+            continue;
+        }
+        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        let question = format!("What {are} {name} {}?", relation.kind.name());
+        asker.ask(Some(frame), "object_relation", question, Answer::Choice { right, wrong }, &[thing.instance, relation.object]);
+        return;
+    }
+}
+
+/// All that carry an instance or hold it, by way of others too.
+fn carriers(scope: &Scope<'_>, instance: i16) -> BTreeSet<i16> {
+    let (mut found, mut stack) = (BTreeSet::new(), vec![instance]);
+    while let Some(subject) = stack.pop() {
+        let by = scope.relations.iter().filter(|r| r.subject == subject && r.object >= 1);
+        for relation in by.filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In | RelationKind::HangsFrom)) {
+            if found.insert(relation.object) {
+                stack.push(relation.object);
+            }
+        }
+    }
+    found
+}
+
+fn color(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
+    // "What colour is the blue sofa?" is no question.
+    let mut plain = meant.iter().filter(|(thing, _, name)| !thing.color.is_empty() && *name == format!("the {}", thing.noun));
+    if let Some((thing, _, name)) = plain.next() {
+        let mut wrong: Vec<String> = NAMES.iter().filter(|color| **color != thing.color).map(ToString::to_string).collect();
+        asker.shuffle(&mut wrong);
+        wrong.truncate(WRONG);
+        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        let answer = Answer::Choice { right: thing.color.clone(), wrong };
+        asker.ask(Some(frame), "object_color", format!("What colour {are} {name}?"), answer, &[thing.instance]);
+    }
+}
+
+/// The first two in the list of which something is true.
+fn pair<'m>(meant: &'m [Meant<'m>], holds: impl Fn(&Sight, &Sight) -> bool) -> Option<[&'m Meant<'m>; 2]> {
+    let pairs = meant.iter().flat_map(|a| meant.iter().map(move |b| [a, b]));
+    pairs.into_iter().find(|[a, b]| a.0.instance != b.0.instance && holds(a.1, b.1))
+}
+
+fn nearer(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
+    let before = |a: f32, b: f32| a * (1.0 + NEARER) < b && a + NEARER_M < b;
+    let Some([near, far]) = pair(meant, |a, b| before(a.nearest_m, b.nearest_m) && before(a.median_m, b.median_m)) else { return };
+    let mut named = [near, far];
+    asker.shuffle(&mut named);
+    let question = format!("Which is nearer to the camera, {} or {}?", named[0].2, named[1].2);
+    let right = usize::from(named[1].0.instance == near.0.instance);
+    let answer = Answer::Ordered(named.map(|(_, _, name)| name.clone()).to_vec(), right);
+    asker.ask(Some(frame), "camera_distance", question, answer, &[near.0.instance, far.0.instance]);
+}
+
+fn sides(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
+    let Some(mut named) = pair(meant, |a, b| a.columns[1] < b.columns[0]) else { return };
+    let left = named[0].0.instance;
+    asker.shuffle(&mut named);
+    let [a, b] = named;
+    let are = if words::is_plural(&a.0.noun) { "Are" } else { "Is" };
+    let question = format!("{are} {} to the left or to the right of {} in the picture?", a.2, b.2);
+    let answer = Answer::Ordered(vec!["left".into(), "right".into()], usize::from(a.0.instance != left));
+    asker.ask(Some(frame), "image_side", question, answer, &[a.0.instance, b.0.instance]);
+}
+
+/// Where all of a name are large enough to be counted.
+fn count(asker: &mut Asker<'_>, scope: &Scope<'_>, frame: u32) {
+    let mut by_noun: BTreeMap<&str, Vec<(i16, bool)>> = BTreeMap::new();
+    for (thing, sight) in scope.visible(0.0).into_iter().filter(|(thing, _)| words::is_countable(&thing.noun)) {
+        let clear = sight.pixels as f64 >= ASKED * scope.seen.pixels as f64;
+        by_noun.entry(&thing.noun).or_default().push((thing.instance, clear));
+    }
+    let most =
+        by_noun.iter().filter(|(_, list)| list.len() >= 2 && list.iter().all(|(_, clear)| *clear)).max_by_key(|(_, list)| list.len());
+    if let Some((noun, list)) = most {
+        let question = format!("How many {} are in the picture?", words::plural(noun));
+        let instances: Vec<i16> = list.iter().map(|(instance, _)| *instance).collect();
+        asker.ask(Some(frame), "image_counting", question, Answer::Open(list.len().to_string()), &instances);
+    }
+}

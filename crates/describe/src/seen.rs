@@ -1,0 +1,104 @@
+//! What the frames of a camera show of each instance.
+
+use crate::colors::{NAMES, color_name};
+use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_frame::{Layer, Values};
+use enfilade_scene::{Counted, Cx};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Reflectance below this is none: what mirrors, metals and glass have.
+const NO_DIFFUSE: f32 = 0.002;
+/// A colour prevails when this share of all pixels has it.
+const PREVAILS: f64 = 0.5;
+
+/// What a frame shows of an instance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// How many pixels.
+    pub pixels: u64,
+    /// First and last column and row of them.
+    pub columns: [u32; 2],
+    pub rows: [u32; 2],
+    /// Distances from the camera centre, metres: of the nearest pixel, and of the median one.
+    pub nearest_m: f32,
+    pub median_m: f32,
+    /// How many pixels have each of the colours of [`NAMES`].
+    colors: [u64; NAMES.len()],
+}
+
+/// What a frame shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenFrame {
+    /// Its number.
+    pub frame: u32,
+    /// Pixels of the image.
+    pub pixels: u64,
+    /// By instance.
+    pub sights: BTreeMap<i16, Sight>,
+}
+
+/// Looks at these frames of a camera.
+///
+/// # Errors
+/// When a layer cannot be read.
+pub fn look(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32], cx: &dyn Cx) -> Result<Vec<SeenFrame>, DatasetError> {
+    let counted = Counted::new(cx, "frames", frames.len());
+    let one = |&number: &u32| counted.unit(|| look_at(dataset, [scene, camera], number));
+    frames.par_iter().map(one).collect()
+}
+
+fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32) -> Result<SeenFrame, DatasetError> {
+    let layers = [Layer::SemanticInstance, Layer::DepthMeters, Layer::DiffuseReflectance];
+    let frame = dataset.read_frame(scene, camera, number, &layers)?;
+    let [Some(Values::I16(instances)), Some(distances), Some(reflectance)] = layers.map(|layer| frame.get(layer)) else {
+        unreachable!("instances are read as int16")
+    };
+    let mut sights: BTreeMap<i16, (Sight, Vec<f32>)> = BTreeMap::new();
+    for (pixel, &instance) in instances.iter().enumerate().filter(|(_, instance)| **instance >= 1) {
+        let (column, row) = (pixel as u32 % frame.width, pixel as u32 / frame.width);
+        let distance = distances.get(pixel) as f32;
+        let new = || (Sight::at(column, row), Vec::new());
+        let (sight, of_pixels) = sights.entry(instance).or_insert_with(new);
+        sight.add(column, row, [0, 1, 2].map(|channel| reflectance.get(3 * pixel + channel) as f32));
+        of_pixels.push(distance);
+    }
+    let sights = sights.into_iter().map(|(instance, (mut sight, mut distances))| {
+        distances.retain(|distance| distance.is_finite());
+        let middle = distances.len() / 2;
+        if let Some(nearest) = distances.iter().copied().reduce(f32::min) {
+            sight.nearest_m = nearest;
+            sight.median_m = *distances.select_nth_unstable_by(middle, f32::total_cmp).1;
+        }
+        (instance, sight)
+    });
+    Ok(SeenFrame { frame: number, pixels: instances.len() as u64, sights: sights.collect() })
+}
+
+impl Sight {
+    fn at(column: u32, row: u32) -> Self {
+        let colors = [0; NAMES.len()];
+        Self { pixels: 0, columns: [column; 2], rows: [row; 2], nearest_m: f32::NAN, median_m: f32::NAN, colors }
+    }
+
+    fn add(&mut self, column: u32, row: u32, reflectance: [f32; 3]) {
+        self.pixels += 1;
+        self.columns = [self.columns[0].min(column), self.columns[1].max(column)];
+        self.rows = [self.rows[0].min(row), self.rows[1].max(row)];
+        if reflectance.iter().any(|&v| v > NO_DIFFUSE) {
+            let name = color_name(reflectance);
+            self.colors[NAMES.iter().position(|known| *known == name).unwrap_or_default()] += 1;
+        }
+    }
+}
+
+/// The colour that prevails on an instance in all of these sights, if any does.
+pub fn color<'s>(sights: impl Iterator<Item = &'s Sight>) -> Option<&'static str> {
+    let (mut pixels, mut colors) = (0, [0; NAMES.len()]);
+    for sight in sights {
+        pixels += sight.pixels;
+        colors.iter_mut().zip(sight.colors).for_each(|(sum, more)| *sum += more);
+    }
+    let prevails = |&count: &u64| count as f64 > PREVAILS * pixels as f64;
+    colors.iter().position(prevails).map(|index| NAMES[index])
+}

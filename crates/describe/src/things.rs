@@ -1,0 +1,127 @@
+//! The things of a scene, as its files have them.
+
+use crate::body::Body;
+use crate::words;
+use enfilade_dataset::{Dataset, DatasetError, DescribedInstance, MeshGeometry};
+use enfilade_label::boxes::upright_box;
+use enfilade_label::class_name;
+use enfilade_math::{DVec2, DVec3, Vec3};
+use enfilade_scene::{NYU40, PartLabel, Structure, StructureThing, is_stuff};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What stands in the opening of a wall belongs to a room as far away as this, metres.
+const IN_WALL_M: f64 = 0.5;
+
+/// The bodies of a scene and what its instances are.
+pub struct Things {
+    /// Of every instance, in ascending order, then of walls, floors and ceilings.
+    pub bodies: Vec<Body>,
+    /// What the instances are, in the same order; their colours are not known yet.
+    pub described: Vec<DescribedInstance>,
+    /// Rooms, where they are known.
+    pub structure: Option<Structure>,
+}
+
+/// Area by number of object or material, m².
+type Areas = BTreeMap<u32, f64>;
+
+/// What the triangles of an instance tell.
+#[derive(Default)]
+struct Gathered {
+    semantic: i16,
+    corners: Vec<[Vec3; 3]>,
+    points: Vec<DVec3>,
+    objects: Areas,
+    materials: Areas,
+}
+
+impl Things {
+    /// Reads a scene's mesh, labels and layout; `None` where nothing is labelled.
+    ///
+    /// # Errors
+    /// When a file is missing or damaged.
+    pub fn read(dataset: &Dataset, scene: &str) -> Result<Option<Self>, DatasetError> {
+        let files = dataset.mesh_files(scene);
+        let labels = match files.read_labels() {
+            Err(error) if error.is_not_found() => return Ok(None),
+            labels => labels?,
+        };
+        let known = files.read_last_class()? as usize == NYU40.len();
+        let (mut mesh, objects, metres) = (files.read()?, files.read_objects_of_faces()?, dataset.meters_per_asset_unit(scene)?);
+        mesh.vertices.iter_mut().for_each(|v| *v *= metres);
+        let structure = dataset.read_structure(scene)?;
+        let (mut instances, mut stuff) = (BTreeMap::new(), BTreeMap::new());
+        for (face, &object) in objects.iter().enumerate() {
+            let label = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
+            let list = if label.instance >= 1 {
+                &mut instances
+            } else if is_stuff(label.semantic) {
+                &mut stuff
+            } else {
+                continue;
+            };
+            let key = if label.instance >= 1 { label.instance } else { label.semantic };
+            let gathered: &mut Gathered = list.entry(key).or_default();
+            if gathered.corners.is_empty() {
+                gathered.semantic = label.semantic;
+            }
+            gathered.add(&mesh, face);
+        }
+        if instances.is_empty() {
+            return Ok(None);
+        }
+        let bodies = |list: BTreeMap<i16, Gathered>, instance: fn(i16) -> i16| {
+            let body = |(key, gathered): (i16, Gathered)| {
+                let upright = upright_box(&gathered.points)?;
+                let facts = (key, gathered.objects, gathered.materials);
+                Some((Body::new((instance(key), gathered.semantic), upright, gathered.corners), facts))
+            };
+            list.into_par_iter().filter_map(body).collect::<Vec<_>>()
+        };
+        let (things, shell) = (bodies(instances, |key| key), bodies(stuff, |_| -1));
+        let named: BTreeMap<i16, &StructureThing> =
+            structure.iter().flat_map(|structure| &structure.things).map(|thing| (thing.instance, thing)).collect();
+        let describe = |(body, (key, objects, materials)): &(Body, (i16, Areas, Areas))| {
+            let named = named.get(key).copied();
+            let largest = |areas: &Areas| areas.iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(index, _)| *index as usize);
+            let text = |names: &[String], index: Option<usize>| index.and_then(|i| names.get(i)).cloned().unwrap_or_default();
+            let room = structure.as_ref().and_then(|s| s.room_near(body.center(), IN_WALL_M).map(|room| s.rooms[room].name.clone()));
+            DescribedInstance {
+                instance: *key,
+                semantic: body.semantic,
+                semantic_name: if known { class_name(body.semantic).to_string() } else { String::new() },
+                name: named.map_or_else(|| text(&mesh.objects, largest(objects)), |thing| thing.name.clone()),
+                noun: named.map_or_else(|| words::of_class(body.semantic, known), |thing| words::of_family(&thing.family)),
+                room: room.unwrap_or_default(),
+                color: String::new(),
+                material: text(&mesh.materials, largest(materials)),
+                center: body.center(),
+                size_m: body.upright.extents,
+                front: named.and_then(|thing| thing.front).map(DVec2::from),
+            }
+        };
+        let described = things.iter().map(describe).collect();
+        let bodies = things.into_iter().chain(shell).map(|(body, _)| body).collect();
+        Ok(Some(Self { bodies, described, structure }))
+    }
+
+    /// The place of an instance in both lists.
+    pub fn place(&self, instance: i16) -> Option<usize> {
+        self.described.binary_search_by_key(&instance, |described| described.instance).ok()
+    }
+}
+
+impl Gathered {
+    /// Adds a triangle of the mesh.
+    fn add(&mut self, mesh: &MeshGeometry, face: usize) {
+        let points = mesh.faces[face].map(|vertex| mesh.vertices[vertex as usize]);
+        let area = 0.5 * (points[1] - points[0]).cross(points[2] - points[0]).length();
+        *self.objects.entry(mesh.object_of_face[face]).or_default() += area;
+        if let Some(material) = mesh.material_of_face[face] {
+            *self.materials.entry(material).or_default() += area;
+        }
+        self.points.extend(points);
+        self.corners.push(points.map(|p| p.as_vec3()));
+    }
+}

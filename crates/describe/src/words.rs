@@ -1,0 +1,140 @@
+//! How to speak of things: nouns, articles, plurals, lists.
+
+use enfilade_label::class_name;
+
+/// Families that are a part of the building or so small that nobody speaks of them.
+const UNSPOKEN: [&str; 9] = ["skirting", "socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
+/// Words that are plural as they are.
+const PLURAL: [&str; 13] = [
+    "books",
+    "magazines",
+    "clothes",
+    "shoes",
+    "scales",
+    "keys",
+    "herbs",
+    "bananas",
+    "coat hooks",
+    "blinds",
+    "shelves",
+    "curtains",
+    "stairs",
+];
+/// Words without a plural.
+const MASS: [&str; 5] = ["paper", "toilet paper", "crumpled paper", "sheet music", "kitchen roll"];
+/// Classes that say nothing of what a thing is: otherstructure, otherfurniture, otherprop.
+const VAGUE: [i16; 3] = [38, 39, 40];
+
+/// The word for a family of generated things; empty for what nobody speaks of.
+pub fn of_family(family: &str) -> String {
+    let words = family.replace('_', " ");
+    let unspoken = UNSPOKEN.iter().any(|known| words == *known || words.starts_with("skirting"));
+    if unspoken { String::new() } else { words }
+}
+
+/// The word for a class of NYU40; empty for those that say nothing, and where the classes are others.
+pub fn of_class(semantic: i16, known: bool) -> String {
+    if !known || semantic < 1 || VAGUE.contains(&semantic) {
+        return String::new();
+    }
+    match class_name(semantic) {
+        "floormat" => "rug".into(),
+        "showercurtain" => "shower curtain".into(),
+        word => word.into(),
+    }
+}
+
+/// Whether a word is used with "are".
+pub fn is_plural(noun: &str) -> bool {
+    PLURAL.contains(&noun)
+}
+
+/// Whether things of this name can be counted.
+pub fn is_countable(noun: &str) -> bool {
+    !is_plural(noun) && !MASS.contains(&noun)
+}
+
+/// "a sofa", "an armchair", "a blue sofa", "some books".
+pub fn a(color: &str, noun: &str) -> String {
+    let words = if color.is_empty() { noun.to_string() } else { format!("{color} {noun}") };
+    match (is_countable(noun), words.starts_with(['a', 'e', 'i', 'o', 'u'])) {
+        (false, _) => format!("some {words}"),
+        (true, true) => format!("an {words}"),
+        (true, false) => format!("a {words}"),
+    }
+}
+
+/// The plural of a word.
+pub fn plural(noun: &str) -> String {
+    if !is_countable(noun) {
+        return noun.to_string();
+    }
+    let stem = |end: &str| noun.strip_suffix(end);
+    if let Some(stem) = stem("shelf") {
+        return format!("{stem}shelves");
+    }
+    if let Some(stem) = stem("knife") {
+        return format!("{stem}knives");
+    }
+    let before_y = stem("y").filter(|stem| !stem.ends_with(['a', 'e', 'i', 'o', 'u']));
+    if let Some(stem) = before_y {
+        return format!("{stem}ies");
+    }
+    let hisses = ["s", "x", "ch", "sh"].iter().any(|end| noun.ends_with(end));
+    if hisses { format!("{noun}es") } else { format!("{noun}s") }
+}
+
+/// A small number in words.
+pub fn number(n: usize) -> String {
+    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    WORDS.get(n).map_or_else(|| n.to_string(), ToString::to_string)
+}
+
+/// "a", "a and b", "a, b and c".
+pub fn list(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// A kind of room, with its article.
+pub fn a_room(kind: &str) -> String {
+    let words = match kind {
+        "living" => "living room",
+        "dining" => "dining room",
+        "childrens" => "children's room",
+        "laundry" => "laundry room",
+        other => other,
+    };
+    a("", words)
+}
+
+/// With a capital at its beginning.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_as_people_write_them() {
+        assert_eq!(of_family("coffee_table"), "coffee table");
+        assert_eq!([of_family("skirting_bedroom"), of_family("socket"), of_class(40, true), of_class(5, false)], [""; 4]);
+        assert_eq!([of_class(20, true), of_class(6, true)], ["rug", "sofa"]);
+        assert_eq!(
+            [a("", "armchair"), a("orange", "sofa"), a("blue", "armchair"), a("", "books"), a("red", "paper")],
+            ["an armchair", "an orange sofa", "a blue armchair", "some books", "some red paper"]
+        );
+        let plurals = ["chair", "bookshelf", "knife", "bench", "dish", "tray", "laundry", "books", "glass", "box"].map(plural);
+        assert_eq!(plurals, ["chairs", "bookshelves", "knives", "benches", "dishes", "trays", "laundries", "books", "glasses", "boxes"]);
+        assert_eq!(list(&["a".into(), "b".into(), "c".into()]), "a, b and c");
+        assert_eq!(a_room("living"), "a living room");
+        assert_eq!([number(2), number(12)], ["two", "12"]);
+        assert_eq!(sentence("a sofa."), "A sofa.");
+    }
+}

@@ -1,0 +1,126 @@
+//! The law of relations between instances: what is said to touch does, by nearest points instead of rays, and what is said to be in another
+//! has its middle there.
+
+use super::boxes::there;
+use super::card::Card;
+use super::law::Law;
+use super::read::readable;
+use enfilade_dataset::{Dataset, DatasetError, InstanceRelation, RelationKind};
+use enfilade_geometry::NearestTriangle;
+use enfilade_math::{Bounds3, DVec3, Vec3};
+use enfilade_scene::PartLabel;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// The triangles of an instance, or of all walls, floors or ceilings, metres.
+struct Surface {
+    corners: Vec<[Vec3; 3]>,
+    bounds: Bounds3,
+    nearest: NearestTriangle,
+}
+
+/// Instance and, where that is −1, class.
+type Key = (i16, i16);
+
+/// Checks what is said of a scene, where anything is.
+pub(super) fn check(dataset: &Dataset, scene: &str, card: &mut Card) {
+    let Some(relations) = there(dataset.read_instance_relations(scene)).and_then(|read| readable(card, read)) else { return };
+    let Some(surfaces) = readable(card, surfaces(dataset, scene)) else { return };
+    let off = |relation: &InstanceRelation| {
+        let object = if relation.object < 1 { (-1, relation.object_semantic) } else { (relation.object, 0) };
+        let subject = surfaces.get(&(relation.subject, 0));
+        subject.zip(surfaces.get(&object)).map_or(f64::INFINITY, |(a, b)| off_m(relation, a, b))
+    };
+    let found: Vec<f64> = relations.par_iter().map(off).collect();
+    for (relation, off) in relations.iter().zip(found) {
+        let at = || {
+            let InstanceRelation { subject, kind, object, object_semantic, distance_m } = relation;
+            format!("{scene}: instance {subject} {} {object} of class {object_semantic}, {distance_m} m apart", kind.name())
+        };
+        card.observe(Law::InstanceRelations, off, at);
+    }
+}
+
+/// How far two surfaces are from what is said of them, metres.
+fn off_m(relation: &InstanceRelation, a: &Surface, b: &Surface) -> f64 {
+    let outside = |p: Vec3, bounds: &Bounds3| f64::from(p.distance(p.clamp(bounds.min, bounds.max)));
+    match relation.kind {
+        RelationKind::In => outside(a.bounds.center(), &b.bounds),
+        // Part of it is below the other's top, and they overlap from above.
+        RelationKind::Under => {
+            let gap = (a.bounds.min - b.bounds.max).max(b.bounds.min - a.bounds.max).max(Vec3::ZERO);
+            f64::from(gap.truncate().length().max(a.bounds.min.z - b.bounds.max.z))
+        }
+        RelationKind::Facing => 0.0,
+        RelationKind::On | RelationKind::HangsFrom | RelationKind::Against | RelationKind::Beside => {
+            let reach = relation.distance_m + Law::InstanceRelations.spec().bound;
+            (a.distance_m(b, reach).min(b.distance_m(a, reach)) - relation.distance_m).max(0.0)
+        }
+    }
+}
+
+impl Surface {
+    fn new(corners: Vec<[Vec3; 3]>) -> Self {
+        let bounds = Bounds3::from_points(corners.iter().flatten().copied());
+        Self { bounds, nearest: NearestTriangle::new(&corners), corners }
+    }
+
+    /// The least distance from corners, middles of edges and middles of its triangles to another surface; infinite beyond `reach_m`.
+    fn distance_m(&self, other: &Self, reach_m: f64) -> f64 {
+        let near = |p: &DVec3| p.distance(p.clamp(other.bounds.min.as_dvec3(), other.bounds.max.as_dvec3())) <= reach_m;
+        let of_triangle = |&[a, b, c]: &[Vec3; 3]| [a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0];
+        let points = self.corners.iter().flat_map(of_triangle).map(|p| p.as_dvec3()).filter(near);
+        points.filter_map(|p| other.nearest.nearest(p)).map(|(_, distance)| distance).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The surfaces of a scene by what they are labelled as.
+fn surfaces(dataset: &Dataset, scene: &str) -> Result<BTreeMap<Key, Surface>, DatasetError> {
+    let files = dataset.mesh_files(scene);
+    let (mesh, objects, labels) = (files.read()?, files.read_objects_of_faces()?, files.read_labels()?);
+    let metres = dataset.meters_per_asset_unit(scene)?;
+    let mut found: BTreeMap<Key, Vec<[Vec3; 3]>> = BTreeMap::new();
+    for (face, object) in mesh.faces.iter().zip(objects) {
+        let PartLabel { instance, semantic } = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
+        let key = if instance >= 1 { (instance, 0) } else { (-1, semantic) };
+        found.entry(key).or_default().push(face.map(|vertex| (mesh.vertices[vertex as usize] * metres).as_vec3()));
+    }
+    Ok(found.into_par_iter().map(|(key, corners)| (key, Surface::new(corners))).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_to_touch_and_does_not_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = enfilade_testroom::dataset(folder.path());
+        let off = |relation: InstanceRelation| {
+            dataset.write_instance_relations("room", &[relation]).unwrap();
+            let mut card = Card::default();
+            check(&dataset, "room", &mut card);
+            card.finding(Law::InstanceRelations).unwrap().value
+        };
+        let hangs = InstanceRelation { subject: 1, kind: RelationKind::HangsFrom, object: -1, object_semantic: 1, distance_m: 0.0 };
+        assert_eq!(off(hangs), 0.0);
+        assert_eq!(off(InstanceRelation { distance_m: -0.5, ..hangs }), 0.5);
+        assert!(off(InstanceRelation { subject: 7, ..hangs }).is_infinite());
+        assert!(off(InstanceRelation { object_semantic: 22, ..hangs }).is_infinite());
+    }
+
+    #[test]
+    fn distances_in_and_under_are_told() {
+        let square = |low: Vec3, side: f32| {
+            let [x, y] = [Vec3::X * side, Vec3::Y * side];
+            Surface::new(vec![[low, low + x, low + x + y], [low, low + x + y, low + y]])
+        };
+        let said = |kind| InstanceRelation { subject: 1, kind, object: 2, object_semantic: 7, distance_m: 0.01 };
+        let (floor, above) = (square(Vec3::ZERO, 1.0), square(Vec3::new(0.25, 0.25, 0.5), 0.5));
+        assert!((off_m(&said(RelationKind::On), &above, &square(Vec3::new(0.0, 0.0, 0.49), 1.0)) - 0.0).abs() < 1e-6);
+        assert!(off_m(&said(RelationKind::On), &above, &floor).is_infinite());
+        assert_eq!(off_m(&said(RelationKind::Under), &floor, &above), 0.0);
+        assert_eq!(off_m(&said(RelationKind::Under), &above, &floor), 0.5);
+        assert_eq!(off_m(&said(RelationKind::In), &above, &floor), 0.5);
+    }
+}
