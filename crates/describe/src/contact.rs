@@ -23,6 +23,9 @@ const GRID: usize = 5;
 /// They leave out this share of the box at each border: corners are rounded, and backs are bent.
 const MARGIN: f64 = 0.1;
 
+/// From a point along a unit direction.
+type Ray = (Vec3, Vec3);
+
 /// The gap to the other body of those rays that find it, and what share of all they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Meeting {
@@ -33,8 +36,8 @@ pub struct Meeting {
 }
 
 /// Rays of `a` along `direction`, from `sink` metres behind their origins to `reach` before them, that find `b`.
-fn meet(b: &Body, rays: &[(Vec3, Vec3)], sink: f32, reach: f32) -> Option<Meeting> {
-    let hit = |&(p, direction): &(Vec3, Vec3)| b.hit(p - direction * sink, direction, [0.0, sink + reach]).map(|t| t - sink);
+fn meet(b: &Body, rays: &[Ray], sink: f32, reach: f32) -> Option<Meeting> {
+    let hit = |&(p, direction): &Ray| b.hit(p - direction * sink, direction, [0.0, sink + reach]).map(|t| t - sink);
     let gaps: Vec<f32> = rays.iter().filter_map(hit).collect();
     let gap = gaps.iter().copied().reduce(f32::min)?;
     Some(Meeting { share: gaps.len() as f64 / rays.len() as f64, gap_m: f64::from(gap.max(0.0)) })
@@ -54,11 +57,11 @@ pub fn attempts(a: &Body, others: &[(usize, &Body)]) -> Vec<Attempt> {
     let along = |points: Vec<Vec3>, direction: Vec3| points.into_iter().map(|p| (p, direction)).collect::<Vec<_>>();
     let feet = along(a.ends(false, ENDS_M), Vec3::NEG_Z);
     let tops = along(a.ends(true, ENDS_M), Vec3::Z);
-    let looking_down = a.points.iter().filter(|(_, normal)| normal.z < -0.5).map(|(p, _)| (*p, Vec3::NEG_Z)).collect();
-    let sides: Vec<(Vec3, Vec3)> = a.points.iter().filter(|(_, normal)| normal.z.abs() < 0.5).copied().collect();
+    let looking_down: Vec<Ray> = a.points.iter().filter(|(_, normal)| normal.z < -0.5).map(|(p, _)| (*p, Vec3::NEG_Z)).collect();
+    let sides: Vec<Ray> = a.points.iter().filter(|(_, normal)| normal.z.abs() < 0.5).copied().collect();
     let (near, soft) = ([SINK_M, TOUCH_M], [SOFT_SINK_M, SOFT_TOUCH_M]);
     let (on, hangs) = (RelationKind::On, RelationKind::HangsFrom);
-    let ways: [(RelationKind, &Vec<(Vec3, Vec3)>, [f32; 2]); 7] = [
+    let ways: [(RelationKind, &[Ray], [f32; 2]); 7] = [
         (on, &feet, near),
         (hangs, &tops, near),
         (on, &feet, soft),
@@ -67,7 +70,7 @@ pub fn attempts(a: &Body, others: &[(usize, &Body)]) -> Vec<Attempt> {
         (hangs, &tops, soft),
         (hangs, &sides, soft),
     ];
-    let attempt = |(kind, rays, [sink, reach]): (RelationKind, &Vec<(Vec3, Vec3)>, [f32; 2])| {
+    let attempt = |(kind, rays, [sink, reach]): (RelationKind, &[Ray], [f32; 2])| {
         // Nothing stands on a ceiling.
         let others = others.iter().filter(|(_, b)| kind != on || b.semantic != CEILING);
         Attempt { kind, met: others.filter_map(|&(i, b)| Some((i, meet(b, rays, sink, reach)?))).collect() }
@@ -92,7 +95,7 @@ pub fn above(a: &Body, b: &Body, reach_m: f32) -> Option<Meeting> {
 }
 
 /// Rays from a side of a box.
-fn grid(middle: DVec3, across: [DVec3; 2], lengths: [f64; 2], out: DVec3) -> Vec<(Vec3, Vec3)> {
+fn grid(middle: DVec3, across: [DVec3; 2], lengths: [f64; 2], out: DVec3) -> Vec<Ray> {
     let at = |i: usize| (1.0 - 2.0 * MARGIN) * (i as f64 / (GRID - 1) as f64 - 0.5);
     let point = |k: usize| middle + across[0] * (lengths[0] * at(k % GRID)) + across[1] * (lengths[1] * at(k / GRID));
     (0..GRID * GRID).map(|k| (point(k).as_vec3(), out.as_vec3())).collect()

@@ -30,6 +30,7 @@ pub enum Format {
     Spatiallm,
     Structured3d,
     Tum,
+    Euroc,
     Replica,
     Panoptic,
     Wai,
@@ -65,7 +66,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 21] = [
+pub const FORMATS: [FormatSpec; 22] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -193,6 +194,14 @@ pub const FORMATS: [FormatSpec; 21] = [
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
         readme: include_str!("readmes/tum.md"),
+    },
+    FormatSpec {
+        format: Format::Euroc,
+        name: "euroc",
+        about: "EuRoC: grey pictures of a video, inertial measurements and the true motion",
+        needs: &[COLOR],
+        takes: Some(POSED),
+        readme: include_str!("readmes/euroc.md"),
     },
     FormatSpec {
         format: Format::Replica,

@@ -82,6 +82,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Croissant => formats::croissant::write(&selected, &out),
         Format::Opencv => formats::opencv::write(&selected, &out),
         Format::Pix3d => formats::pix3d::write(&selected, &out),
+        Format::Euroc => formats::euroc::write(&selected, &out),
         Format::Tum => formats::tum::write(&selected, &out),
         Format::Replica => formats::replica::write(&selected, &out),
         Format::Panoptic => formats::panoptic::write(&selected, &out),

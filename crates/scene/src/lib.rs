@@ -12,6 +12,7 @@ mod git_lfs;
 mod labels;
 mod light;
 mod material;
+mod motion;
 mod nesting;
 mod package;
 mod photometry;
@@ -33,6 +34,7 @@ pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
 pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
+pub use motion::{GRAVITY_M_S2, MotionSample, body_rotation};
 pub use package::{
     PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, to_bytes, to_bytes_with_labels,
 };

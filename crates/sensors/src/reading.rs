@@ -4,7 +4,7 @@ use crate::SensorError;
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Frame, Layer, LayerSpec, Pass, Values, vector};
 use enfilade_math::{DVec3, Rng, hash_u64};
-use enfilade_scene::Projection;
+use enfilade_scene::{MotionSample, Projection};
 
 /// A finished frame in the place of what a sensor would be pointed at.
 #[derive(Clone, Copy)]
@@ -19,6 +19,10 @@ pub struct Subject<'a> {
     pub projection: &'a Projection,
     /// At least the layers that the sensor looks at: [`Sensor::layers`](crate::Sensor::layers).
     pub frame: &'a Frame,
+    /// How its camera moves from frame 0 to the last, evenly in time; empty where that is not known.
+    pub motion: &'a [MotionSample],
+    /// From one frame to the next, seconds.
+    pub frame_time_s: f64,
 }
 
 /// What a sensor gives of a frame.
@@ -86,11 +90,11 @@ impl<'a> Subject<'a> {
         Ok((0..self.frame.pixels()).map(|i| Some(cosine(i)).filter(|v| v.is_finite()).unwrap_or(0.0)).collect())
     }
 
-    /// The random numbers of a sensor in this frame.
-    pub(crate) fn rng(&self, seed: u64, sensor: &str) -> Rng {
+    /// The random numbers of a sensor in a frame of this camera.
+    pub(crate) fn rng(&self, seed: u64, sensor: &str, number: u32) -> Rng {
         let names = [sensor, self.scene, self.camera];
         let mixed = names.iter().flat_map(|name| name.bytes().chain([0])).fold(seed, |hash, byte| hash_u64(hash ^ u64::from(byte)));
-        Rng::new(mixed).fork(u64::from(self.number))
+        Rng::new(mixed).fork(u64::from(number))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::reading::{Reading, Subject};
 use crate::triangulation::SecondEye;
-use crate::{CameraSensor, Lidar, SensorError, TimeOfFlight, Triangulation};
+use crate::{CameraSensor, Imu, Lidar, SensorError, TimeOfFlight, Triangulation};
 use enfilade_dataset::check_name;
 use enfilade_frame::Layer;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,9 @@ pub struct Sensors {
     /// Scanners of laser beams.
     #[serde(default)]
     pub lidar: Vec<Lidar>,
+    /// Inertial measurement units.
+    #[serde(default)]
+    pub imu: Vec<Imu>,
 }
 
 /// One sensor, with everything that its readings depend on beside the frame.
@@ -69,6 +72,7 @@ pub enum Kind {
     StructuredLight(Triangulation),
     Stereo(Triangulation),
     Lidar(Lidar),
+    Imu(Imu),
 }
 
 impl Sensors {
@@ -79,7 +83,8 @@ impl Sensors {
         let projectors = self.structured_light.iter().cloned().map(Kind::StructuredLight);
         let pairs = self.stereo.iter().cloned().map(Kind::Stereo);
         let scanners = self.lidar.iter().cloned().map(Kind::Lidar);
-        cameras.chain(timers).chain(projectors).chain(pairs).chain(scanners).map(|kind| Sensor {
+        let units = self.imu.iter().cloned().map(Kind::Imu);
+        cameras.chain(timers).chain(projectors).chain(pairs).chain(scanners).chain(units).map(|kind| Sensor {
             format: Sensor::FORMAT,
             seed: self.seed,
             kind,
@@ -115,6 +120,7 @@ impl Sensor {
             Kind::TimeOfFlight(sensor) => &sensor.name,
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => &sensor.name,
             Kind::Lidar(sensor) => &sensor.name,
+            Kind::Imu(sensor) => &sensor.name,
         }
     }
 
@@ -125,6 +131,7 @@ impl Sensor {
             Kind::TimeOfFlight(sensor) => sensor.layers(),
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => sensor.layers(),
             Kind::Lidar(sensor) => sensor.layers(),
+            Kind::Imu(_) => Vec::new(),
         }
     }
 
@@ -139,6 +146,7 @@ impl Sensor {
             Kind::TimeOfFlight(sensor) => sensor.check(),
             Kind::StructuredLight(sensor) | Kind::Stereo(sensor) => sensor.check(),
             Kind::Lidar(sensor) => sensor.check(),
+            Kind::Imu(sensor) => sensor.check(),
         };
         checked.map_err(|problem| SensorError::Setting { sensor: self.name().into(), problem })
     }
@@ -148,13 +156,14 @@ impl Sensor {
     /// # Errors
     /// When the frame lacks a layer that the sensor looks at, or its camera is none that such a sensor can have.
     pub fn sense(&self, subject: &Subject<'_>) -> Result<Reading, SensorError> {
-        let rng = subject.rng(self.seed, self.name());
+        let rng = subject.rng(self.seed, self.name(), subject.number);
         match &self.kind {
             Kind::Camera(sensor) => sensor.sense(subject, rng),
             Kind::TimeOfFlight(sensor) => sensor.sense(subject, rng),
             Kind::StructuredLight(sensor) => sensor.sense(SecondEye::Projector, subject, rng),
             Kind::Stereo(sensor) => sensor.sense(SecondEye::Camera, subject, rng),
             Kind::Lidar(sensor) => sensor.sense(subject, rng),
+            Kind::Imu(sensor) => sensor.sense(subject, self.seed),
         }
     }
 }

@@ -19,6 +19,7 @@ mod geometry;
 mod labels;
 mod law;
 mod many_views;
+mod motion;
 mod pair_flow;
 mod read;
 mod relations;

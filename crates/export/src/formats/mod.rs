@@ -8,6 +8,7 @@ pub(crate) mod croissant;
 pub(crate) mod cryptomatte;
 pub(crate) mod depth_png;
 pub(crate) mod dust3r;
+pub(crate) mod euroc;
 pub(crate) mod huggingface;
 pub(crate) mod nerfstudio;
 pub(crate) mod opencv;

@@ -4,6 +4,7 @@ mod bop;
 mod coco;
 mod common;
 mod dust3r;
+mod euroc;
 mod export_folder;
 mod huggingface;
 mod incomplete;

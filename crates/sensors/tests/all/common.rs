@@ -41,7 +41,9 @@ pub fn refused(text: &str) -> String {
 /// What a sensor makes of a frame.
 pub fn reading(text: &str, frame: &Frame) -> Reading {
     let projection = camera();
-    sensor(text).sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame }).unwrap()
+    sensor(text)
+        .sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame, motion: &[], frame_time_s: 1.0 })
+        .unwrap()
 }
 
 /// As a layer.

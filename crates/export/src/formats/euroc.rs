@@ -1,0 +1,135 @@
+//! EuRoC MAV sequences (Burri et al. 2016): `<scene>_<camera>/mav0` with the grey pictures of `cam0` (and `cam1` of a stereo rig), the inertial
+//! measurements of `imu0`, and `state_groundtruth_estimate0`.
+//!
+//! Times are nanoseconds from frame 0. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
+//! identity. The world is that of the dataset, z up.
+
+use crate::ExportError;
+use crate::calibration::Calibration;
+use crate::export_folder::ExportFolder;
+use crate::picture::{SHOWN, grey8_png, tone_mapped};
+use crate::selected_frames::{SelectedFrames, Track, View};
+use enfilade_dataset::{StereoRecord, StereoSide};
+use enfilade_math::{DMat4, DVec3};
+use enfilade_scene::MotionSample;
+use std::fmt::Write;
+
+/// Weights of red, green and blue in a grey picture: Rec. 601's luma, as OpenCV has them.
+const LUMA: [f64; 3] = [0.299, 0.587, 0.114];
+
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    for track in &selected.tracks {
+        let motion = motion(selected, track)?;
+        let (folder, number, stereo) = place(selected, track)?;
+        let step_s = selected.dataset.read_frame_time(&track.scene, &track.name)?;
+        let mut list = "#timestamp [ns],filename\n".to_string();
+        for view in track.views() {
+            let time = time(view, step_s);
+            let _ = writeln!(list, "{time},{time}.png");
+        }
+        let camera = format!("{folder}/cam{number}");
+        out.write(&format!("{camera}/data.csv"), list.as_bytes())?;
+        let sensor = camera_yaml(&Calibration::of_upright_pinhole(selected, track)?, 1.0 / step_s, &stereo);
+        out.write(&format!("{camera}/sensor.yaml"), sensor.as_bytes())?;
+        if number == 0 {
+            let rate_hz = (motion.len() - 1) as f64 / motion[motion.len() - 1].time_s;
+            let [measured, truth] = [measurements(&motion), truth(&motion)];
+            out.write(&format!("{folder}/imu0/data.csv"), measured.as_bytes())?;
+            out.write(&format!("{folder}/imu0/sensor.yaml"), imu_yaml(rate_hz).as_bytes())?;
+            out.write(&format!("{folder}/state_groundtruth_estimate0/data.csv"), truth.as_bytes())?;
+        }
+    }
+    selected.each(|view| write_frame(selected, out, view))?;
+    Ok(())
+}
+
+/// How the camera moved, or its left neighbour of a stereo rig.
+fn motion(selected: &SelectedFrames<'_>, track: &Track) -> Result<Vec<MotionSample>, ExportError> {
+    let stereo = selected.dataset.read_stereo(&track.scene, &track.name)?;
+    let left = stereo.filter(|stereo| stereo.side == StereoSide::Right).map_or(track.name.clone(), |stereo| stereo.partner);
+    let motion = selected.dataset.read_motion(&track.scene, &left)?;
+    if motion.len() < 2 {
+        let problem = "how it moved between its frames is not known; EuRoC is of videos: plan with mode = { kind = \"video\" } and two frames or more";
+        return Err(selected.unsuitable(track.folder(), problem));
+    }
+    Ok(motion)
+}
+
+/// The folder `mav0` of a track, whether it is `cam0` or `cam1` there, and the rig that it is of.
+fn place(selected: &SelectedFrames<'_>, track: &Track) -> Result<(String, usize, Option<StereoRecord>), ExportError> {
+    let stereo = selected.dataset.read_stereo(&track.scene, &track.name)?;
+    let right = stereo.as_ref().is_some_and(|stereo| stereo.side == StereoSide::Right);
+    let first = stereo.as_ref().filter(|_| right).map_or(&track.name, |stereo| &stereo.partner);
+    Ok((format!("{}_{first}/mav0", track.scene), usize::from(right), stereo))
+}
+
+/// The time of a frame, nanoseconds, as files are named.
+fn time(view: View<'_>, step_s: f64) -> u64 {
+    nanoseconds(f64::from(view.frame()) * step_s)
+}
+
+fn nanoseconds(time_s: f64) -> u64 {
+    (time_s * 1e9).round() as u64
+}
+
+/// The IMU stream, ideal.
+fn measurements(motion: &[MotionSample]) -> String {
+    let mut text = "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],\
+                    a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n"
+        .to_string();
+    for MotionSample { time_s, angular_rate: w, specific_force: a, .. } in motion {
+        let _ = writeln!(text, "{},{},{},{},{},{},{}", nanoseconds(*time_s), w.x, w.y, w.z, a.x, a.y, a.z);
+    }
+    text
+}
+
+/// Pose and velocity of the body; the biases of an ideal unit are 0.
+fn truth(motion: &[MotionSample]) -> String {
+    let mut text = "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], \
+                    v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], v_RS_R_z [m s^-1], b_w_RS_S_x [rad s^-1], b_w_RS_S_y [rad s^-1], \
+                    b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], b_a_RS_S_z [m s^-2]\n"
+        .to_string();
+    for MotionSample { time_s, position: p, rotation: q, velocity: v, .. } in motion {
+        let time = nanoseconds(*time_s);
+        let _ = writeln!(text, "{time},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0", p.x, p.y, p.z, q.w, q.x, q.y, q.z, v.x, v.y, v.z);
+    }
+    text
+}
+
+/// A pose as `sensor.yaml` has it: what takes points of the sensor to the body.
+fn pose_yaml(shift_m: DVec3) -> String {
+    let rows = DMat4::from_translation(shift_m).transpose().to_cols_array().map(|v| v.to_string()).join(", ");
+    format!("T_BS:\n  cols: 4\n  rows: 4\n  data: [{rows}]\n")
+}
+
+fn camera_yaml(k: &Calibration, rate_hz: f64, stereo: &Option<StereoRecord>) -> String {
+    let right = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
+    let shift = DVec3::X * right.map_or(0.0, |stereo| stereo.baseline_m);
+    let [[fx, _, cx], [_, fy, cy], _] = k.intrinsics.opencv_k();
+    format!(
+        "sensor_type: camera\ncomment: pinhole without distortion\n{}rate_hz: {rate_hz}\nresolution: [{}, {}]\ncamera_model: pinhole\n\
+         intrinsics: [{fx}, {fy}, {cx}, {cy}]\ndistortion_model: radial-tangential\ndistortion_coefficients: [0.0, 0.0, 0.0, 0.0]\n",
+        pose_yaml(shift),
+        k.intrinsics.width,
+        k.intrinsics.height
+    )
+}
+
+fn imu_yaml(rate_hz: f64) -> String {
+    format!(
+        "sensor_type: imu\ncomment: ideal, from the curve that the camera follows\n{}rate_hz: {rate_hz}\ngyroscope_noise_density: 0.0\n\
+         gyroscope_random_walk: 0.0\naccelerometer_noise_density: 0.0\naccelerometer_random_walk: 0.0\n",
+        pose_yaml(DVec3::ZERO)
+    )
+}
+
+fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
+    let (folder, number, _) = place(selected, view.track)?;
+    let step_s = selected.dataset.read_frame_time(&view.track.scene, &view.track.name)?;
+    let frame = selected.read(view, &SHOWN)?;
+    let picture = tone_mapped(selected, view, &frame)?;
+    let grey = |pixel: [u8; 3]| LUMA.iter().zip(pixel).map(|(weight, value)| weight * f64::from(value)).sum::<f64>().round() as u8;
+    let values: Vec<u8> = picture.pixels().map(|pixel| grey([pixel[0], pixel[1], pixel[2]])).collect();
+    let path = format!("{folder}/cam{number}/data/{}.png", time(view, step_s));
+    out.write(&path, &grey8_png(frame.width, frame.height, &values))
+}

@@ -1,0 +1,110 @@
+//! Inertial measurement units: gyroscope and accelerometer with white noise and wandering biases, as Kalibr and OpenVINS model them.
+//!
+//! A reading is `angular rate + bias + noise`, `specific force + bias + noise`, for each axis by itself. Noise of density σ has the standard
+//! deviation σ √rate; a bias begins at a normal deviate and wanders by steps of standard deviation σ_walk / √rate (Brownian motion).
+
+use crate::SensorError;
+use crate::reading::{Data, Reading, Subject};
+use enfilade_math::{DVec3, Rng};
+use enfilade_scene::MotionSample;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+
+/// An inertial measurement unit in the camera: `[[imu]]`. What is not given is 0, so that the unit is ideal.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Imu {
+    /// What its folder is called.
+    pub name: String,
+    /// Noise density of the gyroscope, rad/s/√Hz.
+    pub gyroscope_noise: f64,
+    /// How its bias wanders, rad/s²/√Hz.
+    pub gyroscope_walk: f64,
+    /// Standard deviation of its bias at frame 0, rad/s.
+    pub gyroscope_bias: f64,
+    /// Noise density of the accelerometer, m/s²/√Hz.
+    pub accelerometer_noise: f64,
+    /// How its bias wanders, m/s³/√Hz.
+    pub accelerometer_walk: f64,
+    /// Standard deviation of its bias at frame 0, m/s².
+    pub accelerometer_bias: f64,
+}
+
+impl Imu {
+    /// Checks every key.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let keys = [
+            ("gyroscope_noise", self.gyroscope_noise),
+            ("gyroscope_walk", self.gyroscope_walk),
+            ("gyroscope_bias", self.gyroscope_bias),
+            ("accelerometer_noise", self.accelerometer_noise),
+            ("accelerometer_walk", self.accelerometer_walk),
+            ("accelerometer_bias", self.accelerometer_bias),
+        ];
+        match keys.iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
+            Some((key, value)) => Err(format!("{key} = {value}: expected a number from 0 on")),
+            None => Ok(()),
+        }
+    }
+
+    /// The readings from a frame up to the next.
+    pub(crate) fn sense(&self, subject: &Subject<'_>, seed: u64) -> Result<Reading, SensorError> {
+        let (samples, per_frame, rate_hz) = self.samples(subject)?;
+        // What the bias has come to before this frame follows from the numbers that the frames before have drawn.
+        let rng = |number: u32| subject.rng(seed, &self.name, number);
+        let mut bias = self.first_bias(&mut rng(u32::MAX));
+        for before in 0..subject.number {
+            let mut rng = rng(before);
+            for _ in 0..per_frame {
+                self.step(&mut rng, rate_hz, &mut bias);
+            }
+        }
+        let mut rng = rng(subject.number);
+        let mut text = format!("{HEADER}\n");
+        let first = bias;
+        for sample in samples {
+            let [turn_noise, force_noise] = self.step(&mut rng, rate_hz, &mut bias);
+            let MotionSample { time_s, angular_rate, specific_force, .. } = sample;
+            let (w, a) = (*angular_rate + bias[0] + turn_noise, *specific_force + bias[1] + force_noise);
+            let _ = writeln!(text, "{time_s},{},{},{},{},{},{}", w.x, w.y, w.z, a.x, a.y, a.z);
+        }
+        let names = ["gyroscope_bias_x", "gyroscope_bias_y", "gyroscope_bias_z"];
+        let others = ["accelerometer_bias_x", "accelerometer_bias_y", "accelerometer_bias_z"];
+        let drawn = names.into_iter().zip(first[0].to_array()).chain(others.into_iter().zip(first[1].to_array()));
+        Ok(Reading { drawn: drawn.collect(), data: Data::File { name: "imu.csv", bytes: text.into_bytes() } })
+    }
+
+    /// The samples from the frame up to the next, how many there are from frame to frame, and in a second.
+    fn samples<'a>(&self, subject: &Subject<'a>) -> Result<(&'a [MotionSample], usize, f64), SensorError> {
+        let motion = subject.motion;
+        let Some(last) = motion.last().map(|sample| sample.time_s) else {
+            let problem = "how its camera moves is not known; that is so of videos alone: plan with mode = { kind = \"video\" }";
+            return Err(subject.unseen(&self.name, problem.into()));
+        };
+        let rate_hz = if last > 0.0 { (motion.len() - 1) as f64 / last } else { 1.0 / subject.frame_time_s };
+        let per_frame = (rate_hz * subject.frame_time_s).round().max(1.0) as usize;
+        let first = subject.number as usize * per_frame;
+        let of_frame = motion.get(first.min(motion.len())..(first + per_frame).min(motion.len())).unwrap_or_default();
+        Ok((of_frame, per_frame, rate_hz))
+    }
+
+    fn first_bias(&self, rng: &mut Rng) -> [DVec3; 2] {
+        [self.gyroscope_bias, self.accelerometer_bias].map(|deviation| deviation * normal(rng))
+    }
+
+    /// Lets the biases wander by one sample, and draws its noise. The same numbers are drawn whatever the settings are.
+    fn step(&self, rng: &mut Rng, rate_hz: f64, bias: &mut [DVec3; 2]) -> [DVec3; 2] {
+        let root = rate_hz.sqrt();
+        let noise = [self.gyroscope_noise, self.accelerometer_noise].map(|density| density * root * normal(rng));
+        let walk = [self.gyroscope_walk, self.accelerometer_walk].map(|density| density / root * normal(rng));
+        bias.iter_mut().zip(walk).for_each(|(bias, step)| *bias += step);
+        noise
+    }
+}
+
+/// The first line of a reading: seconds since frame 0, rad/s and m/s² along OpenCV's axes of the camera.
+const HEADER: &str = "time_s,angular_rate_x,angular_rate_y,angular_rate_z,specific_force_x,specific_force_y,specific_force_z";
+
+fn normal(rng: &mut Rng) -> DVec3 {
+    DVec3::new(rng.normal(), rng.normal(), rng.normal())
+}
