@@ -4,7 +4,7 @@ use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::{Table, write_parameters};
 use crate::{Dataset, DatasetError, StereoRecord, check_name, replace_file, write_bytes};
 use enfilade_math::{DMat3, DVec3, nearest_rotation};
-use enfilade_scene::{Camera, Intrinsics, Pose, Projection, Trajectory};
+use enfilade_scene::{Camera, Intrinsics, Motion, Pose, Projection, Trajectory};
 use serde::Serialize;
 use std::path::Path;
 
@@ -14,6 +14,18 @@ const FRAME_TIME_S: f64 = 1.0;
 const ORTHONORMAL: f64 = 1e-9;
 
 impl Dataset {
+    /// How a camera moves through its frames; `None` where these are no video: a second or more apart, or fewer than two.
+    ///
+    /// # Errors
+    /// When the trajectory or the time between frames cannot be read.
+    pub fn read_motion(&self, scene: &str, camera: &str) -> Result<Option<Motion>, DatasetError> {
+        let frame_time_s = self.read_frame_time(scene, camera)?;
+        if frame_time_s >= FRAME_TIME_S {
+            return Ok(None);
+        }
+        Ok(Motion::through(&self.read_trajectory(scene, camera)?.poses, frame_time_s))
+    }
+
     /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, the camera's row in
     /// `metadata_cameras.csv` and, where K does not say it all, `camera.json` with its arrays.
     ///

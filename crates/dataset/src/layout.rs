@@ -5,7 +5,7 @@
 //! `_detail/metadata_fixtures.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
 //! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
 //! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `tracks.npz`, `captions.jsonl`, `questions.jsonl`,
-//! `metadata_camera_motion.csv`, `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
+//! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays. Beside the layers of `scene_<camera>_final_hdf5` lie those of fixtures.
 
 use crate::{DatasetError, FramePair};
@@ -282,11 +282,6 @@ impl Layout {
     /// left camera.
     pub fn plan_report(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("plan_report.json")
-    }
-
-    /// How it moved between its frames, where it made a video that was planned here; of a stereo rig at the left camera.
-    pub fn motion(&self, scene: &str, camera: &str) -> PathBuf {
-        self.camera_dir(scene, camera).join("metadata_camera_motion.csv")
     }
 
     /// The camera in full, where it is more than a pinhole in focus and at rest, or one of a stereo rig.

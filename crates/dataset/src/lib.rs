@@ -37,7 +37,6 @@ mod loader_camera;
 mod manifest;
 mod mesh_files;
 pub mod mesh_names;
-mod motion_files;
 mod npz;
 mod number_ranges;
 mod object_files;

@@ -122,7 +122,7 @@ pub struct ManifestInfo {
 }
 
 /// How to read the files, in one sentence per subject.
-const NOTES: [(&str, &str); 18] = [
+const NOTES: [(&str, &str); 19] = [
     ("layout", "Hypersim's tree: scenes/<scene>/_detail and scenes/<scene>/images/scene_<camera>_{final,geometry}_hdf5."),
     ("world", "Right-handed, z up, metres; one asset unit is one metre (meters_per_asset_unit = 1)."),
     ("camera", "Axes x right, y up, z backward; camera_keyframe_orientations hold world_from_camera and act on column vectors."),
@@ -139,6 +139,11 @@ const NOTES: [(&str, &str); 18] = [
         "fixtures",
         "Where _detail/metadata_fixtures.csv is there, frames may have fixture_NN_diffuse_illumination and fixture_NN_residual: over all fixtures \
             diffuse_reflectance * diffuse_illumination + residual sums to color as it was rendered.",
+    ),
+    (
+        "words",
+        "Where _detail/metadata_instances.csv is there, it says what each instance is, metadata_instance_relations.csv how they stand to each \
+            other (lengths in metres), and captions.jsonl and questions.jsonl of each camera put it into words.",
     ),
     ("sampling", "Final layers are filtered over the pixel; geometry and label layers are point samples at pixel centres."),
     (

@@ -1,16 +1,12 @@
 //! The surface of a thing, as rays and distances are asked of it.
 
-use enfilade_geometry::{Bvh, NearestTriangle, nearest_point};
+use enfilade_geometry::{Bvh, NearestTriangle};
 use enfilade_math::{Bounds3, DVec3, OrientedBox, Ray, Rng, Vec3};
 
 /// Points that stand for a surface in questions of distance and direction, besides its corners.
 const POINTS: usize = 512;
 /// Corners of triangles that are looked at, at most, evenly among all.
 const CORNERS: usize = 2048;
-/// Alternating projections from these many of the nearest points find the distance between two bodies.
-const STARTS: usize = 8;
-/// They end at this many steps: each goes to the nearest point of the other body.
-const STEPS: usize = 12;
 
 /// A surface in the world, metres.
 pub struct Body {
@@ -18,6 +14,8 @@ pub struct Body {
     pub instance: i16,
     /// Its class.
     pub semantic: i16,
+    /// The same if it is one of NYU40, else −1: what rules go by.
+    pub class: i16,
     /// The least box with a level base around it, its longer horizontal side first.
     pub upright: OrientedBox,
     pub bounds: Bounds3,
@@ -34,6 +32,7 @@ impl Body {
         Self {
             instance,
             semantic,
+            class: semantic,
             upright,
             bounds: Bounds3::from_points(corners.iter().flatten().copied()),
             bvh: Bvh::new(&corners, &|_| false),
@@ -41,6 +40,23 @@ impl Body {
             points: spread(&corners, &mut Rng::new(instance as u64)),
             corners,
         }
+    }
+
+    /// Whether it is an instance, and no wall, floor or ceiling, nor a part without labels.
+    pub fn is_thing(&self) -> bool {
+        self.instance >= 1
+    }
+
+    /// Whether a point lies in its upright box, seen from above.
+    pub fn holds_from_above(&self, p: DVec3) -> bool {
+        let local = self.upright.world_from_box.transpose() * (p - self.upright.center);
+        local.truncate().abs().cmple(0.5 * self.upright.extents.truncate()).all()
+    }
+
+    /// Whether the bounds of another overlap its own, seen from above.
+    pub fn is_below(&self, other: &Self) -> bool {
+        let (a, b) = (&self.bounds, &other.bounds);
+        a.min.truncate().cmple(b.max.truncate()).all() && b.min.truncate().cmple(a.max.truncate()).all()
     }
 
     /// Where a ray meets it first, between these distances from its origin along a unit direction, metres.
@@ -53,12 +69,6 @@ impl Body {
         let way = (b - a).as_vec3();
         let length = way.length();
         length > 0.02 && self.hit(a.as_vec3(), way / length, [0.01, length - 0.01]).is_some()
-    }
-
-    /// Its point nearest to another.
-    fn nearest_point(&self, p: DVec3) -> DVec3 {
-        let triangle = self.nearest.nearest(p).map(|(triangle, _)| self.corners[triangle as usize].map(|c| c.as_dvec3()));
-        triangle.map_or(p, |triangle| nearest_point(p, triangle))
     }
 
     /// Corners of its triangles, not more than some thousand of them.
@@ -76,27 +86,10 @@ impl Body {
         found.into_iter().step_by(step).collect()
     }
 
-    /// The distance between the nearest points of two bodies, metres.
-    ///
-    /// From the nearest of many points of each, it goes back and forth to the nearest point of the other, which never gets farther: an upper
-    /// bound, and the distance itself where either is convex near its end.
+    /// The distance between the nearest points of two bodies, metres: an upper bound, and the distance itself where either is convex near its end.
     pub fn distance_m(&self, other: &Self) -> f64 {
-        let from = |a: &Self, b: &Self| {
-            let of_surface = a.points.iter().map(|(p, _)| *p);
-            let starts = of_surface.chain(a.some_corners()).map(Vec3::as_dvec3);
-            let mut starts: Vec<(f64, DVec3)> = starts.map(|p| (b.nearest_point(p).distance_squared(p), p)).collect();
-            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let walk = |&(_, start): &(f64, DVec3)| {
-                let mut ends = [start, b.nearest_point(start)];
-                for _ in 0..STEPS {
-                    ends = [a.nearest_point(ends[1]), ends[1]];
-                    ends = [ends[0], b.nearest_point(ends[0])];
-                }
-                ends[0].distance(ends[1])
-            };
-            starts.iter().take(STARTS).map(walk).fold(f64::INFINITY, f64::min)
-        };
-        from(self, other).min(from(other, self))
+        let starts = |body: &Self| body.points.iter().map(|(p, _)| *p).chain(body.some_corners()).map(Vec3::as_dvec3).collect::<Vec<_>>();
+        self.nearest.distance_m(&other.nearest, &starts(self)).min(other.nearest.distance_m(&self.nearest, &starts(other)))
     }
 
     /// The distance between the bounds of two bodies, metres: no more than that between the bodies.

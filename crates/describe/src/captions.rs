@@ -5,6 +5,7 @@ use crate::things::Things;
 use crate::words;
 use enfilade_dataset::{Caption, DescribedInstance, InstanceRelation, RelationKind};
 use enfilade_math::DVec3;
+use enfilade_scene::is_stuff;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A thing is spoken of when it covers this share of the image.
@@ -23,33 +24,39 @@ const FLOOR: i16 = 2;
 /// What is known of a scene, and what a frame shows of it.
 pub struct Scope<'a> {
     pub things: &'a Things,
-    pub described: &'a [DescribedInstance],
+    /// By subject.
     pub relations: &'a [InstanceRelation],
     pub seen: &'a SeenFrame,
+    /// What has a name and can be noticed, the largest first.
+    noticed: Vec<(&'a DescribedInstance, &'a Sight)>,
 }
 
 impl<'a> Scope<'a> {
-    /// What an instance is; `None` for numbers without triangles.
-    pub fn thing(&self, instance: i16) -> Option<&'a DescribedInstance> {
-        self.things.place(instance).map(|place| &self.described[place])
+    pub fn new(things: &'a Things, described: &'a [DescribedInstance], relations: &'a [InstanceRelation], seen: &'a SeenFrame) -> Self {
+        let thing = |(&instance, sight): (&i16, &'a Sight)| Some((&described[things.place(instance)?], sight));
+        let is_noticed = |(thing, sight): &(&DescribedInstance, &Sight)| !thing.noun.is_empty() && seen.covers(sight, NOTICED);
+        let mut noticed: Vec<_> = seen.sights.iter().filter_map(thing).filter(is_noticed).collect();
+        noticed.sort_by_key(|(thing, sight)| (std::cmp::Reverse(sight.pixels), thing.instance));
+        Self { things, relations, seen, noticed }
     }
 
     /// Things that have a name and cover at least this share of the image, the largest first.
     pub fn visible(&self, share: f64) -> Vec<(&'a DescribedInstance, &'a Sight)> {
-        let large = self.seen.sights.iter().filter(|(_, sight)| sight.pixels as f64 >= share * self.seen.pixels as f64);
-        let named = large.filter_map(|(&instance, sight)| Some((self.thing(instance)?, sight))).filter(|(thing, _)| !thing.noun.is_empty());
-        let mut found: Vec<_> = named.collect();
-        found.sort_by_key(|(thing, sight)| (std::cmp::Reverse(sight.pixels), thing.instance));
-        found
+        self.noticed.iter().copied().filter(|(_, sight)| self.seen.covers(sight, share)).collect()
+    }
+
+    /// The relations that are said of an instance.
+    pub fn relations_of(&self, instance: i16) -> &'a [InstanceRelation] {
+        let [first, end] = [instance, instance.saturating_add(1)].map(|i| self.relations.partition_point(|r| r.subject < i));
+        &self.relations[first..end]
     }
 
     /// "the sofa", "the blue sofa": words that mean this thing and no other that the frame shows; `None` where there are none.
     pub fn definite(&self, thing: &DescribedInstance) -> Option<String> {
-        let others: Vec<_> = self.visible(NOTICED).into_iter().filter(|(other, _)| other.instance != thing.instance).collect();
         let mistaken = |with_color: bool| {
-            others
-                .iter()
-                .any(|(other, _)| other.noun == thing.noun && (!with_color || other.color.is_empty() || other.color == thing.color))
+            let others =
+                self.noticed.iter().filter(|(other, _)| other.instance != thing.instance && words::may_be(&other.noun, &thing.noun));
+            others.into_iter().any(|(other, _)| !with_color || other.color.is_empty() || other.color == thing.color)
         };
         if !mistaken(false) {
             return Some(format!("the {}", thing.noun));
@@ -57,13 +64,13 @@ impl<'a> Scope<'a> {
         (!thing.color.is_empty() && !mistaken(true)).then(|| format!("the {} {}", thing.color, thing.noun))
     }
 
-    /// What the other side of a relation is called: a wall or ceiling, or a thing that the frame shows.
+    /// What the other side of a relation is called: a wall, floor or ceiling, or a thing that the frame shows.
     pub fn object(&self, relation: &InstanceRelation) -> Option<String> {
         if relation.object < 1 {
-            return Some(format!("the {}", enfilade_label::class_name(relation.object_semantic)));
+            let is_told = self.things.has_nyu40() && is_stuff(relation.object_semantic);
+            return is_told.then(|| format!("the {}", enfilade_label::class_name(relation.object_semantic)));
         }
-        let shown = self.seen.sights.get(&relation.object).is_some_and(|sight| sight.pixels as f64 >= NOTICED * self.seen.pixels as f64);
-        let thing = self.thing(relation.object).filter(|thing| shown && !thing.noun.is_empty())?;
+        let (thing, _) = self.noticed.iter().find(|(thing, _)| thing.instance == relation.object)?;
         self.definite(thing)
     }
 }
@@ -78,8 +85,9 @@ pub fn caption(scope: &Scope<'_>, [scene, camera]: [&str; 2], eye: DVec3) -> Cap
         if sentences.len() > SENTENCES {
             break;
         }
+        let Some(subject) = scope.definite(thing) else { continue };
         let clauses = clauses(scope, thing, &mut said, &mut instances);
-        if let Some(subject) = scope.definite(thing).filter(|_| !clauses.is_empty()) {
+        if !clauses.is_empty() {
             instances.insert(thing.instance);
             sentences.push(format!("{} {}.", words::sentence(&subject), words::list(&clauses)));
         }
@@ -132,7 +140,7 @@ fn inventory(scope: &Scope<'_>, visible: &[(&DescribedInstance, &Sight)], eye: D
 fn clauses(scope: &Scope<'_>, thing: &DescribedInstance, said: &mut BTreeSet<[i16; 2]>, instances: &mut BTreeSet<i16>) -> Vec<String> {
     let many = words::is_plural(&thing.noun);
     let mut found: BTreeMap<RelationKind, String> = BTreeMap::new();
-    for relation in scope.relations.iter().filter(|relation| relation.subject == thing.instance) {
+    for relation in scope.relations_of(thing.instance) {
         let plain = match relation.kind {
             RelationKind::On => relation.object_semantic == FLOOR,
             RelationKind::In => relation.object < 1,
@@ -151,8 +159,9 @@ fn clauses(scope: &Scope<'_>, thing: &DescribedInstance, said: &mut BTreeSet<[i1
     }
     // "is on the rug and beside the sofa"
     let are = if many { "are " } else { "is " };
-    let shorter = |(place, clause): (usize, String)| if place == 0 { clause } else { clause.strip_prefix(are).unwrap_or(&clause).into() };
-    found.into_values().enumerate().map(shorter).collect()
+    let clauses: Vec<String> = found.into_values().collect();
+    let follows = |i: usize| i > 0 && clauses[i - 1].starts_with(are);
+    (0..clauses.len()).map(|i| clauses[i].strip_prefix(are).filter(|_| follows(i)).unwrap_or(&clauses[i]).to_string()).collect()
 }
 
 /// The words of a relation.

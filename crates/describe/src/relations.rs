@@ -50,26 +50,27 @@ struct Support {
     by: Vec<(usize, Meeting)>,
 }
 
+/// The bodies of a scene and what carries them.
+struct Scene<'b> {
+    bodies: &'b [Body],
+    supports: Vec<Support>,
+}
+
 /// All relations of these bodies, by subject, then kind, then object. `front` says to where the front of an instance looks, where it has any.
 pub fn relations(bodies: &[Body], front: impl Fn(i16) -> Option<DVec2> + Sync) -> Vec<InstanceRelation> {
-    let supports = supports(bodies);
-    let things: Vec<usize> = (0..bodies.len()).filter(|&i| bodies[i].instance >= 1).collect();
+    let scene = Scene { bodies, supports: supports(bodies) };
     let of_thing = |&i: &usize| {
-        let mut found = carried(bodies, &supports, i);
-        found.extend(against(bodies, &supports, i));
-        found.extend(under(bodies, &supports, i));
-        found.extend(beside(bodies, &supports, i));
-        found.extend(front(bodies[i].instance).into_iter().flat_map(|front| facing(bodies, i, front)));
+        let mut found = scene.carried(i);
+        found.extend(scene.against(i));
+        found.extend(scene.under(i));
+        found.extend(scene.beside(i));
+        found.extend(front(bodies[i].instance).into_iter().flat_map(|front| scene.facing(i, front)));
         found
     };
+    let things: Vec<usize> = (0..bodies.len()).filter(|&i| bodies[i].is_thing()).collect();
     let mut all: Vec<InstanceRelation> = things.par_iter().flat_map_iter(of_thing).collect();
     all.sort_by_key(|r| (r.subject, r.kind, r.object, r.object_semantic));
     all
-}
-
-fn relation(bodies: &[Body], subject: usize, kind: RelationKind, object: usize, distance_m: f64) -> InstanceRelation {
-    let Body { instance, semantic, .. } = bodies[object];
-    InstanceRelation { subject: bodies[subject].instance, kind, object: instance, object_semantic: semantic, distance_m }
 }
 
 /// The others whose bounds come within `reach_m` of a body's.
@@ -77,32 +78,26 @@ fn near(bodies: &[Body], i: usize, reach_m: f64) -> impl Iterator<Item = (usize,
     bodies.iter().enumerate().filter(move |(j, b)| *j != i && bodies[i].bounds_distance_m(b) <= reach_m)
 }
 
-/// What carries each thing. Walls, floors and ceilings carry themselves; then, round by round, what they carry in the most telling way; where
-/// that leads no farther, in a less telling one.
+/// What carries each thing. What is no thing carries itself; then, round by round, what that carries in the most telling way; where this leads
+/// no farther, those go on that have the most telling of the other ways.
 fn supports(bodies: &[Body]) -> Vec<Support> {
     let attempts = |i: usize| {
         let others: Vec<(usize, &Body)> = near(bodies, i, 0.03).collect();
-        if bodies[i].instance < 1 { Vec::new() } else { contact::attempts(&bodies[i], &others) }
+        if bodies[i].is_thing() { contact::attempts(&bodies[i], &others) } else { Vec::new() }
     };
     let attempts: Vec<Vec<Attempt>> = (0..bodies.len()).into_par_iter().map(attempts).collect();
     let mut supports: Vec<Support> = vec![Support::default(); bodies.len()];
-    let mut carried: Vec<bool> = bodies.iter().map(|body| body.instance < 1).collect();
+    let mut carried: Vec<bool> = bodies.iter().map(|body| !body.is_thing()).collect();
     loop {
-        let by_known = |attempt: &Attempt| {
-            let known: Vec<(usize, Meeting)> = attempt.met.iter().copied().filter(|&(j, _)| carried[j]).collect();
-            (!known.is_empty()).then(|| Support { kind: Some(attempt.kind), by: foremost(known) })
+        // The first way of each in which something meets it that is carried.
+        let way = |i: usize| {
+            let known = |attempt: &Attempt| attempt.met.iter().copied().filter(|&(j, _)| carried[j]).collect::<Vec<_>>();
+            let mut ways = attempts[i].iter().map(|attempt| (attempt.kind, known(attempt))).enumerate();
+            ways.find(|(_, (_, by))| !by.is_empty()).map(|(rank, (kind, by))| (rank, i, Support { kind: Some(kind), by: foremost(by) }))
         };
-        let open = || (0..bodies.len()).filter(|&i| !carried[i]);
-        let first = |i: usize| Some((i, attempts[i].first().and_then(by_known)?));
-        let any = |i: usize| Some((i, attempts[i].iter().find_map(by_known)?));
-        let mut next: Vec<(usize, Support)> = open().filter_map(first).collect();
-        if next.is_empty() {
-            next = open().filter_map(any).collect();
-        }
-        if next.is_empty() {
-            return supports;
-        }
-        for (i, support) in next {
+        let found: Vec<(usize, usize, Support)> = (0..bodies.len()).filter(|&i| !carried[i]).filter_map(way).collect();
+        let Some(best) = found.iter().map(|(rank, ..)| *rank).min() else { return supports };
+        for (_, i, support) in found.into_iter().filter(|(rank, ..)| *rank == best) {
             carried[i] = true;
             supports[i] = support;
         }
@@ -124,125 +119,124 @@ fn is_in(a: &Body, container: &Body) -> bool {
     down && ways >= IN_WAYS
 }
 
-/// On, in, or hangs from.
-fn carried(bodies: &[Body], supports: &[Support], i: usize) -> Vec<InstanceRelation> {
-    let mut found = Vec::new();
-    for (j, container) in near(bodies, i, 0.0).filter(|(_, b)| b.instance >= 1 && b.upright.volume() > bodies[i].upright.volume()) {
-        if is_in(&bodies[i], container) {
-            found.push(relation(bodies, i, RelationKind::In, j, 0.0));
-        }
+impl Scene<'_> {
+    fn relation(&self, subject: usize, kind: RelationKind, object: usize, distance_m: f64) -> InstanceRelation {
+        let Body { instance, semantic, .. } = self.bodies[object];
+        InstanceRelation { subject: self.bodies[subject].instance, kind, object: instance, object_semantic: semantic, distance_m }
     }
-    let within: BTreeSet<i16> = found.iter().map(|relation| relation.object).collect();
-    let Some(kind) = supports[i].kind else { return found };
-    let is_opening = OPENINGS.contains(&bodies[i].semantic);
-    for &(j, meeting) in supports[i].by.iter().filter(|(j, _)| bodies[*j].instance < 1 || !within.contains(&bodies[*j].instance)) {
-        let kind = if is_opening && bodies[j].semantic == WALL { RelationKind::In } else { kind };
-        found.push(relation(bodies, i, kind, j, meeting.gap_m));
-    }
-    found
-}
 
-/// Whether one carries the other, directly or by way of others.
-fn rests_on(supports: &[Support], i: usize, on: usize) -> bool {
-    let (mut seen, mut stack) = (BTreeSet::from([i]), vec![i]);
-    while let Some(k) = stack.pop() {
-        for &(j, _) in &supports[k].by {
-            if j == on {
-                return true;
-            }
-            if seen.insert(j) {
-                stack.push(j);
+    /// What carries a body.
+    fn carriers(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
+        self.supports[i].by.iter().map(|(j, _)| *j)
+    }
+
+    /// Whether one carries the other, directly or by way of others.
+    fn rests_on(&self, i: usize, on: usize) -> bool {
+        let (mut seen, mut stack) = (BTreeSet::from([i]), vec![i]);
+        while let Some(k) = stack.pop() {
+            for j in self.carriers(k) {
+                if j == on {
+                    return true;
+                }
+                if seen.insert(j) {
+                    stack.push(j);
+                }
             }
         }
+        false
     }
-    false
-}
 
-/// What a thing on the floor or on other things stands against: walls, and things that are higher than half of it.
-fn against(bodies: &[Body], supports: &[Support], i: usize) -> Vec<InstanceRelation> {
-    if supports[i].kind != Some(RelationKind::On) {
-        return Vec::new();
+    /// Whether nothing is between two points of two bodies but what these carry: cushions do not hide a sofa.
+    fn is_free(&self, [i, j]: [usize; 2], ends: [DVec3; 2], reach_m: f64) -> bool {
+        let hides = |(k, c): (usize, &Body)| k != j && c.is_between(ends) && !self.rests_on(k, i) && !self.rests_on(k, j);
+        !near(self.bodies, i, reach_m).any(hides)
     }
-    let reach = f64::from(AGAINST_M).min(AGAINST_LENGTHS * bodies[i].upright.extents.max_element());
-    let meets = |j: usize, b: &Body| {
-        let apart = b.semantic != CEILING && !rests_on(supports, i, j) && !rests_on(supports, j, i);
+
+    /// On, in, or hangs from.
+    fn carried(&self, i: usize) -> Vec<InstanceRelation> {
+        let a = &self.bodies[i];
+        let larger = near(self.bodies, i, 0.0).filter(|(_, b)| b.is_thing() && b.upright.volume() > a.upright.volume());
+        let within: Vec<usize> = larger.filter(|(_, b)| is_in(a, b)).map(|(j, _)| j).collect();
+        let mut found: Vec<InstanceRelation> = within.iter().map(|&j| self.relation(i, RelationKind::In, j, 0.0)).collect();
+        let Some(kind) = self.supports[i].kind else { return found };
+        for &(j, meeting) in self.supports[i].by.iter().filter(|(j, _)| !within.contains(j)) {
+            let in_wall = OPENINGS.contains(&a.class) && self.bodies[j].class == WALL;
+            found.push(self.relation(i, if in_wall { RelationKind::In } else { kind }, j, meeting.gap_m));
+        }
+        found
+    }
+
+    /// What a thing that is on something stands against: walls and other things.
+    fn against(&self, i: usize) -> Vec<InstanceRelation> {
+        if self.supports[i].kind != Some(RelationKind::On) {
+            return Vec::new();
+        }
+        let a = &self.bodies[i];
+        let reach = f64::from(AGAINST_M).min(AGAINST_LENGTHS * a.upright.extents.max_element());
         let sides = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
-        let mut met = sides.iter().filter(|_| apart).filter_map(|&(axis, sign)| contact::beside(&bodies[i], b, axis, sign));
-        met.any(|meeting| meeting.share >= AGAINST_SHARE).then(|| bodies[i].distance_m(b)).filter(|&gap| gap <= reach)
-    };
-    let carriers: BTreeSet<usize> = supports[i].by.iter().map(|(j, _)| *j).collect();
-    let others = near(bodies, i, f64::from(AGAINST_M)).filter(|(j, _)| !carriers.contains(j));
-    others.filter_map(|(j, b)| meets(j, b).map(|gap| relation(bodies, i, RelationKind::Against, j, gap))).collect()
-}
+        let meets = |b: &Body| {
+            let mut met = sides.iter().filter_map(|&(axis, sign)| contact::beside(a, b, axis, sign));
+            met.any(|meeting| meeting.share >= AGAINST_SHARE)
+        };
+        let others =
+            near(self.bodies, i, reach).filter(|(j, b)| b.class != CEILING && meets(b) && !self.rests_on(i, *j) && !self.rests_on(*j, i));
+        let gaps = others.map(|(j, b)| (j, a.distance_m(b))).filter(|(_, gap)| *gap <= reach);
+        gaps.map(|(j, gap)| self.relation(i, RelationKind::Against, j, gap)).collect()
+    }
 
-/// What a thing is under: things, not those that hang from the ceiling, nor those that it carries or is in.
-fn under(bodies: &[Body], supports: &[Support], i: usize) -> Vec<InstanceRelation> {
-    let mut found = Vec::new();
-    for (j, b) in near(bodies, i, f64::from(UNDER_M)).filter(|(_, b)| b.instance >= 1) {
-        let hangs_high =
-            supports[j].kind == Some(RelationKind::HangsFrom) && supports[j].by.iter().any(|(k, _)| bodies[*k].semantic == CEILING);
-        let higher = f64::from(b.bounds.max.z) > f64::from(bodies[i].bounds.max.z);
-        // Books on a shelf are not said to be under those on the next.
-        let share_thing = supports[i].by.iter().any(|(k, _)| bodies[*k].instance >= 1 && supports[j].by.iter().any(|(l, _)| k == l));
-        if hangs_high || !higher || share_thing || rests_on(supports, j, i) || rests_on(supports, i, j) || is_in(&bodies[i], b) {
-            continue;
-        }
-        if let Some(met) = contact::above(&bodies[i], b, UNDER_M).filter(|met| met.share >= UNDER_SHARE) {
-            found.push(relation(bodies, i, RelationKind::Under, j, met.gap_m));
-        }
+    /// What a thing is under: things, not those that hang from the ceiling, nor those that it carries or is in.
+    fn under(&self, i: usize) -> Vec<InstanceRelation> {
+        let a = &self.bodies[i];
+        let higher =
+            near(self.bodies, i, f64::from(UNDER_M)).filter(|(_, b)| b.is_thing() && b.bounds.max.z > a.bounds.max.z && a.is_below(b));
+        let met = higher.filter_map(|(j, b)| Some((j, contact::above(a, b, UNDER_M).filter(|met| met.share >= UNDER_SHARE)?)));
+        let is_under = |(j, _): &(usize, Meeting)| {
+            let hangs_high =
+                self.supports[*j].kind == Some(RelationKind::HangsFrom) && self.carriers(*j).any(|k| self.bodies[k].class == CEILING);
+            // Books on a shelf are not said to be under those on the next.
+            let share_thing = self.carriers(i).any(|k| self.bodies[k].is_thing() && self.carriers(*j).any(|l| k == l));
+            !hangs_high && !share_thing && !self.rests_on(*j, i) && !self.rests_on(i, *j) && !is_in(a, &self.bodies[*j])
+        };
+        met.filter(is_under).map(|(j, met)| self.relation(i, RelationKind::Under, j, met.gap_m)).collect()
     }
-    found
-}
 
-/// What stands beside a thing on the same ground, with nothing between; said once, of the lower number.
-fn beside(bodies: &[Body], supports: &[Support], i: usize) -> Vec<InstanceRelation> {
-    let a = &bodies[i];
-    let mut found = Vec::new();
-    for (j, b) in near(bodies, i, BESIDE_M).filter(|(_, b)| b.instance > a.instance) {
-        let shared = supports[i].kind == Some(RelationKind::On)
-            && supports[j].kind == Some(RelationKind::On)
-            && supports[i].by.iter().any(|(k, _)| supports[j].by.iter().any(|(l, _)| k == l));
-        // What runs around the room is beside everything.
-        let around = [(a, b), (b, a)].iter().any(|(a, b)| a.bounds.contains(b.center().as_vec3().truncate().extend(a.bounds.center().z)));
-        if !shared || around {
-            continue;
-        }
-        let heights = [a, b].map(|body| body.upright.extents.z);
-        let overlap = f64::from(a.bounds.max.z.min(b.bounds.max.z) - a.bounds.min.z.max(b.bounds.min.z));
-        let smaller = a.upright.extents.x.min(b.upright.extents.x);
-        if overlap < BESIDE_OVERLAP * heights[0].min(heights[1]) {
-            continue;
-        }
-        let distance = a.distance_m(b);
-        let level = f64::from(a.bounds.min.z.max(b.bounds.min.z)) + 0.5 * overlap;
-        let ends = [a, b].map(|body| body.center().truncate().extend(level));
-        let near_enough = distance <= BESIDE_M.min(BESIDE_LENGTHS * smaller);
-        if near_enough && !near(bodies, i, BESIDE_M).any(|(k, c)| k != j && c.is_between(ends)) {
-            found.push(relation(bodies, i, RelationKind::Beside, j, distance));
-        }
+    /// What stands beside a thing on the same ground, with nothing between; said once, of the lower number.
+    fn beside(&self, i: usize) -> Vec<InstanceRelation> {
+        let a = &self.bodies[i];
+        let is_on = |j: usize| self.supports[j].kind == Some(RelationKind::On);
+        let stands_beside = |j: usize, b: &Body| {
+            let smaller = a.upright.extents.x.min(b.upright.extents.x);
+            let reach = BESIDE_M.min(BESIDE_LENGTHS * smaller);
+            let overlap = f64::from(a.bounds.max.z.min(b.bounds.max.z) - a.bounds.min.z.max(b.bounds.min.z));
+            let is_level = overlap >= BESIDE_OVERLAP * a.upright.extents.z.min(b.upright.extents.z);
+            let shares_ground = self.carriers(i).any(|k| self.carriers(j).any(|l| k == l));
+            // What runs around the room is beside everything.
+            let is_around = a.holds_from_above(b.center()) || b.holds_from_above(a.center());
+            if a.bounds_distance_m(b) > reach || !is_level || !is_on(j) || !shares_ground || is_around {
+                return None;
+            }
+            let level = f64::from(a.bounds.min.z.max(b.bounds.min.z)) + 0.5 * overlap;
+            let ends = [a, b].map(|body| body.center().truncate().extend(level));
+            let distance = Some(a.distance_m(b)).filter(|distance| *distance <= reach)?;
+            self.is_free([i, j], ends, BESIDE_M).then_some(distance)
+        };
+        let others = near(self.bodies, i, BESIDE_M).filter(|(_, b)| is_on(i) && b.instance > a.instance);
+        others.filter_map(|(j, b)| Some(self.relation(i, RelationKind::Beside, j, stands_beside(j, b)?))).collect()
     }
-    found
-}
 
-/// What a thing with a front looks at: things of some size near the middle of its view, with nothing between.
-fn facing(bodies: &[Body], i: usize, front: DVec2) -> Vec<InstanceRelation> {
-    let a = &bodies[i];
-    if !FACING_CLASSES.contains(&a.semantic) {
-        return Vec::new();
+    /// What a thing with a front looks at: furniture and the like near the middle of its view, with nothing between.
+    fn facing(&self, i: usize, front: DVec2) -> Vec<InstanceRelation> {
+        let a = &self.bodies[i];
+        let looks = |(j, b): (usize, &Body)| {
+            let way = b.center() - a.center();
+            let is_ahead = way.length() <= FACING_M && front.extend(0.0).angle_between(way).to_degrees() <= FACING_DEG;
+            let is_free = || self.is_free([i, j], [a.center(), b.center()], FACING_M);
+            (is_ahead && is_free()).then(|| self.relation(i, RelationKind::Facing, j, way.length()))
+        };
+        let is_faced = |(_, b): &(usize, &Body)| b.is_thing() && FACED_CLASSES.contains(&b.class);
+        let looks_out = FACING_CLASSES.contains(&a.class);
+        near(self.bodies, i, FACING_M).filter(|other| looks_out && is_faced(other)).filter_map(looks).collect()
     }
-    let within = near(bodies, i, FACING_M).filter(|(_, b)| b.instance >= 1 && FACED_CLASSES.contains(&b.semantic));
-    let mut found = Vec::new();
-    for (j, b) in within {
-        let way: DVec3 = b.center() - a.center();
-        let aside = front.extend(0.0).angle_between(way).to_degrees();
-        let distance = way.length();
-        let ends = [a.center(), b.center()];
-        let free = || near(bodies, i, FACING_M).all(|(k, c)| k == j || !c.is_between(ends));
-        if distance > 0.0 && distance <= FACING_M && aside <= FACING_DEG && free() {
-            found.push(relation(bodies, i, RelationKind::Facing, j, distance));
-        }
-    }
-    found
 }
 
 #[cfg(test)]

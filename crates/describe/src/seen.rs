@@ -1,9 +1,9 @@
 //! What the frames of a camera show of each instance.
 
 use crate::colors::{NAMES, color_name};
-use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_dataset::{Dataset, DatasetError, counted};
 use enfilade_frame::{Layer, Values};
-use enfilade_scene::{Counted, Cx};
+use enfilade_scene::{Counted, Cx, Warning};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -38,29 +38,45 @@ pub struct SeenFrame {
     pub sights: BTreeMap<i16, Sight>,
 }
 
-/// Looks at these frames of a camera.
+impl SeenFrame {
+    /// Whether a sight covers at least this share of the image.
+    pub fn covers(&self, sight: &Sight, share: f64) -> bool {
+        sight.pixels as f64 >= share * self.pixels as f64
+    }
+}
+
+/// Looks at these frames of a camera. Frames without instances or distances are left out, which `cx` is told; without reflectance things have
+/// no colour.
 ///
 /// # Errors
 /// When a layer cannot be read.
 pub fn look(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32], cx: &dyn Cx) -> Result<Vec<SeenFrame>, DatasetError> {
-    let counted = Counted::new(cx, "frames", frames.len());
-    let one = |&number: &u32| counted.unit(|| look_at(dataset, [scene, camera], number));
-    frames.par_iter().map(one).collect()
+    let has = |number: u32, layer: Layer| dataset.gives_layer(scene, camera, number, layer);
+    let (whole, others): (Vec<u32>, Vec<u32>) =
+        frames.iter().partition(|&&number| has(number, Layer::SemanticInstance) && has(number, Layer::DepthMeters));
+    if let Some(first) = others.first() {
+        let message =
+            format!("{} from {first} on have no instances or no distances, and are left out: label them", counted(others.len(), "frame"));
+        cx.warn(Warning { place: format!("{scene}/{camera}"), message });
+    }
+    let frames = Counted::new(cx, "frames", whole.len());
+    let one = |&number: &u32| frames.unit(|| look_at(dataset, [scene, camera], number, has(number, Layer::DiffuseReflectance)));
+    whole.par_iter().map(one).collect()
 }
 
-fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32) -> Result<SeenFrame, DatasetError> {
+fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, colored: bool) -> Result<SeenFrame, DatasetError> {
     let layers = [Layer::SemanticInstance, Layer::DepthMeters, Layer::DiffuseReflectance];
-    let frame = dataset.read_frame(scene, camera, number, &layers)?;
-    let [Some(Values::I16(instances)), Some(distances), Some(reflectance)] = layers.map(|layer| frame.get(layer)) else {
-        unreachable!("instances are read as int16")
-    };
+    let frame = dataset.read_frame(scene, camera, number, &layers[..if colored { 3 } else { 2 }])?;
+    let [instances, distances, reflectance] = layers.map(|layer| frame.get(layer));
+    let (Some(Values::I16(instances)), Some(distances)) = (instances, distances) else { unreachable!("instances are read as int16") };
     let mut sights: BTreeMap<i16, (Sight, Vec<f32>)> = BTreeMap::new();
     for (pixel, &instance) in instances.iter().enumerate().filter(|(_, instance)| **instance >= 1) {
         let (column, row) = (pixel as u32 % frame.width, pixel as u32 / frame.width);
         let distance = distances.get(pixel) as f32;
         let new = || (Sight::at(column, row), Vec::new());
         let (sight, of_pixels) = sights.entry(instance).or_insert_with(new);
-        sight.add(column, row, [0, 1, 2].map(|channel| reflectance.get(3 * pixel + channel) as f32));
+        let color = reflectance.map_or([0.0; 3], |layer| [0, 1, 2].map(|channel| layer.get(3 * pixel + channel) as f32));
+        sight.add(column, row, color);
         of_pixels.push(distance);
     }
     let sights = sights.into_iter().map(|(instance, (mut sight, mut distances))| {
@@ -89,6 +105,14 @@ impl Sight {
             let name = color_name(reflectance);
             self.colors[NAMES.iter().position(|known| *known == name).unwrap_or_default()] += 1;
         }
+    }
+}
+
+impl Sight {
+    /// The share of its pixels that have the colour of this name.
+    pub fn color_share(&self, name: &str) -> f64 {
+        let index = NAMES.iter().position(|known| *known == name);
+        index.map_or(0.0, |index| self.colors[index] as f64 / self.pixels.max(1) as f64)
     }
 }
 

@@ -6,7 +6,7 @@ use enfilade_dataset::{Dataset, DatasetError, DescribedInstance, MeshGeometry};
 use enfilade_label::boxes::upright_box;
 use enfilade_label::class_name;
 use enfilade_math::{DVec2, DVec3, Vec3};
-use enfilade_scene::{NYU40, PartLabel, Structure, StructureThing, is_stuff};
+use enfilade_scene::{PartLabel, Structure, StructureThing};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ const IN_WALL_M: f64 = 0.5;
 
 /// The bodies of a scene and what its instances are.
 pub struct Things {
-    /// Of every instance, in ascending order, then of walls, floors and ceilings.
+    /// Of every instance, in ascending order, then of all else, by class: walls, floors, ceilings, what has no label.
     pub bodies: Vec<Body>,
     /// What the instances are, in the same order; their colours are not known yet.
     pub described: Vec<DescribedInstance>,
@@ -47,21 +47,15 @@ impl Things {
             Err(error) if error.is_not_found() => return Ok(None),
             labels => labels?,
         };
-        let known = files.read_last_class()? as usize == NYU40.len();
+        let own = files.read_classes()?.filter(|classes| !classes.are_nyu40());
         let (mut mesh, objects, metres) = (files.read()?, files.read_objects_of_faces()?, dataset.meters_per_asset_unit(scene)?);
         mesh.vertices.iter_mut().for_each(|v| *v *= metres);
         let structure = dataset.read_structure(scene)?;
         let (mut instances, mut stuff) = (BTreeMap::new(), BTreeMap::new());
         for (face, &object) in objects.iter().enumerate() {
             let label = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
-            let list = if label.instance >= 1 {
-                &mut instances
-            } else if is_stuff(label.semantic) {
-                &mut stuff
-            } else {
-                continue;
-            };
-            let key = if label.instance >= 1 { label.instance } else { label.semantic };
+            // What is no instance carries others all the same: walls, floors, parts without labels.
+            let (list, key) = if label.instance >= 1 { (&mut instances, label.instance) } else { (&mut stuff, label.semantic) };
             let gathered: &mut Gathered = list.entry(key).or_default();
             if gathered.corners.is_empty() {
                 gathered.semantic = label.semantic;
@@ -75,24 +69,35 @@ impl Things {
             let body = |(key, gathered): (i16, Gathered)| {
                 let upright = upright_box(&gathered.points)?;
                 let facts = (key, gathered.objects, gathered.materials);
-                Some((Body::new((instance(key), gathered.semantic), upright, gathered.corners), facts))
+                let mut body = Body::new((instance(key), gathered.semantic), upright, gathered.corners);
+                if own.is_some() {
+                    body.class = -1;
+                }
+                Some((body, facts))
             };
             list.into_par_iter().filter_map(body).collect::<Vec<_>>()
         };
         let (things, shell) = (bodies(instances, |key| key), bodies(stuff, |_| -1));
-        let named: BTreeMap<i16, &StructureThing> =
-            structure.iter().flat_map(|structure| &structure.things).map(|thing| (thing.instance, thing)).collect();
+        // By name: people may have given the instances other numbers since.
+        let named: BTreeMap<&str, &StructureThing> =
+            structure.iter().flat_map(|structure| &structure.things).map(|thing| (thing.name.as_str(), thing)).collect();
         let describe = |(body, (key, objects, materials)): &(Body, (i16, Areas, Areas))| {
-            let named = named.get(key).copied();
             let largest = |areas: &Areas| areas.iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(index, _)| *index as usize);
             let text = |names: &[String], index: Option<usize>| index.and_then(|i| names.get(i)).cloned().unwrap_or_default();
+            let part = text(&mesh.objects, largest(objects));
+            let named = named.get(part.split('/').next().unwrap_or_default()).copied();
+            let class = own.as_ref().map_or_else(|| class_name(body.semantic).to_string(), |own| own.name(body.semantic));
             let room = structure.as_ref().and_then(|s| s.room_near(body.center(), IN_WALL_M).map(|room| s.rooms[room].name.clone()));
             DescribedInstance {
                 instance: *key,
                 semantic: body.semantic,
-                semantic_name: if known { class_name(body.semantic).to_string() } else { String::new() },
-                name: named.map_or_else(|| text(&mesh.objects, largest(objects)), |thing| thing.name.clone()),
-                noun: named.map_or_else(|| words::of_class(body.semantic, known), |thing| words::of_family(&thing.family)),
+                noun: match (named, &own) {
+                    (Some(thing), _) => words::of_family(&thing.family),
+                    (None, Some(_)) => class.clone(),
+                    (None, None) => words::of_class(body.semantic),
+                },
+                semantic_name: class,
+                name: named.map_or(part, |thing| thing.name.clone()),
                 room: room.unwrap_or_default(),
                 color: String::new(),
                 material: text(&mesh.materials, largest(materials)),
@@ -104,6 +109,11 @@ impl Things {
         let described = things.iter().map(describe).collect();
         let bodies = things.into_iter().chain(shell).map(|(body, _)| body).collect();
         Ok(Some(Self { bodies, described, structure }))
+    }
+
+    /// Whether the labels are of NYU40's classes.
+    pub fn has_nyu40(&self) -> bool {
+        self.bodies.iter().all(|body| body.class == body.semantic)
     }
 
     /// The place of an instance in both lists.

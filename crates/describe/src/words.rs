@@ -5,7 +5,8 @@ use enfilade_label::class_name;
 /// Families that are a part of the building or so small that nobody speaks of them.
 const UNSPOKEN: [&str; 9] = ["skirting", "socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
 /// Words that are plural as they are.
-const PLURAL: [&str; 13] = [
+const PLURAL: [&str; 14] = [
+    "logs",
     "books",
     "magazines",
     "clothes",
@@ -21,7 +22,7 @@ const PLURAL: [&str; 13] = [
     "stairs",
 ];
 /// Words without a plural.
-const MASS: [&str; 5] = ["paper", "toilet paper", "crumpled paper", "sheet music", "kitchen roll"];
+const MASS: [&str; 6] = ["bread", "paper", "toilet paper", "crumpled paper", "sheet music", "kitchen roll"];
 /// Classes that say nothing of what a thing is: otherstructure, otherfurniture, otherprop.
 const VAGUE: [i16; 3] = [38, 39, 40];
 
@@ -32,9 +33,9 @@ pub fn of_family(family: &str) -> String {
     if unspoken { String::new() } else { words }
 }
 
-/// The word for a class of NYU40; empty for those that say nothing, and where the classes are others.
-pub fn of_class(semantic: i16, known: bool) -> String {
-    if !known || semantic < 1 || VAGUE.contains(&semantic) {
+/// The word for a class of NYU40; empty for those that say nothing.
+pub fn of_class(semantic: i16) -> String {
+    if semantic < 1 || VAGUE.contains(&semantic) {
         return String::new();
     }
     match class_name(semantic) {
@@ -42,6 +43,12 @@ pub fn of_class(semantic: i16, known: bool) -> String {
         "showercurtain" => "shower curtain".into(),
         word => word.into(),
     }
+}
+
+/// Whether one word can be said of what the other means: a chair may be an office chair or an armchair.
+pub fn may_be(a: &str, b: &str) -> bool {
+    let is_kind = |kind: &str, of: &str| kind.strip_suffix(of).is_some_and(|rest| rest.is_empty() || rest.ends_with(' ') || rest == "arm");
+    is_kind(a, b) || is_kind(b, a)
 }
 
 /// Whether a word is used with "are".
@@ -57,7 +64,9 @@ pub fn is_countable(noun: &str) -> bool {
 /// "a sofa", "an armchair", "a blue sofa", "some books".
 pub fn a(color: &str, noun: &str) -> String {
     let words = if color.is_empty() { noun.to_string() } else { format!("{color} {noun}") };
-    match (is_countable(noun), words.starts_with(['a', 'e', 'i', 'o', 'u'])) {
+    // "a utensil jar": these begin with the sound of "you".
+    let is_you = ["un", "ut", "us"].iter().any(|begin| words.starts_with(begin)) && !words.starts_with("umb");
+    match (is_countable(noun), words.starts_with(['a', 'e', 'i', 'o', 'u']) && !is_you) {
         (false, _) => format!("some {words}"),
         (true, true) => format!("an {words}"),
         (true, false) => format!("a {words}"),
@@ -75,6 +84,9 @@ pub fn plural(noun: &str) -> String {
     }
     if let Some(stem) = stem("knife") {
         return format!("{stem}knives");
+    }
+    if let Some(stem) = stem("mouse") {
+        return format!("{stem}mice");
     }
     let before_y = stem("y").filter(|stem| !stem.ends_with(['a', 'e', 'i', 'o', 'u']));
     if let Some(stem) = before_y {
@@ -124,8 +136,8 @@ mod tests {
     #[test]
     fn words_are_as_people_write_them() {
         assert_eq!(of_family("coffee_table"), "coffee table");
-        assert_eq!([of_family("skirting_bedroom"), of_family("socket"), of_class(40, true), of_class(5, false)], [""; 4]);
-        assert_eq!([of_class(20, true), of_class(6, true)], ["rug", "sofa"]);
+        assert_eq!([of_family("skirting_bedroom"), of_family("socket"), of_class(40), of_class(-1)], [""; 4]);
+        assert_eq!([of_class(20), of_class(6)], ["rug", "sofa"]);
         assert_eq!(
             [a("", "armchair"), a("orange", "sofa"), a("blue", "armchair"), a("", "books"), a("red", "paper")],
             ["an armchair", "an orange sofa", "a blue armchair", "some books", "some red paper"]
@@ -136,5 +148,11 @@ mod tests {
         assert_eq!(a_room("living"), "a living room");
         assert_eq!([number(2), number(12)], ["two", "12"]);
         assert_eq!(sentence("a sofa."), "A sofa.");
+        assert_eq!(
+            [a("", "utensil jar"), a("", "umbrella"), a("", "logs"), a("", "bread")],
+            ["a utensil jar", "an umbrella", "some logs", "some bread"]
+        );
+        assert!(may_be("chair", "office chair") && may_be("armchair", "chair") && may_be("lamp", "lamp"));
+        assert!(!may_be("table", "tablet") && !may_be("chair", "highchairs") && !may_be("bed", "daybed"));
     }
 }

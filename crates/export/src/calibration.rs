@@ -3,6 +3,7 @@
 use crate::ExportError;
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_math::{DMat3, DVec3};
+pub(crate) use enfilade_scene::OPENCV;
 use enfilade_scene::{Intrinsics, Pose, Projection};
 
 /// How straight lines are bent.
@@ -24,9 +25,6 @@ pub(crate) struct Calibration {
     /// From the camera's space to that of `intrinsics`; a tilted image plane is a turned camera with a straight one.
     turn: DMat3,
 }
-
-/// Turns y and z around: our camera axes (x right, y up, z backward) to OpenCV's and back.
-pub(crate) const OPENCV: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
 
 impl Calibration {
     /// That of a track's camera; `None` for panoramas and grids of rays, which have no K.
@@ -62,6 +60,11 @@ impl Calibration {
     /// Rotation from OpenCV's camera axes to the world.
     pub fn world_from_opencv(&self, view: View<'_>) -> DMat3 {
         view.pose().world_from_camera * self.turn.transpose() * OPENCV
+    }
+
+    /// Rotation from the axes of this calibration to those of the camera's body, both OpenCV's; a turn where the image plane is tilted.
+    pub fn body_from_opencv(&self) -> DMat3 {
+        OPENCV * self.turn.transpose() * OPENCV
     }
 
     /// Rotation and translation from the world to OpenCV's camera axes, metres.

@@ -8,6 +8,6 @@ mod octree;
 
 pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, Placement, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};
-pub use nearest::{Surfaces, nearest_point};
+pub use nearest::Surfaces;
 pub use nearest_triangle::NearestTriangle;
 pub use octree::{Leaf, OccupancyTree, TREE_LEVELS, TreeFileError, Voxel, VoxelKey};

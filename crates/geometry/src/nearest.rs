@@ -36,7 +36,7 @@ impl<'a> Surfaces<'a> {
 }
 
 /// The point of a triangle nearest to `p`. Ericson, "Real-Time Collision Detection", section 5.1.5.
-pub fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(crate) fn nearest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
     if d1 <= 0.0 && d2 <= 0.0 {

@@ -3,6 +3,11 @@
 use crate::nearest::nearest_point;
 use enfilade_math::{Bounds3, DVec3, Vec3};
 
+/// The distance between two surfaces is looked for from so many of the nearest points that are given.
+const STARTS: usize = 8;
+/// By so many steps there and back.
+const STEPS: usize = 12;
+
 /// Triangles in a leaf.
 const LEAF: usize = 8;
 
@@ -44,10 +49,36 @@ impl NearestTriangle {
         Self { corners: numbers.iter().map(|&i| corners[i as usize]).collect(), numbers, nodes }
     }
 
+    /// The distance to another surface, from the nearest of points of this one: back and forth to the nearest point of the other, which never
+    /// gets farther. An upper bound, and the distance itself where either surface is convex near its end. Infinite without points.
+    pub fn distance_m(&self, other: &Self, points: &[DVec3]) -> f64 {
+        let mut starts: Vec<(f64, DVec3)> = points.iter().filter_map(|&p| Some((other.nearest(p)?.1, p))).collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let walk = |&(_, start): &(f64, DVec3)| {
+            let (mut here, mut there) = (start, start);
+            for _ in 0..STEPS {
+                there = other.nearest_point(here).unwrap_or(here);
+                here = self.nearest_point(there).unwrap_or(there);
+            }
+            here.distance(there)
+        };
+        starts.iter().take(STARTS).map(walk).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The point nearest to another; `None` without triangles.
+    pub fn nearest_point(&self, p: DVec3) -> Option<DVec3> {
+        self.search(p).map(|(_, point, _)| point)
+    }
+
     /// The number of the triangle nearest to a point and the distance to it, metres; the lowest number of several at the same distance.
     /// `None` without triangles.
     pub fn nearest(&self, p: DVec3) -> Option<(u32, f64)> {
-        let mut best = (f64::INFINITY, u32::MAX);
+        self.search(p).map(|(number, _, distance)| (number, distance))
+    }
+
+    /// Number, nearest point and distance.
+    fn search(&self, p: DVec3) -> Option<(u32, DVec3, f64)> {
+        let (mut best, mut point) = ((f64::INFINITY, u32::MAX), p);
         let mut stack = Vec::with_capacity(64);
         // Squared: no triangle below a node is nearer than its box.
         let lower_bound = |node: usize| {
@@ -70,13 +101,14 @@ impl NearestTriangle {
                 continue;
             }
             for i in node.first as usize..(node.first + node.count) as usize {
-                let distance = nearest_point(p, self.corners[i].map(|c| c.as_dvec3())).distance_squared(p);
+                let nearest = nearest_point(p, self.corners[i].map(|c| c.as_dvec3()));
+                let distance = nearest.distance_squared(p);
                 if (distance, self.numbers[i]) < best {
-                    best = (distance, self.numbers[i]);
+                    (best, point) = ((distance, self.numbers[i]), nearest);
                 }
             }
         }
-        (best.1 != u32::MAX).then(|| (best.1, best.0.sqrt()))
+        (best.1 != u32::MAX).then(|| (best.1, point, best.0.sqrt()))
     }
 }
 

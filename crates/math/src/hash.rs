@@ -19,6 +19,11 @@ pub fn hash_u64(mut x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
+/// A number that stands for a text: FNV-1a (Fowler, Noll & Vo).
+pub fn hash_text(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
 /// A stream of random numbers (SplitMix64): small, fast, and good enough wherever stratification does not matter.
 ///
 /// The same seed gives the same stream on every machine. Streams for different purposes come from [`Rng::fork`].

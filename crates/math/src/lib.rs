@@ -15,12 +15,13 @@ mod quantile;
 mod ray;
 mod rgb;
 mod sampler;
+mod spline;
 pub mod warp;
 
 pub use bounds::Bounds3;
 pub use distribution::{Distribution1, Distribution2};
 pub use glam::{Affine3A, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, Mat2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec3A, Vec4};
-pub use hash::{Rng, hash_u32, hash_u64};
+pub use hash::{Rng, hash_text, hash_u32, hash_u64};
 pub use nearest_rotation::nearest_rotation;
 pub use onb::Onb;
 pub use oriented_box::OrientedBox;
@@ -28,6 +29,7 @@ pub use quantile::quantile;
 pub use ray::{Ray, offset_origin};
 pub use rgb::{Rgb, linear_from_srgb, srgb_from_linear};
 pub use sampler::Sampler;
+pub use spline::NaturalSpline;
 
 /// A point in another space: in double precision, rounded once.
 ///

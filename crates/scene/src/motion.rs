@@ -1,7 +1,7 @@
 //! How a camera moves, as an inertial measurement unit inside it would feel it.
 
 use crate::Pose;
-use enfilade_math::{DMat3, DQuat, DVec3};
+use enfilade_math::{DMat3, DQuat, DVec3, NaturalSpline};
 
 /// Standard gravity, m/s² (3rd CGPM, 1901); it pulls along −z.
 pub const GRAVITY_M_S2: f64 = 9.806_65;
@@ -9,8 +9,11 @@ pub const GRAVITY_M_S2: f64 = 9.806_65;
 /// Half of the time over which a curve is differentiated, seconds: rounding and curvature both stay below 10⁻⁶ m/s².
 const STEP_S: f64 = 5e-4;
 
-/// A camera's body: the axes of OpenCV, x to the right, y down, z ahead.
-const BODY_FROM_OURS: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
+/// Samples a second, at least; between frames there is an equal number of them.
+const RATE_HZ: f64 = 200.0;
+
+/// Turns y and z around: our camera axes (x right, y up, z backward) to OpenCV's (x right, y down, z ahead) and back.
+pub const OPENCV: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
 
 /// A moment of a camera's motion. Its body has the axes of OpenCV: x to the right, y down, z ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,38 +33,109 @@ pub struct MotionSample {
 }
 
 impl MotionSample {
-    /// The motion at a time of a camera whose pose is a smooth function of it, by central differences over a millisecond; `None` where it
-    /// has no pose.
+    /// The motion at a time of a body whose position and rotation are smooth functions of it, by central differences over a millisecond.
     ///
     /// ```
-    /// use enfilade_math::DVec3;
-    /// use enfilade_scene::{GRAVITY_M_S2, MotionSample, Pose};
-    /// // Level, and faster and faster to its right: 2 m/s².
-    /// let curve = |t: f64| Pose::look_at(0, DVec3::X * t * t, DVec3::X * t * t + DVec3::Y, DVec3::Z);
-    /// let felt = MotionSample::of_curve(1.0, curve).unwrap();
-    /// assert!(felt.specific_force.abs_diff_eq(DVec3::new(2.0, -GRAVITY_M_S2, 0.0), 1e-6));
-    /// assert!(felt.velocity.abs_diff_eq(2.0 * DVec3::X, 1e-9) && felt.angular_rate.length() < 1e-9);
+    /// use enfilade_math::{DQuat, DVec3};
+    /// use enfilade_scene::{GRAVITY_M_S2, MotionSample};
+    /// // Its axes are the world's; faster and faster along x: 2 m/s².
+    /// let felt = MotionSample::of_curve(1.0, |t| (DVec3::X * t * t, DQuat::IDENTITY));
+    /// assert!(felt.specific_force.abs_diff_eq(DVec3::new(2.0, 0.0, GRAVITY_M_S2), 1e-6));
+    /// assert!(felt.velocity.abs_diff_eq(2.0 * DVec3::X, 1e-9) && felt.angular_rate == DVec3::ZERO);
     /// ```
-    pub fn of_curve(time_s: f64, pose: impl Fn(f64) -> Option<Pose>) -> Option<Self> {
-        let [before, at, after] = [pose(time_s - STEP_S)?, pose(time_s)?, pose(time_s + STEP_S)?];
-        let [from, rotation, to] = [before, at, after].map(|pose| body_rotation(&pose));
-        let velocity = (after.position - before.position) / (2.0 * STEP_S);
-        let acceleration = (after.position - 2.0 * at.position + before.position) / (STEP_S * STEP_S);
-        let world_force = acceleration + GRAVITY_M_S2 * DVec3::Z;
-        Some(Self {
+    pub fn of_curve(time_s: f64, curve: impl Fn(f64) -> (DVec3, DQuat)) -> Self {
+        let [before, at, after] = [curve(time_s - STEP_S), curve(time_s), curve(time_s + STEP_S)];
+        let acceleration = (after.0 - 2.0 * at.0 + before.0) / (STEP_S * STEP_S);
+        let rotation = if at.1.w < 0.0 { -at.1 } else { at.1 };
+        // Of the two quaternions of a rotation the nearer.
+        let turn = before.1.inverse() * after.1;
+        let turn = if turn.w < 0.0 { -turn } else { turn };
+        Self {
             time_s,
-            position: at.position,
+            position: at.0,
             rotation,
-            velocity,
-            angular_rate: (from.inverse() * to).to_scaled_axis() / (2.0 * STEP_S),
-            specific_force: rotation.inverse() * world_force,
+            velocity: (after.0 - before.0) / (2.0 * STEP_S),
+            angular_rate: turn.to_scaled_axis() / (2.0 * STEP_S),
+            specific_force: rotation.inverse() * (acceleration + GRAVITY_M_S2 * DVec3::Z),
+        }
+    }
+}
+
+/// The way of a camera through its frames: natural cubic splines in time through positions and, component by component, rotations. Velocity and
+/// acceleration are continuous.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Seconds.
+    frame_time_s: f64,
+    first: u32,
+    last: u32,
+    positions: NaturalSpline,
+    /// Vector and scalar part of the unit quaternions, of which neighbours have one sign.
+    vectors: NaturalSpline,
+    scalars: NaturalSpline,
+}
+
+impl Motion {
+    /// Through the poses of a trajectory, in the order of their frames, `frame_time_s` apart; `None` of fewer than two.
+    pub fn through(poses: &[Pose], frame_time_s: f64) -> Option<Self> {
+        let [first, .., last] = poses else { return None };
+        let knots = || poses.iter().map(|pose| f64::from(pose.frame) * frame_time_s).collect::<Vec<_>>();
+        if !poses.windows(2).all(|pair| pair[0].frame < pair[1].frame) {
+            return None;
+        }
+        let mut rotations: Vec<DQuat> = poses.iter().map(body_rotation).collect();
+        for i in 1..rotations.len() {
+            if rotations[i].dot(rotations[i - 1]) < 0.0 {
+                rotations[i] = -rotations[i];
+            }
+        }
+        Some(Self {
+            frame_time_s,
+            first: first.frame,
+            last: last.frame,
+            positions: NaturalSpline::new(knots(), poses.iter().map(|pose| pose.position).collect()),
+            vectors: NaturalSpline::new(knots(), rotations.iter().map(|q| q.xyz()).collect()),
+            scalars: NaturalSpline::new(knots(), rotations.iter().map(|q| DVec3::X * q.w).collect()),
         })
+    }
+
+    /// Samples from one frame to the next: so many that there are 200 a second or a little more.
+    pub fn per_frame(&self) -> usize {
+        (RATE_HZ * self.frame_time_s).ceil().max(1.0) as usize
+    }
+
+    /// Samples a second.
+    pub fn rate_hz(&self) -> f64 {
+        self.per_frame() as f64 / self.frame_time_s
+    }
+
+    /// The samples from a frame up to the next, of the last frame one; none of frames outside of the trajectory.
+    pub fn from_frame(&self, frame: u32) -> Vec<MotionSample> {
+        let count = match frame {
+            frame if frame < self.first || frame > self.last => 0,
+            frame if frame == self.last => 1,
+            _ => self.per_frame(),
+        };
+        let step_s = self.frame_time_s / self.per_frame() as f64;
+        let start_s = f64::from(frame) * self.frame_time_s;
+        (0..count).map(|k| MotionSample::of_curve(start_s + k as f64 * step_s, |time_s| self.at(time_s))).collect()
+    }
+
+    /// All samples, from the first frame to the last.
+    pub fn samples(&self) -> impl Iterator<Item = MotionSample> + '_ {
+        (self.first..=self.last).flat_map(|frame| self.from_frame(frame))
+    }
+
+    /// Position and rotation of the body at a time.
+    fn at(&self, time_s: f64) -> (DVec3, DQuat) {
+        let (vector, scalar) = (self.vectors.at(time_s), self.scalars.at(time_s).x);
+        (self.positions.at(time_s), DQuat::from_xyzw(vector.x, vector.y, vector.z, scalar).normalize())
     }
 }
 
 /// Takes the axes of a camera's body to the world's; of the two quaternions that do, the one with w ≥ 0.
 pub fn body_rotation(pose: &Pose) -> DQuat {
-    let q = DQuat::from_mat3(&(pose.world_from_camera * BODY_FROM_OURS)).normalize();
+    let q = DQuat::from_mat3(&(pose.world_from_camera * OPENCV)).normalize();
     if q.w < 0.0 { -q } else { q }
 }
 
@@ -69,20 +143,67 @@ pub fn body_rotation(pose: &Pose) -> DQuat {
 mod tests {
     use super::*;
 
+    const RADIUS_M: f64 = 2.0;
+    const RATE: f64 = 0.7;
+
+    /// On a circle, looking along it; the middle is to the left.
+    fn poses(frames: u32, frame_time_s: f64) -> Vec<Pose> {
+        let pose = |frame: u32| {
+            let (sin, cos) = (RATE * f64::from(frame) * frame_time_s).sin_cos();
+            let p = RADIUS_M * DVec3::new(cos, sin, 0.0);
+            Pose::look_at(frame, p, p + DVec3::new(-sin, cos, 0.0), DVec3::Z).unwrap()
+        };
+        (0..frames).map(pose).collect()
+    }
+
     #[test]
     fn on_a_circle_the_camera_feels_its_turning_and_the_pull_to_the_middle() {
-        let (radius, rate) = (2.0, 0.7);
-        let curve = |t: f64| {
-            let (sin, cos) = (rate * t).sin_cos();
-            let p = radius * DVec3::new(cos, sin, 0.0);
-            Pose::look_at(0, p, p + DVec3::new(-sin, cos, 0.0), DVec3::Z)
-        };
-        for time in [0.0, 0.4, 3.1, 8.0] {
-            let felt = MotionSample::of_curve(time, curve).unwrap();
-            // Ahead along the tangent, the middle to the left; down is +y, and the turn to the left is about −y.
-            assert!(felt.angular_rate.abs_diff_eq(DVec3::new(0.0, -rate, 0.0), 1e-6), "{felt:?}");
-            assert!(felt.specific_force.abs_diff_eq(DVec3::new(-radius * rate * rate, -GRAVITY_M_S2, 0.0), 1e-5), "{felt:?}");
-            assert!((felt.rotation.inverse() * felt.velocity).abs_diff_eq(DVec3::new(0.0, 0.0, radius * rate), 1e-6), "{felt:?}");
+        // Ten seconds, more than a whole turn. Natural splines are straight at their ends, which the first and last few frames show.
+        let motion = Motion::through(&poses(240, 1.0 / 24.0), 1.0 / 24.0).unwrap();
+        assert_eq!((motion.per_frame(), motion.rate_hz()), (9, 216.0));
+        assert_eq!(motion.samples().count(), 239 * 9 + 1);
+        for felt in (15..225).flat_map(|frame| motion.from_frame(frame)) {
+            // The turn to the left is about up, and down is +y.
+            assert!(felt.angular_rate.abs_diff_eq(DVec3::new(0.0, -RATE, 0.0), 1e-5), "{felt:?}");
+            assert!(felt.specific_force.abs_diff_eq(DVec3::new(-RADIUS_M * RATE * RATE, -GRAVITY_M_S2, 0.0), 1e-3), "{felt:?}");
+            assert!((felt.rotation.inverse() * felt.velocity).abs_diff_eq(DVec3::new(0.0, 0.0, RADIUS_M * RATE), 1e-5), "{felt:?}");
+            assert!(felt.rotation.w >= 0.0);
         }
+    }
+
+    /// Trapezoids from sample to sample, as a program that is given the readings would.
+    #[test]
+    fn readings_lead_from_frame_to_frame() {
+        let mut poses = poses(60, 0.04);
+        for pose in &mut poses {
+            pose.position.z += 0.3 * (0.2 * f64::from(pose.frame)).sin();
+        }
+        let motion = Motion::through(&poses, 0.04).unwrap();
+        let samples: Vec<MotionSample> = motion.samples().collect();
+        let pull = GRAVITY_M_S2 * DVec3::NEG_Z;
+        for (first, pair) in samples.windows(motion.per_frame() + 1).step_by(motion.per_frame()).zip(poses.windows(2)) {
+            let MotionSample { mut position, mut rotation, mut velocity, .. } = first[0];
+            for two in first.windows(2) {
+                let step_s = two[1].time_s - two[0].time_s;
+                let turned = rotation * DQuat::from_scaled_axis(0.5 * (two[0].angular_rate + two[1].angular_rate) * step_s);
+                let [a, b] = [rotation * two[0].specific_force + pull, turned * two[1].specific_force + pull];
+                position += velocity * step_s + (2.0 * a + b) * (step_s * step_s / 6.0);
+                velocity += 0.5 * (a + b) * step_s;
+                rotation = turned;
+            }
+            assert!(position.distance(pair[1].position) < 1e-6, "{}", position.distance(pair[1].position));
+            assert!(rotation.angle_between(body_rotation(&pair[1])) < 1e-5);
+        }
+    }
+
+    #[test]
+    fn frames_may_be_missing_but_not_out_of_order() {
+        let whole = poses(30, 0.04);
+        let some: Vec<Pose> = whole.iter().copied().filter(|pose| pose.frame % 3 != 1).collect();
+        let motion = Motion::through(&some, 0.04).unwrap();
+        let off = |pose: &Pose| motion.from_frame(pose.frame)[0].position.distance(pose.position);
+        assert!(whole[10..20].iter().all(|pose| off(pose) < 1e-4) && some.iter().all(|pose| off(pose) < 1e-9));
+        assert!(motion.from_frame(30).is_empty());
+        assert!(Motion::through(&whole[..1], 0.04).is_none() && Motion::through(&[whole[1], whole[0]], 0.04).is_none());
     }
 }

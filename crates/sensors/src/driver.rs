@@ -3,7 +3,7 @@
 use crate::{Reading, Sensor, SensorError, Sensors, Subject};
 use enfilade_dataset::{ChosenFrames, Dataset, SensedFrame};
 use enfilade_frame::{Frame, Layer};
-use enfilade_scene::{Counted, Cx, MotionSample, Projection};
+use enfilade_scene::{Counted, Cx, Projection};
 use rayon::prelude::*;
 
 /// Shows frames to sensors, and writes what they give below `sensors/` of the dataset: a folder for each, with its settings, and in it scenes
@@ -36,11 +36,6 @@ fn read(dataset: &Dataset, (scene, camera, number): (&str, &str, u32), layers: &
     Ok(if there.is_empty() { Frame::new(0, 0) } else { dataset.read_frame(scene, camera, number, &there)? })
 }
 
-/// How a camera moves, and the time between its frames, seconds.
-fn motion(dataset: &Dataset, [scene, camera]: [&str; 2]) -> Result<(Vec<MotionSample>, f64), SensorError> {
-    Ok((dataset.read_motion(scene, camera)?, dataset.read_frame_time(scene, camera)?))
-}
-
 impl Sensor {
     /// What it gives of a stored frame (scene, camera, number).
     ///
@@ -48,9 +43,9 @@ impl Sensor {
     /// When the frame cannot be read, or cannot be seen by the sensor.
     pub fn look(&self, dataset: &Dataset, frame: (&str, &str, u32), projection: &Projection) -> Result<Reading, SensorError> {
         let (scene, camera, number) = frame;
-        let (motion, frame_time_s) = motion(dataset, [scene, camera])?;
+        let motion = if self.feels_motion() { dataset.read_motion(scene, camera)? } else { None };
         let frame = read(dataset, frame, &self.layers())?;
-        self.sense(&Subject { scene, camera, number, projection, frame: &frame, motion: &motion, frame_time_s })
+        self.sense(&Subject { scene, camera, number, projection, frame: &frame, motion: motion.as_ref() })
     }
 }
 
@@ -64,12 +59,12 @@ fn show(
     cx: &dyn Cx,
 ) -> Result<(), SensorError> {
     let projection = dataset.read_camera(scene, camera)?.projection;
-    let (motion, frame_time_s) = motion(dataset, [scene, camera])?;
+    let motion = if sensors.iter().any(Sensor::feels_motion) { dataset.read_motion(scene, camera)? } else { None };
     let counted = Counted::new(cx, "frames", frames.len());
     let readings = |&number: &u32| {
         counted.unit(|| -> Result<Vec<SensedFrame>, SensorError> {
             let frame = read(dataset, (scene, camera, number), layers)?;
-            let subject = Subject { scene, camera, number, projection: &projection, frame: &frame, motion: &motion, frame_time_s };
+            let subject = Subject { scene, camera, number, projection: &projection, frame: &frame, motion: motion.as_ref() };
             let sensed = |sensor: &Sensor| {
                 let reading = sensor.sense(&subject)?;
                 reading.write(dataset, sensor.name(), &subject)?;

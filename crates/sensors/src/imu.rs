@@ -49,43 +49,33 @@ impl Imu {
 
     /// The readings from a frame up to the next.
     pub(crate) fn sense(&self, subject: &Subject<'_>, seed: u64) -> Result<Reading, SensorError> {
-        let (samples, per_frame, rate_hz) = self.samples(subject)?;
-        // What the bias has come to before this frame follows from the numbers that the frames before have drawn.
+        let motion = subject.motion.ok_or_else(|| {
+            let problem =
+                "it is of no video, so how its camera moves is not known; plan with mode = { kind = \"video\" }, or choose others";
+            subject.unseen(&self.name, problem.into())
+        })?;
+        let rate_hz = motion.rate_hz();
+        // What the biases have come to before this frame follows from the numbers that the frames before have drawn.
         let rng = |number: u32| subject.rng(seed, &self.name, number);
         let mut bias = self.first_bias(&mut rng(u32::MAX));
         for before in 0..subject.number {
             let mut rng = rng(before);
-            for _ in 0..per_frame {
+            for _ in 0..motion.per_frame() {
                 self.step(&mut rng, rate_hz, &mut bias);
             }
         }
-        let mut rng = rng(subject.number);
+        let (mut rng, first) = (rng(subject.number), bias);
         let mut text = format!("{HEADER}\n");
-        let first = bias;
-        for sample in samples {
+        for sample in motion.from_frame(subject.number) {
             let [turn_noise, force_noise] = self.step(&mut rng, rate_hz, &mut bias);
             let MotionSample { time_s, angular_rate, specific_force, .. } = sample;
-            let (w, a) = (*angular_rate + bias[0] + turn_noise, *specific_force + bias[1] + force_noise);
+            let (w, a) = (angular_rate + bias[0] + turn_noise, specific_force + bias[1] + force_noise);
             let _ = writeln!(text, "{time_s},{},{},{},{},{},{}", w.x, w.y, w.z, a.x, a.y, a.z);
         }
         let names = ["gyroscope_bias_x", "gyroscope_bias_y", "gyroscope_bias_z"];
         let others = ["accelerometer_bias_x", "accelerometer_bias_y", "accelerometer_bias_z"];
         let drawn = names.into_iter().zip(first[0].to_array()).chain(others.into_iter().zip(first[1].to_array()));
         Ok(Reading { drawn: drawn.collect(), data: Data::File { name: "imu.csv", bytes: text.into_bytes() } })
-    }
-
-    /// The samples from the frame up to the next, how many there are from frame to frame, and in a second.
-    fn samples<'a>(&self, subject: &Subject<'a>) -> Result<(&'a [MotionSample], usize, f64), SensorError> {
-        let motion = subject.motion;
-        let Some(last) = motion.last().map(|sample| sample.time_s) else {
-            let problem = "how its camera moves is not known; that is so of videos alone: plan with mode = { kind = \"video\" }";
-            return Err(subject.unseen(&self.name, problem.into()));
-        };
-        let rate_hz = if last > 0.0 { (motion.len() - 1) as f64 / last } else { 1.0 / subject.frame_time_s };
-        let per_frame = (rate_hz * subject.frame_time_s).round().max(1.0) as usize;
-        let first = subject.number as usize * per_frame;
-        let of_frame = motion.get(first.min(motion.len())..(first + per_frame).min(motion.len())).unwrap_or_default();
-        Ok((of_frame, per_frame, rate_hz))
     }
 
     fn first_bias(&self, rng: &mut Rng) -> [DVec3; 2] {

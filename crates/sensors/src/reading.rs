@@ -4,7 +4,7 @@ use crate::SensorError;
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Frame, Layer, LayerSpec, Pass, Values, vector};
 use enfilade_math::{DVec3, Rng, hash_u64};
-use enfilade_scene::{MotionSample, Projection};
+use enfilade_scene::{Motion, Projection};
 
 /// A finished frame in the place of what a sensor would be pointed at.
 #[derive(Clone, Copy)]
@@ -19,10 +19,8 @@ pub struct Subject<'a> {
     pub projection: &'a Projection,
     /// At least the layers that the sensor looks at: [`Sensor::layers`](crate::Sensor::layers).
     pub frame: &'a Frame,
-    /// How its camera moves from frame 0 to the last, evenly in time; empty where that is not known.
-    pub motion: &'a [MotionSample],
-    /// From one frame to the next, seconds.
-    pub frame_time_s: f64,
+    /// How its camera moves; `None` where its frames are no video.
+    pub motion: Option<&'a Motion>,
 }
 
 /// What a sensor gives of a frame.

@@ -135,6 +135,11 @@ impl Sensor {
         }
     }
 
+    /// Whether it feels how the camera moves.
+    pub fn feels_motion(&self) -> bool {
+        matches!(self.kind, Kind::Imu(_))
+    }
+
     /// Checks every key.
     ///
     /// # Errors

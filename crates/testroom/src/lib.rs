@@ -8,7 +8,7 @@ use enfilade_dataset::{RelationKind, SplitRow, Surfaces, Tracks};
 use enfilade_frame::{DENOISED, FixtureLayers, Frame, LAYERS, Layer, Pass, Validity, Values, f16, traits, vector};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, OrientedBox, Rgb, Vec3};
-use enfilade_scene::{Intrinsics, Labels, Material, MotionSample, Part, PartLabel, Pose, Scene, Structure, StructureRoom, WorldMesh};
+use enfilade_scene::{Intrinsics, Labels, Material, Part, PartLabel, Pose, Scene, Structure, StructureRoom, WorldMesh};
 
 /// Names of the parts, in the order of their numbers.
 pub const PARTS: [&str; 3] = ["floor", "wall", "wall/mirror"];
@@ -363,10 +363,6 @@ pub fn dataset(root: &std::path::Path) -> enfilade_dataset::Dataset {
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
     dataset.write_structure("room", &structure()).unwrap();
-    let step_s = dataset.read_frame_time("room", "cam_00").unwrap();
-    let curve = |time_s: f64| Some(Pose { position: first.position + DVec3::X * 0.1 * time_s / step_s, ..first });
-    let motion: Vec<MotionSample> = (0..=8).filter_map(|k| MotionSample::of_curve(f64::from(k) * step_s / 8.0, curve)).collect();
-    dataset.write_motion("room", "cam_00", &motion).unwrap();
     dataset.write_fixtures("room", &fixtures()).unwrap();
     let hangs = InstanceRelation { subject: 1, kind: RelationKind::HangsFrom, object: -1, object_semantic: 1, distance_m: 0.0 };
     dataset.write_instance_relations("room", &[hangs]).unwrap();

@@ -14,7 +14,7 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, motion, structure, surfaces};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, structure, surfaces};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
@@ -196,7 +196,6 @@ impl SceneFacts {
             let Filmed { trajectory, stored, frames, camera, rules, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(stored, rules, &place));
-            motion::check(dataset, name, stored, card);
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();

@@ -25,7 +25,8 @@ type Key = (i16, i16);
 /// Checks what is said of a scene, where anything is.
 pub(super) fn check(dataset: &Dataset, scene: &str, card: &mut Card) {
     let Some(relations) = there(dataset.read_instance_relations(scene)).and_then(|read| readable(card, read)) else { return };
-    let Some(surfaces) = readable(card, surfaces(dataset, scene)) else { return };
+    // A copy without the mesh has nothing to measure.
+    let Some(surfaces) = there(surfaces(dataset, scene)).and_then(|read| readable(card, read)) else { return };
     let off = |relation: &InstanceRelation| {
         let object = if relation.object < 1 { (-1, relation.object_semantic) } else { (relation.object, 0) };
         let subject = surfaces.get(&(relation.subject, 0));
@@ -65,12 +66,12 @@ impl Surface {
         Self { bounds, nearest: NearestTriangle::new(&corners), corners }
     }
 
-    /// The least distance from corners, middles of edges and middles of its triangles to another surface; infinite beyond `reach_m`.
+    /// The least distance to another surface, from corners, middles of edges and middles of triangles; infinite beyond `reach_m`.
     fn distance_m(&self, other: &Self, reach_m: f64) -> f64 {
         let near = |p: &DVec3| p.distance(p.clamp(other.bounds.min.as_dvec3(), other.bounds.max.as_dvec3())) <= reach_m;
         let of_triangle = |&[a, b, c]: &[Vec3; 3]| [a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0];
-        let points = self.corners.iter().flat_map(of_triangle).map(|p| p.as_dvec3()).filter(near);
-        points.filter_map(|p| other.nearest.nearest(p)).map(|(_, distance)| distance).fold(f64::INFINITY, f64::min)
+        let points: Vec<DVec3> = self.corners.iter().flat_map(of_triangle).map(|p| p.as_dvec3()).filter(near).collect();
+        self.nearest.distance_m(&other.nearest, &points)
     }
 }
 

@@ -77,7 +77,6 @@ pub enum Law {
     LightFixtures,
     RaySurfaces,
     InstanceRelations,
-    Motion,
 }
 
 /// What a law says.
@@ -102,7 +101,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 71] = laws![
+pub const LAWS: [LawSpec; 70] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -204,8 +203,6 @@ pub const LAWS: [LawSpec; 71] = laws![
         "frames were rendered or labelled again since: run enfilade surfaces";
     InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, and those in others are in them",
         "labels or the scene were changed since: run enfilade describe";
-    Motion 1e-3 "m, rad", "metadata_camera_motion.csv is at the frames' poses, and its readings lead from each frame to the next",
-        "the file is of another plan: plan the scene again";
 ];
 
 impl Law {

@@ -19,7 +19,6 @@ mod geometry;
 mod labels;
 mod law;
 mod many_views;
-mod motion;
 mod pair_flow;
 mod read;
 mod relations;

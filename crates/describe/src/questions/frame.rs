@@ -13,6 +13,27 @@ const ASKED: f64 = 3e-3;
 /// The nearer of two things is nearer by this share and by this many metres, both at its nearest pixel and at its median one.
 const NEARER: f32 = 0.2;
 const NEARER_M: f32 = 0.3;
+/// A colour is asked for when it is that of this share of a thing's pixels, and another is wrong below this one.
+const CLEARLY: f64 = 0.6;
+const HARDLY: f64 = 0.05;
+/// Colours that people take for each other.
+const NEAR_COLORS: [[&str; 2]; 15] = [
+    ["black", "grey"],
+    ["grey", "white"],
+    ["white", "beige"],
+    ["grey", "beige"],
+    ["beige", "brown"],
+    ["beige", "yellow"],
+    ["beige", "pink"],
+    ["brown", "orange"],
+    ["brown", "red"],
+    ["brown", "black"],
+    ["orange", "red"],
+    ["orange", "yellow"],
+    ["red", "pink"],
+    ["pink", "purple"],
+    ["purple", "blue"],
+];
 /// Wrong answers beside the right one.
 const WRONG: usize = 3;
 
@@ -35,8 +56,7 @@ pub fn of_frame(asker: &mut Asker<'_>, scope: &Scope<'_>) {
 /// What a thing is on, in, or hangs from. No other answer is true, not even by way of others.
 fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame: u32) {
     for (thing, _, name) in meant {
-        let carrying = scope.relations.iter().filter(|relation| relation.subject == thing.instance);
-        let mut carrying = carrying.filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In));
+        let mut carrying = scope.relations_of(thing.instance).iter().filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In));
         let (Some(relation), None) = (carrying.next(), carrying.next()) else { continue };
         let Some(right) = scope.object(relation).filter(|_| relation.object >= 1) else { continue };
         let under = carriers(scope, thing.instance);
@@ -56,7 +76,7 @@ fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame
 fn carriers(scope: &Scope<'_>, instance: i16) -> BTreeSet<i16> {
     let (mut found, mut stack) = (BTreeSet::new(), vec![instance]);
     while let Some(subject) = stack.pop() {
-        let by = scope.relations.iter().filter(|r| r.subject == subject && r.object >= 1);
+        let by = scope.relations_of(subject).iter().filter(|r| r.object >= 1);
         for relation in by.filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In | RelationKind::HangsFrom)) {
             if found.insert(relation.object) {
                 stack.push(relation.object);
@@ -66,11 +86,15 @@ fn carriers(scope: &Scope<'_>, instance: i16) -> BTreeSet<i16> {
     found
 }
 
+/// The colour of a thing that has it in this frame too. Colours that some of it has are no wrong answers, nor are those that people mix up with it.
 fn color(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
     // "What colour is the blue sofa?" is no question.
-    let mut plain = meant.iter().filter(|(thing, _, name)| !thing.color.is_empty() && *name == format!("the {}", thing.noun));
-    if let Some((thing, _, name)) = plain.next() {
-        let mut wrong: Vec<String> = NAMES.iter().filter(|color| **color != thing.color).map(ToString::to_string).collect();
+    let is_plain = |thing: &DescribedInstance, name: &str| *name == format!("the {}", thing.noun);
+    let mut plain = meant.iter().filter(|(thing, sight, name)| is_plain(thing, name) && sight.color_share(&thing.color) >= CLEARLY);
+    if let Some((thing, sight, name)) = plain.next() {
+        let is_near = |other: &str| NEAR_COLORS.iter().any(|pair| pair.contains(&other) && pair.contains(&thing.color.as_str()));
+        let is_wrong = |other: &&&str| **other != thing.color && !is_near(other) && sight.color_share(other) < HARDLY;
+        let mut wrong: Vec<String> = NAMES.iter().filter(is_wrong).map(ToString::to_string).collect();
         asker.shuffle(&mut wrong);
         wrong.truncate(WRONG);
         let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
@@ -111,7 +135,7 @@ fn sides(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
 fn count(asker: &mut Asker<'_>, scope: &Scope<'_>, frame: u32) {
     let mut by_noun: BTreeMap<&str, Vec<(i16, bool)>> = BTreeMap::new();
     for (thing, sight) in scope.visible(0.0).into_iter().filter(|(thing, _)| words::is_countable(&thing.noun)) {
-        let clear = sight.pixels as f64 >= ASKED * scope.seen.pixels as f64;
+        let clear = scope.seen.covers(sight, ASKED);
         by_noun.entry(&thing.noun).or_default().push((thing.instance, clear));
     }
     let most =

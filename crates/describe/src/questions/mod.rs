@@ -9,7 +9,7 @@ pub use frame::of_frame;
 pub use video::of_video;
 
 use enfilade_dataset::Question;
-use enfilade_math::Rng;
+use enfilade_math::{Rng, hash_text};
 
 /// Collects the questions of a camera.
 pub struct Asker<'a> {
@@ -32,10 +32,7 @@ pub enum Answer {
 impl<'a> Asker<'a> {
     /// Nothing is asked yet. The order of options follows from the names of scene and camera.
     pub fn new([scene, camera]: [&'a str; 2]) -> Self {
-        // FNV-1a (Fowler, Noll & Vo).
-        let letters = scene.bytes().chain([b'/']).chain(camera.bytes());
-        let seed = letters.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-        Self { scene, camera, rng: Rng::new(seed), asked: Vec::new() }
+        Self { scene, camera, rng: Rng::new(hash_text(&format!("{scene}/{camera}"))), asked: Vec::new() }
     }
 
     /// Asks, of one frame or of all.

@@ -22,37 +22,43 @@ const APART_M: f64 = 0.1;
 /// Things that directions are asked between are so far apart, metres.
 const DIRECTION_M: f64 = 0.5;
 
+/// A thing, with the frames in which it is first seen at all and first seen clearly.
+type First<'a> = (&'a DescribedInstance, [u32; 2]);
+
 /// What the frames show, taken together.
 struct Shown<'a> {
     things: &'a Things,
-    /// Things of whose name the frames show no other, and which they show clearly: with the first frame that does.
-    unique: Vec<(&'a DescribedInstance, u32)>,
-    /// All that they show, by name: those clearly seen, and how many there are in all.
+    /// Things that the frames show clearly, with none beside them that could be meant by their name.
+    unique: Vec<First<'a>>,
+    /// All that they show and that has a name, by name: those clearly seen, and how many there are in all.
     by_noun: BTreeMap<&'a str, (Vec<i16>, usize)>,
 }
 
 impl<'a> Shown<'a> {
-    fn new(things: &'a Things, described: &'a [DescribedInstance], seen: &[SeenFrame]) -> Self {
-        let mut first: BTreeMap<i16, Option<u32>> = BTreeMap::new();
+    fn new(things: &'a Things, described: &'a [DescribedInstance], seen: &[&SeenFrame]) -> Self {
+        let mut first: BTreeMap<i16, (u32, Option<u32>)> = BTreeMap::new();
         for frame in seen {
             for (&instance, sight) in &frame.sights {
-                let clear = sight.pixels as f64 >= CLEAR * frame.pixels as f64;
-                let first = first.entry(instance).or_default();
-                *first = first.or(clear.then_some(frame.frame));
+                let (_, clear) = first.entry(instance).or_insert((frame.frame, None));
+                *clear = clear.or(frame.covers(sight, CLEAR).then_some(frame.frame));
             }
         }
         let mut by_noun: BTreeMap<&str, (Vec<i16>, usize)> = BTreeMap::new();
         let mut unique = Vec::new();
         let named = first.iter().filter_map(|(&i, first)| Some((&described[things.place(i)?], *first)));
-        for (thing, first) in named.filter(|(thing, _)| !thing.noun.is_empty() && words::is_countable(&thing.noun)) {
-            let (clear, all) = by_noun.entry(&thing.noun).or_default();
+        for (thing, (any, clear)) in named.filter(|(thing, _)| !thing.noun.is_empty() && words::is_countable(&thing.noun)) {
+            let (clearly, all) = by_noun.entry(&thing.noun).or_default();
             *all += 1;
-            if let Some(first) = first {
-                clear.push(thing.instance);
-                unique.push((thing, first));
+            if let Some(clear) = clear {
+                clearly.push(thing.instance);
+                unique.push((thing, [any, clear]));
             }
         }
-        unique.retain(|(thing, _)| by_noun[thing.noun.as_str()].1 == 1);
+        let nouns: Vec<&str> = by_noun.keys().copied().collect();
+        let is_alone = |noun: &str| nouns.iter().all(|other| *other == noun || !words::may_be(other, noun));
+        unique.retain(|(thing, _)| by_noun[thing.noun.as_str()].1 == 1 && is_alone(&thing.noun));
+        // "Chairs" may be meant to have office chairs among them.
+        by_noun.retain(|noun, _| is_alone(noun));
         Self { things, unique, by_noun }
     }
 
@@ -63,7 +69,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Some of the unique things, in random order.
-    fn some(&self, asker: &mut Asker<'_>, count: usize) -> Option<Vec<(&'a DescribedInstance, u32)>> {
+    fn some(&self, asker: &mut Asker<'_>, count: usize) -> Option<Vec<First<'a>>> {
         let mut list = self.unique.clone();
         asker.shuffle(&mut list);
         (list.len() >= count).then(|| list[..count].to_vec())
@@ -71,7 +77,7 @@ impl<'a> Shown<'a> {
 }
 
 /// Asks about the frames of a camera that stood at these places.
-pub fn of_video(asker: &mut Asker<'_>, things: &Things, described: &[DescribedInstance], seen: &[SeenFrame], eyes: &[DVec3]) {
+pub fn of_video(asker: &mut Asker<'_>, things: &Things, described: &[DescribedInstance], seen: &[&SeenFrame], eyes: &[DVec3]) {
     let shown = Shown::new(things, described, seen);
     counting(asker, &shown);
     sizes(asker, &shown);
@@ -174,11 +180,16 @@ fn directions(asker: &mut Asker<'_>, shown: &Shown<'_>) {
 fn appearance(asker: &mut Asker<'_>, shown: &Shown<'_>) {
     let mut known = BTreeSet::new();
     for _ in 0..2 * EACH {
-        // Things that appear one after the other, in random order.
-        let (mut some, mut frames) = (shown.some(asker, shown.unique.len()).unwrap_or_default(), BTreeSet::new());
-        some.retain(|(_, first)| frames.len() < CHOICES && frames.insert(*first));
+        // Things that appear one after the other, in random order; their first pixels in the same order as a clear view of them.
+        let mut some: Vec<First<'_>> = Vec::new();
+        for (thing, [any, clear]) in shown.some(asker, shown.unique.len()).into_iter().flatten() {
+            let is_apart = some.iter().all(|(_, [a, c])| any != *a && clear != *c && (any < *a) == (clear < *c));
+            if some.len() < CHOICES && is_apart {
+                some.push((thing, [any, clear]));
+            }
+        }
         if some.len() < CHOICES {
-            return;
+            continue;
         }
         let mut in_order = some.clone();
         in_order.sort_by_key(|(_, first)| *first);
@@ -186,7 +197,7 @@ fn appearance(asker: &mut Asker<'_>, shown: &Shown<'_>) {
         if known.len() >= EACH || !known.insert(instances) {
             continue;
         }
-        let names = |list: &[(&DescribedInstance, u32)]| list.iter().map(|(thing, _)| thing.noun.clone()).collect::<Vec<_>>().join(", ");
+        let names = |list: &[First<'_>]| list.iter().map(|(thing, _)| thing.noun.clone()).collect::<Vec<_>>().join(", ");
         let right = names(&in_order);
         let mut wrong = BTreeSet::new();
         while wrong.len() < CHOICES - 1 {

@@ -2,9 +2,8 @@
 
 use super::planner::Planner;
 use super::rules::posed;
-use super::spline::ThroughSpline;
 use crate::ExploreError;
-use enfilade_math::{DVec3, Ray};
+use enfilade_math::{DVec3, NaturalSpline, Ray};
 use enfilade_scene::{GIT_LFS_POINTER, Pose, is_git_lfs_pointer};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
@@ -159,8 +158,8 @@ pub(super) fn interpolate(keyframes: &[Keyframe], name: &str) -> Result<Vec<Pose
         return Err(ExploreError::Config { field: "keyframes", found: "none".into(), expected: "at least one pose" });
     };
     let knots: Vec<f64> = keyframes.iter().map(|k| f64::from(k.frame)).collect();
-    let positions = ThroughSpline::new(knots.clone(), keyframes.iter().map(|k| k.position).collect());
-    let targets = ThroughSpline::new(knots.clone(), keyframes.iter().map(|k| k.look_at).collect());
+    let positions = NaturalSpline::new(knots.clone(), keyframes.iter().map(|k| k.position).collect());
+    let targets = NaturalSpline::new(knots.clone(), keyframes.iter().map(|k| k.look_at).collect());
     let pose = |frame: u32| {
         let at = knots.partition_point(|knot| *knot <= f64::from(frame)).saturating_sub(1);
         let exact = &keyframes[at];

@@ -73,7 +73,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         coverage: draft.coverage,
         per_frame,
     };
-    Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, motion: draft.motion, report }
+    Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, report }
 }
 
 /// The limit that poses are held to, if they are.

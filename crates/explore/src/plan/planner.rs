@@ -7,7 +7,7 @@ use super::rules::Rules;
 use crate::ViewStats;
 use crate::view::{Sight, TestImage};
 use enfilade_math::{Distribution1, Rng};
-use enfilade_scene::{Cx, Intrinsics, MotionSample, Pose, StartCamera, WorldMesh};
+use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, WorldMesh};
 use rayon::prelude::*;
 
 /// Scores above this are scaled down together.
@@ -32,8 +32,6 @@ pub(super) struct Planner<'a> {
 #[derive(Default)]
 pub(super) struct Draft {
     pub poses: Vec<Pose>,
-    /// How the camera moves between them, where it follows a curve.
-    pub motion: Vec<MotionSample>,
     /// What the poses show, where the mode knows already; else empty.
     pub views: Vec<ViewStats>,
     pub rejected: RejectedCounts,

@@ -2,7 +2,7 @@
 
 use crate::Preset;
 use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{MotionSample, PartId, Trajectory};
+use enfilade_scene::{PartId, Trajectory};
 use serde::{Deserialize, Serialize};
 
 /// A trajectory and how it came out.
@@ -10,8 +10,6 @@ use serde::{Deserialize, Serialize};
 pub struct Planned {
     /// Poses numbered from 0 without a gap.
     pub trajectory: Trajectory,
-    /// How the camera moves from the first frame to the last, of videos.
-    pub motion: Vec<MotionSample>,
     /// Its measurements.
     pub report: PlanReport,
 }

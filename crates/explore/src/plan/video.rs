@@ -15,7 +15,7 @@ use super::timing::Schedule;
 use super::tour::{Polyline, Tour, no_way, tour};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
-use enfilade_scene::{MotionSample, Pose};
+use enfilade_scene::Pose;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -25,9 +25,6 @@ const CLOSEST_SPACING_M: f64 = 0.02;
 
 /// Poses looked at between two control points.
 const SUBSTEPS: usize = 16;
-
-/// The motion between frames is told at least so often in a second, and an equal number of times in each gap.
-const MOTION_HZ: f64 = 200.0;
 
 /// How often headings are chosen again, each time without those that turned out to have no free view.
 const REPAIRS: usize = 40;
@@ -48,7 +45,7 @@ pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &R
     let path = Path::along(planner, &tour)?;
     let wishes = wishes(planner, &first, &path, &mut draft, rng);
     let shot = Shot::new(planner, path, &wishes, video)?;
-    (draft.poses, draft.motion) = shot.film(planner, frames, video)?;
+    draft.poses = shot.film(planner, frames, video)?;
     planner.progress(frames, frames);
     Ok(draft)
 }
@@ -193,8 +190,8 @@ impl Shot {
         })
     }
 
-    /// Frames at even times, as early along the path as the bounds allow, and the motion between them.
-    fn film(&self, planner: &Planner, frames: usize, video: &VideoConfig) -> Result<(Vec<Pose>, Vec<MotionSample>), ExploreError> {
+    /// Frames at even times, as early along the path as the bounds allow.
+    fn film(&self, planner: &Planner, frames: usize, video: &VideoConfig) -> Result<Vec<Pose>, ExploreError> {
         let steps = self.path.spline.end() as usize * SUBSTEPS;
         let node = |k: usize| {
             let u = k as f64 / SUBSTEPS as f64;
@@ -209,12 +206,7 @@ impl Shot {
         };
         let poses: Vec<Pose> = (0..frames as u32).map(film).collect::<Result<_, _>>()?;
         check(planner, &poses, video)?;
-        // Some pose has a view that is nearly vertical only where a node has, which was told.
-        let per_frame = (MOTION_HZ / video.fps).ceil().max(1.0);
-        let curve = |time_s: f64| self.pose(0, schedule.at(time_s) / SUBSTEPS as f64);
-        let moment = |k: usize| MotionSample::of_curve(k as f64 / (per_frame * video.fps), curve);
-        let motion = (0..=(frames.max(1) - 1) * per_frame as usize).filter_map(moment).collect();
-        Ok((poses, motion))
+        Ok(poses)
     }
 }
 

@@ -2,7 +2,7 @@
 //! measurements of `imu0`, and `state_groundtruth_estimate0`.
 //!
 //! Times are nanoseconds from frame 0. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
-//! identity. The world is that of the dataset, z up.
+//! identity, but for cameras with a tilted image plane, which are turned. The world is that of the dataset, z up.
 
 use crate::ExportError;
 use crate::calibration::Calibration;
@@ -10,7 +10,7 @@ use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, grey8_png, tone_mapped};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{StereoRecord, StereoSide};
-use enfilade_math::{DMat4, DVec3};
+use enfilade_math::{DMat3, DMat4, DVec3};
 use enfilade_scene::MotionSample;
 use std::fmt::Write;
 
@@ -19,8 +19,12 @@ const LUMA: [f64; 3] = [0.299, 0.587, 0.114];
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for track in &selected.tracks {
-        let motion = motion(selected, track)?;
         let (folder, number, stereo) = place(selected, track)?;
+        let motion = selected.dataset.read_motion(&track.scene, &track.name)?.ok_or_else(|| {
+            let problem =
+                "its frames are no video (less than a second apart, two or more); plan with mode = { kind = \"video\" }, or leave it out";
+            selected.unsuitable(track.folder(), problem)
+        })?;
         let step_s = selected.dataset.read_frame_time(&track.scene, &track.name)?;
         let mut list = "#timestamp [ns],filename\n".to_string();
         for view in track.views() {
@@ -29,30 +33,17 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         }
         let camera = format!("{folder}/cam{number}");
         out.write(&format!("{camera}/data.csv"), list.as_bytes())?;
-        let sensor = camera_yaml(&Calibration::of_upright_pinhole(selected, track)?, 1.0 / step_s, &stereo);
-        out.write(&format!("{camera}/sensor.yaml"), sensor.as_bytes())?;
+        let k = Calibration::of_upright_pinhole(selected, track)?;
+        out.write(&format!("{camera}/sensor.yaml"), camera_yaml(&k, 1.0 / step_s, stereo.as_ref()).as_bytes())?;
         if number == 0 {
-            let rate_hz = (motion.len() - 1) as f64 / motion[motion.len() - 1].time_s;
-            let [measured, truth] = [measurements(&motion), truth(&motion)];
-            out.write(&format!("{folder}/imu0/data.csv"), measured.as_bytes())?;
-            out.write(&format!("{folder}/imu0/sensor.yaml"), imu_yaml(rate_hz).as_bytes())?;
-            out.write(&format!("{folder}/state_groundtruth_estimate0/data.csv"), truth.as_bytes())?;
+            let samples: Vec<MotionSample> = motion.samples().collect();
+            out.write(&format!("{folder}/imu0/data.csv"), measurements(&samples).as_bytes())?;
+            out.write(&format!("{folder}/imu0/sensor.yaml"), imu_yaml(motion.rate_hz()).as_bytes())?;
+            out.write(&format!("{folder}/state_groundtruth_estimate0/data.csv"), truth(&samples).as_bytes())?;
         }
     }
     selected.each(|view| write_frame(selected, out, view))?;
     Ok(())
-}
-
-/// How the camera moved, or its left neighbour of a stereo rig.
-fn motion(selected: &SelectedFrames<'_>, track: &Track) -> Result<Vec<MotionSample>, ExportError> {
-    let stereo = selected.dataset.read_stereo(&track.scene, &track.name)?;
-    let left = stereo.filter(|stereo| stereo.side == StereoSide::Right).map_or(track.name.clone(), |stereo| stereo.partner);
-    let motion = selected.dataset.read_motion(&track.scene, &left)?;
-    if motion.len() < 2 {
-        let problem = "how it moved between its frames is not known; EuRoC is of videos: plan with mode = { kind = \"video\" } and two frames or more";
-        return Err(selected.unsuitable(track.folder(), problem));
-    }
-    Ok(motion)
 }
 
 /// The folder `mav0` of a track, whether it is `cam0` or `cam1` there, and the rig that it is of.
@@ -97,19 +88,20 @@ fn truth(motion: &[MotionSample]) -> String {
 }
 
 /// A pose as `sensor.yaml` has it: what takes points of the sensor to the body.
-fn pose_yaml(shift_m: DVec3) -> String {
-    let rows = DMat4::from_translation(shift_m).transpose().to_cols_array().map(|v| v.to_string()).join(", ");
+fn pose_yaml(body_from_sensor: DMat3, shift_m: DVec3) -> String {
+    let rows =
+        DMat4::from_mat3_translation(body_from_sensor, shift_m).transpose().to_cols_array().map(|v| (v + 0.0).to_string()).join(", ");
     format!("T_BS:\n  cols: 4\n  rows: 4\n  data: [{rows}]\n")
 }
 
-fn camera_yaml(k: &Calibration, rate_hz: f64, stereo: &Option<StereoRecord>) -> String {
-    let right = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
+fn camera_yaml(k: &Calibration, rate_hz: f64, stereo: Option<&StereoRecord>) -> String {
+    let right = stereo.filter(|stereo| stereo.side == StereoSide::Right);
     let shift = DVec3::X * right.map_or(0.0, |stereo| stereo.baseline_m);
     let [[fx, _, cx], [_, fy, cy], _] = k.intrinsics.opencv_k();
     format!(
         "sensor_type: camera\ncomment: pinhole without distortion\n{}rate_hz: {rate_hz}\nresolution: [{}, {}]\ncamera_model: pinhole\n\
          intrinsics: [{fx}, {fy}, {cx}, {cy}]\ndistortion_model: radial-tangential\ndistortion_coefficients: [0.0, 0.0, 0.0, 0.0]\n",
-        pose_yaml(shift),
+        pose_yaml(k.body_from_opencv(), shift),
         k.intrinsics.width,
         k.intrinsics.height
     )
@@ -119,7 +111,7 @@ fn imu_yaml(rate_hz: f64) -> String {
     format!(
         "sensor_type: imu\ncomment: ideal, from the curve that the camera follows\n{}rate_hz: {rate_hz}\ngyroscope_noise_density: 0.0\n\
          gyroscope_random_walk: 0.0\naccelerometer_noise_density: 0.0\naccelerometer_random_walk: 0.0\n",
-        pose_yaml(DVec3::ZERO)
+        pose_yaml(DMat3::IDENTITY, DVec3::ZERO)
     )
 }
 

@@ -4,10 +4,10 @@ use super::seed;
 use crate::Seed;
 use enfilade_dataset::hdf5::{Packing, Storage, write_array};
 use enfilade_dataset::{
-    AmodalMask, AmodalMasks, Array, BoxKind, Dataset, Elements, InstanceView, JudgedView, ManifestInfo, Partition, PixelArea, SplitRow,
-    ToneMapRow, ViewFault, ViewVerdict,
+    AmodalMask, AmodalMasks, Array, BoxKind, Dataset, DescribedInstance, Elements, InstanceRelation, InstanceView, JudgedView,
+    ManifestInfo, Partition, PixelArea, RelationKind, SplitRow, ToneMapRow, ViewFault, ViewVerdict,
 };
-use enfilade_math::{DMat3, DVec3, OrientedBox};
+use enfilade_math::{DMat3, DVec2, DVec3, OrientedBox};
 use enfilade_scene::Intrinsics;
 use std::path::{Path, PathBuf};
 
@@ -57,6 +57,22 @@ fn more(dataset: &Dataset) -> Result<(), enfilade_dataset::DatasetError> {
     BoxKind::ALL.iter().try_for_each(|&kind| dataset.write_boxes(SCENE, kind, &[None, Some(made)]))?;
     let tree = super::octrees().swap_remove(0).bytes;
     dataset.write_free_space(SCENE, &tree, DVec3::ZERO, DVec3::ONE)?;
+    let lamp = DescribedInstance {
+        instance: 1,
+        semantic: 35,
+        semantic_name: "lamp".into(),
+        name: "lamp_1".into(),
+        noun: "table lamp".into(),
+        room: "study_1".into(),
+        color: "white".into(),
+        material: "linen".into(),
+        center: DVec3::ONE,
+        size_m: DVec3::splat(0.3),
+        front: Some(DVec2::X),
+    };
+    dataset.write_described_instances(SCENE, &[lamp])?;
+    let stands = InstanceRelation { subject: 1, kind: RelationKind::On, object: -1, object_semantic: 2, distance_m: 0.001 };
+    dataset.write_instance_relations(SCENE, &[stands])?;
     dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default())?)
 }
 

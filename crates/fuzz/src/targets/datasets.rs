@@ -59,6 +59,7 @@ pub fn tables(folder: &Path) -> Run {
         drop((dataset.table_projection(SCENE), dataset.projection_matrix(SCENE), dataset.meters_per_asset_unit(SCENE)));
         drop((dataset.read_frame_time(SCENE, CAMERA), dataset.rejected_views(SCENE, CAMERA)));
         drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA), dataset.read_fixtures(SCENE)));
+        drop((dataset.read_described_instances(SCENE), dataset.read_instance_relations(SCENE)));
         drop(dataset.mesh_files(SCENE).read_splits());
         #[cfg(feature = "program")]
         drop(enfilade_label::LabelTable::parse(bytes, "labels.csv"));

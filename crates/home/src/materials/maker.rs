@@ -3,7 +3,7 @@
 use crate::light::Exposure;
 use crate::palette::Palette;
 use crate::texture::{Paint, Skin};
-use enfilade_math::{Rgb, Rng, Vec2};
+use enfilade_math::{Rgb, Rng, Vec2, hash_text};
 use enfilade_scene::{Bsdf, ColorParam, Image, Material, NormalMap, ScalarParam, Scene};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -40,8 +40,7 @@ impl Maker<'_> {
     /// A seed that depends on the home, the name and the variant, but not on what was made before.
     pub fn seed(&self, name: &str, variant: &impl Debug) -> u32 {
         let text = format!("{name} {variant:?}");
-        let key = text.bytes().fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-        self.stock.rng.fork(key).next_u64() as u32
+        self.stock.rng.fork(hash_text(&text)).next_u64() as u32
     }
 
     /// The picture of this name and variant, made if there is none yet. It covers `covers` metres across and up.

@@ -50,13 +50,13 @@ fn annotation_tables(job: &Job) -> Vec<PathBuf> {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    job.dataset.forget_words(&job.scene.name).map_err(Error::stage)?;
     let (known, report) = known(job, cx)?;
     let hash = known.hash().0;
     let frames = job.frames()?;
     for (done, (camera, frame)) in frames.iter().enumerate() {
         if job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
             job.dataset.forget_surfaces(&job.scene.name, camera).map_err(Error::stage)?;
-            job.dataset.forget_words(&job.scene.name).map_err(Error::stage)?;
             label_frame(job, camera, *frame, &known, &hash)?;
         }
         cx.progress("frames", done as u64 + 1, frames.len() as u64);

@@ -10,7 +10,7 @@ use crate::workdir::Hash;
 use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Cx, MotionSample, Pose, StartCamera, Trajectory, Warning};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
 use enfilade_show::planview::remove_plan_preview;
 use enfilade_verify::view_gates::GateAction;
 use std::collections::BTreeSet;
@@ -54,14 +54,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
     let mut reports = Vec::new();
     let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
-    let mut moved: Vec<(String, Vec<MotionSample>)> = Vec::new();
-    for (number, Planned { trajectory, motion, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
+    for (number, Planned { trajectory, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
         match job.scene.camera.stereo {
             None => filmed.push((trajectory, None)),
             Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
         }
-        // The report of a rig is that of its left camera, the one that was planned; so is the motion.
-        moved.push((report.trajectory.clone(), motion));
+        // The report of a rig is that of its left camera, the one that was planned.
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
@@ -79,9 +77,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             job.dataset.write_frame_time(name, &trajectory.name, 1.0 / video.fps).map_err(Error::stage)?;
         }
     }
-    for (name_of_camera, motion) in &moved {
-        job.dataset.write_motion(name, name_of_camera, motion).map_err(Error::stage)?;
-    }
     warn_of_frame_time(job, &camera, cx);
     write_camera_row(job, &camera, cx)?;
     job.forget_filmed();
@@ -89,7 +84,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let mut outputs = camera_files::files(job, &trajectories);
     outputs.push(layout.metadata_cameras(name));
     outputs.extend(trajectories.iter().map(|trajectory| layout.metadata_camera(name, &trajectory.name)));
-    outputs.extend(moved.iter().filter(|(_, motion)| !motion.is_empty()).map(|(camera, _)| layout.motion(name, camera)));
     for report in &reports {
         let path = layout.plan_report(name, &report.trajectory);
         write_json(&path, report)?;

@@ -312,6 +312,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         }
     }
     if is_removed {
+        job.dataset.forget_words(name).map_err(Error::stage)?;
         job.dataset.forget_derived(name).map_err(Error::stage)?;
     }
     Ok(())

@@ -41,9 +41,7 @@ pub fn refused(text: &str) -> String {
 /// What a sensor makes of a frame.
 pub fn reading(text: &str, frame: &Frame) -> Reading {
     let projection = camera();
-    sensor(text)
-        .sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame, motion: &[], frame_time_s: 1.0 })
-        .unwrap()
+    sensor(text).sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame, motion: None }).unwrap()
 }
 
 /// As a layer.

@@ -3,28 +3,26 @@
 use crate::common::{camera, refused, sensor};
 use enfilade_frame::Frame;
 use enfilade_math::DVec3;
-use enfilade_scene::{MotionSample, Pose};
+use enfilade_scene::{Motion, MotionSample, Pose};
 use enfilade_sensors::{Data, Subject};
 
 const FRAME_TIME_S: f64 = 0.04;
 const PER_FRAME: usize = 8;
 
 /// A camera that looks ahead on a circle.
-fn motion(frames: usize) -> Vec<MotionSample> {
-    let curve = |time_s: f64| {
-        let (sin, cos) = (0.5 * time_s).sin_cos();
+fn motion(frames: u32) -> Motion {
+    let pose = |frame: u32| {
+        let (sin, cos) = (0.5 * FRAME_TIME_S * f64::from(frame)).sin_cos();
         let p = DVec3::new(cos, sin, 1.5);
-        Pose::look_at(0, p, p + DVec3::new(-sin, cos, 0.1), DVec3::Z)
+        Pose::look_at(frame, p, p + DVec3::new(-sin, cos, 0.1), DVec3::Z).unwrap()
     };
-    let step_s = FRAME_TIME_S / PER_FRAME as f64;
-    (0..=(frames - 1) * PER_FRAME).filter_map(|k| MotionSample::of_curve(k as f64 * step_s, curve)).collect()
+    Motion::through(&(0..frames).map(pose).collect::<Vec<_>>(), FRAME_TIME_S).unwrap()
 }
 
 /// What a unit reads from a frame on: rows of time, rates and forces.
-fn read(text: &str, motion: &[MotionSample], number: u32) -> Vec<[f64; 7]> {
+fn read(text: &str, motion: &Motion, number: u32) -> Vec<[f64; 7]> {
     let (projection, frame) = (camera(), Frame::new(0, 0));
-    let subject =
-        Subject { scene: "room", camera: "cam_00", number, projection: &projection, frame: &frame, motion, frame_time_s: FRAME_TIME_S };
+    let subject = Subject { scene: "room", camera: "cam_00", number, projection: &projection, frame: &frame, motion: Some(motion) };
     let Data::File { name: "imu.csv", bytes } = sensor(text).sense(&subject).unwrap().data else { panic!("no table") };
     let row = |line: &str| -> [f64; 7] { line.split(',').map(|v| v.parse().unwrap()).collect::<Vec<_>>().try_into().unwrap() };
     String::from_utf8(bytes).unwrap().lines().skip(1).map(row).collect()
@@ -33,9 +31,9 @@ fn read(text: &str, motion: &[MotionSample], number: u32) -> Vec<[f64; 7]> {
 #[test]
 fn an_ideal_unit_reads_the_motion_to_the_bit_and_each_sample_once() {
     let motion = motion(5);
-    let rows: Vec<[f64; 7]> = (0..5).flat_map(|number| read("[[imu]]\nname = \"ideal\"", &motion, number)).collect();
-    assert_eq!(rows.len(), motion.len());
-    for (row, sample) in rows.iter().zip(&motion) {
+    let rows: Vec<[f64; 7]> = (0..5u32).flat_map(|number| read("[[imu]]\nname = \"ideal\"", &motion, number)).collect();
+    assert_eq!((rows.len(), motion.per_frame()), (4 * PER_FRAME + 1, PER_FRAME));
+    for (row, sample) in rows.iter().zip(motion.samples()) {
         let expected: Vec<f64> =
             [sample.time_s].into_iter().chain(sample.angular_rate.to_array()).chain(sample.specific_force.to_array()).collect();
         assert_eq!(row.as_slice(), expected);
@@ -45,14 +43,14 @@ fn an_ideal_unit_reads_the_motion_to_the_bit_and_each_sample_once() {
 #[test]
 fn noise_has_its_density_and_biases_wander_as_far_as_said() {
     let frames = 400;
-    let motion = motion(frames);
+    let motion = motion(frames as u32);
     let rate_hz = PER_FRAME as f64 / FRAME_TIME_S;
     let errors = |text: &str| -> Vec<[f64; 7]> {
         let rows: Vec<[f64; 7]> = (0..frames as u32).flat_map(|number| read(text, &motion, number)).collect();
         let ideal = |s: &MotionSample| {
             [s.time_s, s.angular_rate.x, s.angular_rate.y, s.angular_rate.z, s.specific_force.x, s.specific_force.y, s.specific_force.z]
         };
-        rows.iter().zip(&motion).map(|(row, sample)| std::array::from_fn(|i| row[i] - ideal(sample)[i])).collect()
+        rows.iter().zip(motion.samples()).map(|(row, sample)| std::array::from_fn(|i| row[i] - ideal(&sample)[i])).collect()
     };
     let deviation = |values: &[f64]| (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt();
     let of = |rows: &[[f64; 7]], columns: std::ops::Range<usize>| {
@@ -79,8 +77,7 @@ fn noise_has_its_density_and_biases_wander_as_far_as_said() {
 #[test]
 fn what_is_wrong_is_told() {
     let (projection, frame) = (camera(), Frame::new(0, 0));
-    let subject =
-        Subject { scene: "room", camera: "cam_00", number: 3, projection: &projection, frame: &frame, motion: &[], frame_time_s: 0.04 };
+    let subject = Subject { scene: "room", camera: "cam_00", number: 3, projection: &projection, frame: &frame, motion: None };
     let message = sensor("[[imu]]\nname = \"a\"").sense(&subject).unwrap_err().to_string();
     assert!(message.contains("room/cam_00/frame.0003") && message.contains("kind = \"video\""), "{message}");
     let message = refused("[[imu]]\nname = \"a\"\ngyroscope_noise = -1.0");

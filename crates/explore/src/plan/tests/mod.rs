@@ -9,7 +9,7 @@ use super::*;
 use crate::testroom::{Room, furnished_room};
 use crate::{CarveConfig, Saliency, carve};
 use enfilade_math::{DMat3, DVec3};
-use enfilade_scene::{GRAVITY_M_S2, Heard, Intrinsics, Quiet, Trajectory, body_rotation};
+use enfilade_scene::{Heard, Intrinsics, Quiet, Trajectory};
 
 fn camera(position: DVec3, look_at: DVec3, up: DVec3) -> StartCamera {
     let pose = Pose::look_at(0, position, look_at, up).unwrap();

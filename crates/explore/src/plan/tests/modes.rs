@@ -82,8 +82,7 @@ fn a_video_keeps_its_bounds_from_frame_to_frame() {
     let space = carved(&room);
     let video = VideoConfig { fps: 30.0, max_speed_m_s: 1.0, max_turn_deg_s: 45.0, max_acceleration_m_s2: 1.5, waypoint_distance_m: 1.5 };
     let config = PlanConfig { mode: Mode::Video(video.clone()), frames: 400, ..quick() };
-    let planned = plan(&room.world, &room.bvh, &space, &start(), 3, &config, &Quiet).unwrap();
-    let poses = planned.trajectory.poses;
+    let poses = trajectory(&room, &space, &start(), 3, &config, &Quiet).unwrap().poses;
     let (mut moved, mut turned) = (0.0, 0.0);
     for pair in poses.windows(2) {
         let (step, turn) = (pair[0].position.distance(pair[1].position), turned_rad(&pair[0], &pair[1]).to_degrees());
@@ -102,20 +101,6 @@ fn a_video_keeps_its_bounds_from_frame_to_frame() {
     }
     assert!(moved > 4.0 && turned > 90.0, "{moved} m, {turned} degrees");
     assert!(poses[0].position.distance(start().position) < 0.2);
-
-    // 210 samples a second are the least multiple of 30 that is 200 or more.
-    let motion = planned.motion;
-    assert_eq!(motion.len(), 399 * 7 + 1);
-    assert!(motion[0].velocity.length() < 1e-3 && motion[0].specific_force.length() < GRAVITY_M_S2 + 2.0);
-    for (pose, sample) in poses.iter().zip(motion.iter().step_by(7)) {
-        assert!((sample.time_s - f64::from(pose.frame) / video.fps).abs() < 1e-9);
-        assert!(sample.position.distance(pose.position) < 1e-9 && sample.rotation.angle_between(body_rotation(pose)) < 1e-6);
-    }
-    for pair in motion.windows(2) {
-        let step = pair[1].position - pair[0].position;
-        let even = 0.5 * (pair[0].velocity + pair[1].velocity) * (pair[1].time_s - pair[0].time_s);
-        assert!(step.distance(even) < 1e-4, "{} s: {step} and {even}", pair[0].time_s);
-    }
 }
 
 #[test]

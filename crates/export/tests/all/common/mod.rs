@@ -7,8 +7,8 @@ use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_scene::{
-    Camera, CameraView, DoorLeaf, Hinge, Intrinsics, Labels, Material, MotionSample, OpeningKind, Part, PartLabel, Pose, Scene, Structure,
-    StructureRoom, Trajectory, WallOpening,
+    Camera, CameraView, DoorLeaf, Hinge, Intrinsics, Labels, Material, OpeningKind, Part, PartLabel, Pose, Scene, Structure, StructureRoom,
+    Trajectory, WallOpening,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -140,9 +140,6 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
         dataset.write_label_tables(name, &Labels { parts: LABELS.iter().map(label).collect() }).unwrap();
         let trajectory = Trajectory { name: camera_name.into(), poses };
         dataset.write_trajectory(name, &trajectory, camera, None).unwrap();
-        // At rest, for formats of videos.
-        let still = |k: u32| MotionSample::of_curve(0.25 * f64::from(k), |_| Some(trajectory.poses[0]));
-        dataset.write_motion(name, camera_name, &(0..=64).filter_map(still).collect::<Vec<_>>()).unwrap();
         for (index, pose) in trajectory.poses.iter().enumerate() {
             let whole = frame(camera, &trajectory.poses, index);
             let part_of = |labels: bool| {
