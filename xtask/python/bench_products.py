@@ -93,6 +93,7 @@ def derived(program: Program, work: Path) -> list[dict]:
         ("flow", ["--step", "1"], [f"{detail}/{CAMERA}/pairs/*"]),
         ("tracks", [], [f"{detail}/{CAMERA}/tracks.npz"]),
         ("surfaces", [], [f"{detail}/{CAMERA}/surfaces/*"]),
+        ("describe", [], [f"{detail}/metadata_instance*", f"{detail}/{CAMERA}/*.jsonl"]),
         ("sense", ["examples/sensors.toml"], ["sensors/**/*"]),
         ("relight", [mixes], ["relit/**/*"]),
     ]
@@ -131,7 +132,7 @@ def page(told: dict):
         yield f"| `{row['name']}` | {number(row['cpu_s'])} | {mb(row['bytes'])} | {row['peak_bytes'] / 1e9:.2f} |"
     yield ""
     yield "`relight` makes four mixes of each frame, `sense` has the six sensors of `examples/sensors.toml`. `pairs`,"
-    yield "`flow`, `tracks` and `surfaces` prepare the scene for rays first."
+    yield "`flow`, `tracks`, `surfaces` and `describe` prepare the scene for rays first."
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ const FRAME_TIME_S: f64 = 1.0;
 const ORTHONORMAL: f64 = 1e-9;
 
 impl Dataset {
-    /// How a camera moves through its frames; `None` where these are no video: a second or more apart, or fewer than two.
+    /// How a camera moves through its frames; `None` where these are no video: a second or more apart, or none.
     ///
     /// # Errors
     /// When the trajectory or the time between frames cannot be read.

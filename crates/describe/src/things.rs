@@ -6,7 +6,7 @@ use enfilade_dataset::{Dataset, DatasetError, DescribedInstance, MeshGeometry};
 use enfilade_label::boxes::upright_box;
 use enfilade_label::class_name;
 use enfilade_math::{DVec2, DVec3, Vec3};
-use enfilade_scene::{PartLabel, Structure, StructureThing};
+use enfilade_scene::{Labels, PartLabel, Structure, StructureThing};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -51,17 +51,7 @@ impl Things {
         let (mut mesh, objects, metres) = (files.read()?, files.read_objects_of_faces()?, dataset.meters_per_asset_unit(scene)?);
         mesh.vertices.iter_mut().for_each(|v| *v *= metres);
         let structure = dataset.read_structure(scene)?;
-        let (mut instances, mut stuff) = (BTreeMap::new(), BTreeMap::new());
-        for (face, &object) in objects.iter().enumerate() {
-            let label = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
-            // What is no instance carries others all the same: walls, floors, parts without labels.
-            let (list, key) = if label.instance >= 1 { (&mut instances, label.instance) } else { (&mut stuff, label.semantic) };
-            let gathered: &mut Gathered = list.entry(key).or_default();
-            if gathered.corners.is_empty() {
-                gathered.semantic = label.semantic;
-            }
-            gathered.add(&mesh, face);
-        }
+        let [instances, stuff] = gathered(&mesh, &objects, &labels);
         if instances.is_empty() {
             return Ok(None);
         }
@@ -120,6 +110,18 @@ impl Things {
     pub fn place(&self, instance: i16) -> Option<usize> {
         self.described.binary_search_by_key(&instance, |described| described.instance).ok()
     }
+}
+
+/// The triangles of each instance, and of all else by class: what is no instance carries others all the same.
+fn gathered(mesh: &MeshGeometry, objects: &[u32], labels: &Labels) -> [BTreeMap<i16, Gathered>; 2] {
+    let mut lists = [BTreeMap::new(), BTreeMap::new()];
+    for (face, &object) in objects.iter().enumerate() {
+        let label = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
+        let (list, key) = if label.instance >= 1 { (0, label.instance) } else { (1, label.semantic) };
+        let new = || Gathered { semantic: label.semantic, ..Gathered::default() };
+        lists[list].entry(key).or_insert_with(new).add(mesh, face);
+    }
+    lists
 }
 
 impl Gathered {

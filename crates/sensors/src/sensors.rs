@@ -136,7 +136,7 @@ impl Sensor {
     }
 
     /// Whether it feels how the camera moves.
-    pub fn feels_motion(&self) -> bool {
+    pub(crate) fn feels_motion(&self) -> bool {
         matches!(self.kind, Kind::Imu(_))
     }
 

@@ -21,8 +21,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     for track in &selected.tracks {
         let (folder, number, stereo) = place(selected, track)?;
         let motion = selected.dataset.read_motion(&track.scene, &track.name)?.ok_or_else(|| {
-            let problem =
-                "its frames are no video (less than a second apart, two or more); plan with mode = { kind = \"video\" }, or leave it out";
+            let problem = "its frames are no video (less than a second apart); plan with mode = { kind = \"video\" }, or leave it out";
             selected.unsuitable(track.folder(), problem)
         })?;
         let step_s = selected.dataset.read_frame_time(&track.scene, &track.name)?;

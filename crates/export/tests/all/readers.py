@@ -269,6 +269,33 @@ def tum():
     return f"{len(record())} frames"
 
 
+def euroc():
+    """Poses and intrinsics at the times of the pictures put depth where the dataset has it; measurements have the times of the truth."""
+    for scene, camera in {(scene, camera) for scene, camera, _ in record()}:
+        mav = f"{EXPORT}/{scene}_{camera}/mav0"
+        frames = [frame for *of, frame in record() if of == [scene, camera]]
+        listed = np.atleast_2d(np.loadtxt(f"{mav}/cam0/data.csv", delimiter=",", dtype=str))
+        truth, measured = (np.atleast_2d(np.loadtxt(f"{mav}/{name}/data.csv", delimiter=",")) for name in ("state_groundtruth_estimate0", "imu0"))
+        assert np.array_equal(truth[:, 0], measured[:, 0]) and len(listed) == len(frames)
+        with open(f"{mav}/cam0/sensor.yaml") as file:
+            sensor = dict(line.strip().split(": ", 1) for line in file if ": " in line)
+        fx, fy, cx, cy = json.loads(sensor["intrinsics"])
+        width, height = json.loads(sensor["resolution"])
+        body_from_camera = np.array(json.loads(sensor["data"])).reshape(4, 4)
+        for (time, name), frame in zip(listed, frames):
+            (_, x, y, z, qw, qx, qy, qz, *_), = truth[truth[:, 0] == int(time)]
+            world_from_body = np.eye(4)
+            world_from_body[:3, :3], world_from_body[:3, 3] = rotation(qx, qy, qz, qw), (x, y, z)
+            assert picture(f"{mav}/cam0/data/{name}").shape == (height, width)
+            to_world = world_from_body @ body_from_camera
+            # Along the axis of the pictures, which is another one where the image plane is tilted.
+            position = layer(scene, camera, frame, "position").astype(float)
+            ahead = (position - to_world[:3, 3]) @ to_world[:3, 2]
+            K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+            check_points(scene, camera, frame, np.nan_to_num(ahead * 1000), K, to_world)
+    return f"{len(record())} frames"
+
+
 def replica():
     for scene, camera in {(scene, camera) for scene, camera, _ in record()}:
         folder = f"{EXPORT}/{scene}_{camera}"

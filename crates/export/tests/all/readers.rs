@@ -49,7 +49,7 @@ fn a_tilted_image_plane_becomes_a_turned_pinhole() {
     export_all(
         &dataset,
         folder.path(),
-        FORMATS.iter().filter(|spec| ["depth-png", "scannet", "bop", "webdataset", "huggingface"].contains(&spec.name)),
+        FORMATS.iter().filter(|spec| ["depth-png", "scannet", "bop", "webdataset", "huggingface", "euroc"].contains(&spec.name)),
     );
 }
 

@@ -140,6 +140,8 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
         dataset.write_label_tables(name, &Labels { parts: LABELS.iter().map(label).collect() }).unwrap();
         let trajectory = Trajectory { name: camera_name.into(), poses };
         dataset.write_trajectory(name, &trajectory, camera, None).unwrap();
+        // Some formats are of videos.
+        dataset.write_frame_time(name, camera_name, 0.04).unwrap();
         for (index, pose) in trajectory.poses.iter().enumerate() {
             let whole = frame(camera, &trajectory.poses, index);
             let part_of = |labels: bool| {
