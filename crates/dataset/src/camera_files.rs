@@ -20,6 +20,11 @@ impl Dataset {
     /// When the trajectory or the time between frames cannot be read.
     pub fn read_motion(&self, scene: &str, camera: &str) -> Result<Option<Motion>, DatasetError> {
         let frame_time_s = self.read_frame_time(scene, camera)?;
+        if !(frame_time_s.is_finite() && frame_time_s > 0.0) {
+            let path = self.layout().metadata_camera(scene, camera);
+            let problem = format!("frame_time_seconds is {frame_time_s}, expected a positive number; plan the scene again");
+            return Err(DatasetError::text(&path, problem));
+        }
         if frame_time_s >= FRAME_TIME_S {
             return Ok(None);
         }

@@ -37,7 +37,7 @@ pub struct DescribedInstance {
     pub semantic: i16,
     /// Name of the class.
     pub semantic_name: String,
-    /// Its own name: that of its largest part.
+    /// Its own name: of generated homes' that of the object, else that of its largest part.
     pub name: String,
     /// What people call it; empty where no word is known.
     pub noun: String,
@@ -56,8 +56,7 @@ pub struct DescribedInstance {
 }
 
 /// How one instance stands to another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "RelationKind::ALL says what each is called; docs/words.md what it means")]
 pub enum RelationKind {
     On,

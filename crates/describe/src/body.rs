@@ -54,7 +54,7 @@ impl Body {
     }
 
     /// Whether the bounds of another overlap its own, seen from above.
-    pub fn is_below(&self, other: &Self) -> bool {
+    pub fn overlaps_from_above(&self, other: &Self) -> bool {
         let (a, b) = (&self.bounds, &other.bounds);
         a.min.truncate().cmple(b.max.truncate()).all() && b.min.truncate().cmple(a.max.truncate()).all()
     }
@@ -94,8 +94,7 @@ impl Body {
 
     /// The distance between the bounds of two bodies, metres: no more than that between the bodies.
     pub fn bounds_distance_m(&self, other: &Self) -> f64 {
-        let gap = (self.bounds.min - other.bounds.max).max(other.bounds.min - self.bounds.max).max(Vec3::ZERO);
-        f64::from(gap.length())
+        f64::from(self.bounds.gap(&other.bounds).length())
     }
 
     /// The middle of its box.

@@ -5,7 +5,7 @@ use crate::things::Things;
 use crate::words;
 use enfilade_dataset::{Caption, DescribedInstance, InstanceRelation, RelationKind};
 use enfilade_math::DVec3;
-use enfilade_scene::is_stuff;
+use enfilade_scene::{CEILING, FLOOR, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A thing is spoken of when it covers this share of the image.
@@ -18,8 +18,6 @@ const LISTED: usize = 6;
 const SENTENCES: usize = 4;
 /// What one of them says of a thing, at most.
 const CLAUSES: usize = 2;
-/// The class of floors.
-const FLOOR: i16 = 2;
 
 /// What is known of a scene, and what a frame shows of it.
 pub struct Scope<'a> {
@@ -142,7 +140,7 @@ fn clauses(scope: &Scope<'_>, thing: &DescribedInstance, said: &mut BTreeSet<[i1
     let mut found: BTreeMap<RelationKind, String> = BTreeMap::new();
     for relation in scope.relations_of(thing.instance) {
         let plain = match relation.kind {
-            RelationKind::On => relation.object_semantic == FLOOR,
+            RelationKind::On => relation.object < 1 && relation.object_semantic == FLOOR,
             RelationKind::In => relation.object < 1,
             _ => false,
         };
@@ -171,7 +169,7 @@ fn verb(relation: &InstanceRelation, many: bool) -> String {
     match relation.kind {
         RelationKind::On => format!("{are} on"),
         RelationKind::In => format!("{are} in"),
-        RelationKind::HangsFrom if relation.object_semantic == 22 => format!("hang{s} from"),
+        RelationKind::HangsFrom if relation.object < 1 && relation.object_semantic == CEILING => format!("hang{s} from"),
         RelationKind::HangsFrom => format!("hang{s} on"),
         RelationKind::Against => format!("{are} against"),
         RelationKind::Under => format!("{are} under"),

@@ -3,6 +3,7 @@
 use crate::body::Body;
 use enfilade_dataset::RelationKind;
 use enfilade_math::{DVec3, Vec3};
+use enfilade_scene::CEILING;
 
 /// Things sink so far into what is hard under them, metres: feet into a rug's pile.
 const SINK_M: f32 = 0.005;
@@ -12,8 +13,6 @@ const SOFT_SINK_M: f32 = 0.03;
 const TOUCH_M: f32 = 0.005;
 /// And soft ones, which lie in waves.
 const SOFT_TOUCH_M: f32 = 0.02;
-/// The ceiling's class.
-pub const CEILING: i16 = 22;
 /// The lowest and the highest of a thing, as far as what carries it is concerned, metres.
 const ENDS_M: f32 = 0.01;
 /// A gap up to which people say that something stands against a wall, metres.
@@ -72,7 +71,7 @@ pub fn attempts(a: &Body, others: &[(usize, &Body)]) -> Vec<Attempt> {
     ];
     let attempt = |(kind, rays, [sink, reach]): (RelationKind, &[Ray], [f32; 2])| {
         // Nothing stands on a ceiling.
-        let others = others.iter().filter(|(_, b)| kind != on || b.semantic != CEILING);
+        let others = others.iter().filter(|(_, b)| kind != on || b.class != CEILING);
         Attempt { kind, met: others.filter_map(|&(i, b)| Some((i, meet(b, rays, sink, reach)?))).collect() }
     };
     ways.into_iter().map(attempt).filter(|attempt| !attempt.met.is_empty()).collect()

@@ -9,6 +9,7 @@ use enfilade_dataset::{Caption, Dataset, DatasetError};
 use enfilade_math::DVec3;
 use enfilade_scene::Cx;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// How much was found and said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,11 +35,15 @@ pub fn describe(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Option<De
     let mut filmed: Vec<(String, Vec<(SeenFrame, DVec3)>)> = Vec::new();
     for camera in dataset.cameras(scene)? {
         let poses = dataset.read_trajectory(scene, &camera)?.poses;
-        let eye = |seen: &SeenFrame| poses.iter().find(|pose| pose.frame == seen.frame).map(|pose| pose.position);
+        let eyes: BTreeMap<u32, DVec3> = poses.iter().map(|pose| (pose.frame, pose.position)).collect();
         let mut frames = dataset.whole_frames([scene, &camera], None, cx)?;
-        frames.retain(|number| poses.iter().any(|pose| pose.frame == *number));
+        frames.retain(|number| eyes.contains_key(number));
         let seen = seen::look(dataset, [scene, &camera], &frames, cx)?;
-        filmed.push((camera, seen.into_iter().filter_map(|seen| eye(&seen).map(|eye| (seen, eye))).collect()));
+        let with_eye = |seen: SeenFrame| {
+            let eye = eyes[&seen.frame];
+            (seen, eye)
+        };
+        filmed.push((camera, seen.into_iter().map(with_eye).collect()));
     }
     let mut described = things.described.clone();
     for thing in &mut described {

@@ -4,9 +4,10 @@
 //! it, hangs from what touches it above or beside. docs/words.md states each relation with its thresholds.
 
 use crate::body::Body;
-use crate::contact::{self, AGAINST_M, Attempt, CEILING, Meeting};
+use crate::contact::{self, AGAINST_M, Attempt, Meeting};
 use enfilade_dataset::{InstanceRelation, RelationKind};
 use enfilade_math::{DVec2, DVec3};
+use enfilade_scene::{CEILING, WALL};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -40,8 +41,6 @@ const FACING_CLASSES: [i16; 6] = [4, 5, 6, 14, 19, 25];
 const FACED_CLASSES: [i16; 18] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 15, 17, 19, 24, 25, 30, 32, 36];
 /// Classes of what is in a wall: door, window.
 const OPENINGS: [i16; 2] = [8, 9];
-/// The wall's class.
-const WALL: i16 = 1;
 
 /// What carries a thing, and how.
 #[derive(Clone, Debug, Default)]
@@ -187,8 +186,8 @@ impl Scene<'_> {
     /// What a thing is under: things, not those that hang from the ceiling, nor those that it carries or is in.
     fn under(&self, i: usize) -> Vec<InstanceRelation> {
         let a = &self.bodies[i];
-        let higher =
-            near(self.bodies, i, f64::from(UNDER_M)).filter(|(_, b)| b.is_thing() && b.bounds.max.z > a.bounds.max.z && a.is_below(b));
+        let higher = near(self.bodies, i, f64::from(UNDER_M))
+            .filter(|(_, b)| b.is_thing() && b.bounds.max.z > a.bounds.max.z && a.overlaps_from_above(b));
         let met = higher.filter_map(|(j, b)| Some((j, contact::above(a, b, UNDER_M).filter(|met| met.share >= UNDER_SHARE)?)));
         let is_under = |(j, _): &(usize, Meeting)| {
             let hangs_high =

@@ -56,7 +56,7 @@ pub fn look(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32], cx: &
         frames.iter().partition(|&&number| has(number, Layer::SemanticInstance) && has(number, Layer::DepthMeters));
     if let Some(first) = others.first() {
         let message =
-            format!("{} from {first} on have no instances or no distances, and are left out: label them", counted(others.len(), "frame"));
+            format!("{} without semantic_instance or depth_meters left out, the first of them {first}", counted(others.len(), "frame"));
         cx.warn(Warning { place: format!("{scene}/{camera}"), message });
     }
     let frames = Counted::new(cx, "frames", whole.len());
@@ -106,9 +106,7 @@ impl Sight {
             self.colors[NAMES.iter().position(|known| *known == name).unwrap_or_default()] += 1;
         }
     }
-}
 
-impl Sight {
     /// The share of its pixels that have the colour of this name.
     pub fn color_share(&self, name: &str) -> f64 {
         let index = NAMES.iter().position(|known| *known == name);

@@ -83,7 +83,7 @@ impl Things {
                 semantic: body.semantic,
                 noun: match (named, &own) {
                     (Some(thing), _) => words::of_family(&thing.family),
-                    (None, Some(_)) => class.clone(),
+                    (None, Some(own)) => words::of_own_class(own, body.semantic),
                     (None, None) => words::of_class(body.semantic),
                 },
                 semantic_name: class,

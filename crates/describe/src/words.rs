@@ -1,9 +1,13 @@
 //! How to speak of things: nouns, articles, plurals, lists.
 
+use enfilade_dataset::Classes;
 use enfilade_label::class_name;
 
 /// Families that are a part of the building or so small that nobody speaks of them.
-const UNSPOKEN: [&str; 9] = ["skirting", "socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
+const UNSPOKEN: [&str; 8] = ["socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
+/// Families that people call otherwise.
+const OTHER_WORDS: [(&str, &str); 4] =
+    [("tv bench", "TV bench"), ("built in microwave", "built-in microwave"), ("key board", "key rack"), ("player", "media player")];
 /// Words that are plural as they are.
 const PLURAL: [&str; 14] = [
     "logs",
@@ -29,8 +33,10 @@ const VAGUE: [i16; 3] = [38, 39, 40];
 /// The word for a family of generated things; empty for what nobody speaks of.
 pub fn of_family(family: &str) -> String {
     let words = family.replace('_', " ");
-    let unspoken = UNSPOKEN.iter().any(|known| words == *known || words.starts_with("skirting"));
-    if unspoken { String::new() } else { words }
+    if UNSPOKEN.contains(&words.as_str()) || words.starts_with("skirting") {
+        return String::new();
+    }
+    OTHER_WORDS.iter().find(|(family, _)| *family == words).map_or(words, |(_, word)| (*word).into())
 }
 
 /// The word for a class of NYU40; empty for those that say nothing.
@@ -43,6 +49,13 @@ pub fn of_class(semantic: i16) -> String {
         "showercurtain" => "shower curtain".into(),
         word => word.into(),
     }
+}
+
+/// The word for a class of somebody's own list; empty for what is in none.
+pub fn of_own_class(classes: &Classes, semantic: i16) -> String {
+    let name = classes.name(semantic);
+    let is_listed = semantic >= 1 && name != semantic.to_string();
+    if is_listed { name.replace('_', " ") } else { String::new() }
 }
 
 /// Whether one word can be said of what the other means: a chair may be an office chair or an armchair.
@@ -65,7 +78,7 @@ pub fn is_countable(noun: &str) -> bool {
 pub fn a(color: &str, noun: &str) -> String {
     let words = if color.is_empty() { noun.to_string() } else { format!("{color} {noun}") };
     // "a utensil jar": these begin with the sound of "you".
-    let is_you = ["un", "ut", "us"].iter().any(|begin| words.starts_with(begin)) && !words.starts_with("umb");
+    let is_you = ["uni", "ute", "use"].iter().any(|begin| words.starts_with(begin));
     match (is_countable(noun), words.starts_with(['a', 'e', 'i', 'o', 'u']) && !is_you) {
         (false, _) => format!("some {words}"),
         (true, true) => format!("an {words}"),
@@ -84,6 +97,9 @@ pub fn plural(noun: &str) -> String {
     }
     if let Some(stem) = stem("knife") {
         return format!("{stem}knives");
+    }
+    if noun == "person" {
+        return "people".into();
     }
     if let Some(stem) = stem("mouse") {
         return format!("{stem}mice");
@@ -118,6 +134,7 @@ pub fn a_room(kind: &str) -> String {
         "dining" => "dining room",
         "childrens" => "children's room",
         "laundry" => "laundry room",
+        "toilet" => "small room",
         other => other,
     };
     a("", words)
@@ -135,7 +152,8 @@ mod tests {
 
     #[test]
     fn words_are_as_people_write_them() {
-        assert_eq!(of_family("coffee_table"), "coffee table");
+        assert_eq!([of_family("coffee_table"), of_family("tv_bench")], ["coffee table", "TV bench"]);
+        assert_eq!([a("", "unknown object"), plural("person")], ["an unknown object", "people"]);
         assert_eq!([of_family("skirting_bedroom"), of_family("socket"), of_class(40), of_class(-1)], [""; 4]);
         assert_eq!([of_class(20), of_class(6)], ["rug", "sofa"]);
         assert_eq!(

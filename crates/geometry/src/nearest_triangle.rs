@@ -57,8 +57,12 @@ impl NearestTriangle {
         let walk = |&(_, start): &(f64, DVec3)| {
             let (mut here, mut there) = (start, start);
             for _ in 0..STEPS {
+                let before = here;
                 there = other.nearest_point(here).unwrap_or(here);
                 here = self.nearest_point(there).unwrap_or(there);
+                if here == before {
+                    break;
+                }
             }
             here.distance(there)
         };

@@ -56,6 +56,11 @@ impl Bounds3 {
         self.max - self.min
     }
 
+    /// Along each axis how far apart the two boxes are; 0 where they overlap.
+    pub fn gap(&self, other: &Self) -> Vec3 {
+        (self.min - other.max).max(other.min - self.max).max(Vec3::ZERO)
+    }
+
     /// True when `p` lies inside or on the surface.
     pub fn contains(&self, p: Vec3) -> bool {
         p.cmpge(self.min).all() && p.cmple(self.max).all()

@@ -42,13 +42,32 @@ impl NaturalSpline {
         Self { knots, points, bends }
     }
 
+    /// First and second derivative at `t`.
+    pub fn derivatives_at(&self, t: f64) -> [DVec3; 2] {
+        let n = self.points.len();
+        if n == 1 {
+            return [DVec3::ZERO; 2];
+        }
+        let i = self.stretch(t);
+        let h = self.knots[i + 1] - self.knots[i];
+        let (a, b) = ((self.knots[i + 1] - t) / h, (t - self.knots[i]) / h);
+        let slope = (self.points[i + 1] - self.points[i]) / h;
+        let bend = (3.0 * b * b - 1.0) * self.bends[i + 1] - (3.0 * a * a - 1.0) * self.bends[i];
+        [slope + bend * (h / 6.0), a * self.bends[i] + b * self.bends[i + 1]]
+    }
+
+    /// The stretch between two knots that says what the curve is at `t`, by the first of them.
+    fn stretch(&self, t: f64) -> usize {
+        self.knots.partition_point(|knot| *knot <= t).clamp(1, self.knots.len() - 1) - 1
+    }
+
     /// The curve at `t`; before the first knot and after the last the stretch beside them goes on.
     pub fn at(&self, t: f64) -> DVec3 {
         let n = self.points.len();
         if n == 1 {
             return self.points[0];
         }
-        let i = self.knots.partition_point(|knot| *knot <= t).clamp(1, n - 1) - 1;
+        let i = self.stretch(t);
         let h = self.knots[i + 1] - self.knots[i];
         let (a, b) = ((self.knots[i + 1] - t) / h, (t - self.knots[i]) / h);
         let bend = (a * a * a - a) * self.bends[i] + (b * b * b - b) * self.bends[i + 1];
@@ -75,6 +94,18 @@ mod tests {
         for knot in &knots[1..7] {
             assert!((second(knot - 2.0 * e) - second(knot + 2.0 * e)).length() < 0.05);
         }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        let through = NaturalSpline::new(vec![0.0, 1.0, 3.0, 4.0], points(4));
+        for t in [0.3, 1.7, 3.5] {
+            let e = 1e-4;
+            let [first, second] = through.derivatives_at(t);
+            assert!(first.distance((through.at(t + e) - through.at(t - e)) / (2.0 * e)) < 1e-6);
+            assert!(second.distance((through.at(t + e) - 2.0 * through.at(t) + through.at(t - e)) / (e * e)) < 1e-5);
+        }
+        assert_eq!(NaturalSpline::new(vec![0.0], points(1)).derivatives_at(2.0), [DVec3::ZERO; 2]);
     }
 
     #[test]

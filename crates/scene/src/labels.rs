@@ -32,9 +32,16 @@ pub const NYU40: [SemanticClass; 40] = classes![
     40 "otherprop" 100 85 144,
 ];
 
+/// The class of walls.
+pub const WALL: i16 = 1;
+/// The class of floors.
+pub const FLOOR: i16 = 2;
+/// The class of ceilings.
+pub const CEILING: i16 = 22;
+
 /// True for classes that have no countable instances: wall, floor and ceiling.
 pub fn is_stuff(semantic: i16) -> bool {
-    matches!(semantic, 1 | 2 | 22)
+    matches!(semantic, WALL | FLOOR | CEILING)
 }
 
 /// What a part is called by people. −1 means unlabelled in both fields.

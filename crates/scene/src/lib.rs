@@ -31,10 +31,10 @@ pub use camera::{
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
-pub use labels::{Labels, NYU40, PartLabel, SemanticClass, is_stuff};
+pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, is_stuff};
 pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
-pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV, body_rotation};
+pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV};
 pub use package::{
     PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, to_bytes, to_bytes_with_labels,
 };

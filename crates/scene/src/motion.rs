@@ -6,7 +6,7 @@ use enfilade_math::{DMat3, DQuat, DVec3, NaturalSpline};
 /// Standard gravity, m/s² (3rd CGPM, 1901); it pulls along −z.
 pub const GRAVITY_M_S2: f64 = 9.806_65;
 
-/// Half of the time over which a curve is differentiated, seconds: rounding and curvature both stay below 10⁻⁶ m/s².
+/// Half of the time over which a rotation is differentiated, seconds.
 const STEP_S: f64 = 5e-4;
 
 /// Samples a second, at least; between frames there is an equal number of them.
@@ -32,37 +32,18 @@ pub struct MotionSample {
     pub specific_force: DVec3,
 }
 
-impl MotionSample {
-    /// The motion at a time of a body whose position and rotation are smooth functions of it, by central differences over a millisecond.
-    ///
-    /// ```
-    /// use enfilade_math::{DQuat, DVec3};
-    /// use enfilade_scene::{GRAVITY_M_S2, MotionSample};
-    /// // Its axes are the world's; faster and faster along x: 2 m/s².
-    /// let felt = MotionSample::of_curve(1.0, |t| (DVec3::X * t * t, DQuat::IDENTITY));
-    /// assert!(felt.specific_force.abs_diff_eq(DVec3::new(2.0, 0.0, GRAVITY_M_S2), 1e-6));
-    /// assert!(felt.velocity.abs_diff_eq(2.0 * DVec3::X, 1e-9) && felt.angular_rate == DVec3::ZERO);
-    /// ```
-    pub fn of_curve(time_s: f64, curve: impl Fn(f64) -> (DVec3, DQuat)) -> Self {
-        let [before, at, after] = [curve(time_s - STEP_S), curve(time_s), curve(time_s + STEP_S)];
-        let acceleration = (after.0 - 2.0 * at.0 + before.0) / (STEP_S * STEP_S);
-        let rotation = if at.1.w < 0.0 { -at.1 } else { at.1 };
-        // Of the two quaternions of a rotation the nearer.
-        let turn = before.1.inverse() * after.1;
-        let turn = if turn.w < 0.0 { -turn } else { turn };
-        Self {
-            time_s,
-            position: at.0,
-            rotation,
-            velocity: (after.0 - before.0) / (2.0 * STEP_S),
-            angular_rate: turn.to_scaled_axis() / (2.0 * STEP_S),
-            specific_force: rotation.inverse() * (acceleration + GRAVITY_M_S2 * DVec3::Z),
-        }
-    }
-}
-
 /// The way of a camera through its frames: natural cubic splines in time through positions and, component by component, rotations. Velocity and
 /// acceleration are continuous.
+///
+/// ```
+/// use enfilade_math::DVec3;
+/// use enfilade_scene::{GRAVITY_M_S2, Motion, Pose};
+/// // At rest and level: what is felt is the ground that holds the camera.
+/// let pose = |frame| Pose::look_at(frame, DVec3::Z, DVec3::Z + DVec3::Y, DVec3::Z).unwrap();
+/// let motion = Motion::through(&[pose(0), pose(1)], 0.04).unwrap();
+/// assert_eq!(motion.rate_hz(), 200.0);
+/// assert!(motion.samples().all(|felt| felt.specific_force.abs_diff_eq(GRAVITY_M_S2 * DVec3::NEG_Y, 1e-9)));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// Seconds.
@@ -118,7 +99,7 @@ impl Motion {
         };
         let step_s = self.frame_time_s / self.per_frame() as f64;
         let start_s = f64::from(frame) * self.frame_time_s;
-        (0..count).map(|k| MotionSample::of_curve(start_s + k as f64 * step_s, |time_s| self.at(time_s))).collect()
+        (0..count).map(|k| self.at(start_s + k as f64 * step_s)).collect()
     }
 
     /// All samples, from the first frame to the last.
@@ -126,16 +107,35 @@ impl Motion {
         (self.first..=self.last).flat_map(|frame| self.from_frame(frame))
     }
 
-    /// Position and rotation of the body at a time.
-    fn at(&self, time_s: f64) -> (DVec3, DQuat) {
+    /// The sample of a time.
+    fn at(&self, time_s: f64) -> MotionSample {
+        let rotation = self.rotation(time_s);
+        let [velocity, acceleration] = self.positions.derivatives_at(time_s);
+        let turn = self.rotation(time_s - STEP_S).inverse() * self.rotation(time_s + STEP_S);
+        MotionSample {
+            time_s,
+            position: self.positions.at(time_s),
+            rotation,
+            velocity,
+            angular_rate: upper(turn).to_scaled_axis() / (2.0 * STEP_S),
+            specific_force: rotation.inverse() * (acceleration + GRAVITY_M_S2 * DVec3::Z),
+        }
+    }
+
+    /// The body's rotation at a time.
+    fn rotation(&self, time_s: f64) -> DQuat {
         let (vector, scalar) = (self.vectors.at(time_s), self.scalars.at(time_s).x);
-        (self.positions.at(time_s), DQuat::from_xyzw(vector.x, vector.y, vector.z, scalar).normalize())
+        upper(DQuat::from_xyzw(vector.x, vector.y, vector.z, scalar).normalize())
     }
 }
 
 /// Takes the axes of a camera's body to the world's; of the two quaternions that do, the one with w ≥ 0.
-pub fn body_rotation(pose: &Pose) -> DQuat {
-    let q = DQuat::from_mat3(&(pose.world_from_camera * OPENCV)).normalize();
+fn body_rotation(pose: &Pose) -> DQuat {
+    upper(DQuat::from_mat3(&(pose.world_from_camera * OPENCV)).normalize())
+}
+
+/// Of the two quaternions of a rotation the one with w ≥ 0.
+fn upper(q: DQuat) -> DQuat {
     if q.w < 0.0 { -q } else { q }
 }
 

@@ -58,7 +58,8 @@ impl Imu {
         // What the biases have come to before this frame follows from the numbers that the frames before have drawn.
         let rng = |number: u32| subject.rng(seed, &self.name, number);
         let mut bias = self.first_bias(&mut rng(u32::MAX));
-        for before in 0..subject.number {
+        let wanders = self.gyroscope_walk > 0.0 || self.accelerometer_walk > 0.0;
+        for before in (0..subject.number).filter(|_| wanders) {
             let mut rng = rng(before);
             for _ in 0..motion.per_frame() {
                 self.step(&mut rng, rate_hz, &mut bias);

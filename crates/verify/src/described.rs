@@ -1,5 +1,5 @@
-//! The law of relations between instances: what is said to touch does, by nearest points instead of rays, and what is said to be in another
-//! has its middle there.
+//! The law of relations between instances: what is said to touch does, by nearest points instead of rays; what is said to be in another has its
+//! middle there, and what is under another lies below it.
 
 use super::boxes::there;
 use super::card::Card;
@@ -11,6 +11,10 @@ use enfilade_math::{Bounds3, DVec3, Vec3};
 use enfilade_scene::PartLabel;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+
+/// Distances are looked for from points so far apart, metres, but of no more than so many to an edge.
+const SPACING_M: f64 = 0.05;
+const STEPS: f64 = 100.0;
 
 /// The triangles of an instance, or of all walls, floors or ceilings, metres.
 struct Surface {
@@ -48,10 +52,7 @@ fn off_m(relation: &InstanceRelation, a: &Surface, b: &Surface) -> f64 {
     match relation.kind {
         RelationKind::In => outside(a.bounds.center(), &b.bounds),
         // Part of it is below the other's top, and they overlap from above.
-        RelationKind::Under => {
-            let gap = (a.bounds.min - b.bounds.max).max(b.bounds.min - a.bounds.max).max(Vec3::ZERO);
-            f64::from(gap.truncate().length().max(a.bounds.min.z - b.bounds.max.z))
-        }
+        RelationKind::Under => f64::from(a.bounds.gap(&b.bounds).truncate().length().max(a.bounds.min.z - b.bounds.max.z)),
         RelationKind::Facing => 0.0,
         RelationKind::On | RelationKind::HangsFrom | RelationKind::Against | RelationKind::Beside => {
             let reach = relation.distance_m + Law::InstanceRelations.spec().bound;
@@ -66,13 +67,22 @@ impl Surface {
         Self { bounds, nearest: NearestTriangle::new(&corners), corners }
     }
 
-    /// The least distance to another surface, from corners, middles of edges and middles of triangles; infinite beyond `reach_m`.
+    /// The least distance to another surface, from points all over its triangles; infinite beyond `reach_m`.
     fn distance_m(&self, other: &Self, reach_m: f64) -> f64 {
         let near = |p: &DVec3| p.distance(p.clamp(other.bounds.min.as_dvec3(), other.bounds.max.as_dvec3())) <= reach_m;
-        let of_triangle = |&[a, b, c]: &[Vec3; 3]| [a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0];
-        let points: Vec<DVec3> = self.corners.iter().flat_map(of_triangle).map(|p| p.as_dvec3()).filter(near).collect();
+        let is_near = |t: &&[Vec3; 3]| f64::from(Bounds3::from_points(**t).gap(&other.bounds).length()) <= reach_m;
+        let points: Vec<DVec3> = self.corners.iter().filter(is_near).flat_map(spread).filter(near).collect();
         self.nearest.distance_m(&other.nearest, &points)
     }
+}
+
+/// Points of a triangle some centimetres apart, its corners among them.
+fn spread(triangle: &[Vec3; 3]) -> Vec<DVec3> {
+    let [a, b, c] = triangle.map(|p| p.as_dvec3());
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let steps = (longest / SPACING_M).ceil().clamp(1.0, STEPS) as usize;
+    let at = |i: usize| i as f64 / steps as f64;
+    (0..=steps).flat_map(|i| (0..=steps - i).map(move |j| a + (b - a) * at(i) + (c - a) * at(j))).collect()
 }
 
 /// The surfaces of a scene by what they are labelled as.

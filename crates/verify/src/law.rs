@@ -201,7 +201,7 @@ pub const LAWS: [LawSpec; 70] = laws![
         "layers of different renderings are mixed, or files of fixtures are missing: render the frame again";
     RaySurfaces 0.0 "pixels", "surfaces along rays go from near to far, begin with the frame's own, and have the classes of their parts",
         "frames were rendered or labelled again since: run enfilade surfaces";
-    InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, and those in others are in them",
+    InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, those in others are in them, those under others below them",
         "labels or the scene were changed since: run enfilade describe";
 ];
 

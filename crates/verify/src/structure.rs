@@ -4,14 +4,10 @@ use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
-use enfilade_scene::{Structure, WallFace, WallOpening};
+use enfilade_scene::{CEILING, FLOOR, Structure, WALL, WallFace, WallOpening};
 
 /// How far a surface may be from its plane, metres: plaster, gaps between boards.
 const NEAR_M: f64 = 0.02;
-/// NYU40's classes.
-const WALL: i16 = 1;
-const FLOOR: i16 = 2;
-const CEILING: i16 = 22;
 
 /// Checks a frame.
 pub(super) fn check(structure: &Structure, frame: &Frame, place: &str, card: &mut Card) {

@@ -138,8 +138,9 @@ fn count(asker: &mut Asker<'_>, scope: &Scope<'_>, frame: u32) {
         let clear = scope.seen.covers(sight, ASKED);
         by_noun.entry(&thing.noun).or_default().push((thing.instance, clear));
     }
-    let most =
-        by_noun.iter().filter(|(_, list)| list.len() >= 2 && list.iter().all(|(_, clear)| *clear)).max_by_key(|(_, list)| list.len());
+    let is_alone = |noun: &str| by_noun.keys().all(|other| *other == noun || !words::may_be(other, noun));
+    let counted = by_noun.iter().filter(|(noun, list)| list.len() >= 2 && list.iter().all(|(_, clear)| *clear) && is_alone(noun));
+    let most = counted.max_by_key(|(_, list)| list.len());
     if let Some((noun, list)) = most {
         let question = format!("How many {} are in the picture?", words::plural(noun));
         let instances: Vec<i16> = list.iter().map(|(instance, _)| *instance).collect();

@@ -63,10 +63,8 @@ impl<'a> Asker<'a> {
         });
     }
 
-    /// Puts a list into a random order (Fisher & Yates).
+    /// Puts a list into a random order.
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
-        for i in (1..list.len()).rev() {
-            list.swap(i, self.rng.below(i + 1));
-        }
+        self.rng.shuffle(list);
     }
 }

@@ -116,15 +116,16 @@ fn room_size(asker: &mut Asker<'_>, things: &Things, eyes: &[DVec3]) {
 }
 
 fn distances(asker: &mut Asker<'_>, shown: &Shown<'_>) {
-    let mut known = BTreeSet::new();
+    let (mut known, mut asked) = (BTreeSet::new(), 0);
     for _ in 0..2 * EACH {
         let Some([(a, _), (b, _)]) = shown.some(asker, 2).and_then(|some| <[_; 2]>::try_from(some).ok()) else { return };
         let pair = [a.instance.min(b.instance), a.instance.max(b.instance)];
-        if known.len() >= EACH || !known.insert(pair) {
+        if asked == EACH || !known.insert(pair) {
             continue;
         }
         let distance = shown.distance_m(a, b);
         if distance >= APART_M {
+            asked += 1;
             let question = format!("How far are the {} and the {} apart at their nearest points, in metres?", a.noun, b.noun);
             asker.ask(None, "object_abs_distance", question, Answer::Open(format!("{distance:.1}")), &[a.instance, b.instance]);
         }
@@ -132,19 +133,21 @@ fn distances(asker: &mut Asker<'_>, shown: &Shown<'_>) {
 }
 
 fn nearest(asker: &mut Asker<'_>, shown: &Shown<'_>) {
-    let mut known = BTreeSet::new();
+    let (mut known, mut asked) = (BTreeSet::new(), 0);
     for _ in 0..2 * EACH {
         let Some(some) = shown.some(asker, 1 + CHOICES) else { return };
         let (target, _) = some[0];
-        if known.len() >= EACH || !known.insert(target.instance) {
+        if asked == EACH || !known.insert(target.instance) {
             continue;
         }
         let mut others: Vec<(f64, &DescribedInstance)> =
             some[1..].iter().map(|&(thing, _)| (shown.distance_m(target, thing), thing)).collect();
         others.sort_by(|a, b| a.0.total_cmp(&b.0));
         if others[1].0 - others[0].0 < NEARER_M {
+            known.remove(&target.instance);
             continue;
         }
+        asked += 1;
         let mut names: Vec<String> = others.iter().map(|(_, thing)| thing.noun.clone()).collect();
         let right = names.remove(0);
         let question = format!("Which of these is nearest to the {}, measured between nearest points?", target.noun);

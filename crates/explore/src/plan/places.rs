@@ -61,9 +61,7 @@ impl Places {
     /// Indices of all places in random order.
     pub fn shuffled(&self, rng: &mut Rng) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.points.len()).collect();
-        for i in (1..order.len()).rev() {
-            order.swap(i, rng.below(i + 1));
-        }
+        rng.shuffle(&mut order);
         order
     }
 

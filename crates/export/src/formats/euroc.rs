@@ -19,6 +19,7 @@ const LUMA: [f64; 3] = [0.299, 0.587, 0.114];
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for track in &selected.tracks {
+        let k = Calibration::of_upright_pinhole(selected, track)?;
         let (folder, number, stereo) = place(selected, track)?;
         let motion = selected.dataset.read_motion(&track.scene, &track.name)?.ok_or_else(|| {
             let problem = "its frames are no video (less than a second apart); plan with mode = { kind = \"video\" }, or leave it out";
@@ -32,8 +33,12 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         }
         let camera = format!("{folder}/cam{number}");
         out.write(&format!("{camera}/data.csv"), list.as_bytes())?;
-        let k = Calibration::of_upright_pinhole(selected, track)?;
         out.write(&format!("{camera}/sensor.yaml"), camera_yaml(&k, 1.0 / step_s, stereo.as_ref()).as_bytes())?;
+        let is_with_left = |left: &StereoRecord| selected.tracks.iter().any(|t| t.scene == track.scene && t.name == left.partner);
+        if number == 1 && !stereo.as_ref().is_some_and(is_with_left) {
+            let problem = "it is the right camera of a rig, which goes with the left one; choose both";
+            return Err(selected.unsuitable(track.folder(), problem));
+        }
         if number == 0 {
             let samples: Vec<MotionSample> = motion.samples().collect();
             out.write(&format!("{folder}/imu0/data.csv"), measurements(&samples).as_bytes())?;

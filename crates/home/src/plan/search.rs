@@ -109,7 +109,7 @@ pub fn search(kinds: &[RoomKind], site: Site, rng: &mut Rng) -> Sketch {
 fn first(kinds: &[RoomKind], rng: &mut Rng) -> State {
     let hub = hub(kinds);
     let mut others: Vec<usize> = (0..kinds.len()).filter(|&i| i != hub).collect();
-    (1..others.len()).rev().for_each(|i| others.swap(i, rng.below(i + 1)));
+    rng.shuffle(&mut others);
     let (front, back) = others.split_at(others.len() / 2);
     let slicing = Slicing::rows(&[front.to_vec(), vec![hub], back.to_vec()]);
     let areas = kinds.iter().map(|kind| gross(kind.norm().area, rng.next_f32())).collect();

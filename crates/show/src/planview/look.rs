@@ -115,10 +115,7 @@ impl Sight {
 /// The toolkit's colour of each of `parts` parts: a random order (its own, so not the toolkit's very colours) through viridis.
 pub(super) fn toolkit_colors(parts: usize) -> Vec<[u8; 3]> {
     let mut order: Vec<usize> = (0..parts).collect();
-    let mut rng = Rng::new(0);
-    for i in (1..parts).rev() {
-        order.swap(i, rng.below(i + 1));
-    }
+    Rng::new(0).shuffle(&mut order);
     order.into_iter().map(|place| viridis(place as f64 / parts.saturating_sub(1).max(1) as f64)).collect()
 }
 
