@@ -95,7 +95,7 @@ pub fn caption(scope: &Scope<'_>, [scene, camera]: [&str; 2], eye: DVec3) -> Cap
         && let Some(subject) = scope.definite(thing)
     {
         instances.insert(thing.instance);
-        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        let are = words::are(&thing.noun);
         sentences.push(format!("{} {are} {:.1} m from the camera.", words::sentence(&subject), sight.nearest_m));
     }
     Caption {

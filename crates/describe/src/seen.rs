@@ -17,9 +17,8 @@ const PREVAILS: f64 = 0.5;
 pub struct Sight {
     /// How many pixels.
     pub pixels: u64,
-    /// First and last column and row of them.
+    /// First and last column of them.
     pub columns: [u32; 2],
-    pub rows: [u32; 2],
     /// Distances from the camera centre, metres: of the nearest pixel, and of the median one.
     pub nearest_m: f32,
     pub median_m: f32,
@@ -71,12 +70,12 @@ fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, colored: 
     let (Some(Values::I16(instances)), Some(distances)) = (instances, distances) else { unreachable!("instances are read as int16") };
     let mut sights: BTreeMap<i16, (Sight, Vec<f32>)> = BTreeMap::new();
     for (pixel, &instance) in instances.iter().enumerate().filter(|(_, instance)| **instance >= 1) {
-        let (column, row) = (pixel as u32 % frame.width, pixel as u32 / frame.width);
+        let column = pixel as u32 % frame.width;
         let distance = distances.get(pixel) as f32;
-        let new = || (Sight::at(column, row), Vec::new());
+        let new = || (Sight::at(column), Vec::new());
         let (sight, of_pixels) = sights.entry(instance).or_insert_with(new);
         let color = reflectance.map_or([0.0; 3], |layer| [0, 1, 2].map(|channel| layer.get(3 * pixel + channel) as f32));
-        sight.add(column, row, color);
+        sight.add(column, color);
         of_pixels.push(distance);
     }
     let sights = sights.into_iter().map(|(instance, (mut sight, mut distances))| {
@@ -92,15 +91,14 @@ fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, colored: 
 }
 
 impl Sight {
-    fn at(column: u32, row: u32) -> Self {
+    fn at(column: u32) -> Self {
         let colors = [0; NAMES.len()];
-        Self { pixels: 0, columns: [column; 2], rows: [row; 2], nearest_m: f32::NAN, median_m: f32::NAN, colors }
+        Self { pixels: 0, columns: [column; 2], nearest_m: f32::NAN, median_m: f32::NAN, colors }
     }
 
-    fn add(&mut self, column: u32, row: u32, reflectance: [f32; 3]) {
+    fn add(&mut self, column: u32, reflectance: [f32; 3]) {
         self.pixels += 1;
         self.columns = [self.columns[0].min(column), self.columns[1].max(column)];
-        self.rows = [self.rows[0].min(row), self.rows[1].max(row)];
         if reflectance.iter().any(|&v| v > NO_DIFFUSE) {
             let name = color_name(reflectance);
             self.colors[NAMES.iter().position(|known| *known == name).unwrap_or_default()] += 1;

@@ -64,6 +64,16 @@ pub fn may_be(a: &str, b: &str) -> bool {
     is_kind(a, b) || is_kind(b, a)
 }
 
+/// Whether no other of these words can be said of what this one means, nor this one of what they mean.
+pub fn is_alone<'n>(noun: &str, mut nouns: impl Iterator<Item = &'n str>) -> bool {
+    nouns.all(|other| other == noun || !may_be(other, noun))
+}
+
+/// The verb that goes with a word.
+pub fn are(noun: &str) -> &'static str {
+    if is_plural(noun) { "are" } else { "is" }
+}
+
 /// Whether a word is used with "are".
 pub fn is_plural(noun: &str) -> bool {
     PLURAL.contains(&noun)

@@ -53,7 +53,7 @@ pub fn of_frame(asker: &mut Asker<'_>, scope: &Scope<'_>) {
     count(asker, scope, frame);
 }
 
-/// What a thing is on, in, or hangs from. No other answer is true, not even by way of others.
+/// What a thing is on or in. No other answer is true, not even by way of others.
 fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame: u32) {
     for (thing, _, name) in meant {
         let mut carrying = scope.relations_of(thing.instance).iter().filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In));
@@ -65,7 +65,7 @@ fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame
         if wrong.len() < WRONG {
             continue;
         }
-        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        let are = words::are(&thing.noun);
         let question = format!("What {are} {name} {}?", relation.kind.name());
         asker.ask(Some(frame), "object_relation", question, Answer::Choice { right, wrong }, &[thing.instance, relation.object]);
         return;
@@ -97,7 +97,7 @@ fn color(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
         let mut wrong: Vec<String> = NAMES.iter().filter(is_wrong).map(ToString::to_string).collect();
         asker.shuffle(&mut wrong);
         wrong.truncate(WRONG);
-        let are = if words::is_plural(&thing.noun) { "are" } else { "is" };
+        let are = words::are(&thing.noun);
         let answer = Answer::Choice { right: thing.color.clone(), wrong };
         asker.ask(Some(frame), "object_color", format!("What colour {are} {name}?"), answer, &[thing.instance]);
     }
@@ -125,7 +125,7 @@ fn sides(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
     let left = named[0].0.instance;
     asker.shuffle(&mut named);
     let [a, b] = named;
-    let are = if words::is_plural(&a.0.noun) { "Are" } else { "Is" };
+    let are = words::sentence(words::are(&a.0.noun));
     let question = format!("{are} {} to the left or to the right of {} in the picture?", a.2, b.2);
     let answer = Answer::Ordered(vec!["left".into(), "right".into()], usize::from(a.0.instance != left));
     asker.ask(Some(frame), "image_side", question, answer, &[a.0.instance, b.0.instance]);
@@ -138,7 +138,7 @@ fn count(asker: &mut Asker<'_>, scope: &Scope<'_>, frame: u32) {
         let clear = scope.seen.covers(sight, ASKED);
         by_noun.entry(&thing.noun).or_default().push((thing.instance, clear));
     }
-    let is_alone = |noun: &str| by_noun.keys().all(|other| *other == noun || !words::may_be(other, noun));
+    let is_alone = |noun: &str| words::is_alone(noun, by_noun.keys().copied());
     let counted = by_noun.iter().filter(|(noun, list)| list.len() >= 2 && list.iter().all(|(_, clear)| *clear) && is_alone(noun));
     let most = counted.max_by_key(|(_, list)| list.len());
     if let Some((noun, list)) = most {

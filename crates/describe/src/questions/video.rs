@@ -55,7 +55,7 @@ impl<'a> Shown<'a> {
             }
         }
         let nouns: Vec<&str> = by_noun.keys().copied().collect();
-        let is_alone = |noun: &str| nouns.iter().all(|other| *other == noun || !words::may_be(other, noun));
+        let is_alone = |noun: &str| words::is_alone(noun, nouns.iter().copied());
         unique.retain(|(thing, _)| by_noun[thing.noun.as_str()].1 == 1 && is_alone(&thing.noun));
         // "Chairs" may be meant to have office chairs among them.
         by_noun.retain(|noun, _| is_alone(noun));
