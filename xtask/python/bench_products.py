@@ -93,6 +93,7 @@ def derived(program: Program, work: Path) -> list[dict]:
         ("flow", ["--step", "1"], [f"{detail}/{CAMERA}/pairs/*"]),
         ("tracks", [], [f"{detail}/{CAMERA}/tracks.npz"]),
         ("surfaces", [], [f"{detail}/{CAMERA}/surfaces/*"]),
+        ("layout", [], [f"{detail}/metadata_planes.csv", f"{detail}/{CAMERA}/planes/*"]),
         ("describe", [], [f"{detail}/metadata_instance*", f"{detail}/{CAMERA}/*.jsonl"]),
         ("sense", ["examples/sensors.toml"], ["sensors/**/*"]),
         ("relight", [mixes], ["relit/**/*"]),

@@ -87,6 +87,8 @@ def make(out: Path, folder: Path, scene: str, camera: str) -> None:
     layers = [depth_picture(distance[..., k], near, far) for k in (0, 1, 2)]
     strip([*layers, colours(part[..., 2])], folder / "surfaces.jpg")
 
+    strip([display(0), colours(read(detail / "planes/frame.0000.plane_id.hdf5"))], folder / "planes.jpg")
+
     shares = read(out / f"scenes/{scene}/_detail/covisibility.hdf5")
     strip([display(0), display(1), matrix_picture(shares)], folder / "pairs.jpg")
     flow = next(iter(sorted((detail / "pairs").glob("frame.0000.*.optical_flow.hdf5"))))

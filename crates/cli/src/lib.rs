@@ -13,6 +13,7 @@ mod export;
 mod farm;
 mod flow;
 mod ingest;
+mod layout;
 mod outcome;
 mod pairs;
 mod pictures;
@@ -93,6 +94,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Pairs(args) => pairs::pairs(args, cli.quiet),
         Verb::Flow(args) => flow::flow(args, cli.quiet),
         Verb::Tracks(args) => tracks::tracks(args, cli.quiet),
+        Verb::Layout(args) => layout::layout(args, cli.quiet),
         Verb::Describe(args) => describe::describe(args, cli.quiet),
         Verb::Surfaces(args) => surfaces::surfaces(args, cli.quiet),
         Verb::Sense(args) => sense::sense(args, cli.quiet),

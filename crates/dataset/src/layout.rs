@@ -2,9 +2,9 @@
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames,
-//! `_detail/metadata_fixtures.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
+//! `_detail/metadata_fixtures.csv`, `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
 //! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
-//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `tracks.npz`, `captions.jsonl`, `questions.jsonl`,
+//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`, `questions.jsonl`,
 //! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
 //! `camera.json` and its arrays. Beside the layers of `scene_<camera>_final_hdf5` lie those of fixtures.
 
@@ -401,6 +401,16 @@ impl Layout {
         self.surfaces_dir(scene, camera).join(format!("frame.{frame:04}.{what}.hdf5"))
     }
 
+    /// Which planes of the scene's layout a camera's frames show.
+    pub fn planes_dir(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("planes")
+    }
+
+    /// Which plane of the scene's layout each pixel of a frame shows.
+    pub fn plane_ids(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
+        self.planes_dir(scene, camera).join(format!("frame.{frame:04}.plane_id.hdf5"))
+    }
+
     /// Points on surfaces, followed through a camera's frames.
     pub fn tracks(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("tracks.npz")
@@ -424,6 +434,11 @@ impl Layout {
     /// The same as a drawing.
     pub fn structure_plan(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("layout.svg")
+    }
+
+    /// Its planes, which pixels are told to show.
+    pub fn plane_table(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_planes.csv")
     }
 
     /// Geometry, objects and labels of the scene.

@@ -42,6 +42,7 @@ mod number_ranges;
 mod object_files;
 mod pair_files;
 mod pair_layers;
+mod plane_files;
 mod read;
 mod record;
 mod release;

@@ -129,11 +129,13 @@ impl Dataset {
         Ok(numbers)
     }
 
-    /// Removes what sensors and mixes of lamps have made of the frames of a scene, before these are made again.
+    /// Removes what was made of the frames of a scene one by one, before these are made again: by sensors and mixes of lamps, planes, words.
     ///
     /// # Errors
-    /// When a folder cannot be removed.
+    /// When a file or folder cannot be removed.
     pub fn forget_derived(&self, scene: &str) -> Result<(), DatasetError> {
+        self.forget_planes(scene)?;
+        self.forget_words(scene)?;
         self.sensors()?.iter().try_for_each(|sensor| remove_folder(&self.layout().sensor_dir(sensor).join(scene)))?;
         self.forget_relit(scene)
     }

@@ -1,7 +1,7 @@
 //! The box of every instance of a scene: its upright oriented box where the files are there, else the extents of its mesh.
 
 use crate::ExportError;
-use crate::mesh::InstanceMesh;
+use crate::mesh::SurfaceMesh;
 use enfilade_dataset::{BoxKind, Dataset};
 use enfilade_math::{DMat3, OrientedBox};
 use std::collections::BTreeMap;
@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 pub(crate) fn instance_boxes(
     dataset: &Dataset,
     scene: &str,
-    meshes: &BTreeMap<i16, InstanceMesh>,
+    meshes: &BTreeMap<i16, SurfaceMesh>,
 ) -> Result<BTreeMap<i16, OrientedBox>, ExportError> {
     let kind = BoxKind::ObjectAligned2d;
     if !dataset.box_files(scene, kind).iter().all(|file| file.is_file()) {
-        let extents = |mesh: &InstanceMesh| OrientedBox::around(mesh.vertices.iter().copied(), DMat3::IDENTITY);
+        let extents = |mesh: &SurfaceMesh| OrientedBox::around(mesh.vertices.iter().copied(), DMat3::IDENTITY);
         return Ok(meshes.iter().filter_map(|(&number, mesh)| Some((number, extents(mesh)?))).collect());
     }
     let upright = |b: OrientedBox| OrientedBox { world_from_box: right_handed(b.world_from_box), ..b };

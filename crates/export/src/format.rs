@@ -110,7 +110,7 @@ pub const FORMATS: [FormatSpec; 22] = [
     FormatSpec {
         format: Format::Scannet,
         name: "scannet",
-        about: "ScanNet: colour, depth, poses, intrinsics, label and instance images",
+        about: "ScanNet: colour, depth, poses, intrinsics, label and instance images, and the mesh with labels",
         needs: &[DEPTH],
         takes: Some(LABELLED),
         readme: include_str!("readmes/scannet.md"),

@@ -1,16 +1,17 @@
-//! The scene's triangles by instance, from the mesh folder.
+//! The scene's triangles by instance or by object, from the mesh folder.
 
 use crate::ExportError;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::mesh_names::{FACES_OBJECTS, FACES_VERTICES, OBJECTS_INSTANCE, OBJECTS_SEMANTIC, VERTICES};
 use enfilade_dataset::{Dataset, DatasetError, Elements};
 use enfilade_math::DVec3;
+use enfilade_scene::PartLabel;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The surface of one instance, world space, metres.
+/// The surface of one instance or object, world space, metres.
 #[derive(Default)]
-pub(crate) struct InstanceMesh {
+pub(crate) struct SurfaceMesh {
     /// Each vertex once.
     pub vertices: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
@@ -23,7 +24,19 @@ pub(crate) fn missing_mesh_file(dataset: &Dataset, scene: &str) -> Option<&'stat
 }
 
 /// The surfaces of the scene's instances by number; empty where the dataset has no mesh or no label tables (Hypersim's public files).
-pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap<i16, InstanceMesh>, ExportError> {
+pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap<i16, SurfaceMesh>, ExportError> {
+    let labels = if missing_mesh_file(dataset, scene).is_some() { Vec::new() } else { dataset.read_label_tables(scene)?.parts };
+    let number = |object: usize| labels.get(object).map(|label: &PartLabel| label.instance).filter(|&number| number > 0);
+    meshes_by(dataset, scene, number)
+}
+
+/// The surfaces of the scene's objects by number; empty where the dataset has no mesh or no label tables.
+pub(crate) fn object_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap<usize, SurfaceMesh>, ExportError> {
+    meshes_by(dataset, scene, Some)
+}
+
+/// The surfaces of the scene's objects by what `key` gives for each, those of which it gives none left out.
+fn meshes_by<K: Ord>(dataset: &Dataset, scene: &str, key: impl Fn(usize) -> Option<K>) -> Result<BTreeMap<K, SurfaceMesh>, ExportError> {
     let file = |name: &str| dataset.layout().mesh_file(scene, name);
     if missing_mesh_file(dataset, scene).is_some() {
         return Ok(BTreeMap::new());
@@ -31,29 +44,34 @@ pub(crate) fn instance_meshes(dataset: &Dataset, scene: &str) -> Result<BTreeMap
     let metres = dataset.meters_per_asset_unit(scene)?;
     let vertices = read_f64(&file(VERTICES))?;
     let (corners, objects) = (read_i64(&file(FACES_VERTICES))?, read_i64(&file(FACES_OBJECTS))?);
-    let labels = dataset.read_label_tables(scene)?;
-    let wrong = |problem: String| DatasetError::Hdf5 { path: file(FACES_VERTICES), problem };
+    let wrong =
+        |name: &str, problem: String| DatasetError::Hdf5 { path: file(name), problem: format!("{problem}; import the scene again") };
     if corners.len() != 3 * objects.len() {
-        return Err(wrong(format!("{} corners for {} faces; import the scene again", corners.len(), objects.len())).into());
+        return Err(wrong(FACES_VERTICES, format!("{} corners for {} faces", corners.len(), objects.len())).into());
     }
-    let mut meshes: BTreeMap<i16, (InstanceMesh, BTreeMap<i64, u32>)> = BTreeMap::new();
+    let mut meshes: BTreeMap<K, (SurfaceMesh, BTreeMap<i64, u32>)> = BTreeMap::new();
     for (face, &object) in corners.chunks_exact(3).zip(&objects) {
-        let label = usize::try_from(object).ok().and_then(|object| labels.parts.get(object));
-        let Some(label) = label.filter(|label| label.instance > 0) else { continue };
-        let (mesh, known) = meshes.entry(label.instance).or_default();
+        let Some(key) = usize::try_from(object).ok().and_then(&key) else { continue };
+        let (mesh, known) = meshes.entry(key).or_default();
         let mut own = [0; 3];
         for (own, &corner) in own.iter_mut().zip(face) {
-            let place = usize::try_from(corner).ok().filter(|&i| 3 * i + 3 <= vertices.len());
-            let place =
-                place.ok_or_else(|| wrong(format!("it names vertex {corner} of {}; import the scene again", vertices.len() / 3)))?;
-            *own = *known.entry(corner).or_insert_with(|| {
-                mesh.vertices.push(DVec3::from_slice(&vertices[3 * place..]) * metres);
-                mesh.vertices.len() as u32 - 1
-            });
+            if let Some(&known) = known.get(&corner) {
+                *own = known;
+                continue;
+            }
+            let place = usize::try_from(corner).ok().and_then(|i| vertices.get(3 * i..3 * i + 3));
+            let place = place.ok_or_else(|| wrong(FACES_VERTICES, format!("it names vertex {corner} of {}", vertices.len() / 3)))?;
+            let position = DVec3::from_slice(place) * metres;
+            if !position.as_vec3().is_finite() {
+                return Err(wrong(VERTICES, format!("vertex {corner} is at {place:?}; expected finite numbers")).into());
+            }
+            *own = mesh.vertices.len() as u32;
+            mesh.vertices.push(position);
+            known.insert(corner, *own);
         }
         mesh.faces.push(own);
     }
-    Ok(meshes.into_iter().map(|(number, (mesh, _))| (number, mesh)).collect())
+    Ok(meshes.into_iter().map(|(key, (mesh, _))| (key, mesh)).collect())
 }
 
 /// Reads an array of doubles.

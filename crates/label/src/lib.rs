@@ -3,6 +3,7 @@
 //! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
 //! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
 //! therefore costs a join, not a rendering. Where people split parts, [`SplitParts`] says which piece a pixel shows.
+//! [`structure`] finds rooms in what is labelled as walls, floors and ceilings.
 
 mod assign;
 pub mod boxes;
@@ -10,6 +11,7 @@ pub mod instances;
 mod join;
 mod pieces;
 pub mod split;
+pub mod structure;
 mod table;
 
 pub use assign::{LabelReport, PartNames, UnlabelledPart, UnmatchedRow, part_names};

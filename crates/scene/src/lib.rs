@@ -20,6 +20,7 @@ mod pictures;
 mod scene;
 pub mod sky;
 mod structure;
+mod structure_planes;
 mod texture;
 mod trajectory;
 mod world;
@@ -41,7 +42,8 @@ pub use package::{
 pub use photometry::PhotometricWeb;
 pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
-pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, StructureThing, WallFace, WallOpening};
+pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureFit, StructureRoom, StructureThing, WallFace, WallOpening};
+pub use structure_planes::{LAYOUT_NEAR_M, LayoutPlane, PlaneKind};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};
 pub use world::{TriangleSource, WorldMesh};

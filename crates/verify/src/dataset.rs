@@ -14,7 +14,7 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, structure, surfaces};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, plane_ids, structure, surfaces};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
@@ -313,6 +313,7 @@ impl SceneFacts {
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
         if let Some(structure) = &self.structure {
             structure::check(structure, &frame, &place, &mut found.card);
+            plane_ids::check(dataset, [&self.name, name], number, structure, &frame, &mut found.card);
         }
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
@@ -392,6 +393,7 @@ mod tests {
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
     use enfilade_frame::f16;
     use enfilade_geometry::Voxel;
+    use enfilade_label::structure::write_planes;
     use enfilade_scene::Intrinsics;
     use enfilade_testroom as testroom;
 
@@ -419,6 +421,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testroom::dataset(folder.path());
         sensed(&dataset);
+        write_planes(&dataset, ["room", "cam_00"], &testroom::structure(), &[0, 1], &enfilade_scene::Quiet).unwrap();
         let report = verified(&dataset);
         assert!(report.passed, "{}", report.to_text());
         assert_eq!((report.frames, report.scenes), (2, 1));

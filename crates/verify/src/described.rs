@@ -7,8 +7,8 @@ use super::law::Law;
 use super::read::readable;
 use enfilade_dataset::{Dataset, DatasetError, InstanceRelation, RelationKind};
 use enfilade_geometry::NearestTriangle;
+use enfilade_label::structure::{LabelledTriangle, labelled_triangles};
 use enfilade_math::{Bounds3, DVec3, Vec3};
-use enfilade_scene::PartLabel;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -87,14 +87,10 @@ fn spread(triangle: &[Vec3; 3]) -> Vec<DVec3> {
 
 /// The surfaces of a scene by what they are labelled as.
 fn surfaces(dataset: &Dataset, scene: &str) -> Result<BTreeMap<Key, Surface>, DatasetError> {
-    let files = dataset.mesh_files(scene);
-    let (mesh, objects, labels) = (files.read()?, files.read_objects_of_faces()?, files.read_labels()?);
-    let metres = dataset.meters_per_asset_unit(scene)?;
     let mut found: BTreeMap<Key, Vec<[Vec3; 3]>> = BTreeMap::new();
-    for (face, object) in mesh.faces.iter().zip(objects) {
-        let PartLabel { instance, semantic } = labels.parts.get(object as usize).copied().unwrap_or(PartLabel::NONE);
-        let key = if instance >= 1 { (instance, 0) } else { (-1, semantic) };
-        found.entry(key).or_default().push(face.map(|vertex| (mesh.vertices[vertex as usize] * metres).as_vec3()));
+    for LabelledTriangle { corners, label } in labelled_triangles(dataset, scene)? {
+        let key = if label.instance >= 1 { (label.instance, 0) } else { (-1, label.semantic) };
+        found.entry(key).or_default().push(corners.map(|p| p.as_vec3()));
     }
     Ok(found.into_par_iter().map(|(key, corners)| (key, Surface::new(corners))).collect())
 }

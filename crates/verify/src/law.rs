@@ -77,6 +77,7 @@ pub enum Law {
     LightFixtures,
     RaySurfaces,
     InstanceRelations,
+    PlaneIds,
 }
 
 /// What a law says.
@@ -101,7 +102,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 70] = laws![
+pub const LAWS: [LawSpec; 71] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -203,6 +204,8 @@ pub const LAWS: [LawSpec; 70] = laws![
         "frames were rendered or labelled again since: run enfilade surfaces";
     InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, those in others are in them, those under others below them",
         "labels or the scene were changed since: run enfilade describe";
+    PlaneIds 0.0 "pixels", "pixels of a plane of the layout are within 2 cm of it and of its class, and pixels of walls that are of none lie on none",
+        "the layout, labels or frames were changed since: run enfilade layout";
 ];
 
 impl Law {

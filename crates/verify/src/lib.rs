@@ -20,6 +20,7 @@ mod labels;
 mod law;
 mod many_views;
 mod pair_flow;
+mod plane_ids;
 mod read;
 mod relations;
 mod release;

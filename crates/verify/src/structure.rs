@@ -1,17 +1,18 @@
-//! The law of a scene's layout: what frames show of walls, floors and ceilings lies on its planes.
+//! The law of a scene's layout: what frames show of walls, floors and ceilings lies on its planes. One that was fitted says itself how far
+//! it is off.
 
 use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
-use enfilade_scene::{CEILING, FLOOR, Structure, WALL, WallFace, WallOpening};
-
-/// How far a surface may be from its plane, metres: plaster, gaps between boards.
-const NEAR_M: f64 = 0.02;
+use enfilade_scene::{CEILING, FLOOR, LAYOUT_NEAR_M as NEAR_M, Structure, WALL, WallFace, WallOpening};
 
 /// Checks a frame.
 pub(super) fn check(structure: &Structure, frame: &Frame, place: &str, card: &mut Card) {
     let (Some(positions), Some(classes)) = (frame.get(Layer::Position), frame.get(Layer::Semantic)) else { return };
+    if structure.fit.is_some() {
+        return;
+    }
     let is_off = |pixel: usize| {
         let p: DVec3 = vector(positions, pixel);
         p.is_finite().then(|| is_elsewhere(structure, classes.get(pixel) as i16, p)).flatten()

@@ -3,7 +3,7 @@
 import axe from "axe-core";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { browser, dataset, open, room, serve } from "./room.mjs";
+import { browser, dataset, derive, open, room, serve } from "./room.mjs";
 
 /** What it finds in both themes: rule, and the element's beginning. @param {import("playwright-core").Page} page */
 async function findings(page) {
@@ -25,9 +25,11 @@ test("axe finds nothing on the page that labels", async (t) => {
 });
 
 test("axe finds nothing on the page that shows a dataset", async (t) => {
-    const { origin } = new URL((await serve(t, dataset(t), 0, "view")).url);
+    const path = dataset(t, ["--fixtures"]);
+    derive(path);
+    const { origin } = new URL((await serve(t, path, 0, "view")).url);
     const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
-    for (const hash of ["mode=gallery", "layer=color&tab=display", "layer=color&tab=objects", "layer=color&tab=frame", "layer=color&tab=views", "mode=space"]) {
+    for (const hash of ["mode=gallery", "layer=color&tab=display", "layer=color&tab=objects", "layer=color&tab=frame", "layer=color&tab=views", "layer=color&tab=pairs&tracks=true", "mode=space"]) {
         await page.goto("about:blank");
         await page.goto(`${origin}/view/#${hash}`);
         await page.waitForSelector("body[data-ready=true]");

@@ -14,6 +14,7 @@ use enfilade_scene::{Camera, Projection};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// `GET /api/view/camera/{scene}/{camera}`.
@@ -38,6 +39,8 @@ struct View {
     frame: u32,
     pose: Option<Value>,
     layers: Vec<usize>,
+    /// The places in the camera's list of derived pictures.
+    derived: Vec<usize>,
     complete: bool,
     faults: Vec<Fault>,
     /// The path of planning's picture of a view that it rejected.
@@ -51,7 +54,11 @@ impl Viewer {
         self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera)])?;
         let mut lost = Problems::default();
         let model = lost.or_nothing("frame", self.camera_model(scene, camera));
-        let views = self.views(scene, camera, model.as_ref(), &mut lost)?;
+        let derived = self.derived(scene, camera, &mut lost);
+        let mut views = self.views(scene, camera, model.as_ref(), &mut lost)?;
+        for view in &mut views {
+            view.derived = derived.of_frames.get(&view.frame).cloned().unwrap_or_default();
+        }
         let tone = lost.or_nothing("display", self.tone_maps(scene, camera));
         let facts = json!({
             "name": camera,
@@ -59,17 +66,22 @@ impl Viewer {
             "projection": model.as_ref().map(projection),
             "loader_problem": model.as_ref().filter(|_| !self.dataset.is_released(scene)).and_then(loader_problem),
             "frames": views,
+            "derived": derived.specs,
+            "has_tracks": layout.tracks(scene, camera).is_file(),
             "tone": tone.iter().map(|row| json!([row.frame, row.scale, row.display_scale])).collect::<Vec<_>>(),
         });
         Ok((facts, lost))
     }
 
+    /// The files of a camera's trajectory.
+    pub(super) fn keyframes(&self, scene: &str, camera: &str) -> [PathBuf; 4] {
+        ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| self.layout().keyframes(scene, camera, what))
+    }
+
     /// Every frame that has a pose, a layer, a record or a verdict, by its number.
     fn views(&self, scene: &str, camera: &str, model: Option<&Camera>, lost: &mut Problems) -> Result<Vec<View>, ApiProblem> {
         let layout = self.layout();
-        let keyframes =
-            ["positions", "orientations", "look_at_positions", "frame_indices"].map(|what| layout.keyframes(scene, camera, what));
-        self.allow_all(keyframes)?;
+        self.allow_all(self.keyframes(scene, camera))?;
         self.allow_all([layout.view_gates(scene, camera), layout.records_dir(scene, camera)])?;
         let mut views: BTreeMap<u32, View> = BTreeMap::new();
         let trajectory = lost.or_nothing("views", optional(self.dataset.read_trajectory(scene, camera)));

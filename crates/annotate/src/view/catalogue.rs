@@ -1,5 +1,6 @@
 //! A summary of the dataset: its scenes, its layers, and the result of the last verification.
 
+use super::picture_spec::PictureSpec;
 use super::place::problem;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
@@ -23,10 +24,7 @@ impl Viewer {
         // A scene whose folder has an unsafe name cannot be requested; the page says so instead of hiding it.
         let (named, unnamed): (Vec<String>, Vec<String>) = scenes.into_iter().partition(|name| check_name("scene name", name).is_ok());
         let name = self.root.file_name().map_or_else(|| self.root.display().to_string(), |name| name.to_string_lossy().into_owned());
-        let layers = LAYERS.iter().map(|spec| {
-            json!({ "name": spec.name, "pass": spec.pass, "channels": spec.channels, "dtype": spec.dtype, "unit": spec.unit,
-                "space": spec.space, "sentinel": spec.sentinel, "description": spec.description })
-        });
+        let layers = LAYERS.iter().map(|spec| PictureSpec::from(spec.layer));
         let pages = [
             ("Report card", self.layout().verify_page()),
             ("Statistics", self.layout().statistics_dir().join("statistics.html")),

@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn every_second_pixel_of_every_second_row_is_kept() {
         let values = Elements::I16((0..15).collect());
-        let layer = DecodedLayer { shape: [3, 5, 1], summary: Summary::new(Layer::Semantic, &values), values };
+        let layer = DecodedLayer { shape: [3, 5, 1], summary: Summary::new(&Layer::Semantic.into(), &values), values };
         let (size, bytes) = layer.every(2);
         let kept: Vec<i16> = bytes.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]])).collect();
         assert_eq!((size, kept), ([2, 3], vec![0, 2, 4, 10, 12, 14]));

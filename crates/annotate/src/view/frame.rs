@@ -61,7 +61,9 @@ impl Viewer {
         if let Some(seed) = seed {
             record["seed"] = seed.into();
         }
-        Ok(json!({ "record": record, "labels": labels, "instances": instances, "split": split,
+        let words = self.words(place, &mut lost);
+        let tables = lost.or_nothing("frame", self.tables_of_sensors(place));
+        Ok(json!({ "record": record, "labels": labels, "instances": instances, "split": split, "words": words, "sensor_tables": tables,
             "judged": self.report()?.and_then(|report| report.frame(place).map(|values| json!(values))), "problems": lost }))
     }
 }

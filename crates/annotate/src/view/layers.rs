@@ -1,10 +1,12 @@
-//! A layer of a frame as raw little-endian numbers, for the page to colour.
+//! A layer of a frame, or what was derived from it, as raw little-endian numbers, for the page to colour.
 //!
 //! `?step=N` keeps every Nth pixel of every Nth row, for a small picture that arrives at once. `?compact=1` is for slow connections: the
 //! bytes of one significance are stored together (`x-enfilade-packing: planes`), and the whole is compressed if the browser accepts gzip.
 
 use super::decoded_layer::{DecodedLayer, planes_of};
+use super::picture::FramePicture;
 use super::place::{FramePlace, problem, stamp};
+use super::stored_picture::stored_image;
 use super::summary::Summary;
 use super::viewer::{Viewer, work};
 use crate::serve::{ApiProblem, reply};
@@ -12,7 +14,6 @@ use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::{HeaderMap, header};
 use axum::response::Response;
-use enfilade_dataset::hdf5::read_array;
 use enfilade_dataset::{Elements, ToneMapRow};
 use enfilade_frame::tonemap::{ToneMap, brightness, percentile};
 use enfilade_frame::{LAYERS, Layer};
@@ -41,9 +42,10 @@ pub async fn layer(
     let place = FramePlace::parse([scene, camera, frame])?;
     let unknown = || {
         let names: Vec<&str> = LAYERS.iter().map(|spec| spec.name).collect();
-        ApiProblem::bad_request(format!("there is no layer {name:?}"), format!("choose one of {}", names.join(", ")))
+        let help = format!("choose one of {}, or one that the camera's answer lists below derived", names.join(", "));
+        ApiProblem::bad_request(format!("there is no layer {name:?}"), help)
     };
-    let layer = Layer::from_name(&name).ok_or_else(unknown)?;
+    let picture = FramePicture::from_name(&name).ok_or_else(unknown)?;
     let Query(query) = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "step is a number from 1 to 64, compact is 0 or 1"))?;
     let step = query.step.unwrap_or(1);
     if !(1..=MAX_STEP).contains(&step) {
@@ -52,10 +54,10 @@ pub async fn layer(
     let compact = query.compact.is_some_and(|compact| compact != 0);
     let gzip = compact && reply::takes_gzip(&headers);
     work(viewer, move |viewer| {
-        let source = stamp(&viewer.dataset.layer_source(&place.scene, &place.camera, place.frame, layer));
-        let decoded = viewer.layer(&place, layer)?;
+        let source = stamp(&viewer.source(&place, &picture));
+        let decoded = viewer.picture(&place, &picture)?;
         let mut summary = decoded.summary.clone();
-        if layer.spec().unit == "W/(sr m^2)" {
+        if picture.spec(&[]).unit == "W/(sr m^2)" {
             summary.tone_scale = viewer.tone_scale(&place)?;
         }
         let ([height, width], bytes) = decoded.every(step);
@@ -90,7 +92,7 @@ impl Viewer {
         let FramePlace { scene, camera, frame } = place;
         let path = self.dataset.layer_source(scene, camera, *frame, layer);
         self.allow(&path)?;
-        self.layers.get(&(place.clone(), layer), stamp(&path), || {
+        self.layers.get(&(place.clone(), FramePicture::Layer(layer)), stamp(&path), || {
             let spec = layer.spec();
             if path != self.layout().layer(scene, camera, *frame, layer)
                 || (layer == Layer::Position && self.meters_per_unit(scene)? != 1.0)
@@ -99,22 +101,10 @@ impl Viewer {
                 let values = read.get(layer).map(|values| Elements::from(values.clone()));
                 let missing = || ApiProblem::not_found(format!("{}: no layer {}", path.display(), spec.name), "choose another layer");
                 let (values, shape) = (values.ok_or_else(missing)?, [read.height as usize, read.width as usize, spec.channels]);
-                return Ok(DecodedLayer { shape, summary: Summary::new(layer, &values), values });
+                return Ok(DecodedLayer { shape, summary: Summary::new(&layer.into(), &values), values });
             }
-            let array = read_array(&path).map_err(problem)?;
-            let shape = match (array.shape.as_slice(), spec.channels) {
-                (&[height, width], 1) => [height, width, 1],
-                (&[height, width, found], channels) if found == channels => [height, width, channels],
-                (shape, channels) => {
-                    let error = format!("{}: expected an image of {channels} channels, found an array of shape {shape:?}", path.display());
-                    return Err(ApiProblem::failed(error, "delete the file and make it again"));
-                }
-            };
-            if matches!(array.values, Elements::F64(_) | Elements::I64(_)) {
-                let error = format!("{}: expected image values, found {}", path.display(), array.values.element().name());
-                return Err(ApiProblem::failed(error, "delete the file and make it again"));
-            }
-            Ok(DecodedLayer { shape, summary: Summary::new(layer, &array.values), values: array.values })
+            let ([height, width], values) = stored_image(&path, spec.channels)?;
+            Ok(DecodedLayer { shape: [height, width, spec.channels], summary: Summary::new(&layer.into(), &values), values })
         })
     }
 

@@ -14,12 +14,20 @@ mod catalogue;
 mod class_shares;
 mod classes;
 mod decoded_layer;
+mod derived;
+mod derived_files;
+#[cfg(test)]
+mod derived_tests;
+mod described;
 mod faults;
 mod files;
 mod frame;
 mod gallery;
 mod layers;
 mod mesh;
+mod pairs;
+mod picture;
+mod picture_spec;
 mod place;
 mod points;
 mod problems;
@@ -28,11 +36,13 @@ mod routes;
 mod scene;
 mod shares;
 mod space;
+mod stored_picture;
 mod summary;
 #[cfg(test)]
 mod tests;
 mod thumbnail;
 mod tone_mapped;
+mod tracks;
 mod viewer;
 
 pub use routes::router;

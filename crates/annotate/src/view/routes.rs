@@ -1,7 +1,7 @@
 //! The addresses of the page's data, and which handler answers each.
 
 use super::viewer::Viewer;
-use super::{camera, catalogue, class_shares, files, frame, gallery, layers, mesh, points, scene, space, thumbnail};
+use super::{camera, catalogue, class_shares, files, frame, gallery, layers, mesh, pairs, points, scene, space, thumbnail, tracks};
 use axum::Router;
 use axum::routing::get;
 use std::sync::Arc;
@@ -17,6 +17,8 @@ pub fn router(viewer: Viewer) -> Router {
         .route("/api/view/frame/{scene}/{camera}/{frame}", get(frame::frame))
         .route("/api/view/gallery/{scene}", get(gallery::gallery))
         .route("/api/view/class_shares/{scene}", get(class_shares::class_shares))
+        .route("/api/view/pairs/{scene}/{camera}/{frame}", get(pairs::pairs))
+        .route("/api/view/tracks/{scene}/{camera}", get(tracks::tracks))
         .route("/api/view/points/{scene}/{camera}/{frame}", get(points::points))
         .route("/api/view/thumbnail/{scene}/{camera}/{frame}", get(thumbnail::thumbnail))
         .route("/api/view/layer/{scene}/{camera}/{frame}/{layer}", get(layers::layer))

@@ -57,7 +57,11 @@ impl Viewer {
         let nodes = lost.or_nothing("objects", optional(self.dataset.read_nodes(scene))).unwrap_or_default();
         let labels = lost.or_nothing("objects", optional(self.dataset.read_label_tables(scene))).unwrap_or_default();
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
-        let pages = [("Rejected views", layout.gates_page(scene)), ("Plans", layout.plan_preview_dir(scene).join("index.html"))];
+        let pages = [
+            ("Rejected views", layout.gates_page(scene)),
+            ("Plans", layout.plan_preview_dir(scene).join("index.html")),
+            ("Floor plan", layout.structure_plan(scene)),
+        ];
         let pages =
             pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
         let facts = json!({
@@ -72,6 +76,8 @@ impl Viewer {
             "instance_colors": self.colors_of_instances(scene, instances),
             "boxes": lost.or_nothing("objects", self.boxes(scene)),
             "has_geometry": mesh(mesh_names::VERTICES).is_file() && mesh(mesh_names::FACES_VERTICES).is_file(),
+            "described": self.described(scene, &mut lost),
+            "has_pairs": layout.covisibility(scene).is_file(),
             "has_space": layout.octomap(scene).is_file(),
             "pages": pages.collect::<Vec<_>>(),
         });

@@ -1,7 +1,7 @@
-//! A layer in a few numbers, from which the page chooses a range of values to show.
+//! A picture in a few numbers, from which the page chooses a range of values to show.
 
+use super::picture_spec::PictureSpec;
 use enfilade_dataset::Elements;
-use enfilade_frame::Layer;
 use enfilade_frame::tonemap::brightness;
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ const SAMPLED_PIXELS: usize = 1 << 16;
 /// Which percentiles, of 100.
 const PERCENTILES: [u32; 7] = [1, 5, 25, 50, 75, 95, 99];
 
-/// Statistics of a layer's values. A colour counts as its brightness (0.3 R + 0.59 G + 0.11 B), a vector as its length.
+/// Statistics of a picture's values. A colour counts as its brightness (0.3 R + 0.59 G + 0.11 B), a vector as its length.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// `value`, `brightness` or `length`.
@@ -30,12 +30,12 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of the elements of an image of a layer.
-    pub fn new(layer: Layer, values: &Elements) -> Self {
-        let channels = layer.spec().channels;
-        let of = match (channels, layer.spec().space) {
+    /// Of the elements of a picture.
+    pub fn new(spec: &PictureSpec, values: &Elements) -> Self {
+        let channels = spec.channels;
+        let of = match (channels, spec.space) {
             (1, _) => "value",
-            (_, space) if space.starts_with("linear RGB") => "brightness",
+            (_, space) if space.contains("RGB") => "brightness",
             _ => "length",
         };
         match values {
@@ -87,23 +87,24 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_frame::Layer;
 
     #[test]
     fn extremes_mean_and_percentiles_leave_nan_out() {
         let mut metres: Vec<f32> = (0..=100).map(|i| i as f32).collect();
         metres.push(f32::NAN);
-        let summary = Summary::new(Layer::DepthMeters, &Elements::F32(metres));
+        let summary = Summary::new(&Layer::DepthMeters.into(), &Elements::F32(metres));
         assert_eq!((summary.of, summary.range, summary.mean, summary.without), ("value", Some([0.0, 100.0]), Some(50.0), 1));
         assert_eq!(summary.percentiles, [1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0]);
-        let empty = Summary::new(Layer::DepthMeters, &Elements::F32(vec![f32::NAN]));
+        let empty = Summary::new(&Layer::DepthMeters.into(), &Elements::F32(vec![f32::NAN]));
         assert_eq!((empty.range, empty.mean, empty.percentiles.len()), (None, None, 0));
     }
 
     #[test]
     fn colours_count_as_brightness_and_vectors_as_length() {
-        let flow = Summary::new(Layer::OpticalFlow, &Elements::F32(vec![3.0, 4.0]));
+        let flow = Summary::new(&Layer::OpticalFlow.into(), &Elements::F32(vec![3.0, 4.0]));
         assert_eq!((flow.of, flow.range), ("length", Some([5.0, 5.0])));
-        let color = Summary::new(Layer::Color, &Elements::F32(vec![1.0, 0.0, 0.0]));
+        let color = Summary::new(&Layer::Color.into(), &Elements::F32(vec![1.0, 0.0, 0.0]));
         assert_eq!((color.of, color.range), ("brightness", Some([0.3, 0.3])));
     }
 }

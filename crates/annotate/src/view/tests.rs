@@ -14,11 +14,11 @@ use serde_json::Value;
 use std::path::Path;
 use tower::ServiceExt;
 
-const WIDTH: u32 = 12;
-const HEIGHT: u32 = 7;
+pub(super) const WIDTH: u32 = 12;
+pub(super) const HEIGHT: u32 = 7;
 
 /// Numbers that differ from pixel to pixel and fit the layer's type.
-fn layer_values(layer: Layer, seed: usize) -> Values {
+pub(super) fn layer_values(layer: Layer, seed: usize) -> Values {
     let spec = layer.spec();
     let n = (WIDTH * HEIGHT) as usize * spec.channels;
     let wave = |i: usize| ((i * 7 + seed) as f64 * 0.31).sin() + 1.5;
@@ -31,7 +31,7 @@ fn layer_values(layer: Layer, seed: usize) -> Values {
 }
 
 /// A dataset of one camera: frame 0 with every layer, frame 1 rejected, frame 2 planned.
-fn dataset(root: &Path) -> Dataset {
+pub(super) fn dataset(root: &Path) -> Dataset {
     let dataset = Dataset::create(root).unwrap();
     let camera: Camera = Intrinsics::from_fov_x(WIDTH, HEIGHT, 1.0).into();
     let pose = |frame| Pose::look_at(frame, DVec3::new(f64::from(frame), 0.5, 1.5), DVec3::new(2.0, 3.0, 1.0), DVec3::Z).unwrap();
@@ -57,7 +57,7 @@ fn dataset(root: &Path) -> Dataset {
     dataset
 }
 
-async fn ask(root: &Path, address: &str, headers: &[(&str, &str)]) -> Response {
+pub(super) async fn ask(root: &Path, address: &str, headers: &[(&str, &str)]) -> Response {
     let mut request = Request::get(address);
     for (name, value) in headers {
         request = request.header(*name, *value);
@@ -65,11 +65,11 @@ async fn ask(root: &Path, address: &str, headers: &[(&str, &str)]) -> Response {
     router(Viewer::open(root).unwrap()).oneshot(request.body(Body::empty()).unwrap()).await.unwrap()
 }
 
-async fn bytes(response: Response) -> Vec<u8> {
+pub(super) async fn bytes(response: Response) -> Vec<u8> {
     to_bytes(response.into_body(), usize::MAX).await.unwrap().to_vec()
 }
 
-async fn json(root: &Path, address: &str) -> Value {
+pub(super) async fn json(root: &Path, address: &str) -> Value {
     let response = ask(root, address, &[]).await;
     assert_eq!(response.status(), StatusCode::OK, "{address}");
     serde_json::from_slice(&bytes(response).await).unwrap()

@@ -2,12 +2,13 @@
 
 use super::cache::Cache;
 use super::decoded_layer::DecodedLayer;
+use super::pairs::PairsOfScene;
+use super::picture::FramePicture;
 use super::place::FramePlace;
 use super::report::ReportFile;
 use super::shares::Shares;
 use crate::serve::{ApiProblem, beside};
 use enfilade_dataset::{Dataset, DatasetError};
-use enfilade_frame::Layer;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -25,11 +26,13 @@ pub struct Viewer {
     pub(super) dataset: Dataset,
     /// The dataset's folder without symbolic links.
     pub(super) root: PathBuf,
-    pub(super) layers: Cache<(FramePlace, Layer), DecodedLayer>,
+    pub(super) layers: Cache<(FramePlace, FramePicture), DecodedLayer>,
     /// Geometry and free space, by scene and kind.
     pub(super) buffers: Cache<(String, &'static str), Vec<u8>>,
     pub(super) thumbnails: Cache<FramePlace, Vec<u8>>,
     pub(super) shares: Cache<FramePlace, Shares>,
+    /// Pairs of frames, by scene.
+    pub(super) pairs: Cache<String, PairsOfScene>,
     /// The report of the last verification.
     pub(super) reports: Cache<(), ReportFile>,
 }
@@ -48,7 +51,8 @@ impl Viewer {
         let root = std::fs::canonicalize(dataset.root()).unwrap_or_else(|_| dataset.root().to_path_buf());
         let (layers, buffers) = (Cache::new(LAYER_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
         let (thumbnails, reports) = (Cache::new(THUMBNAIL_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
-        Self { dataset, root, layers, buffers, thumbnails, shares: Cache::new(SHARE_CACHE_BYTES), reports }
+        let (shares, pairs) = (Cache::new(SHARE_CACHE_BYTES), Cache::new(SCENE_CACHE_BYTES));
+        Self { dataset, root, layers, buffers, thumbnails, shares, pairs, reports }
     }
 }
 

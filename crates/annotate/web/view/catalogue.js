@@ -1,23 +1,29 @@
 // What the server says about the dataset, with the types of its answers.
 
-import { getJson } from "../shared/api.js";
+import { getBytes, getJson } from "../shared/api.js";
 
-/** @typedef {{ name: string, pass: string, channels: number, dtype: string, unit: string, space: string, sentinel: string, description: string }} LayerSpec */
+/** @typedef {{ name: string, title: string, pass: string, like: string, channels: number, dtype: string, unit: string, space: string, sentinel: string, description: string }} LayerSpec a layer or a derived picture; `like` is what has the colours and names of its numbers */
 /** @typedef {{ id: number, name: string, color: number[] }} SemanticClass */
 /** @typedef {{ title: string, path: string }} Page */
 /** @typedef {{ passed: boolean, accepted: boolean, verdict: string, gate_verdict: string, laws: number, frames: number, rejected: number, failures: { law: string, statement: string, place: string, meaning: string }[] }} Verification */
 /** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], pages: Page[], verify: Verification | null }} Dataset */
 /** @typedef {{ center: number[], extents: number[], orientation: number[] }} Box */
 /** @typedef {{ names: string[], semantic: number[], instance: number[] }} Objects what the pieces of the geometry are: parts, and pieces of those that people split */
-/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, has_geometry: boolean, has_space: boolean, pages: Page[], problems: Loss[] }} Scene */
+/** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, described: Described, has_pairs: boolean, has_geometry: boolean, has_space: boolean, pages: Page[], problems: Loss[] }} Scene */
+/** @typedef {{ instance: number, name: string, noun: string, room: string, color: string, material: string, size_m: number[] }} DescribedInstance */
+/** @typedef {{ subject: number, kind: string, object: number, object_semantic: number, distance_m: number }} Relation */
+/** @typedef {{ instances: DescribedInstance[], relations: Relation[], rooms: { name: string, kind: string }[], planes: string[] }} Described */
 /** @typedef {{ position: number[], orientation: number[] }} Pose */
 /** @typedef {{ by: "planning" | "verification", gate: string, measure: string, value: number | null, limit: number, side: string, unit: string, rejects: boolean }} Fault a gate that a frame does not pass */
 /** @typedef {{ panel: string, error: string, help: string }} Loss a file that cannot be read, and the panel that lacks it */
-/** @typedef {{ frame: number, pose: Pose | null, layers: number[], complete: boolean, faults: Fault[], picture: string | null }} CameraFrame */
+/** @typedef {{ frame: number, pose: Pose | null, layers: number[], derived: number[], complete: boolean, faults: Fault[], picture: string | null }} CameraFrame */
 /** @typedef {{ kind: string, linear: boolean, width: number, height: number, corner_rays: number[][] | null, fov_y_deg: number | null }} Projection */
-/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, loader_problem: string | null, frames: CameraFrame[], tone: [number, number, number][], problems: Loss[] }} Camera */
+/** @typedef {{ name: string, frame_time_s: number, projection: Projection | null, loader_problem: string | null, frames: CameraFrame[], derived: LayerSpec[], has_tracks: boolean, tone: [number, number, number][], problems: Loss[] }} Camera */
 /** @typedef {{ instance: number, semantic: number, visible_pixels: number, visible_box: number[], full_box: number[], visibility: number, truncation: number }} InstanceView */
-/** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any, problems: Loss[] }} FrameFacts */
+/** @typedef {{ kind: string, question: string, options: string[] | null, answer: string, instances: number[], of_all_frames: boolean }} Question */
+/** @typedef {{ camera: string, frame: number, this_seen: number | null, that_seen: number | null, baseline_m: number | null, angle_deg: number | null, listed: boolean | null }} Partner a frame that shows surfaces of another: shares of this frame that it sees, and of it that this frame sees */
+/** @typedef {{ partners: Partner[], count: number, hidden_by: string, problems: Loss[] }} Pairs */
+/** @typedef {{ record: any, labels: any, instances: InstanceView[], split: { partition?: string, excluded?: string } | null, judged: any, words: { caption: string | null, questions: Question[] }, sensor_tables: { sensor: string, path: string }[], problems: Loss[] }} FrameFacts */
 /** @typedef {{ camera: string, frame: number, version: string | null, picture: string | null, noise: number | null, clipped: number | null, black: number | null, exposure: number | null, depth_range: number | null, coverage: number | null, objects: number | null, partition: string | null, faults: Fault[], laws: string[] }} GalleryFrame */
 
 /** Answers that do not change while one looks; a failure is asked for again. @type {Map<string, Promise<any>>} */
@@ -54,6 +60,12 @@ export const peek = async (scene, camera) => JSON.stringify(await getJson(`../ap
 /** @param {string} scene @param {string} camera @param {number} frame @returns {Promise<FrameFacts>} */
 export const getFrame = (scene, camera, frame) =>
     once(`../api/view/frame/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}`);
+
+/** @param {string} scene @param {string} camera @param {number} frame @returns {Promise<Pairs>} */
+export const getPairs = (scene, camera, frame) => once(`../api/view/pairs/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}`);
+
+/** The points that are followed through a camera's frames, as a buffer. @param {string} scene @param {string} camera @returns {Promise<ArrayBuffer>} */
+export const getTracks = (scene, camera) => getBytes(`../api/view/tracks/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`);
 
 /** @param {string} scene @returns {Promise<{ frames: GalleryFrame[], problems: Loss[] }>} */
 export const getGallery = (scene) => getJson(`../api/view/gallery/${encodeURIComponent(scene)}`);

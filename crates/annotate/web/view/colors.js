@@ -82,6 +82,15 @@ export const MASKS = {
         { code: 1, name: "near side of a jump", color: [240, 190, 90] },
         { code: 2, name: "far side of a jump", color: [80, 130, 210] },
     ],
+    surface_side: [
+        { code: 0, name: "no surface", color: [28, 30, 34] },
+        { code: 1, name: "front", color: [102, 168, 106] },
+        { code: 2, name: "back", color: [190, 60, 160] },
+    ],
+    pair_visibility: [
+        { code: 0, name: "hidden or outside in that frame", color: [50, 54, 62] },
+        { code: 1, name: "seen in that frame", color: [102, 168, 106] },
+    ],
     flow_visibility: [
         { code: 0, name: "hidden or outside in the next frame", color: [50, 54, 62] },
         { code: 1, name: "seen in the next frame", color: [102, 168, 106] },

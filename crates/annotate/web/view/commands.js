@@ -59,7 +59,7 @@ export function commandsOf(page) {
             { keys: ["5"], says: "difference of two pictures", does: () => mode("difference") },
             { keys: ["Y"], says: "flicker between the two", does: () => store.set({ mode: "difference", flicker: !(store.state.mode === "difference" && store.state.flicker) }) },
             { keys: [",", "."], says: "move the border of the wipe", does: (event) => store.set({ wipe: Math.min(1, Math.max(0, store.state.wipe + (event.key === "," ? -0.02 : 0.02))) }) },
-            { keys: ["K"], says: "keep this frame as the other; again: let go", does: () => store.set({ otherFrame: store.state.otherFrame === null ? store.state.frame : null }) },
+            { keys: ["K"], says: "keep this frame as the other; again: let go", does: () => store.set({ otherFrame: store.state.otherFrame === null ? store.state.frame : null, otherCamera: "" }) },
         ] },
         { title: "Looking closely", keys: [
             { keys: ["+", "="], shown: "+", says: "closer", does: () => stage.zoomBy(1.5) },
@@ -72,6 +72,7 @@ export function commandsOf(page) {
             { keys: ["G"], says: "in 3D: from above, without ceilings", does: () => page.space?.fromAbove() },
             { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
             { keys: ["Shift+B"], says: "names on boxes", does: () => store.set({ names: !store.state.names }) },
+            { keys: ["P"], says: "points that are followed", does: () => store.set({ tracks: !store.state.tracks }) },
             { keys: ["L"], says: "logarithmic colours", does: logarithm },
             { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0, class: 0 }) },
         ] },
@@ -83,7 +84,7 @@ export function commandsOf(page) {
         ] },
         { title: "Page", keys: [
             { keys: ["F1", "?"], shown: "?", says: "this list", does: () => showHelp(commandsOf(page)) },
-            { keys: ["Alt+1", "Alt+2", "Alt+3", "Alt+4"], shown: "Alt+1  …  Alt+4", says: "Display, Objects, Frame, Views", does: (event) => page.tab(["display", "objects", "frame", "views"][Number(event.key) - 1]) },
+            { keys: ["Alt+1", "Alt+2", "Alt+3", "Alt+4", "Alt+5"], shown: "Alt+1  …  Alt+5", says: "Display, Objects, Frame, Views, Pairs", does: (event) => page.tab(["display", "objects", "frame", "views", "pairs"][Number(event.key) - 1]) },
             { keys: ["T"], says: "dark or light", does: () => page.theme() },
             { keys: ["Ctrl+S"], says: "save what is shown as a picture", does: () => page.save() },
             { keys: ["Ctrl+Shift+L"], says: "copy the link to this view", does: () => page.copyLink() },

@@ -16,7 +16,7 @@ let halves = null;
 const known = new WeakMap();
 
 /** Whether a difference of two layers means something. @param {LayerSpec} a @param {LayerSpec} b */
-export const isAlike = (a, b) => a.channels === b.channels && a.unit === b.unit && (a.dtype[0] === "f") === (b.dtype[0] === "f") && (a.dtype[0] === "f" || a.name === b.name);
+export const isAlike = (a, b) => a.channels === b.channels && a.unit === b.unit && (a.dtype[0] === "f") === (b.dtype[0] === "f") && (a.dtype[0] === "f" || a.like === b.like);
 
 /**
  * The first layer minus the second; `null` where they are not of the same pixels or not here in full.

@@ -20,13 +20,14 @@ export function displayPanel(session) {
     const children = [];
     if (kinds.includes("radiance")) children.push(...toneFields(store));
     for (const [i, side] of sides.entries()) {
-        if (i > 0 && side.layer === sides[0].layer && side.frame === sides[0].frame) continue;
+        if (i > 0 && side.layer === sides[0].layer && side.frame === sides[0].frame && side.camera === sides[0].camera) continue;
         children.push(...layerPart(session, side));
     }
     if (store.state.mode === "difference") children.push(...differencePart(session));
-    const check = (/** @type {"boxes" | "names"} */ key, /** @type {string} */ text) =>
+    const check = (/** @type {"boxes" | "names" | "tracks"} */ key, /** @type {string} */ text) =>
         el("label", {}, el("input", { type: "checkbox", id: key, "data-key": key, checked: store.state[key], onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.checked }) }), ` ${text}`);
-    children.push(el("h2", {}, "Over the picture"), el("div", { class: "checks" }, check("boxes", "Boxes of all instances"), check("names", "Names on boxes")));
+    children.push(el("h2", {}, "Over the picture"), el("div", { class: "checks" }, check("boxes", "Boxes of all instances"), check("names", "Names on boxes"),
+        session.camera?.has_tracks ? check("tracks", "Points that are followed") : null));
     return children;
 }
 
@@ -86,12 +87,12 @@ function layerPart(session, side) {
     const { store, looks } = session;
     const { layer, data, frame } = side;
     const spec = looks.spec(layer), look = looks.look(layer);
-    const children = [el("h2", {}, layer, el("span", { class: "quiet" }, `  frame ${frame}`)), el("p", { class: "quiet" }, spec.description)];
-    const isQuantity = look.kind !== "id" && look.kind !== "code";
+    const children = [el("h2", {}, looks.title(layer), el("span", { class: "quiet" }, `  ${side.camera === session.camera ? "" : `${side.camera.name} `}frame ${frame}`)), el("p", { class: "quiet" }, spec.description)];
+    const isQuantity = !["id", "code", "display"].includes(look.kind);
     if (data && isQuantity) children.push(distribution(data, look.kind === "scalar" ? rangeOf(look, data.summary, store.state.ranges[layer], layer in store.state.logs) : null, layer in store.state.logs));
-    if (data && (look.kind === "scalar" || look.kind === "flow" || look.kind === "stretched")) children.push(...rangeFields(store, layer, look, data.summary));
+    if (data && (look.kind === "scalar" || look.kind === "flow" || look.kind === "stretched")) children.push(...rangeFields(store, layer, looks.title(layer), look, data.summary));
     if (look.kind === "code") {
-        const codes = layer === "surface_traits" ? TRAITS.map(({ bit, name, color }) => ({ code: bit, name, color })) : (MASKS[layer] ?? []);
+        const codes = spec.like === "surface_traits" ? TRAITS.map(({ bit, name, color }) => ({ code: bit, name, color })) : (MASKS[spec.like] ?? []);
         children.push(...codes.map(({ code, name, color }) => el("div", {}, el("span", { class: "swatch", style: `background:${cssColor(color)}` }), ` ${code}  ${name}`)));
     }
     if (data) {
@@ -102,7 +103,7 @@ function layerPart(session, side) {
             ["Unit", spec.unit],
             ["Space", spec.space],
             ["Nothing hit", spec.sentinel],
-            ...(look.kind === "id" || look.kind === "code" ? [] : /** @type {[string, any][]} */ ([
+            ...(!isQuantity ? [] : /** @type {[string, any][]} */ ([
                 ["Numbers of", summary.of],
                 ["Min, max", summary.range && `${brief(summary.range[0])}, ${brief(summary.range[1])}`],
                 ["Mean", brief(summary.mean)],
@@ -117,10 +118,11 @@ function layerPart(session, side) {
 /**
  * @param {import("./state.js").Store} store
  * @param {string} layer
+ * @param {string} title of the layer
  * @param {import("./kinds.js").Look} look
  * @param {import("./numbers.js").Summary} summary
  */
-function rangeFields(store, layer, look, summary) {
+function rangeFields(store, layer, title, look, summary) {
     const [low, high] = rangeOf(look, summary, store.state.ranges[layer], layer in store.state.logs);
     const chosen = layer in store.state.ranges;
     const refused = el("p", { class: "refused", role: "alert" });
@@ -136,7 +138,7 @@ function rangeFields(store, layer, look, summary) {
     // What was not touched keeps all of its digits; the field shows a few.
     const numberOf = (/** @type {any} */ end, /** @type {number} */ value) => (end.value === brief(value) ? value : end.valueAsNumber);
     const change = () => set(numberOf(ends[0], low), numberOf(ends[1], high));
-    const input = (/** @type {number} */ value, /** @type {string} */ label) => el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${layer}`, onchange: change });
+    const input = (/** @type {number} */ value, /** @type {string} */ label) => el("input", { type: "number", step: "any", value: brief(value), "aria-label": `${label} of ${title}`, onchange: change });
     const ends = [input(low, "Min"), input(high, "Max")];
     const fields = [
         el("div", { class: "field" }, el("span", {}, "Min, max"), el("span", { class: "pair" }, ...ends)),

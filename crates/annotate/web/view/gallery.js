@@ -172,7 +172,7 @@ export class Gallery {
         if (!row) return;
         this.at = i;
         if (row.version === null) return this.store.set({ mode: "one", scene: row.scene, camera: row.camera, tab: "views" });
-        this.store.set({ mode: "one", scene: row.scene, camera: row.camera, frame: row.frame, zoom: 0, x: 0.5, y: 0.5, instance: 0, otherFrame: null });
+        this.store.set({ mode: "one", scene: row.scene, camera: row.camera, frame: row.frame, zoom: 0, x: 0.5, y: 0.5, instance: 0, otherFrame: null, otherCamera: "" });
         byId("stage").focus({ preventScroll: true });
     }
 

@@ -1,8 +1,8 @@
 // How each layer is shown: by its channels, unit and type, so that layers this page does not know are shown too.
 
 /** @typedef {import("./catalogue.js").LayerSpec} LayerSpec */
-/** @typedef {"radiance" | "albedo" | "scalar" | "direction" | "stretched" | "flow" | "texture" | "id" | "code"} Kind */
-/** @typedef {{ kind: Kind, map: string, range: "percentiles" | "extremes" | "unit" | "symmetric", of?: "part" | "instance" | "class" | "material" }} Look */
+/** @typedef {"radiance" | "albedo" | "scalar" | "direction" | "stretched" | "flow" | "texture" | "id" | "code" | "display"} Kind */
+/** @typedef {{ kind: Kind, map: string, range: "percentiles" | "extremes" | "unit" | "symmetric", of?: "part" | "instance" | "class" | "material" | "plane" }} Look */
 
 /** @type {Record<string, Partial<Look>>} */
 const SPECIAL = {
@@ -10,10 +10,14 @@ const SPECIAL = {
     semantic: { of: "class" },
     semantic_instance: { of: "instance" },
     material_id: { of: "material" },
+    plane: { of: "plane" },
     color_standard_error: { map: "inferno" },
     metallic: { range: "unit", map: "grey" },
     roughness: { range: "unit" },
     transmission_weight: { range: "unit", map: "grey" },
+    display: { kind: "display" },
+    raw: { map: "grey" },
+    intensity: { range: "unit", map: "grey" },
     scene_flow: { range: "symmetric" },
 };
 
@@ -22,7 +26,7 @@ const SPECIAL = {
  * @returns {Look}
  */
 export function lookOf(spec) {
-    return { kind: kindOf(spec), map: "viridis", range: "percentiles", of: "part", ...SPECIAL[spec.name] };
+    return { kind: kindOf(spec), map: "viridis", range: "percentiles", of: "part", ...SPECIAL[spec.like] };
 }
 
 /** @param {LayerSpec} spec @returns {Kind} */
@@ -69,4 +73,10 @@ export const GROUPS = [
     { name: "Geometry", passes: ["geometry"] },
     { name: "Labels", passes: ["label"] },
     { name: "Material, motion, boundaries", passes: ["extra"] },
+    { name: "Light by fixture", passes: ["fixtures"] },
+    { name: "Mixes of fixtures", passes: ["mixes"] },
+    { name: "Surfaces along rays", passes: ["surfaces"] },
+    { name: "Layout", passes: ["layout"] },
+    { name: "To other frames", passes: ["pairs"] },
+    { name: "Sensors", passes: ["sensors"] },
 ];

@@ -37,8 +37,9 @@ export function showLegend(element, session, side) {
         case "direction": return note("red, green, blue: x, y, z from −1 to 1");
         case "stretched": return note(`red, green, blue: x, y, z from ${brief(range[0])} to ${brief(range[1])}${unit}`);
         case "texture": return note("red u, green v; a chequer of eighths");
-        case "id": return note(look.of === "class" ? "colours of classes; names in Objects" : "a colour for each number; names in Objects");
+        case "id": return note(`${look.of === "class" ? "colours of classes" : "a colour for each number"}; names ${look.of === "plane" ? "under the cursor" : "in Objects"}`);
         case "code": return note("a colour for each code; meanings in Display");
+        case "display": return note("as the sensor gives it, 8 bits");
         case "albedo": return note("0 to 1, gamma 2.2");
         default: return note(toneNote(session));
     }

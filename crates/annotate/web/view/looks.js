@@ -10,6 +10,8 @@ import { lookOf } from "./kinds.js";
 export class Looks {
     /** @param {Dataset} dataset */
     constructor(dataset) {
+        this.dataset = dataset;
+        /** @type {Map<string, LayerSpec>} */
         this.specs = new Map(dataset.layers.map((spec) => [spec.name, spec]));
         /** @type {Map<number, import("./catalogue.js").SemanticClass>} */
         this.classes = new Map();
@@ -19,8 +21,10 @@ export class Looks {
         this.tables = new Map();
     }
 
-    /** @param {Scene} scene */
-    enter(scene) {
+    /** @param {Scene} scene @param {(import("./catalogue.js").Camera | null)[]} [cameras] whose derived pictures are shown */
+    enter(scene, cameras = []) {
+        const derived = cameras.flatMap((camera) => camera?.derived ?? []);
+        this.specs = new Map([...this.dataset.layers, ...derived].map((spec) => [spec.name, spec]));
         if (this.scene === scene) return;
         this.scene = scene;
         this.classes = new Map(scene.classes.map((one) => [one.id, one]));
@@ -37,6 +41,11 @@ export class Looks {
     /** @param {string} layer */
     spec(layer) {
         return /** @type {LayerSpec} */ (this.specs.get(layer) ?? this.specs.get("color"));
+    }
+
+    /** What people call it. @param {string} layer */
+    title(layer) {
+        return this.specs.get(layer)?.title ?? layer;
     }
 
     /** @param {string} layer */
@@ -67,8 +76,9 @@ export class Looks {
      * @param {number} id
      */
     color(layer, id) {
-        if (layer === "surface_traits") return traitsColor(id);
-        if (layer in MASKS) return MASKS[layer].find((mask) => mask.code === id)?.color ?? [255, 0, 255];
+        const { like } = this.spec(layer);
+        if (like === "surface_traits") return traitsColor(id);
+        if (like in MASKS) return MASKS[like].find((mask) => mask.code === id)?.color ?? [255, 0, 255];
         const { of } = this.look(layer);
         if (of === "class") return this.classes.get(id)?.color ?? [0, 0, 0];
         if (of === "instance") return id < 1 ? [0, 0, 0] : (this.scene?.instance_colors[id] ?? idColor(id));
@@ -81,11 +91,13 @@ export class Looks {
      * @param {number} id
      */
     name(layer, id) {
-        if (layer === "surface_traits") return TRAITS.filter((trait) => id & trait.bit).map((trait) => trait.name).join(", ") || "nothing special";
-        if (layer in MASKS) return MASKS[layer].find((mask) => mask.code === id)?.name ?? "unknown code";
+        const { like } = this.spec(layer);
+        if (like === "surface_traits") return TRAITS.filter((trait) => id & trait.bit).map((trait) => trait.name).join(", ") || "nothing special";
+        if (like in MASKS) return MASKS[like].find((mask) => mask.code === id)?.name ?? "unknown code";
         switch (this.look(layer).of) {
             case "class": return this.className(id);
             case "instance": return this.instanceName(id);
+            case "plane": return id < 1 ? "none" : (this.scene?.described.planes[id - 1] ?? "");
             case "material": return id < 1 ? "none" : (this.scene?.materials[id - 1] ?? "");
             default: return id < 1 ? "nothing" : (this.scene?.parts[id - 1] ?? "");
         }

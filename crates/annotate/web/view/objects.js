@@ -2,6 +2,7 @@
 
 import { el, facts } from "../shared/dom.js";
 import { cssColor } from "./colors.js";
+import { relationsPart, wordsOf } from "./described.js";
 import { brief, percent } from "./numbers.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -26,16 +27,19 @@ function chosenPart(session, known, id) {
     const view = known?.instances.find((one) => one.instance === id);
     const box = looks.box(id);
     const names = looks.objectsOfInstance(id);
+    const words = wordsOf(session, id);
     return [
         el("h2", {}, `Instance ${id}`),
         facts([
             ["Class", looks.className(looks.classOfInstance(id))],
+            ...words,
             ["Parts", names.slice(0, 6).join(", ") + (names.length > 6 ? ` and ${names.length - 6} more` : "")],
-            ["Box", box && `${box.extents.map((v) => v.toFixed(2)).join(" × ")} m`],
+            ["Box", words.length ? null : box && `${box.extents.map((v) => v.toFixed(2)).join(" × ")} m`],
             ["Centre", box && `${box.center.map((v) => v.toFixed(2)).join(", ")} m`],
             ["Visible", view && `${view.visible_pixels} px, ${percent(view.visibility)} of it`],
             ["Cut off", view && percent(view.truncation)],
         ]),
+        ...relationsPart(session, id),
     ];
 }
 
@@ -47,7 +51,7 @@ function instancesPart(session, known, repaint) {
     const ofClass = session.store.state.class;
     const isChosen = (/** @type {number} */ id) => id > 0 && (!ofClass || session.looks.classOfInstance(id) === ofClass);
     const list = [...areas].filter(([id]) => isChosen(id)).sort((a, b) => b[1].pixels - a[1].pixels);
-    const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) => {
+    const row = (/** @type {[number, import("./areas.js").Area]} */ [id, area]) => {
         const visibility = known?.instances.find((one) => one.instance === id)?.visibility;
         const mark = (/** @type {boolean} */ on) => {
             session.hoveredInstance = on ? id : 0;
@@ -72,7 +76,7 @@ function classesPart(session) {
     const all = [...areas.values()].reduce((sum, area) => sum + area.pixels, 0);
     const { store } = session;
     const choose = (/** @type {number} */ id) => store.set({ class: store.state.class === id ? 0 : Math.max(0, id), instance: 0 });
-    const row = (/** @type {[number, import("./session.js").Area]} */ [id, area]) =>
+    const row = (/** @type {[number, import("./areas.js").Area]} */ [id, area]) =>
         el("tr", { "data-class": id, "data-key": `class-${id}`, tabIndex: 0, "aria-selected": String(store.state.class === id), title: "Show this class alone", onclick: () => choose(id),
             onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && choose(id) }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));

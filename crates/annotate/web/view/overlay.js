@@ -3,6 +3,7 @@
 import { boxLines, projector } from "./project.js";
 import { brief, pixelOf } from "./numbers.js";
 import { cssColor } from "./colors.js";
+import { drawTracks } from "./tracks.js";
 
 /** @typedef {import("./painter.js").Rect} Rect */
 /** @typedef {import("./painter.js").Placement} Placement */
@@ -40,8 +41,8 @@ export class Overlay {
     paint(stage, panes, places) {
         const { canvas, pen } = this;
         const { width, height } = stage.painter.canvas;
-        const { mode, wipe, boxes, names } = stage.store.state;
-        const needed = boxes || names || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
+        const { mode, wipe, boxes, names, tracks } = stage.store.state;
+        const needed = boxes || names || tracks || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
         // An empty canvas would cost time too: the browser composes it over the picture in every frame.
         canvas.style.display = needed ? "" : "none";
         if (!needed) return;
@@ -55,11 +56,13 @@ export class Overlay {
             const [left, top] = [Math.max(pane.x, places[i].x), Math.max(pane.y, places[i].y)];
             pen.rect(left, top, Math.min(pane.x + pane.width, places[i].x + wide) - left, Math.min(pane.y + pane.height, places[i].y + high) - top);
             pen.clip();
-            const frame = stage.last[i]?.frame;
-            if (frame !== undefined) {
+            const side = stage.last[i];
+            if (side) {
                 this.named = [];
-                if (boxes || names) for (const id of stage.session.instancesOf(frame)) this.#box(stage, frame, id, places[i], false);
-                if (stage.session.marked) this.#box(stage, frame, stage.session.marked, places[i], true);
+                const isOfFrame = stage.session.hasPixelsOfFrame(side);
+                if (isOfFrame && (boxes || names)) for (const id of stage.session.instancesOf(side.frame, side.camera)) this.#box(stage, side, id, places[i], false);
+                if (isOfFrame && stage.session.marked) this.#box(stage, side, stage.session.marked, places[i], true);
+                if (isOfFrame && tracks) this.#tracks(stage, side, places[i]);
                 if (places[i].zoom / stage.ratio >= ROOM_FOR_NUMBERS) this.#numbers(stage, i, pane, places[i]);
             }
             if (stage.pixel) this.#cursor(stage, places[i], i);
@@ -77,19 +80,19 @@ export class Overlay {
 
     /**
      * @param {Pictures} stage
-     * @param {number} frame
+     * @param {Shown} side
      * @param {number} id
      * @param {Placement} place
      * @param {boolean} strong
      */
-    #box(stage, frame, id, place, strong) {
+    #box(stage, { camera, frame }, id, place, strong) {
         const { pen } = this;
-        const { looks, camera } = stage.session;
-        const pose = camera?.frames.find((one) => one.frame === frame)?.pose ?? null;
+        const { looks } = stage.session;
+        const pose = camera.frames.find((one) => one.frame === frame)?.pose ?? null;
         const box = looks.box(id);
-        const project = projector(camera?.projection ?? null, pose);
+        const project = projector(camera.projection, pose);
         const at = (/** @type {number} */ v, /** @type {number} */ origin) => origin + v * place.zoom;
-        const seen = stage.session.boundsOf(frame, id);
+        const seen = stage.session.boundsOf(frame, id, camera);
         if (stage.store.state.names && seen) this.#name(stage, looks.instanceName(id), at(seen[0], place.x), at(seen[1], place.y));
         if (!strong && !stage.store.state.boxes) return;
         pen.lineWidth = (strong ? 2 : 1) * stage.ratio;
@@ -126,6 +129,13 @@ export class Overlay {
         pen.fillRect(x, y, place[2] - x, place[3] - y);
         pen.fillStyle = "white";
         pen.fillText(name, x + 3 * stage.ratio, y + 0.18 * size);
+    }
+
+    /** @param {Pictures} stage @param {Shown} side @param {Placement} place */
+    #tracks({ session, ratio }, { camera, frame, data }, { x, y, zoom }) {
+        const followed = session.tracks.of(camera);
+        const [height, width] = data.size.map((length) => length * zoom);
+        if (followed) drawTracks(this.pen, followed, frame, { x, y, width, height }, ratio);
     }
 
     /** @param {Pictures} stage @param {Placement} place @param {number} pane */

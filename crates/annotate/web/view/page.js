@@ -15,6 +15,7 @@ import { GROUPS } from "./kinds.js";
 import { showDifferenceLegend, showLegend } from "./legend.js";
 import { showMessage } from "./message.js";
 import { objectsPanel } from "./objects.js";
+import { PairsPanel } from "./pairs.js";
 import { showReadout } from "./readout.js";
 import { framePanel, lossesOf, viewsPanel } from "./records.js";
 import { savePicture } from "./save.js";
@@ -36,6 +37,7 @@ export class Page {
         this.strip = new Strip(session);
         this.tree = new Tree(session);
         this.travel = new Travel(session);
+        this.pairs = new PairsPanel(session, () => this.panel());
         this.gallery = new Gallery(session, () => this.panel());
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
@@ -72,6 +74,7 @@ export class Page {
     #entered() {
         this.stage.last = [];
         this.known = null;
+        this.panelKey = "";
         this.tree.enter();
         this.strip.enter();
         if (this.store.state.mode === "difference") this.#beginDifference();
@@ -99,9 +102,10 @@ export class Page {
     follow(state, changed) {
         const has = (/** @type {(keyof State)[]} */ ...keys) => keys.some((key) => changed.has(key));
         if (has("scene", "camera") && (state.scene !== this.session.scene?.name || state.camera !== this.session.camera?.name)) this.session.follow();
-        if (has("layer", "other", "otherFrame", "mode")) this.#keepApart(changed);
+        if (has("otherCamera")) this.#followOther();
+        if (has("layer", "other", "otherFrame", "otherCamera", "mode")) this.#keepApart(changed);
         if (has("mode")) this.modes();
-        if (has("frame", "layer", "other", "otherFrame", "mode", "flicker")) {
+        if (has("frame", "layer", "other", "otherFrame", "otherCamera", "mode", "flicker")) {
             this.session.refresh();
             this.controls();
         }
@@ -114,11 +118,18 @@ export class Page {
         this.stage.refresh();
     }
 
+    /** Another camera gives the other picture. */
+    async #followOther() {
+        await this.session.followOther();
+        this.session.refresh();
+        this.controls();
+    }
+
     /** Two pictures of one frame have different layers: the one that was not chosen gives way. @param {Set<keyof State>} changed */
     #keepApart(changed) {
-        const { mode, layer, other, otherFrame, frame } = this.store.state;
+        const { mode, layer, other, frame } = this.store.state;
         if (mode === "difference" && changed.has("mode")) return this.#beginDifference();
-        if (!TWO.includes(mode) || layer !== other || (otherFrame !== null && otherFrame !== frame)) return;
+        if (!TWO.includes(mode) || layer !== other || this.session.isOtherFrame) return;
         const free = this.session.layersOf(frame).filter((name) => name !== layer);
         const instead = free.find((name) => name === (layer === "color" ? "depth_meters" : "color")) ?? free[0];
         if (instead) this.store.set(changed.has("layer") || !changed.has("other") ? { other: instead } : { layer: instead }, { step: false });
@@ -127,8 +138,8 @@ export class Page {
     /** A difference begins with two layers that can be compared; where the frame has no two, with two frames. */
     #beginDifference() {
         const { layer, other, otherFrame, frame } = this.store.state;
-        const alike = this.session.alikeOf(frame, layer);
-        const isOther = otherFrame !== null && otherFrame !== frame;
+        const alike = this.session.othersOf(true);
+        const isOther = this.session.isOtherFrame;
         if (alike.includes(other) && (other !== layer || isOther)) return;
         const instead = alike.find((name) => name.startsWith(layer) && name !== layer);
         const frames = this.session.frames();
@@ -152,7 +163,7 @@ export class Page {
         const sides = session.sides();
         for (const i of [0, 1]) showLegend(/** @type {HTMLElement} */ (byId(`heading-${i}`).querySelector(".legend")), session, sides[i]);
         showDifferenceLegend(/** @type {HTMLElement} */ (byId("heading-2").querySelector(".legend")), session);
-        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side.frame, side.layer)).find((one) => one) ?? null);
+        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side)).find((one) => one) ?? null);
         byId("busy").hidden = session.complete && !travel.direction;
         byId("busy").textContent = travel.direction && travel.shown > 3 ? `${travel.rate.toFixed(0)} frames/s` : session.complete ? "" : "reading …";
         this.readout();
@@ -170,7 +181,7 @@ export class Page {
         const panel = byId("panel");
         if (this.travel.direction && this.travel.held) return;
         const tab = state.mode === "gallery" ? "filter" : state.tab;
-        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey]);
+        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey, this.pairs.key]);
         if (key === this.panelKey) return;
         const typing = panel.contains(document.activeElement) && document.activeElement?.matches("input");
         if (typing && this.panelTab === tab && this.panelFrame === state.frame) return;
@@ -186,6 +197,7 @@ export class Page {
             objects: () => objectsPanel(session, this.known, () => this.stage.refresh()),
             frame: () => framePanel(session, this.known),
             views: () => viewsPanel(session),
+            pairs: () => this.pairs.show(),
         };
         const { scrollTop } = panel;
         panel.replaceChildren(...lossesOf(session, this.known, tab), ...panels[tab]());
@@ -221,10 +233,10 @@ export class Page {
         byId("heading-1").hidden = !TWO.includes(state.mode);
         byId("heading-2").hidden = state.mode !== "difference";
         byId("flicker").setAttribute("aria-pressed", String(state.flicker));
-        const same = state.otherFrame === null || state.otherFrame === state.frame;
         this.#layers(byId("layer-0"), session.layersOf(state.frame), state.layer);
-        const others = state.mode === "difference" ? session.alikeOf(state.otherFrame ?? state.frame, state.layer) : session.layersOf(state.otherFrame ?? state.frame);
-        this.#layers(byId("layer-1"), others.filter((name) => !same || name !== state.layer), state.other);
+        const others = session.othersOf(state.mode === "difference");
+        this.#layers(byId("layer-1"), others.filter((name) => session.isOtherFrame || name !== state.layer), state.other);
+        byId("other-camera").textContent = state.otherCamera ? `${state.otherCamera} ` : "";
         if (document.activeElement !== byId("frame-1")) byId("frame-1").value = state.otherFrame ?? "";
     }
 
@@ -233,7 +245,7 @@ export class Page {
         const key = `${there}`;
         if (select.dataset.key !== key) {
             select.dataset.key = key;
-            const options = (/** @type {string[]} */ passes) => there.filter((name) => passes.includes(this.session.looks.spec(name).pass)).map((name) => el("option", { value: name }, name));
+            const options = (/** @type {string[]} */ passes) => there.filter((name) => passes.includes(this.session.looks.spec(name).pass)).map((name) => el("option", { value: name }, this.session.looks.title(name)));
             select.replaceChildren(...GROUPS.map(({ name, passes }) => el("optgroup", { label: name }, ...options(passes))).filter((group) => group.children.length));
         }
         select.value = chosen;
@@ -248,7 +260,7 @@ export class Page {
         };
         byId("layer-0").addEventListener("change", choose("layer"));
         byId("layer-1").addEventListener("change", choose("other"));
-        byId("frame-1").addEventListener("change", (/** @type {any} */ e) => store.set({ otherFrame: e.target.value === "" ? null : Math.round(e.target.valueAsNumber) }));
+        byId("frame-1").addEventListener("change", (/** @type {any} */ e) => store.set(e.target.value === "" ? { otherFrame: null, otherCamera: "" } : { otherFrame: Math.round(e.target.valueAsNumber) }));
         for (const button of byId("modes").children) button.addEventListener("click", () => store.set({ mode: button.dataset.mode }));
         for (const tab of byId("tabs").children) tab.addEventListener("click", () => this.tab(tab.dataset.tab));
         resizable(byId("tree"), "right");

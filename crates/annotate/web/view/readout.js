@@ -25,14 +25,15 @@ export function showReadout(element, session, pixel) {
  * @param {import("./session.js").Pixel} pixel
  * @param {number} index
  */
-function layerLine(session, { frame, layer, data }, pixel, index) {
+function layerLine(session, side, pixel, index) {
+    const { frame, layer, data, camera } = side;
     const spec = session.looks.spec(layer);
     const line = el("div", { "data-layer": layer, "data-side": index });
     const place = `${String(pixel.x).padStart(4)}, ${String(pixel.y).padStart(4)}`;
-    line.append(el("span", { class: "quiet" }, index === 0 ? `${place}  ` : " ".repeat(12)), el("b", {}, layer), el("span", { class: "quiet" }, ` #${frame}  `));
+    line.append(el("span", { class: "quiet" }, index === 0 ? `${place}  ` : " ".repeat(12)), el("b", {}, session.looks.title(layer)), el("span", { class: "quiet" }, ` ${camera === session.camera ? "" : `${camera.name} `}#${frame}  `));
     const values = data?.step === 1 ? pixelOf(data, pixel.x, pixel.y) : null;
     if (!data || !values) {
-        line.append(el("span", { class: "quiet" }, session.failureOf(frame, layer)?.error ?? "…"));
+        line.append(el("span", { class: "quiet" }, session.failureOf(side)?.error ?? "…"));
         return line;
     }
     line.append(el("span", { class: "value" }, values.map((value) => exact(value, data.dtype)).join("  ")), el("span", { class: "quiet" }, ` ${spec.unit} ${DTYPES[data.dtype]}`));
@@ -58,8 +59,8 @@ function namesLine(session, pixel) {
     const words = { render_entity_id: "part", semantic: "class", semantic_instance: "instance", material_id: "material" };
     const line = el("div", { class: "names" });
     for (const layer of NAMING) {
-        const data = side && session.layer(side.frame, layer);
-        const id = data?.step === 1 ? pixelOf(data, pixel.x, pixel.y)?.[0] : undefined;
+        const names = side && session.namesOf(side, layer);
+        const id = names ? pixelOf(names, pixel.x, pixel.y)?.[0] : undefined;
         if (id === undefined) continue;
         const name = layer === "semantic_instance" && id < 1 ? "none" : session.looks.name(layer, id);
         line.append(el("span", { class: "quiet" }, `${/** @type {any} */ (words)[layer]} `), el("span", { "data-names": layer }, id > 0 ? `${id} ${name}` : name), "   ");

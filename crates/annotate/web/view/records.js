@@ -2,6 +2,7 @@
 
 import { el, facts } from "../shared/dom.js";
 import { fileUrl, thumbnailUrl } from "./catalogue.js";
+import { captionPart, questionsPart, roomsPart } from "./described.js";
 import { brief, percent } from "./numbers.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -23,6 +24,9 @@ export function framePanel(session, known) {
             ["Split", split?.partition ?? (split?.excluded && `excluded: ${split.excluded}`)],
             ["Gates", entry?.faults.length ? entry.faults.map(faultText).join("; ") : "all passed"],
         ]),
+        ...captionPart(known),
+        ...roomsPart(session),
+        ...(known.sensor_tables.length ? [el("h2", {}, "Readings"), ...known.sensor_tables.map(({ sensor, path }) => el("p", {}, el("a", { href: fileUrl(path), target: "_blank" }, `${sensor}: ${path.split("/").at(-1)}`)))] : []),
         el("h2", {}, "Camera"),
         facts([
             ["Model", projection?.kind],
@@ -52,6 +56,7 @@ export function framePanel(session, known) {
             ...Object.entries(judged.pixels ?? {}).map(([name, share]) => /** @type {[string, string]} */ ([name.replaceAll("_", " "), percent(/** @type {number} */ (share))])),
             ...Object.entries(judged.gates ?? {}).map(([name, value]) => /** @type {[string, string]} */ ([name.replaceAll("_", " "), brief(/** @type {number} */ (value))])),
         ])] : []),
+        ...questionsPart(known),
     ];
 }
 
@@ -92,5 +97,8 @@ export function viewsPanel(session) {
 /** Files that could not be read and that a panel lacks. @param {Session} session @param {import("./catalogue.js").FrameFacts | null} known @param {string} panel */
 export function lossesOf(session, known, panel) {
     const all = [...(session.scene?.problems ?? []), ...(session.camera?.problems ?? []), ...(known?.problems ?? [])];
-    return all.filter((loss) => loss.panel === panel).map(({ error, help }) => el("div", { class: "loss", role: "note" }, el("b", {}, "A file cannot be read"), el("code", {}, error), help));
+    return all.filter((loss) => loss.panel === panel).map(lossNote);
 }
+
+/** @param {import("./catalogue.js").Loss} loss */
+export const lossNote = ({ error, help }) => el("div", { class: "loss", role: "note" }, el("b", {}, "A file cannot be read"), el("code", {}, error), help);

@@ -1,18 +1,19 @@
 // The open dataset, the scene and camera that are shown, and the layers that are needed for it.
 
-import { toast } from "../shared/toast.js";
+import { toast, toastError } from "../shared/toast.js";
+import { areasIn } from "./areas.js";
 import { forget, getCamera, getDataset, getScene } from "./catalogue.js";
 import { differenceOf, isAlike } from "./difference.js";
 import { Loader } from "./loader.js";
 import { Looks } from "./looks.js";
 import { pixelOf } from "./numbers.js";
+import { Tracks } from "./tracks.js";
 
 /** @typedef {import("./catalogue.js").Dataset} Dataset */
 /** @typedef {import("./catalogue.js").Scene} Scene */
 /** @typedef {import("./catalogue.js").Camera} Camera */
 /** @typedef {import("./numbers.js").LayerData} LayerData */
-/** @typedef {{ pixels: number, bounds: [number, number, number, number] }} Area of a number in a layer: its pixels and the box around them */
-/** @typedef {{ frame: number, layer: string, data: LayerData | undefined }} Side what one of two pictures shows */
+/** @typedef {{ camera: Camera, frame: number, layer: string, data: LayerData | undefined }} Side what one of two pictures shows */
 /** @typedef {{ x: number, y: number, side: number }} Pixel under the cursor; side 0 is the left picture */
 
 /** Layers that give names to a pixel, in the order in which they are told. */
@@ -36,18 +37,19 @@ export class Session {
         this.scene = null;
         /** @type {Camera | null} */
         this.camera = null;
+        /** The camera of the other picture, where that is another. @type {Camera | null} */
+        this.otherCamera = null;
         /** @type {{ message: string, help: string } | null} */
         this.problem = null;
         this.direction = 1;
         this.hoveredInstance = 0;
         /** True while frames go by: the layers that give names to pixels are fetched when they stop. */
         this.travelling = false;
-        /** @type {WeakMap<LayerData, Map<number, Area>>} */
-        this.counted = new WeakMap();
         /** @type {() => void} */
         this.changed = () => {};
         /** @type {() => void} */
         this.entered = () => {};
+        this.tracks = new Tracks(this);
         this.loader = new Loader(() => this.changed());
     }
 
@@ -70,9 +72,10 @@ export class Session {
             if (this.store.state.scene !== state.scene || this.store.state.camera !== state.camera) return;
             this.scene = scene;
             this.camera = camera;
+            await this.followOther();
             const lost = scene.problems.find((one) => one.panel === "views");
             this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
-            this.looks.enter(scene);
+            this.looks.enter(scene, [camera, this.otherCamera]);
             const near = this.#nearest(state);
             if (state.frame >= 0 && near.frame !== state.frame) toast(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
             this.store.set({ scene: scene.name, camera: name ?? "", ...near }, { step: false });
@@ -85,10 +88,32 @@ export class Session {
         this.refresh();
     }
 
+    /** Opens the camera of the other picture, where that is not the one that is open. */
+    async followOther() {
+        const { scene, otherCamera } = this.store.state;
+        if (!otherCamera) return void (this.otherCamera = null);
+        try {
+            const camera = await getCamera(this.scene?.name || scene, otherCamera);
+            if (this.store.state.otherCamera !== otherCamera) return;
+            this.otherCamera = camera;
+            if (this.scene) this.looks.enter(this.scene, [this.camera, camera]);
+        } catch (error) {
+            toastError(error);
+            this.store.set({ otherCamera: "", otherFrame: null }, { step: false });
+        }
+    }
+
+    /** The other picture is of another frame. */
+    get isOtherFrame() {
+        const { frame, otherFrame, otherCamera } = this.store.state;
+        return otherCamera !== "" || (otherFrame !== null && otherFrame !== frame);
+    }
+
     /** Reads everything anew. */
     async reload() {
         forget();
         this.loader.forget();
+        this.tracks.forget();
         this.dataset = await getDataset();
         await this.follow();
     }
@@ -114,36 +139,39 @@ export class Session {
         return (this.camera?.frames ?? []).filter((frame) => frame.layers.length).map(({ frame }) => frame);
     }
 
-    /** The names of a frame's layers. @param {number} frame */
-    layersOf(frame) {
-        const entry = this.camera?.frames.find((one) => one.frame === frame);
-        return (entry?.layers ?? []).map((at) => this.dataset.layers[at].name);
+    /** The names of a frame's layers, and of what was derived from it. @param {number} frame @param {Camera | null} [camera] */
+    layersOf(frame, camera = this.camera) {
+        const entry = camera?.frames.find((one) => one.frame === frame);
+        if (!camera || !entry) return [];
+        return [...entry.layers.map((at) => this.dataset.layers[at].name), ...entry.derived.map((at) => camera.derived[at].name)];
     }
 
-    /** @param {number} frame @param {string} layer */
-    #place(frame, layer) {
-        return { scene: this.scene?.name ?? "", camera: this.camera?.name ?? "", frame, layer };
+    /** @param {number} frame @param {string} layer @param {Camera | null} [camera] */
+    #place(frame, layer, camera = this.camera) {
+        return { scene: this.scene?.name ?? "", camera: camera?.name ?? "", frame, layer };
     }
 
-    /** @param {number} frame @param {string} layer */
-    layer(frame, layer) {
-        return this.loader.get(this.#place(frame, layer));
+    /** @param {number} frame @param {string} layer @param {Camera | null} [camera] */
+    layer(frame, layer, camera = this.camera) {
+        return this.loader.get(this.#place(frame, layer, camera));
     }
 
-    /** @param {number} frame @param {string} layer */
-    failureOf(frame, layer) {
-        if (this.camera && !this.layersOf(frame).includes(layer)) return { error: `Frame ${frame} has no ${layer}.`, help: "" };
-        return this.loader.failure(this.#place(frame, layer));
+    /** Why what a side is to show cannot be had. @param {Side} side */
+    failureOf({ camera, frame, layer }) {
+        if (!this.layersOf(frame, camera).includes(layer)) return { error: `Frame ${frame} has no ${this.looks.title(layer)}.`, help: "" };
+        return this.loader.failure(this.#place(frame, layer, camera));
     }
 
     /** What the pictures show, left first. @returns {Side[]} */
     sides() {
-        const { frame, layer, other, otherFrame, mode } = this.store.state;
+        const { frame, layer, other, otherFrame, otherCamera, mode } = this.store.state;
         if (!this.camera) return [];
-        const first = { frame, layer, data: this.layer(frame, layer) };
-        if (!TWO.includes(mode)) return [first];
+        const first = { camera: this.camera, frame, layer, data: this.layer(frame, layer) };
+        const camera = otherCamera ? this.otherCamera : this.camera;
+        // The other camera may be on its way.
+        if (!TWO.includes(mode) || !camera) return [first];
         const second = otherFrame ?? frame;
-        return [first, { frame: second, layer: other, data: this.layer(second, other) }];
+        return [first, { camera, frame: second, layer: other, data: this.layer(second, other, camera) }];
     }
 
     /** The first picture minus the second; null where that is not to be shown, or not possible yet. */
@@ -158,16 +186,18 @@ export class Session {
         return isAlike(this.looks.spec(a), this.looks.spec(b));
     }
 
-    /** The layers of a frame from which another layer can be subtracted. @param {number} frame @param {string} layer */
-    alikeOf(frame, layer) {
-        return this.layersOf(frame).filter((name) => this.#alike(name, layer));
+    /** The layers that the other picture can have. @param {boolean} alike only those that can be subtracted from that of the first */
+    othersOf(alike) {
+        const { frame, otherFrame, otherCamera, layer } = this.store.state;
+        const there = this.layersOf(otherFrame ?? frame, otherCamera ? this.otherCamera : this.camera);
+        return alike ? there.filter((name) => this.#alike(name, layer)) : there;
     }
 
     /** Why there is no difference of the two pictures; null where there is one or none is asked for. */
     get noDifference() {
         const [first, second] = this.sides();
         if (this.store.state.mode !== "difference" || !second) return null;
-        const words = (/** @type {string} */ layer) => `${layer} has ${this.looks.spec(layer).channels} per pixel${this.looks.spec(layer).unit ? ` in ${this.looks.spec(layer).unit}` : ""}`;
+        const words = (/** @type {string} */ layer) => `${this.looks.title(layer)} has ${this.looks.spec(layer).channels} per pixel${this.looks.spec(layer).unit ? ` in ${this.looks.spec(layer).unit}` : ""}`;
         if (!this.#alike(first.layer, second.layer)) return { error: "These layers hold different numbers.", help: `${words(first.layer)}, ${words(second.layer)}. Choose two of the same kind, or two frames.` };
         const whole = first.data?.step === 1 && second.data?.step === 1;
         return whole && !this.difference() ? { error: "The two pictures have different sizes.", help: `${first.data?.size[1]} × ${first.data?.size[0]} and ${second.data?.size[1]} × ${second.data?.size[0]} pixels.` } : null;
@@ -175,7 +205,7 @@ export class Session {
 
     /** Everything that is shown is here in full. */
     get complete() {
-        return this.sides().every((side) => side.data?.step === 1 || this.failureOf(side.frame, side.layer));
+        return this.sides().every((side) => side.data?.step === 1 || this.failureOf(side));
     }
 
     /** Tells the loader what is wanted: what is shown, what comes next, and what gives names to pixels. */
@@ -191,13 +221,15 @@ export class Session {
         const near = [...Array(AHEAD).keys()].map((i) => (i + 1) * this.direction).concat([...Array(BEHIND).keys()].map((i) => -(i + 1) * this.direction));
         const neighbours = near.map((step) => frames[at + step]).filter((one) => one !== undefined);
         const moving = sides.filter((_, i) => i === 0 || otherFrame === null);
-        const there = this.layersOf(frame);
+        const ahead = (/** @type {number[]} */ frames) => frames.flatMap((one) => moving.filter((side) => this.layersOf(one).includes(side.layer)).map((side) => this.#place(one, side.layer)));
+        const named = (/** @type {string[]} */ layers) => NAMING.filter((layer) => !this.travelling && layers.includes(layer));
+        const shown = sides.filter((side) => this.layersOf(side.frame, side.camera).includes(side.layer));
         this.loader.want([
-            ...sides.map((side) => this.#place(side.frame, side.layer)),
-            ...neighbours.slice(0, 2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
-            ...NAMING.filter((layer) => !this.travelling && there.includes(layer)).map((layer) => this.#place(frame, layer)),
-            ...neighbours.slice(2).flatMap((one) => moving.map((side) => this.#place(one, side.layer))),
-        ].filter((place) => this.layersOf(place.frame).includes(place.layer)));
+            ...shown.map((side) => this.#place(side.frame, side.layer, side.camera)),
+            ...ahead(neighbours.slice(0, 2)),
+            ...named(this.layersOf(frame)).map((layer) => this.#place(frame, layer)),
+            ...ahead(neighbours.slice(2)),
+        ]);
         this.changed();
     }
 
@@ -210,58 +242,43 @@ export class Session {
         if (next !== undefined) this.store.set({ frame: next }, { step: false });
     }
 
-    /** The instances of a frame's pixels. @param {number} frame */
-    idsOf(frame) {
-        return this.layer(frame, "semantic_instance");
+    /** The instances of a frame's pixels. @param {number} frame @param {Camera | null} [camera] */
+    idsOf(frame, camera = this.camera) {
+        return this.layer(frame, "semantic_instance", camera);
     }
 
-    /** How many pixels a frame has of each number of a layer, and the box around them. @param {number} frame @param {string} layer */
-    areasOf(frame, layer) {
-        const data = this.layer(frame, layer);
-        if (!data || data.step !== 1 || data.shape[2] !== 1) return null;
-        let areas = this.counted.get(data);
-        if (!areas) {
-            areas = new Map();
-            const [height, width] = data.shape;
-            /** @type {Area | undefined} */
-            let area;
-            let last = NaN;
-            for (let y = 0, i = 0; y < height; y++) {
-                for (let x = 0; x < width; x++, i++) {
-                    const id = data.values[i];
-                    if (id !== last) {
-                        last = id;
-                        area = areas.get(id);
-                        if (!area) areas.set(id, (area = { pixels: 0, bounds: [x, y, x + 1, y + 1] }));
-                    }
-                    const { bounds } = /** @type {Area} */ (area);
-                    /** @type {Area} */ (area).pixels++;
-                    if (x < bounds[0]) bounds[0] = x;
-                    if (x >= bounds[2]) bounds[2] = x + 1;
-                    bounds[3] = y + 1;
-                }
-            }
-            this.counted.set(data, areas);
-        }
-        return areas;
+    /** The picture has the pixels of the frame, which a lidar's has not. @param {Side} side */
+    hasPixelsOfFrame({ camera: { projection }, data }) {
+        return !projection || !data || (data.size[0] === projection.height && data.size[1] === projection.width);
     }
 
-    /** The box around the visible pixels of an instance. @param {number} frame @param {number} id */
-    boundsOf(frame, id) {
-        return this.areasOf(frame, "semantic_instance")?.get(id)?.bounds ?? null;
+    /** A layer that names the pixels of what a side shows: of the same frame, and of the same pixels. @param {Side} side @param {string} layer */
+    namesOf({ camera, frame, data }, layer) {
+        const names = this.layer(frame, layer, camera);
+        return names?.step === 1 && data && names.size.every((length, i) => length === data.size[i]) ? names : null;
     }
 
-    /** The instances that a frame shows, the largest first. @param {number} frame */
-    instancesOf(frame) {
-        const areas = [...(this.areasOf(frame, "semantic_instance") ?? [])].filter(([id]) => id > 0);
+    /** How many pixels a frame has of each number of a layer, and the box around them. @param {number} frame @param {string} layer @param {Camera | null} [camera] */
+    areasOf(frame, layer, camera = this.camera) {
+        return areasIn(this.layer(frame, layer, camera));
+    }
+
+    /** The box around the visible pixels of an instance. @param {number} frame @param {number} id @param {Camera} camera */
+    boundsOf(frame, id, camera) {
+        return this.areasOf(frame, "semantic_instance", camera)?.get(id)?.bounds ?? null;
+    }
+
+    /** The instances that a frame shows, the largest first. @param {number} frame @param {Camera} camera */
+    instancesOf(frame, camera) {
+        const areas = [...(this.areasOf(frame, "semantic_instance", camera) ?? [])].filter(([id]) => id > 0);
         return areas.sort((a, b) => b[1].pixels - a[1].pixels).map(([id]) => id);
     }
 
     /** @param {Pixel | null} pixel */
     #instanceAt(pixel) {
         const side = pixel && this.sides()[pixel.side];
-        const ids = side && this.idsOf(side.frame);
-        return (ids?.step === 1 && pixelOf(ids, pixel?.x ?? 0, pixel?.y ?? 0)?.[0]) || 0;
+        const ids = side && this.namesOf(side, "semantic_instance");
+        return (ids && pixelOf(ids, pixel?.x ?? 0, pixel?.y ?? 0)?.[0]) || 0;
     }
 
     /** Marks the instance under the cursor. @param {Pixel | null} pixel */

@@ -1,7 +1,7 @@
 // GPU programs that turn stored numbers into colours. `kind` is the index of the layer's kind in KINDS.
 
 /** @type {import("./kinds.js").Kind[]} */
-export const KINDS = ["radiance", "albedo", "scalar", "direction", "stretched", "flow", "texture", "id", "code"];
+export const KINDS = ["radiance", "albedo", "scalar", "direction", "stretched", "flow", "texture", "id", "code", "display"];
 
 export const VERTEX = `#version 300 es
 void main() {
@@ -79,6 +79,7 @@ bool finite(float v) { return !(isnan(v) || isinf(v)); }
 
 vec3 shown(vec4 v, vec2 at) {
     if (kind == 7 || kind == 8) return listed(int(v.r));
+    if (kind == 9) return v.rgb / 255.0;
     if (kind == 0) return finite(v.r + v.g + v.b) ? toned(v.rgb) : nothing(at);
     if (kind == 1) return min(gamma_curve(v.rgb), 1.0);
     if (!finite(v.r)) return nothing(at);
@@ -96,7 +97,7 @@ void main() {
     vec2 at = (device - origin) / zoom;
     if (at.x < 0.0 || at.y < 0.0 || at.x >= size.x || at.y >= size.y) discard;
     vec3 rgb = vec3(0.0);
-    if (zoom < 0.75 && kind < 2 && texel == 1.0) {
+    if (zoom < 0.75 && (kind < 2 || kind == 9) && texel == 1.0) {
         // Shown smaller than it is: the mean of the colours that fall on this pixel, which avoids aliasing.
         int n = min(int(ceil(1.0 / zoom)), 4);
         vec2 first = at - 0.5 / zoom;

@@ -33,6 +33,8 @@ export class Stage {
         this.overlay = new Overlay(above);
         /** @type {Pixel | null} */
         this.pixel = null;
+        /** Where the cursor is over the element, CSS pixels. @type {[number, number] | null} */
+        this.cursor = null;
         /** @type {(pixel: Pixel | null) => void} */
         this.hovered = () => {};
         /** @type {(sides: Side[]) => void} */
@@ -104,12 +106,15 @@ export class Stage {
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         const { state } = this.store;
         const sides = this.session.sides();
+        const size = String(this.pictureSize());
         for (const [i, side] of sides.entries()) {
             const before = this.last[i];
             // The last picture stays until the next one is here, so that nothing flickers.
             if (side.data) this.last[i] = /** @type {any} */ (side);
-            else if (before && this.session.failureOf(side.frame, side.layer)) delete this.last[i];
+            else if (before && this.session.failureOf(side)) delete this.last[i];
         }
+        // A picture of another size has another pixel under a cursor that rests.
+        if (this.cursor && String(this.pictureSize()) !== size) this.#hover(this.cursor);
         this.painter.begin(getComputedStyle(this.element).backgroundColor);
         const panes = this.panes();
         const places = panes.map((pane) => this.placement(pane));
@@ -119,7 +124,7 @@ export class Stage {
             // Of a difference one picture is shown: it, or the two in turn.
             if (!shown || (state.mode === "difference" && i !== (state.flicker ? this.turn : 0))) continue;
             if (difference) {
-                this.painter.draw(this.#differencePicture(difference, shown.frame), panes[0], places[0]);
+                this.painter.draw(this.#differencePicture(difference, shown), panes[0], places[0]);
                 continue;
             }
             const at = state.mode === "side" ? i : 0;
@@ -147,9 +152,10 @@ export class Stage {
     }
 
     /** @param {Side & { data: LayerData }} side @returns {import("./painter.js").Picture} */
-    #picture({ frame, layer, data }) {
+    #picture(side) {
+        const { camera, frame, layer, data } = side;
         const { state } = this.store;
-        const { looks, camera } = this.session;
+        const { looks } = this.session;
         const look = looks.look(layer);
         return {
             data,
@@ -157,24 +163,23 @@ export class Stage {
             table: looks.table(layer, state.maps[layer] ?? look.map),
             range: rangeOf(look, data.summary, state.ranges[layer], layer in state.logs),
             logarithm: layer in state.logs,
-            exposure: camera ? exposureOf(state, camera, frame, data.summary) : 1,
+            exposure: exposureOf(state, camera, frame, data.summary),
             tone: TONES.indexOf(state.tone),
-            ...this.#mark(frame),
+            ...this.#mark(side),
         };
     }
 
-    /** @param {LayerData} data @param {number} frame @returns {import("./painter.js").Picture} */
-    #differencePicture(data, frame) {
+    /** @param {LayerData} data @param {Side} side @returns {import("./painter.js").Picture} */
+    #differencePicture(data, side) {
         const { map, range } = lookOfDifference(data);
-        return { data, kind: "scalar", table: this.session.looks.mapTable(map), range, logarithm: false, exposure: 1, tone: 0, ...this.#mark(frame) };
+        return { data, kind: "scalar", table: this.session.looks.mapTable(map), range, logarithm: false, exposure: 1, tone: 0, ...this.#mark(side) };
     }
 
-    /** What stands out in a picture: an instance, or all of a class. @param {number} frame */
-    #mark(frame) {
+    /** What stands out in a picture: an instance, or all of a class. @param {Side} side */
+    #mark(side) {
         const { session } = this;
         const ofClass = !session.marked && this.store.state.class > 0;
-        const ids = ofClass ? session.layer(frame, "semantic") : session.idsOf(frame);
-        return { ids: ids?.step === 1 ? ids : null, marked: ofClass ? this.store.state.class : session.marked, alone: !session.hoveredInstance, accent: [1, 0.72, 0.2] };
+        return { ids: session.namesOf(side, ofClass ? "semantic" : "semantic_instance"), marked: ofClass ? this.store.state.class : session.marked, alone: !session.hoveredInstance, accent: [1, 0.72, 0.2] };
     }
 
     /** The canvases of what is shown, painted in this moment. */
@@ -250,7 +255,7 @@ export class Stage {
                 else this.panBy(x - drag.x, y - drag.y);
                 [drag.x, drag.y] = [x, y];
             }
-            this.#hover(this.pixelAt(x, y));
+            this.#hover([x, y]);
         });
         element.addEventListener("pointerup", () => {
             if (drag && !drag.moved) this.session.pin(this.pixel);
@@ -260,8 +265,10 @@ export class Stage {
         element.addEventListener("dblclick", () => this.store.set({ zoom: 0, x: 0.5, y: 0.5 }));
     }
 
-    /** @param {Pixel | null} pixel */
-    #hover(pixel) {
+    /** @param {[number, number] | null} cursor */
+    #hover(cursor) {
+        this.cursor = cursor;
+        const pixel = cursor && this.pixelAt(...cursor);
         const [height, width] = this.pictureSize();
         const inside = pixel && pixel.x >= 0 && pixel.y >= 0 && pixel.x < width && pixel.y < height;
         this.pixel = pixel && inside ? { x: Math.floor(pixel.x), y: Math.floor(pixel.y), side: pixel.side } : null;

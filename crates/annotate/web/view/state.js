@@ -9,6 +9,7 @@
  * @property {string} layer of the (left) picture
  * @property {string} other layer of the right picture
  * @property {number | null} otherFrame frame of the right picture; null: the same
+ * @property {string} otherCamera camera of the right picture; empty: the same
  * @property {Mode} mode
  * @property {boolean} flicker the two pictures of a difference are shown in turn
  * @property {number} wipe share of the width that the left picture has
@@ -23,6 +24,7 @@
  * @property {Record<string, true>} logs layers whose colours go by the logarithm
  * @property {boolean} boxes of instances are always drawn
  * @property {boolean} names stand on the boxes
+ * @property {boolean} tracks points that are followed are drawn over the picture
  * @property {number} class that alone is shown in colour; 0: all
  * @property {number} instance that stays marked; 0: none
  * @property {string} tab of the panel on the right
@@ -39,8 +41,8 @@
 
 /** @type {State} */
 const BEGINNING = {
-    scene: "", camera: "", frame: -1, layer: "color", other: "depth_meters", otherFrame: null, mode: "one", flicker: false, wipe: 0.5, zoom: 0, x: 0.5, y: 0.5,
-    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, class: 0, instance: 0, tab: "display", view: "",
+    scene: "", camera: "", frame: -1, layer: "color", other: "depth_meters", otherFrame: null, otherCamera: "", mode: "one", flicker: false, wipe: 0.5, zoom: 0, x: 0.5, y: 0.5,
+    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, tracks: false, class: 0, instance: 0, tab: "display", view: "",
     sort: "", down: false, within: "all", show: "rendered", gate: "", law: "", shows: 0, limits: {},
 };
 
@@ -49,13 +51,13 @@ const CHOICES = {
     mode: ["gallery", "one", "side", "wipe", "difference", "space"],
     tone: ["hypersim", "filmic", "linear"],
     expose: ["frame", "trajectory", "fixed"],
-    tab: ["display", "objects", "frame", "views"],
+    tab: ["display", "objects", "frame", "views", "pairs"],
     within: ["all", "scene", "camera"],
     show: ["rendered", "rejected", "every"],
 };
 
 /** Words whose change is a step that Back takes back; others change what stands there. */
-const STEPS = ["scene", "camera", "frame", "layer", "other", "otherFrame", "mode", "sort", "within", "show", "gate", "law", "shows"];
+const STEPS = ["scene", "camera", "frame", "layer", "other", "otherFrame", "otherCamera", "mode", "sort", "within", "show", "gate", "law", "shows"];
 
 /** Words that stand in the address also where they are as at the beginning, if they say anything. */
 const PLACE = ["scene", "camera", "frame", "layer"];

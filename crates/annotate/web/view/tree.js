@@ -28,7 +28,7 @@ export class Tree {
     #open(scene, camera = "") {
         const { store } = this.session;
         const within = store.state.mode !== "gallery" ? store.state.within : camera ? "camera" : "scene";
-        store.set({ scene, camera, otherFrame: null, instance: 0, view: "", within });
+        store.set({ scene, camera, otherFrame: null, otherCamera: "", instance: 0, view: "", within });
     }
 
     enter() {

@@ -22,7 +22,7 @@ pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisA
 pub use shell::{CompletionsArgs, ManArgs};
 pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
 pub use values::parse_size;
-pub use views::{DescribeArgs, FlowArgs, PairsArgs, RelightArgs, SenseArgs, SurfacesArgs, TracksArgs};
+pub use views::{DescribeArgs, FlowArgs, LayoutArgs, PairsArgs, RelightArgs, SenseArgs, SurfacesArgs, TracksArgs};
 
 use crate::vray::VrayArgs;
 use clap::{Parser, Subcommand};
@@ -102,6 +102,8 @@ pub enum Verb {
     Tracks(TracksArgs),
     /// Every surface along the ray of each pixel, front and back, and what is behind glass as glass bends it
     Surfaces(SurfacesArgs),
+    /// Rooms, walls, doors and windows of scenes that came without a plan, and which plane of them each pixel shows
+    Layout(LayoutArgs),
     /// What things are, how they stand to each other, and that in words: relations, captions, questions with answers
     Describe(DescribeArgs),
     /// What cameras and depth sensors would make of the frames; renders nothing

@@ -121,6 +121,23 @@ pub struct SurfacesArgs {
     pub table: CamerasArg,
 }
 
+/// `layout`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  enfilade layout out\n\nNothing is rendered. layout.json and layout.svg in _detail of each scene are fitted to its walls, floors, \
+    ceilings, doors and windows\nwhere it came without them; _detail/CAMERA/planes has the plane of each pixel. docs/structure.md says more."
+)]
+pub struct LayoutArgs {
+    /// The dataset's folder
+    pub dataset: PathBuf,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub chosen: FramesArg,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub table: CamerasArg,
+}
+
 /// `describe`.
 #[derive(Args)]
 #[command(after_help = "Example:\n  enfilade describe out\n\nNothing is rendered. _detail of each scene then has what its instances are \

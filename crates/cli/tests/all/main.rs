@@ -8,6 +8,7 @@ mod farm;
 mod farm_program;
 mod hypersim;
 mod ingest;
+mod layout;
 mod look;
 mod pairs;
 mod relight;

@@ -12,7 +12,7 @@ use crate::calibration::{Calibration, row_major};
 use crate::depth::{DEPTH, millimetres, planar_m};
 use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
-use crate::mesh::{InstanceMesh, instance_meshes, missing_mesh_file};
+use crate::mesh::{SurfaceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_png, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{AmodalMasks, DatasetError, InstanceView, PixelArea};
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 struct Object {
     id: u32,
     shape: OrientedBox,
-    mesh: Option<InstanceMesh>,
+    mesh: Option<SurfaceMesh>,
 }
 
 #[derive(Serialize)]

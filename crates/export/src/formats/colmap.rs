@@ -1,4 +1,7 @@
-//! COLMAP: `<scene>/sparse/0/{cameras,images,points3D}` beside `<scene>/images/<camera>/`, and the binary form of the three files.
+//! COLMAP: `<scene>/sparse/0/{cameras,images,points3D}` beside `<scene>/images/`, and the binary form of the three files.
+//!
+//! Images lie side by side and their names have no other dot: programs for Gaussian splatting take the last part of a name, up to its first
+//! dot, and VGGT takes every entry of `images/` for a picture.
 //!
 //! Poses are world to camera with OpenCV's axes as quaternion (w, x, y, z) and translation in metres; the world is right-handed with z
 //! up. Image coordinates count from the upper left corner of the image, so pixel centres lie at halves, in COLMAP as here. Points lie on
@@ -86,7 +89,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, encode: f
 }
 
 fn name(view: View<'_>) -> String {
-    format!("{}/frame.{:04}.png", view.track.name, view.frame())
+    format!("{}.png", view.file_stem())
 }
 
 fn camera(selected: &SelectedFrames<'_>, track: &Track) -> Result<CameraEntry, ExportError> {

@@ -8,7 +8,7 @@ use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::export_folder::ExportFolder;
 use crate::instances::{Instance, instances};
-use crate::mesh::{InstanceMesh, instance_meshes, missing_mesh_file};
+use crate::mesh::{SurfaceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_jpeg, grey8_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_dataset::{InstanceView, Partition};
@@ -113,7 +113,7 @@ fn write_models(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,
     scene: &str,
-    meshes: BTreeMap<i16, InstanceMesh>,
+    meshes: BTreeMap<i16, SurfaceMesh>,
 ) -> Result<BTreeMap<i16, Model>, ExportError> {
     let labels = selected.labels(scene)?;
     let takes_part = |number: i16| {
@@ -121,13 +121,13 @@ fn write_models(
         parts.into_iter().any(|part| category_from_nyu40(part.semantic).is_some())
     };
     let wanted: Vec<_> = meshes.into_iter().filter(|(number, _)| takes_part(*number)).collect();
-    let one = |(number, mesh): (i16, InstanceMesh)| Ok(write_model(out, scene, number, mesh)?.map(|model| (number, model)));
+    let one = |(number, mesh): (i16, SurfaceMesh)| Ok(write_model(out, scene, number, mesh)?.map(|model| (number, model)));
     let written: Result<Vec<_>, ExportError> = wanted.into_par_iter().map(one).collect();
     Ok(written?.into_iter().flatten().collect())
 }
 
 /// Writes a model and its voxels; `None` when the mesh has no extent.
-fn write_model(out: &ExportFolder, scene: &str, number: i16, mesh: InstanceMesh) -> Result<Option<Model>, ExportError> {
+fn write_model(out: &ExportFolder, scene: &str, number: i16, mesh: SurfaceMesh) -> Result<Option<Model>, ExportError> {
     let (min, max) = mesh.vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let center = 0.5 * (min + max);
     let meters_per_unit = 2.0 * mesh.vertices.iter().map(|v| v.distance(center)).fold(0.0, f64::max);

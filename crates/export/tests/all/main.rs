@@ -12,5 +12,6 @@ mod layouts;
 mod pix3d;
 mod readers;
 mod round_trips;
+mod scannet;
 mod scene_gltf;
 mod wai;

@@ -181,8 +181,8 @@ def colmap():
         scene = os.path.basename(os.path.dirname(os.path.dirname(folder)))
         assert model.num_images() == sum(at[0] == scene for at in record())
         for image in model.images.values():
-            camera, name = image.name.split("/")
-            origin, rotation = pose(scene, camera, int(name.split(".")[1]))
+            camera, number = image.name.removesuffix(".png").rsplit("_", 1)
+            origin, rotation = pose(scene, camera, int(number))
             found = image.cam_from_world() if callable(image.cam_from_world) else image.cam_from_world
             assert np.allclose(found.rotation.matrix(), (rotation @ FLIP).T, atol=1e-9)
             assert np.allclose(found.inverse().translation, origin, atol=1e-9)
@@ -237,7 +237,43 @@ def scannet():
             assert labels is None or np.array_equal(picture(f"{folder}/{kind}/{frame}.png"), np.maximum(labels, 0))
         if layer(scene, camera, frame, "color") is not None:
             assert picture(f"{folder}/color/{frame}.jpg").shape == (*depth.shape, 3)
-    return f"{len(record())} frames"
+    meshes = sum(scannet_mesh(scene, camera) for scene, camera in {(scene, camera) for scene, camera, _ in record()})
+    return f"{len(record())} frames, {meshes} meshes"
+
+
+def scannet_mesh(scene, camera):
+    """By the rules of ScanNet's own scripts: groups of segments, and the table, say what the surface is that frames show there."""
+    scan = f"{EXPORT}/scans/{scene}_{camera}/{scene}_{camera}"
+    if not os.path.exists(f"{scan}_vh_clean_2.ply"):
+        return 0
+    with open(f"{scan}_vh_clean_2.ply", "rb") as file:
+        header, body = file.read().split(b"end_header\n", 1)
+    vertices = int(header.split(b"element vertex ")[1].split(b"\n")[0])
+    kind = np.dtype([("at", "<f4", 3), ("rgba", "u1", 4)])
+    positions = np.frombuffer(body, kind, vertices)["at"].astype(float)
+    with open(f"{scan}_vh_clean_2.0.010000.segs.json") as file:
+        segments = np.array(json.load(file)["segIndices"])
+    with open(f"{scan}.aggregation.json") as file:
+        groups = json.load(file)["segGroups"]
+    with open(f"{EXPORT}/scannetv2-labels.combined.tsv") as file:
+        number = {row["raw_category"]: int(row["nyu40id"]) for row in csv.DictReader(file, delimiter="\t")}
+    assert len(segments) == vertices
+    labels, instances = np.zeros(vertices, int), np.full(vertices, -1)
+    for group in groups:
+        inside = np.isin(segments, group["segments"])
+        labels[inside], instances[inside] = number[group["label"]], group.get("instance", -1)
+    for frame in [at[2] for at in record() if at[:2] == (scene, camera)]:
+        seen, semantic, numbers = (layer(scene, camera, frame, name) for name in ("position", "semantic", "semantic_instance"))
+        seen = seen * metres(scene)
+        # The planes of the tests' frames go on where their mesh ends.
+        inside = np.all((seen >= positions.min(axis=0) - 0.001) & (seen <= positions.max(axis=0) + 0.001), axis=-1)
+        labelled = inside & (semantic > 0)
+        for label, instance in set(zip(semantic[labelled].tolist(), numbers[labelled].tolist())):
+            pixels = seen[(semantic == label) & (numbers == instance) & labelled][::7]
+            of_it = positions[(labels == label) & (instances == instance)]
+            # Within a triangle whose sides are 5 cm no point is further from a corner than 5 cm / sqrt(3).
+            assert all(np.linalg.norm(of_it - pixel, axis=1).min() < 0.0295 for pixel in pixels), (label, instance)
+    return 1
 
 
 def rotation(qx, qy, qz, qw):

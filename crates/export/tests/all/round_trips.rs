@@ -62,7 +62,7 @@ fn colmaps_tracks_join_points_with_the_pixels_that_show_them() {
     let cameras = read("cameras.bin");
     let mut bytes = Bytes(&cameras);
     assert_eq!(bytes.u64(), 2);
-    assert_eq!((bytes.u32(), bytes.u32(), bytes.u64(), bytes.u64()), (1, 1, 40, 30));
+    assert_eq!((bytes.u32(), bytes.u32(), bytes.u64(), bytes.u64()), (1, 1, 40, 30), "a plain pinhole is PINHOLE, model 1");
     let k = bytes.doubles(4);
     assert_eq!(k, [33.0, 34.5, 19.25, 15.75]);
     let (images, points) = (read("images.bin"), read("points3D.bin"));
@@ -70,7 +70,8 @@ fn colmaps_tracks_join_points_with_the_pixels_that_show_them() {
     let mut positions: BTreeMap<u64, (DVec3, Vec<(u32, u32)>)> = BTreeMap::new();
     for _ in 0..bytes.u64() {
         let (id, position) = (bytes.u64(), DVec3::from_slice(&bytes.doubles(3)));
-        let _color: [u8; 3] = bytes.take();
+        let color: [u8; 3] = bytes.take();
+        assert!(color.iter().any(|&channel| channel > 0), "points have colours");
         assert_eq!(bytes.f64(), 0.0, "error");
         let track = (0..bytes.u64()).map(|_| (bytes.u32(), bytes.u32())).collect();
         positions.insert(id, (position, track));
@@ -94,7 +95,13 @@ fn colmaps_tracks_join_points_with_the_pixels_that_show_them() {
         }
     }
     assert!(bytes.0.is_empty());
-    assert_eq!(names, ["cam_00/frame.0000.png", "cam_00/frame.0001.png", "cam_00/frame.0003.png", "cam_01/frame.0000.png"]);
+    assert_eq!(names, ["cam_00_0000.png", "cam_00_0001.png", "cam_00_0003.png", "cam_01_0000.png"]);
+    // Gaussian splatting's first loader looks for the last part of a name in `images/`, and calls a picture what is before the first dot.
+    let mut stems: Vec<&str> = names.iter().map(|name| name.rsplit('/').next().unwrap().split('.').next().unwrap()).collect();
+    stems.dedup();
+    assert_eq!(stems.len(), names.len());
+    let entries: Vec<_> = std::fs::read_dir(out.join("room/images")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(entries.len() == names.len() && entries.iter().all(|path| path.is_file()), "{entries:?}");
     assert_eq!(sightings, positions.values().map(|(_, track)| track.len()).sum::<usize>());
     assert!(sightings > 2 * positions.len(), "most points are seen by several frames: {sightings} of {}", positions.len());
 }

@@ -108,6 +108,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().chain(&OBJECTS).map(|file| layout.mesh_file(name, file)));
+    job.dataset.forget_planes(name).map_err(Error::stage)?;
     let drawn = [layout.structure(name), layout.structure_plan(name)];
     match &structure {
         Some(structure) => {

@@ -57,6 +57,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     for (done, (camera, frame)) in frames.iter().enumerate() {
         if job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
             job.dataset.forget_surfaces(&job.scene.name, camera).map_err(Error::stage)?;
+            job.dataset.forget_planes(&job.scene.name).map_err(Error::stage)?;
             label_frame(job, camera, *frame, &known, &hash)?;
         }
         cx.progress("frames", done as u64 + 1, frames.len() as u64);

@@ -45,7 +45,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     if rendered > 0 {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
-        job.dataset.forget_words(&job.scene.name).map_err(Error::stage)?;
         job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
     }
     list_fixtures(job)?;
@@ -312,7 +311,6 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         }
     }
     if is_removed {
-        job.dataset.forget_words(name).map_err(Error::stage)?;
         job.dataset.forget_derived(name).map_err(Error::stage)?;
     }
     Ok(())

@@ -7,6 +7,7 @@ mod damage;
 mod demo;
 mod gates;
 mod intake;
+mod layouts;
 mod places;
 mod presets;
 mod rooms;

@@ -1,0 +1,162 @@
+//! ScanNet's exported scans: `scans/<scan>/{color,depth,pose,intrinsic,label-filt,instance-filt}`, and the mesh of each with its labels.
+//!
+//! Depth is planar, 16-bit PNG in millimetres, 0 for none. `pose/N.txt` is camera to world with OpenCV's axes, metres. `intrinsic/` has K
+//! for whole-numbered pixel centres in 4 × 4 matrices; colour and depth are one camera, so both are the same and the extrinsics are
+//! the identity. Labels are NYU40 numbers; in ScanNet's own images they are numbers of its raw vocabulary. [`mesh`] has the files of the mesh,
+//! in the layout of ScanNet's README, [`classes`] what their labels are called.
+
+mod classes;
+mod colors;
+mod lists;
+mod mesh;
+mod segments;
+mod subdivide;
+
+use crate::ExportError;
+use crate::calibration::Calibration;
+use crate::depth::{DEPTH, millimetres, planar_m};
+use crate::export_folder::ExportFolder;
+use crate::mesh::missing_mesh_file;
+use crate::picture::{SHOWN, color_jpeg, grey8_png, grey16_png};
+use crate::selected_frames::{SelectedFrames, Track, View};
+use enfilade_frame::{Frame, Layer, Values};
+use enfilade_scene::{Structure, Warning};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Colour and depth are of one camera.
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    check_names(selected)?;
+    for track in &selected.tracks {
+        let k = Calibration::of_pinhole(selected, track)?;
+        let folder = folder(track);
+        let intrinsic = matrix(&four_by_four(k.intrinsics.opencv_k()));
+        let identity = matrix(&four_by_four(IDENTITY));
+        for what in ["color", "depth"] {
+            out.write(&format!("{folder}/intrinsic/intrinsic_{what}.txt"), intrinsic.as_bytes())?;
+            out.write(&format!("{folder}/intrinsic/extrinsic_{what}.txt"), identity.as_bytes())?;
+        }
+        let structure = selected.dataset.read_structure(&track.scene)?;
+        out.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k, structure.as_ref()).as_bytes())?;
+    }
+    selected.each(|view| write_frame(selected, out, view))?;
+    selected.scenes().try_for_each(|tracks| write_mesh(selected, out, tracks))?;
+    classes::write_table(selected, out)?;
+    lists::write(selected, out)
+}
+
+/// The name of a scan. Some loaders take no other than `scene0000_00`, which camera `cam_00` of a scene `scene0000` becomes.
+fn scan(track: &Track) -> String {
+    let digits = |text: &str, prefix: &str, count: usize| {
+        let number = text.strip_prefix(prefix).filter(|rest| rest.len() == count && rest.bytes().all(|b| b.is_ascii_digit()));
+        number.map(str::to_string)
+    };
+    let number = digits(&track.name, "cam_", 2).filter(|_| digits(&track.scene, "scene", 4).is_some());
+    format!("{}_{}", track.scene, number.as_ref().unwrap_or(&track.name))
+}
+
+/// No two cameras may be one scan.
+fn check_names(selected: &SelectedFrames<'_>) -> Result<(), ExportError> {
+    let mut known: BTreeMap<String, String> = BTreeMap::new();
+    for track in &selected.tracks {
+        if let Some(other) = known.insert(scan(track), track.folder()) {
+            let problem = format!("{other} would be the scan {} too; leave one of them out with --scene or --camera", scan(track));
+            return Err(selected.unsuitable(track.folder(), problem));
+        }
+    }
+    Ok(())
+}
+
+/// The mesh of a scene in each of its scans, or a warning that there is none.
+fn write_mesh(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Track]) -> Result<(), ExportError> {
+    let scene = &tracks[0].scene;
+    if let Some(missing) = missing_mesh_file(selected.dataset, scene) {
+        let message = format!("its mesh folder has no {missing}, so its scans have no mesh with labels; make it (import, label)");
+        selected.warn(Warning { place: scene.clone(), message });
+        return Ok(());
+    }
+    let mesh = mesh::scene_mesh(selected, scene)?;
+    let colors = colors::colors(selected, tracks, &mesh.vertices)?;
+    tracks.iter().try_for_each(|track| mesh.write(out, &folder(track), &scan(track), &colors))
+}
+
+fn folder(track: &Track) -> String {
+    format!("scans/{}", scan(track))
+}
+
+fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
+    let (folder, n) = (folder(view.track), view.frame());
+    let k = Calibration::of_pinhole(selected, view.track)?;
+    let frame = selected.read(view, &[&SHOWN[..], &DEPTH, &[Layer::Semantic, Layer::SemanticInstance]].concat())?;
+    out.write(&format!("{folder}/pose/{n}.txt"), matrix(&k.opencv_pose(view)).as_bytes())?;
+    let depth: Vec<u16> = planar_m(selected, view, &k, &frame)?.into_iter().map(millimetres).collect();
+    out.write(&format!("{folder}/depth/{n}.png"), &grey16_png(frame.width, frame.height, &depth))?;
+    if frame.get(Layer::Color).is_some() {
+        out.write(&format!("{folder}/color/{n}.jpg"), &color_jpeg(selected, view, &frame)?)?;
+    }
+    if let Some(semantic) = frame.get(Layer::Semantic) {
+        out.write(&format!("{folder}/label-filt/{n}.png"), &grey16_png(frame.width, frame.height, &numbers(semantic)))?;
+    }
+    if let Some(instance) = frame.get(Layer::SemanticInstance) {
+        out.write(&format!("{folder}/instance-filt/{n}.png"), &instance_png(&frame, &numbers(instance)))?;
+    }
+    Ok(())
+}
+
+/// Labels from 1, and 0 where there is none.
+fn numbers(labels: &Values) -> Vec<u16> {
+    (0..labels.len()).map(|i| labels.get(i).max(0.0) as u16).collect()
+}
+
+fn instance_png(frame: &Frame, numbers: &[u16]) -> Vec<u8> {
+    let bytes: Result<Vec<u8>, _> = numbers.iter().map(|&n| u8::try_from(n)).collect();
+    bytes.map_or_else(|_| grey16_png(frame.width, frame.height, numbers), |bytes| grey8_png(frame.width, frame.height, &bytes))
+}
+
+/// A rotation or K in the upper left of the identity.
+fn four_by_four(m: [[f64; 3]; 3]) -> [[f64; 4]; 4] {
+    let row = |r: [f64; 3]| [r[0], r[1], r[2], 0.0];
+    [row(m[0]), row(m[1]), row(m[2]), [0.0, 0.0, 0.0, 1.0]]
+}
+
+/// Rows of numbers with spaces between them; every number comes back exactly.
+fn matrix(rows: &[[f64; 4]; 4]) -> String {
+    let row = |row: &[f64; 4]| row.map(|v| v.to_string()).join(" ") + "\n";
+    rows.iter().map(row).collect()
+}
+
+/// The page that ScanNet has for every scan: its keys in their order, the kind of scene last, where loaders look for it.
+fn about(track: &Track, calibration: &Calibration, structure: Option<&Structure>) -> String {
+    let k = calibration.intrinsics;
+    let [[fx, _, mx], [_, fy, my], _] = k.opencv_k();
+    let identity = matrix(&four_by_four(IDENTITY)).trim_end().replace('\n', " ");
+    let mut text = format!("axisAlignment = {identity}\ncolorHeight = {}\ncolorToDepthExtrinsics = {identity}\n", k.height);
+    let _ = write!(text, "colorWidth = {}\ndepthHeight = {}\ndepthShift = 1000\ndepthWidth = {0}\n", k.width, k.height);
+    for (key, value) in [("fx", fx), ("fy", fy), ("mx", mx), ("my", my)] {
+        let _ = writeln!(text, "{key}_color = {value}\n{key}_depth = {value}");
+    }
+    let _ = writeln!(text, "numColorFrames = {0}\nnumDepthFrames = {0}\nnumIMUmeasurements = 0", track.chosen.len());
+    let _ = writeln!(text, "sceneType = {}", scene_type(structure));
+    text
+}
+
+/// ScanNet's word for what the rooms of a scene are.
+fn scene_type(structure: Option<&Structure>) -> &'static str {
+    match structure.map(|structure| structure.rooms.as_slice()) {
+        Some([room]) => match room.kind.as_str() {
+            "bathroom" | "toilet" => "Bathroom",
+            "bedroom" | "childrens" => "Bedroom / Hotel",
+            "dining" => "Dining Room",
+            "hall" => "Hallway",
+            "kitchen" => "Kitchen",
+            "laundry" => "Laundry Room",
+            "living" => "Living room / Lounge",
+            "study" => "Office",
+            _ => "Misc.",
+        },
+        Some([_, _, ..]) => "Apartment",
+        _ => "Misc.",
+    }
+}

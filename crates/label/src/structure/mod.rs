@@ -1,0 +1,93 @@
+//! The rooms of a scene that came without a plan, fitted to the surfaces that are labelled as walls, floors, ceilings, doors and windows.
+//!
+//! Storey by storey, seen from above: upright wall surfaces are gathered on straight lines ([`lines`]), which cut the plan into convex cells
+//! ([`cells`]). A cell lies inside where floor and ceiling cover it ([`cover`]), and cells belong together unless a wall stands on the edge
+//! between them. What is left of the outlines is a polygon per room. Doors and windows are then put into the faces that they lie in
+//! ([`openings`]), and how well all of that agrees with the surfaces is measured ([`residual`]). The idea, cells of an arrangement of wall
+//! lines joined where no wall is seen, is that of Mura et al. 2014 ("Automatic room detection and reconstruction in cluttered indoor
+//! environments with complex room layouts").
+
+mod cells;
+mod cover;
+mod grid;
+mod kinds;
+mod lines;
+mod openings;
+mod plane_ids;
+mod residual;
+mod storeys;
+mod surfaces;
+
+pub use plane_ids::write_planes;
+pub use surfaces::{LabelledTriangle, labelled_triangles};
+
+use cells::Cells;
+use cover::Cover;
+use enfilade_math::DVec2;
+use enfilade_scene::{Structure, StructureRoom, WallFace};
+use kinds::Kinds;
+use lines::WallLine;
+use storeys::Storey;
+
+/// Faces of different rooms so far apart at most belong to one wall, metres.
+const WALL_THICKNESS_M: f64 = 0.8;
+
+/// The rooms, walls, doors and windows of a scene, from its labelled surfaces; `None` where they enclose no room.
+///
+/// Walls are straight and upright, floors and ceilings level, rooms have one outline without holes. Passages that are wider than 1.3 m
+/// and have no door make one room of two. How a door hangs, and what a thing is beyond its class, is not found.
+pub fn fit_structure(triangles: &[LabelledTriangle]) -> Option<Structure> {
+    let mut structure = Structure::default();
+    let mut kinds = Kinds::new(triangles);
+    for storey in storeys::find(triangles) {
+        add_rooms(&mut structure, &storey, &mut kinds);
+    }
+    if structure.rooms.is_empty() {
+        return None;
+    }
+    tell_inner_walls(&mut structure.walls);
+    structure.openings = openings::find(&structure.walls, triangles);
+    structure.fit = Some(residual::of(&structure, triangles));
+    Some(structure)
+}
+
+/// Adds the rooms of a storey, from left to right.
+fn add_rooms(structure: &mut Structure, storey: &Storey<'_>, kinds: &mut Kinds) {
+    let lines = WallLine::find(storey);
+    let Some(cover) = Cover::new(storey) else { return };
+    let cells = Cells::new(&lines, &cover);
+    for outline in cells.rooms(&lines, &cover) {
+        let ceiling_z_m = storey.ceiling_z_m(&outline);
+        let polygon: Vec<[f64; 2]> = outline.iter().map(|corner| corner.to_array()).collect();
+        let (kind, name) = kinds.of_room(&outline, [storey.floor_z_m, ceiling_z_m]);
+        let room = StructureRoom { name, kind, polygon, floor_z_m: storey.floor_z_m, ceiling_z_m };
+        let behind: Vec<(f64, bool)> = edges(&outline).map(|edge| (lines::thickness_behind(&lines, edge), true)).collect();
+        structure.push_room(room, &behind);
+    }
+}
+
+/// The edges of an outline, from corner to corner.
+fn edges(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+    (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]])
+}
+
+/// Faces that another room's face stands close behind, back to back, are those of an inner wall as thick as the two are apart.
+fn tell_inner_walls(walls: &mut [WallFace]) {
+    let faces = walls.to_vec();
+    for wall in walls {
+        let inward = DVec2::from(wall.inward);
+        let behind = |other: &&WallFace| {
+            let shared = [other.from, other.to].map(|p| wall.along_m(DVec2::from(p).extend(0.0)));
+            let overlap = shared[0].max(shared[1]).min(wall.length_m()) - shared[0].min(shared[1]).max(0.0);
+            other.room != wall.room && inward.dot(other.inward.into()) < -0.99 && overlap > 0.1 * wall.length_m()
+        };
+        let apart = |other: &WallFace| -wall.distance_m(DVec2::from(other.from).extend(0.0));
+        let nearest = faces.iter().filter(behind).map(apart).filter(|&m| (0.0..=WALL_THICKNESS_M).contains(&m)).min_by(f64::total_cmp);
+        if let Some(thickness_m) = nearest {
+            (wall.thickness_m, wall.outer) = (thickness_m, false);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
