@@ -26,6 +26,7 @@ mod gallery;
 mod layers;
 mod mesh;
 mod pairs;
+mod pairs_of_scene;
 mod picture;
 mod picture_spec;
 mod place;

@@ -1,6 +1,6 @@
 //! Which frames of a scene show the surfaces that a frame shows: from the matrix of `enfilade pairs`, its list, and the poses.
 
-use super::cache::Weight;
+use super::pairs_of_scene::PairsOfScene;
 use super::place::{FramePlace, problem, stamp};
 use super::problems::Problems;
 use super::viewer::{Viewer, work};
@@ -10,28 +10,8 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use enfilade_dataset::{Covisibility, check_name, read_pairs};
 use enfilade_scene::Pose;
-use serde_json::{Value, json};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
-
-/// So many partners of a frame are told, those with the largest overlap.
-const MOST_PARTNERS: usize = 200;
-
-/// What is known of the pairs of a scene.
-pub struct PairsOfScene {
-    covisibility: Covisibility,
-    /// The pose of each frame of the matrix, where it is known.
-    poses: Vec<Option<Pose>>,
-    /// Places in the matrix of the pairs that the dataset's list has; `None` without a list.
-    listed: Option<HashSet<[usize; 2]>>,
-    lost: Problems,
-}
-
-impl Weight for PairsOfScene {
-    fn weight(&self) -> usize {
-        size_of_val(self.covisibility.shares.as_slice()) + size_of_val(self.poses.as_slice())
-    }
-}
 
 /// `GET /api/view/pairs/{scene}/{camera}/{frame}`.
 pub async fn pairs(
@@ -47,35 +27,6 @@ pub async fn pairs(
         Ok(reply::json(gzip, &known.partners(&place)?))
     })
     .await
-}
-
-impl PairsOfScene {
-    /// The frames that see what a frame shows, or the other way around, those with the largest overlap first.
-    fn partners(&self, place: &FramePlace) -> Result<Value, ApiProblem> {
-        let frames = &self.covisibility.frames;
-        let Some(here) = frames.iter().position(|one| one.camera == place.camera && one.frame == place.frame) else {
-            let error = format!("frame {} of {} is not in covisibility_frames.csv", place.frame, place.camera);
-            return Err(ApiProblem::not_found(error, "run enfilade pairs again"));
-        };
-        let shares = |there: usize| [self.covisibility.share(here, there), self.covisibility.share(there, here)];
-        let overlap = |there: usize| shares(there).into_iter().filter(|share| share.is_finite()).fold(0.0, f32::max);
-        let mut others: Vec<usize> = (0..frames.len()).filter(|&there| there != here && overlap(there) > 0.0).collect();
-        others.sort_by(|&a, &b| overlap(b).total_cmp(&overlap(a)));
-        let count = others.len();
-        let partner = |there: usize| {
-            let [this_seen, that_seen] = shares(there).map(|share| share.is_finite().then_some(share));
-            let listed = self.listed.as_ref().map(|listed| listed.contains(&[here.min(there), here.max(there)]));
-            let poses = self.poses[here].as_ref().zip(self.poses[there].as_ref());
-            json!({
-                "camera": frames[there].camera, "frame": frames[there].frame, "this_seen": this_seen, "that_seen": that_seen,
-                "baseline_m": poses.map(|(a, b)| a.position.distance(b.position)),
-                "angle_deg": poses.map(|(a, b)| a.world_from_camera.z_axis.angle_between(b.world_from_camera.z_axis).to_degrees()),
-                "listed": listed,
-            })
-        };
-        let partners: Vec<Value> = others.into_iter().take(MOST_PARTNERS).map(partner).collect();
-        Ok(json!({ "partners": partners, "count": count, "hidden_by": self.covisibility.hidden_by.name(), "problems": self.lost }))
-    }
 }
 
 impl Viewer {

@@ -2,11 +2,8 @@
 //! addresses, a file, and a description in the terms of the table of layers, so that whatever can be done with a layer can be done with it.
 
 use super::derived_files::{PLANE, READINGS, REFRACTED, SURFACES};
-use super::place::FramePlace;
-use super::viewer::Viewer;
-use enfilade_dataset::{FramePair, check_name};
+use enfilade_dataset::check_name;
 use enfilade_frame::Layer;
-use std::path::PathBuf;
 
 /// The layers of which a fixture has a part, with what the page calls them.
 pub const FIXTURE_PARTS: [(Layer, &str); 2] = [(Layer::DiffuseIllumination, "illumination"), (Layer::Residual, "residual")];
@@ -84,27 +81,6 @@ impl FramePicture {
         };
         // `parse` accepts signs and zeros in front, which would give one picture several names.
         (picture.name() == name).then_some(picture)
-    }
-}
-
-impl Viewer {
-    /// The file that a picture is read from.
-    pub(super) fn source(&self, place: &FramePlace, picture: &FramePicture) -> PathBuf {
-        let FramePlace { scene, camera, frame } = place;
-        let (layout, of_frame) = (self.layout(), (scene.as_str(), camera.as_str(), *frame));
-        match picture {
-            FramePicture::Layer(layer) => self.dataset.layer_source(scene, camera, *frame, *layer),
-            FramePicture::Fixture { fixture, part } => layout.fixture_layer(scene, camera, *frame, *fixture, *part),
-            FramePicture::Mix { mix, layer } => layout.relit(mix, of_frame, &format!("{}.hdf5", layer.spec().name)),
-            FramePicture::Surface { what, .. } => layout.surfaces(scene, camera, *frame, SURFACES[*what].name),
-            FramePicture::Refracted { what } => layout.surfaces(scene, camera, *frame, REFRACTED[*what].name),
-            FramePicture::Plane => layout.plane_ids(scene, camera, *frame),
-            FramePicture::To { camera: other, frame: number, layer } => {
-                let pair = FramePair { scene: scene.clone(), first: (camera.clone(), *frame), second: (other.clone(), *number) };
-                layout.pair_layer(&pair, *layer)
-            }
-            FramePicture::Sensed { sensor, what } => layout.sensed(sensor, of_frame, READINGS[*what].file),
-        }
     }
 }
 

@@ -1,19 +1,38 @@
 //! Reading what was derived from a frame: arrays, pictures of cameras, scans of lidars.
 
 use super::decoded_layer::DecodedLayer;
-use super::derived_files::{READINGS, ReadingKind};
+use super::derived_files::{READINGS, REFRACTED, ReadingKind, SURFACES};
 use super::picture::FramePicture;
 use super::place::{FramePlace, problem, stamp};
 use super::summary::Summary;
 use super::viewer::Viewer;
 use crate::serve::ApiProblem;
 use enfilade_dataset::hdf5::read_array;
-use enfilade_dataset::{Array, DatasetError, Elements, Scan};
+use enfilade_dataset::{Array, DatasetError, Elements, FramePair, Scan};
 use image::DynamicImage;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl Viewer {
+    /// The file that a picture is read from.
+    pub(super) fn source(&self, place: &FramePlace, picture: &FramePicture) -> PathBuf {
+        let FramePlace { scene, camera, frame } = place;
+        let (layout, of_frame) = (self.layout(), (scene.as_str(), camera.as_str(), *frame));
+        match picture {
+            FramePicture::Layer(layer) => self.dataset.layer_source(scene, camera, *frame, *layer),
+            FramePicture::Fixture { fixture, part } => layout.fixture_layer(scene, camera, *frame, *fixture, *part),
+            FramePicture::Mix { mix, layer } => layout.relit(mix, of_frame, &format!("{}.hdf5", layer.spec().name)),
+            FramePicture::Surface { what, .. } => layout.surfaces(scene, camera, *frame, SURFACES[*what].name),
+            FramePicture::Refracted { what } => layout.surfaces(scene, camera, *frame, REFRACTED[*what].name),
+            FramePicture::Plane => layout.plane_ids(scene, camera, *frame),
+            FramePicture::To { camera: other, frame: number, layer } => {
+                let pair = FramePair { scene: scene.clone(), first: (camera.clone(), *frame), second: (other.clone(), *number) };
+                layout.pair_layer(&pair, *layer)
+            }
+            FramePicture::Sensed { sensor, what } => layout.sensed(sensor, of_frame, READINGS[*what].file),
+        }
+    }
+
     /// A picture of a frame, from memory or from its file: a layer as [`Viewer::layer`] reads it, anything else as it is stored.
     ///
     /// # Errors

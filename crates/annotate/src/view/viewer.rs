@@ -2,7 +2,7 @@
 
 use super::cache::Cache;
 use super::decoded_layer::DecodedLayer;
-use super::pairs::PairsOfScene;
+use super::pairs_of_scene::PairsOfScene;
 use super::picture::FramePicture;
 use super::place::FramePlace;
 use super::report::ReportFile;

@@ -1,8 +1,8 @@
 //! Convex cells of the plan between all lines of walls, and the rooms that they form together.
 
 use super::cover::Cover;
-use super::edges;
 use super::lines::{ON_LINE_M, WallLine};
+use super::outline::{area, edges};
 use enfilade_math::DVec2;
 use std::collections::HashMap;
 
@@ -80,10 +80,6 @@ impl Cells {
 fn key(edge: [DVec2; 2]) -> Key {
     // Zero has two signs.
     edge.map(|p| p.to_array().map(|v| (v + 0.0).to_bits()))
-}
-
-fn area(polygon: &[DVec2]) -> f64 {
-    0.5 * edges(polygon).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
 }
 
 /// The parts of a cell on both sides of a line. Where two cells share an edge, both are cut in the same point.

@@ -1,9 +1,9 @@
 //! The rooms of a scene that came without a plan, fitted to the surfaces that are labelled as walls, floors, ceilings, doors and windows.
 //!
-//! Storey by storey, seen from above: upright wall surfaces are gathered on straight lines ([`lines`]), which cut the plan into convex cells
-//! ([`cells`]). A cell lies inside where floor and ceiling cover it ([`cover`]), and cells belong together unless a wall stands on the edge
+//! Storey by storey, seen from above: upright wall surfaces are gathered on straight lines (`lines.rs`), which cut the plan into convex cells
+//! (`cells.rs`). A cell lies inside where floor and ceiling cover it (`cover.rs`), and cells belong together unless a wall stands on the edge
 //! between them. What is left of the outlines is a polygon per room. Doors and windows are then put into the faces that they lie in
-//! ([`openings`]), and how well all of that agrees with the surfaces is measured ([`residual`]). The idea, cells of an arrangement of wall
+//! (`openings.rs`), and how well all of that agrees with the surfaces is measured (`residual.rs`). The idea, cells of an arrangement of wall
 //! lines joined where no wall is seen, is that of Mura et al. 2014 ("Automatic room detection and reconstruction in cluttered indoor
 //! environments with complex room layouts").
 
@@ -13,6 +13,7 @@ mod grid;
 mod kinds;
 mod lines;
 mod openings;
+mod outline;
 mod plane_ids;
 mod residual;
 mod storeys;
@@ -27,10 +28,9 @@ use enfilade_math::DVec2;
 use enfilade_scene::{Structure, StructureRoom, WallFace};
 use kinds::Kinds;
 use lines::WallLine;
+use openings::WALL_THICKNESS_M;
+use outline::edges;
 use storeys::Storey;
-
-/// Faces of different rooms so far apart at most belong to one wall, metres.
-const WALL_THICKNESS_M: f64 = 0.8;
 
 /// The rooms, walls, doors and windows of a scene, from its labelled surfaces; `None` where they enclose no room.
 ///
@@ -64,11 +64,6 @@ fn add_rooms(structure: &mut Structure, storey: &Storey<'_>, kinds: &mut Kinds) 
         let behind: Vec<(f64, bool)> = edges(&outline).map(|edge| (lines::thickness_behind(&lines, edge), true)).collect();
         structure.push_room(room, &behind);
     }
-}
-
-/// The edges of an outline, from corner to corner.
-fn edges(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-    (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]])
 }
 
 /// Faces that another room's face stands close behind, back to back, are those of an inner wall as thick as the two are apart.

@@ -1,10 +1,11 @@
 //! Doors and windows as rectangles of the faces of walls that they lie in.
 
-use super::WALL_THICKNESS_M;
 use super::surfaces::{DOOR, LabelledTriangle, WINDOW};
 use enfilade_math::{DVec2, DVec3, quantile};
 use enfilade_scene::{OpeningKind, WallFace, WallOpening};
 
+/// Faces of different rooms so far apart at most belong to one wall, metres.
+pub const WALL_THICKNESS_M: f64 = 0.8;
 /// Doors and windows lie this near to the plane of their face, metres: frames stand before it, panes deep in the wall.
 const BEFORE_M: f64 = 0.12;
 const BEHIND_M: f64 = 0.45;

@@ -1,6 +1,6 @@
 //! The storeys of a building: heights at which there is much floor, each with the surfaces above it and below the next.
 
-use super::edges;
+use super::outline::{area, edges};
 use super::surfaces::{DOOR, LabelledTriangle, WINDOW};
 use enfilade_math::{DVec2, quantile};
 use enfilade_scene::{CEILING, FLOOR, WALL};
@@ -105,7 +105,7 @@ fn area_within(triangle: &LabelledTriangle, low: DVec2, high: DVec2) -> f64 {
         });
         polygon = clipped.collect();
     }
-    0.5 * edges(&polygon).map(|[a, b]| a.perp_dot(b)).sum::<f64>().abs()
+    area(&polygon).abs()
 }
 
 /// The run of sorted (value, weight) within a step that weighs most, with its weight.

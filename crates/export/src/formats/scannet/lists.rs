@@ -1,6 +1,6 @@
 //! The lists of scans by which loaders know what to learn from: `scannetv2_{train,val,test}.txt`, by the dataset's own split.
 
-use super::scan;
+use super::names::scan;
 use crate::ExportError;
 use crate::export_folder::ExportFolder;
 use crate::selected_frames::{SelectedFrames, Track};

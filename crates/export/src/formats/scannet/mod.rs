@@ -9,6 +9,7 @@ mod classes;
 mod colors;
 mod lists;
 mod mesh;
+mod names;
 mod segments;
 mod subdivide;
 
@@ -21,6 +22,7 @@ use crate::picture::{SHOWN, color_jpeg, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_scene::{Structure, Warning};
+use names::scan;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -45,16 +47,6 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     selected.scenes().try_for_each(|tracks| write_mesh(selected, out, tracks))?;
     classes::write_table(selected, out)?;
     lists::write(selected, out)
-}
-
-/// The name of a scan. Some loaders take no other than `scene0000_00`, which camera `cam_00` of a scene `scene0000` becomes.
-fn scan(track: &Track) -> String {
-    let digits = |text: &str, prefix: &str, count: usize| {
-        let number = text.strip_prefix(prefix).filter(|rest| rest.len() == count && rest.bytes().all(|b| b.is_ascii_digit()));
-        number.map(str::to_string)
-    };
-    let number = digits(&track.name, "cam_", 2).filter(|_| digits(&track.scene, "scene", 4).is_some());
-    format!("{}_{}", track.scene, number.as_ref().unwrap_or(&track.name))
 }
 
 /// No two cameras may be one scan.
