@@ -1,7 +1,7 @@
 //! Which pictures a camera's frames have beside layers: the light of fixtures and mixes of them, surfaces along rays, planes of the layout,
 //! layers that lead to other frames, readings of sensors. They are found by the names of their files.
 
-use super::derived_files::{FIRST_SURFACES, MOST_SURFACES, READINGS, REFRACTED, SURFACES};
+use super::derived_files::{FIRST_SURFACES, MOST_SURFACES, PLANE, READINGS, REFRACTED, SURFACES};
 use super::picture::FramePicture;
 use super::picture_spec::PictureSpec;
 use super::place::{FramePlace, problem};
@@ -47,7 +47,7 @@ impl Viewer {
             None => Ok(Vec::new()),
         });
         find(&layout.planes_dir(scene, camera), &|_, file| {
-            Ok((file == "plane_id.hdf5").then_some(FramePicture::Plane).into_iter().collect())
+            Ok((file.strip_suffix(".hdf5") == Some(PLANE)).then_some(FramePicture::Plane).into_iter().collect())
         });
         for (mix, folder) in mixes {
             find(&folder.join(scene).join(camera), &|_, file| Ok(mixed(&mix, file).into_iter().collect()));

@@ -8,6 +8,7 @@ use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, counted, mesh_names, quoted, s
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_label::{LabelReport, LabelTable, SplitParts, join, part_names};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// What `enfilade annotate` writes beside its log.
@@ -54,11 +55,17 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let (known, report) = known(job, cx)?;
     let hash = known.hash().0;
     let frames = job.frames()?;
-    for (done, (camera, frame)) in frames.iter().enumerate() {
-        if job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash) {
-            job.dataset.forget_surfaces(&job.scene.name, camera).map_err(Error::stage)?;
-            job.dataset.forget_planes(&job.scene.name).map_err(Error::stage)?;
-            label_frame(job, camera, *frame, &known, &hash)?;
+    let is_stale = |(camera, frame): &(String, u32)| job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash);
+    let stale: BTreeSet<&(String, u32)> = frames.iter().filter(|frame| is_stale(frame)).collect();
+    if !stale.is_empty() {
+        job.dataset.forget_planes(&job.scene.name).map_err(Error::stage)?;
+    }
+    for camera in stale.iter().map(|(camera, _)| camera).collect::<BTreeSet<_>>() {
+        job.dataset.forget_surfaces(&job.scene.name, camera).map_err(Error::stage)?;
+    }
+    for (done, of) in frames.iter().enumerate() {
+        if stale.contains(of) {
+            label_frame(job, &of.0, of.1, &known, &hash)?;
         }
         cx.progress("frames", done as u64 + 1, frames.len() as u64);
     }
