@@ -85,7 +85,8 @@ def rendered(program: Program) -> list[dict]:
 def derived(program: Program, work: Path) -> list[dict]:
     """What is made of finished frames."""
     mixes = work / "mixes.csv"
-    mixes.write_text("mix,fixture,r,g,b\n" + "".join(f"only_{k},*,0,0,0\nonly_{k},{k},1,1,1\n" for k in (1, 2, 3))
+    alone = {"one_window": "window_1/*", "sun": "sun", "lamps": "lamp"}
+    mixes.write_text("mix,fixture,r,g,b\n" + "".join(f"{mix},*,0,0,0\n{mix},{of},1,1,1\n" for mix, of in alone.items())
                      + "evening,sky,0.1,0.12,0.2\nevening,sun,0,0,0\nevening,lamp,12,10,7\n")
     detail = f"scenes/{SCENE}/_detail"
     verbs = [

@@ -78,7 +78,7 @@ def make(out: Path, folder: Path, scene: str, camera: str) -> None:
     folder.mkdir(exist_ok=True)
     detail, images = out / f"scenes/{scene}/_detail/{camera}", out / f"scenes/{scene}/images"
     display = lambda frame: Image.open(images / f"scene_{camera}_final_preview/frame.{frame:04}.display.jpg")
-    relit = [out / f"relit/{mix}/{scene}/{camera}/frame.0000.display.jpg" for mix in ("only_1", "only_2", "only_3", "evening")]
+    relit = [out / f"relit/{mix}/{scene}/{camera}/frame.0000.display.jpg" for mix in ("one_window", "sun", "lamps", "evening")]
     strip([Image.open(path) for path in relit if path.exists()], folder / "fixtures.jpg")
 
     distance = read(detail / "surfaces/frame.0000.surface_distance_meters.hdf5")

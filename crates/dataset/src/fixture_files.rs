@@ -15,20 +15,20 @@ use std::path::PathBuf;
 /// How the rules of a mix are kept.
 const RULES: &str = "mix.json";
 
-/// Something that lights a scene: the sky, the sun, or a lamp with all its bulbs.
+/// Something that lights a scene: the sky, the sun, a window, or a lamp with all its bulbs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
     /// From 1 on, without gaps: the number in the names of its files.
     pub id: u32,
-    /// `sky`, `sun`, `lamp`, or `rest`: the weakest of very many lamps.
+    /// `sky`, `sun`, `window`: the sky through its panes, `lamp`, or `rest`: the weakest of very many lamps.
     pub kind: String,
-    /// Name of its strongest part or light.
+    /// Name of its strongest part or light, or of its largest pane.
     pub name: String,
-    /// Luminance of its radiant intensity, W/sr; `None` for the sky and the sun.
+    /// Luminance of its radiant intensity, W/sr; `None` for the sky, the sun and windows.
     pub intensity: Option<f32>,
     /// Its middle in the world, metres; `None` for what has no place.
     pub position: Option<Vec3>,
-    /// Its emissive parts, as `render_entity_id` numbers them.
+    /// Its emissive parts or panes, as `render_entity_id` numbers them.
     pub node_ids: Vec<u32>,
     /// Names of its lights without a surface, in the table as a list in JSON.
     pub lights: Vec<String>,

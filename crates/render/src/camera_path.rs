@@ -24,7 +24,7 @@ impl Integrator<'_, '_> {
             let background = self.scene.lights.background(ray.direction);
             sample.split.add_background(background);
             sample.residual = background.total();
-            self.background_by_origin(background).into_iter().for_each(|(from, light)| sample.add_seen(from, light));
+            self.background_by_origin(background, None).into_iter().for_each(|(from, light)| sample.add_seen(from, light));
             return sample;
         };
         let segment = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
@@ -54,7 +54,8 @@ impl Integrator<'_, '_> {
 
         // Sample the direction in which the path goes on. The first surface always has one: Russian roulette begins after it.
         let u = sampler.set(bsdf_set(0));
-        if let Some((weight, next)) = vertex.scatter([u[0], u[1], u[2]], &segment) {
+        if let Some((weight, mut next)) = vertex.scatter([u[0], u[1], u[2]], &segment) {
+            next.window = self.window(&segment, &vertex.surface, &next);
             let (crossed, reflected) = (next.crossed, weight.total(sample.reflectance));
             let light = self.radiance(next, 1, true, roulette_throughput(reflected), vertex.expected(), sampler);
             illumination += self.add_scattered(&mut sample, &weight, &self.clamped(light, reflected), crossed);

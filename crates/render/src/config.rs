@@ -64,7 +64,7 @@ pub struct RenderConfig {
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
     pub splits: bool,
-    /// Keeps the light of each pixel apart by what it comes from: the sky, the sun and each lamp ([`crate::fixtures`]), each
+    /// Keeps the light of each pixel apart by what it comes from: the sky, the sun, each window and lamp ([`crate::RenderScene::fixtures`]), each
     /// with its part of the illumination and of the residual. Changes no layer. Takes 24 bytes per pixel and fixture while rendering, 36
     /// when the frame is put together. Default false.
     #[serde(skip_serializing_if = "is_false")]

@@ -13,6 +13,7 @@ use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
+use std::cell::Cell;
 
 /// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
@@ -79,15 +80,38 @@ impl<'a, 's> Integrator<'a, 's> {
     /// What the emission of a surface comes from.
     #[inline]
     pub fn origin_of_surface(&self, surface: &Surface<'s>) -> Origin {
-        let part = || self.scene.triangles.get(surface.triangle).part;
-        Origin { kind: LightKind::Surfaces, fixture: self.fixture(|| self.scene.lights.fixtures.of_part(part())) }
+        let part = || self.scene.triangles.part_of(surface.triangle);
+        Origin { kind: LightKind::Surfaces, fixture: self.fixture(|| self.scene.told_apart().of_part(part())) }
     }
 
-    /// What comes from beyond the scene, by its origin.
+    /// The farthest window along a path that goes on as `next` from a `surface` that `before` ends at, since its direction last changed.
     #[inline]
-    pub fn background_by_origin(&self, background: Background) -> [(Origin, Rgb); 2] {
+    pub fn window(&self, before: &Segment, surface: &Surface<'s>, next: &Segment) -> Option<u16> {
+        if !(self.config.fixtures && next.straight) {
+            return None;
+        }
+        self.scene.told_apart().of_pane(self.scene.triangles.part_of(surface.triangle)).or(before.window)
+    }
+
+    /// What a shadow ray lets through, and the farthest window along it.
+    #[inline]
+    fn transmittance_and_window(&self, ray: &Ray) -> (Rgb, Option<u16>) {
+        let fixtures = self.scene.told_apart();
+        let farthest = Cell::new((0.0, None));
+        let through = self.scene.transmittance_of(ray, |hit| {
+            let window = fixtures.of_pane(self.scene.triangles.part_of(hit.triangle));
+            if window.is_some() && hit.t > farthest.get().0 {
+                farthest.set((hit.t, window));
+            }
+        });
+        (through, farthest.get().1)
+    }
+
+    /// What comes from beyond the scene, by its origin; `window` is the one that it comes through.
+    #[inline]
+    pub fn background_by_origin(&self, background: Background, window: Option<u16>) -> [(Origin, Rgb); 2] {
         [(LightKind::Environment, background.environment), (LightKind::Distant, background.distant)]
-            .map(|(kind, light)| (Origin { kind, fixture: self.fixture(|| self.scene.lights.fixtures.of_far(kind)) }, light))
+            .map(|(kind, light)| (Origin { kind, fixture: self.fixture(|| self.scene.told_apart().of_far(kind, window)) }, light))
     }
 
     /// The surface at the end of a segment, and the throughput to it. What it emits, or the background in its place, is added to
@@ -98,7 +122,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let Some(hit) = self.scene.closest(&segment.ray, AlphaTest::Stochastic) else {
             let mut background = lights.background_weighted(&self.guide.choice, sampled, segment.ray.direction);
             background.distant *= segment.sun;
-            for (from, light) in self.background_by_origin(background) {
+            for (from, light) in self.background_by_origin(background, segment.window) {
                 radiance.add(from, throughput * light, direct);
             }
             return None;
@@ -121,7 +145,8 @@ impl<'a, 's> Integrator<'a, 's> {
         }
         for _ in 0..MAX_PANES {
             let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
-            (segment.ray, segment.cone) = (surface.ray(segment.ray.direction), surface.cone);
+            segment = Segment { ray: surface.ray(segment.ray.direction), cone: surface.cone, straight: true, ..segment };
+            segment.window = self.window(&segment, &surface, &segment);
             let Some((next, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
             (surface, throughput) = (next, reached);
         }
@@ -219,6 +244,7 @@ impl<'a, 's> Integrator<'a, 's> {
             throughput *= weight.total(reflectance);
             direct &= next.straight;
             next.sun = if next.straight { segment.sun } else { sun };
+            next.window = self.window(&segment, &vertex.surface, &next);
             segment = next;
         }
         radiance
@@ -260,10 +286,11 @@ impl<'a, 's> Integrator<'a, 's> {
         // Light from infinity that reaches a point inside a body came through an opening in it. How far it went inside is unknown, as it is
         // to a sampled direction, so nothing is absorbed.
         let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
-        let through = match scattered {
-            true if self.scene.is_covered(&ray) => Rgb::BLACK,
-            true => Rgb::WHITE,
-            false => self.scene.transmittance(&ray),
+        let (through, window) = match scattered {
+            true if self.scene.is_covered(&ray) => (Rgb::BLACK, None),
+            true => (Rgb::WHITE, None),
+            false if self.config.fixtures && light.kind() == LightKind::Environment => self.transmittance_and_window(&ray),
+            false => (self.scene.transmittance(&ray), None),
         };
         let arriving = through * absorbed;
         if arriving.is_black() {
@@ -273,7 +300,7 @@ impl<'a, 's> Integrator<'a, 's> {
         // Weight the sample against the BSDF's own chance to find the light.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
         let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
-        let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.lights.fixture_of(&light)) };
+        let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.told_apart().of_sample(&light, window)) };
         Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
     }
 

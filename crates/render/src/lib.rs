@@ -81,7 +81,7 @@ pub use error::RenderError;
 pub use extra::add_extra_layers;
 pub use extra::surfaces::{Bent, RaySurfaces};
 pub use guide::Guide;
-pub use light::{Fixture, FixtureKind, fixtures};
+pub use light::{Fixture, FixtureKind};
 pub use look::{Look, Lookout};
 pub use partial::PartialError;
 pub use prepared::RenderScene;

@@ -12,6 +12,7 @@ use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::{Alpha, CameraView, Scene};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// A scene ready to be looked at: rays and cut-outs, without its light.
 ///
@@ -85,7 +86,10 @@ impl<'s> Lookout<'s> {
         let bvh = triangles.hierarchy(|material| asks_always || material.alpha != Alpha::Opaque);
         // Pictures are read at points only, so they need no pyramids.
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self { asks_always, scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new() } })
+        Ok(Self {
+            asks_always,
+            scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), fixtures: OnceLock::new() },
+        })
     }
 
     /// Looks through the centres of the view's pixels, or of every so many of them in both directions.

@@ -2,13 +2,14 @@
 
 use crate::bsdf::{TableMaker, Tables};
 use crate::error::RenderError;
-use crate::light::Lights;
+use crate::light::{Fixture, Fixtures, Lights};
 use crate::texture::{Cone, Footprint, Textures};
 use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
 use enfilade_scene::{Alpha, Cx, Material, Scene};
 use std::cell::Cell;
+use std::sync::OnceLock;
 
 /// A scene ready to be rendered. It borrows the [`Scene`], serves any number of cameras and settings, and never changes.
 ///
@@ -38,6 +39,8 @@ pub struct RenderScene<'s> {
     pub(crate) lights: Lights<'s>,
     /// Lookup tables of each material's BSDF.
     pub(crate) tables: Vec<Tables>,
+    /// Found when they are first asked for.
+    pub(crate) fixtures: OnceLock<Fixtures>,
 }
 
 impl<'s> RenderScene<'s> {
@@ -63,7 +66,7 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        let mut ready = Self { scene, textures, triangles, bvh, lights, tables };
+        let mut ready = Self { scene, textures, triangles, bvh, lights, tables, fixtures: OnceLock::new() };
         Lights::find_glints(&mut ready);
         Ok(ready)
     }
@@ -77,6 +80,17 @@ impl<'s> RenderScene<'s> {
     /// The smallest box around the scene, in metres of the world.
     pub fn bounds(&self) -> Bounds3 {
         self.triangles.bounds()
+    }
+
+    /// What lights the scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig).
+    pub fn fixtures(&self) -> &[Fixture] {
+        &self.told_apart().list
+    }
+
+    /// The same, with what belongs to each.
+    #[inline]
+    pub(crate) fn told_apart(&self) -> &Fixtures {
+        self.fixtures.get_or_init(|| Fixtures::find(self))
     }
 
     /// Number of triangles in world space.
@@ -99,6 +113,12 @@ impl<'s> RenderScene<'s> {
     /// Fraction of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes dim it.
     #[inline]
     pub(crate) fn transmittance(&self, ray: &Ray) -> Rgb {
+        self.transmittance_of(ray, |_| ())
+    }
+
+    /// The same, which tells `pane` every pane on the way, in no order.
+    #[inline]
+    pub(crate) fn transmittance_of(&self, ray: &Ray, pane: impl Fn(&Hit)) -> Rgb {
         let through = Cell::new(Rgb::WHITE);
         let blocked = self.bvh.occluded_filtered(ray, |hit| {
             if !self.is_present(hit, AlphaTest::Stochastic) {
@@ -108,6 +128,7 @@ impl<'s> RenderScene<'s> {
             match surface.straight_transmittance(self) {
                 Some(t) if !t.is_black() => {
                     through.set(through.get() * t);
+                    pane(hit);
                     false
                 }
                 _ => true,

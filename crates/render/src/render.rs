@@ -155,7 +155,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         config.validate()?;
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
-        let fixtures = if config.fixtures { scene.lights.fixtures.list.len() } else { 0 };
+        let fixtures = if config.fixtures { scene.fixtures().len() } else { 0 };
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits, fixtures)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];

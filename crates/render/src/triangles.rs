@@ -6,7 +6,7 @@
 use crate::triangle::Triangle;
 use enfilade_geometry::{Bvh, Placement};
 use enfilade_math::{Bounds3, Mat3, Vec3};
-use enfilade_scene::{Material, Part, Scene};
+use enfilade_scene::{Material, Part, PartId, Scene};
 
 /// Up to this many triangles, all are kept as they stand: rays are faster then, for about 200 bytes a triangle.
 const KEPT: usize = 1 << 21;
@@ -116,6 +116,11 @@ impl<'s> Triangles<'s> {
     }
 
     /// The part of a triangle.
+    #[inline]
+    pub fn part_of(&self, number: u32) -> PartId {
+        if self.all_kept() { self.kept[number as usize].part } else { self.part(number) as PartId }
+    }
+
     fn part(&self, number: u32) -> usize {
         self.parts.partition_point(|range| range.first <= number) - 1
     }
@@ -141,7 +146,7 @@ fn placement(part: &Part, first_triangle: u32) -> Placement {
     Placement { mesh: part.mesh as usize, world_from_mesh: part.world_from_mesh, first_triangle, filtered: false }
 }
 
-fn emits(scene: &Scene, part: &Part) -> bool {
+pub(crate) fn emits(scene: &Scene, part: &Part) -> bool {
     !scene.materials[part.material as usize].emission.factor.is_black()
 }
 

@@ -26,6 +26,8 @@ pub(crate) struct Segment {
     pub crossed: bool,
     /// True when that was a pane, which leaves the direction as it was.
     pub straight: bool,
+    /// The window that it has last gone through since its direction changed, where fixtures are told apart.
+    pub window: Option<u16>,
     /// Weight of the sun's disk where the segment meets it, beside that of `sampled`: see [`crate::light::Lights::glint_weight`].
     pub sun: f32,
     /// How wide the ray is.
@@ -108,7 +110,7 @@ struct Guided<'a> {
 impl Segment {
     /// Along a camera ray, or from nowhere.
     pub fn from_camera(ray: Ray, cone: Cone) -> Self {
-        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, sun: 1.0, cone }
+        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, window: None, sun: 1.0, cone }
     }
 }
 
@@ -201,7 +203,7 @@ impl<'a, 's> Vertex<'a, 's> {
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
         let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, sun: 1.0, cone }
+        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, window: None, sun: 1.0, cone }
     }
 }
 

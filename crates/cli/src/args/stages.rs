@@ -130,7 +130,7 @@ pub struct RenderFlags {
     /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
     #[arg(long)]
     pub splits: bool,
-    /// Also write the light of each lamp, the sun and the sky by itself, for `enfilade relight`
+    /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade relight`
     #[arg(long)]
     pub fixtures: bool,
     /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel

@@ -21,6 +21,9 @@ fn light_of_fixtures_is_kept_apart_mixed_and_held_to_its_sum() {
     let table = fs::read_to_string(d.join("out/scenes/room/_detail/metadata_fixtures.csv")).unwrap();
     assert!(table.starts_with("fixture_id,kind,name,") && table.contains("lamp"), "{table}");
     let fixtures = table.lines().count() - 1;
+    fs::write(d.join("out/scenes/room/_detail/metadata_fixtures.csv"), table.lines().next().unwrap()).unwrap();
+    succeed(d, &["run", "dataset.toml", "-o", "out", "--fixtures"]);
+    assert_eq!(fs::read_to_string(d.join("out/scenes/room/_detail/metadata_fixtures.csv")).unwrap(), table, "a damaged table is mended");
     let of_frame = fs::read_dir(images("out").join("scene_cam_00_final_hdf5")).unwrap().filter_map(Result::ok);
     let files = of_frame.filter(|entry| entry.file_name().to_string_lossy().starts_with("frame.0001.fixture_")).count();
     assert_eq!(files, 2 * fixtures);

@@ -40,6 +40,8 @@ impl Rule {
     fn means(&self, fixture: &Fixture) -> bool {
         match self.fixture.parse::<u32>() {
             Ok(id) => id == fixture.id,
+            // Most of the sky's light comes through windows.
+            Err(_) if self.fixture == FixtureKind::Sky.name() && fixture.kind == FixtureKind::Window.name() => true,
             Err(_) => self.fixture == fixture.kind || matches(&self.fixture, &fixture.name),
         }
     }
@@ -117,12 +119,16 @@ mod tests {
 
     #[test]
     fn the_last_row_that_means_a_fixture_counts() {
-        let mixes = parsed("mix,fixture,r,g,b\nnight,sky,0,0,0\nnight,*bulb*,2,1,0.5\nnight,3,0,0,0\nday,lamp,0,0,0\n").unwrap();
+        let mixes = parsed(
+            "mix,fixture,r,g,b\nnight,sky,0,0,0\nnight,*bulb*,2,1,0.5\nnight,3,0,0,0\nday,lamp,0,0,0\nday,sky,2,2,2\nday,window,3,3,3\n",
+        )
+        .unwrap();
         assert_eq!(mixes.iter().map(|mix| mix.name.as_str()).collect::<Vec<_>>(), ["night", "day"]);
-        let fixtures = [fixture(1, "sky", "sky"), fixture(2, "lamp", "desk bulb"), fixture(3, "lamp", "bulb"), fixture(4, "lamp", "panel")];
+        let fixtures =
+            [fixture(1, "sky", "sky"), fixture(2, "lamp", "desk bulb"), fixture(3, "lamp", "bulb"), fixture(4, "window", "pane")];
         let factors = |mix: &Mix| fixtures.each_ref().map(|fixture| mix.factor(fixture));
-        assert_eq!(factors(&mixes[0]), [Rgb::BLACK, Rgb::new(2.0, 1.0, 0.5), Rgb::BLACK, Rgb::WHITE]);
-        assert_eq!(factors(&mixes[1]), [Rgb::WHITE, Rgb::BLACK, Rgb::BLACK, Rgb::BLACK]);
+        assert_eq!(factors(&mixes[0]), [Rgb::BLACK, Rgb::new(2.0, 1.0, 0.5), Rgb::BLACK, Rgb::BLACK]);
+        assert_eq!(factors(&mixes[1]), [Rgb::splat(2.0), Rgb::BLACK, Rgb::BLACK, Rgb::splat(3.0)]);
         check(Path::new("mixes.csv"), &mixes, &fixtures.each_ref()).unwrap();
         let message = check(Path::new("mixes.csv"), &mixes, &[&fixtures[0]]).unwrap_err().to_string();
         assert_eq!(message, "mixes.csv:3: no fixture is \"*bulb*\"");

@@ -7,7 +7,7 @@ use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
-use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers, fixtures};
+use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -41,14 +41,28 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
     progressive::forget_all_but(job, unfinished)?;
 
-    // Render them.
+    // Forget what was made of frames that are made anew.
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
     if rendered > 0 {
         job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
         job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
     }
-    list_fixtures(job)?;
-    let timed_out = if rendered > 0 { render(job, &missing, total - rendered, total, cx)? } else { 0 };
+    if !job.scene.render.fixtures {
+        job.dataset.write_fixtures(&job.scene.name, &[]).map_err(Error::stage)?;
+    }
+
+    // List what lights the scene, and render them. Where several machines render, each lists it with its frames.
+    let lists_fixtures = job.scene.render.fixtures && (rendered > 0 || job.shift.is_none());
+    let mut timed_out = 0;
+    if rendered > 0 || lists_fixtures {
+        job.forget_world();
+        let scene = job.load_scene()?;
+        let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
+        if lists_fixtures {
+            list_fixtures(job, scene.fixtures())?;
+        }
+        timed_out = render(job, &scene, &missing, [total - rendered, total], cx)?;
+    }
     let [width, height] = job.scene.size;
     let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
     let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
@@ -166,25 +180,22 @@ fn frames_are_taken(job: &Job) -> Result<bool, Error> {
 }
 
 /// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.
-fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageCx) -> Result<usize, Error> {
-    job.forget_world();
-    let scene = job.load_scene()?;
-    let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
+fn render(job: &Job, scene: &RenderScene, missing: &[Missing], [kept, total]: [usize; 2], cx: &StageCx) -> Result<usize, Error> {
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
         // One guide per trajectory: it learns from all views where light comes from.
         let views = views(camera, trajectory);
         cx.progress("learning where light comes from", done as u64, total as u64);
-        let guide = Guide::learn(&scene, &views, config);
+        let guide = Guide::learn(scene, &views, config);
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
 
             // Render a frame, which goes on where a killed run was.
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?;
+            let rendering = FrameRender::new(scene, &guide, &views[index], config).map_err(Error::stage)?;
             let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
-            add_extra(&scene, &views, index, config, &mut frame);
+            add_extra(scene, &views, index, config, &mut frame);
 
             // Write it with its record, tell whoever waits for it, and only then drop what was kept of it.
             let time = time.of_frame();
@@ -202,13 +213,12 @@ fn render(job: &Job, missing: &[Missing], kept: usize, total: usize, cx: &StageC
 }
 
 /// Lists what lights the scene, where the light of each is kept apart.
-fn list_fixtures(job: &Job) -> Result<(), Error> {
-    let found = if job.scene.render.fixtures { fixtures(&*job.load_scene()?) } else { Vec::new() };
+fn list_fixtures(job: &Job, found: &[enfilade_render::Fixture]) -> Result<(), Error> {
     let fixture = |(fixture, id): (&enfilade_render::Fixture, u32)| Fixture {
         id,
         kind: fixture.kind.name().into(),
         name: fixture.name.clone(),
-        intensity: (!matches!(fixture.kind, FixtureKind::Sky | FixtureKind::Sun)).then_some(fixture.intensity),
+        intensity: (matches!(fixture.kind, FixtureKind::Lamp | FixtureKind::Rest)).then_some(fixture.intensity),
         position: fixture.position,
         node_ids: fixture.parts.iter().map(|part| part + 1).collect(),
         lights: fixture.lights.clone(),

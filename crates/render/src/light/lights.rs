@@ -3,9 +3,8 @@
 use super::delta;
 use super::emissive_surfaces::EmissiveSurfaces;
 use super::environment::Sky;
-use super::fixtures::{Fixture, Fixtures};
 use super::glint::Glints;
-use super::sample::{Background, LightKind, LightPoint, LightSample};
+use super::sample::{Background, LightPoint};
 use super::tree::LightTree;
 use super::window::Windows;
 use crate::triangles::Triangles;
@@ -36,7 +35,6 @@ pub(crate) struct Lights<'s> {
     /// Sunlit glossy surfaces; found when the scene is ready for rays.
     pub(super) glints: Glints,
     pub(super) sky: Option<Sky<'s>>,
-    pub fixtures: Fixtures,
 }
 
 /// One of the sources that light sampling chooses from.
@@ -54,24 +52,17 @@ pub(super) enum Source {
     Portal(usize),
 }
 
-/// What lights a scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig). Takes
-/// no ray-tracing hierarchy, and so but a moment.
-pub fn fixtures(scene: &Scene) -> Vec<Fixture> {
-    Lights::new(scene, &Triangles::new(scene)).fixtures.list
-}
-
 impl<'s> Lights<'s> {
     /// Collects every source.
     pub fn new(scene: &'s Scene, triangles: &Triangles<'_>) -> Self {
         let surfaces = EmissiveSurfaces::new(scene, triangles);
         let mut emitters = surfaces.bounds.clone();
-        let (mut points, mut numbers, mut distant) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, light) in scene.lights.iter().enumerate() {
+        let (mut points, mut distant) = (Vec::new(), Vec::new());
+        for light in &scene.lights {
             match delta::light_bounds(light) {
                 Some(bounds) => {
                     emitters.push(bounds);
                     points.push(light.clone());
-                    numbers.push(number);
                 }
                 None if distant_strength(light) > 0.0 => distant.push(light.clone()),
                 None => {}
@@ -84,19 +75,8 @@ impl<'s> Lights<'s> {
         let strengths: Vec<f32> = distant.iter().map(distant_strength).collect();
         let sky = scene.environment.as_ref().and_then(|e| Sky::new(e, &scene.images));
         let distant_by_strength = Distribution1::new(&strengths);
-        let far = [sky.is_some(), !distant.is_empty()];
-        let fixtures = Fixtures::new(scene, &emitters, &surfaces.part_of_patch, &numbers, far);
         let glints = Glints::default();
-        Self { surfaces, points, tree, clusters, cluster_of_emitter, distant, distant_by_strength, glints, sky, fixtures }
-    }
-
-    /// The fixture that a light sample comes from.
-    #[inline]
-    pub fn fixture_of(&self, sample: &LightSample) -> Option<u16> {
-        match (sample.kind(), sample.emitter) {
-            (LightKind::Surfaces | LightKind::Points, Some(emitter)) => self.fixtures.of_emitter(emitter),
-            (kind, _) => self.fixtures.of_far(kind),
-        }
+        Self { surfaces, points, tree, clusters, cluster_of_emitter, distant, distant_by_strength, glints, sky }
     }
 
     /// True when there is no source at all.

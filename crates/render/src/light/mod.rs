@@ -7,6 +7,9 @@
 //!
 //! Glossy surfaces that the sun reaches are sources as well ([`glint`]), in a hierarchy of their own.
 //!
+//! *Fixtures* ([`fixtures`]) are what people would call a lamp or a window; their light can be told apart. Windows among them are made of
+//! panes ([`panes`]) and are the same in every picture of a scene, unlike portals.
+//!
 //! A point light is one without a surface: point, spot and profile lights. A distant light is directional, and may have a disk.
 
 mod bounds;
@@ -19,6 +22,7 @@ mod fixtures;
 mod glint;
 mod learn;
 mod lights;
+mod panes;
 mod sample;
 mod sampling;
 mod spherical;
@@ -29,7 +33,7 @@ mod tree;
 mod window;
 
 pub(crate) use choice::LightChoice;
+pub(crate) use fixtures::Fixtures;
 pub use fixtures::{Fixture, FixtureKind};
 pub(crate) use lights::Lights;
-pub use lights::fixtures;
 pub(crate) use sample::{Background, LightKind, LightPoint, power_heuristic};

@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, fixtures, render_frame};
+use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Light, Material, Part, Pose, Quiet, Scene};
 use enfilade_testkit::Mean;
 
@@ -160,19 +160,20 @@ fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
     for (clamp, max_bounces) in [(None, None), (Some(0.5), None), (None, Some(1))] {
         let config = RenderConfig { clamp, max_bounces, fixtures: true, ..splitting(24) };
         let apart = picture(&scene, [40, 30], &config);
-        let names: Vec<String> = fixtures(&scene).into_iter().map(|fixture| fixture.name).collect();
-        assert_eq!(names, ["sky", "sun", "bulb", "part 2"]);
+        let ready = RenderScene::new(&scene, &Quiet).unwrap();
+        let names: Vec<&str> = ready.fixtures().iter().map(|fixture| fixture.name.as_str()).collect();
+        assert_eq!(names, ["sky", "sun", "part 1", "bulb", "part 2"]);
         let color = apart.get(Layer::Color).unwrap();
-        let lights: Vec<Vec<f64>> = (0..4).map(|fixture| light_of(&apart, fixture)).collect();
+        let lights: Vec<Vec<f64>> = (0..5).map(|fixture| light_of(&apart, fixture)).collect();
         for i in 0..color.len() {
             let sum: f64 = lights.iter().map(|light| light[i]).sum();
             assert!((sum - color.get(i)).abs() <= 2e-3 * color.get(i).max(1e-3), "value {i}: {sum}, color is {}", color.get(i));
         }
         // By kind they are the layers of light by source.
-        for (fixture, layer) in SPLIT_BY_SOURCE.iter().enumerate() {
-            let of_fixture = &lights[[0, 1, 3, 2][fixture]];
-            let stored = mean(&apart, *layer);
-            assert_close(&names[[0, 1, 3, 2][fixture]], of_fixture.iter().sum::<f64>() / of_fixture.len() as f64, stored, 2e-3 * stored);
+        let mean_of = |fixture: &usize| lights[*fixture].iter().sum::<f64>() / color.len() as f64;
+        for (layer, of_kind) in SPLIT_BY_SOURCE.into_iter().zip([&[0, 2][..], &[1], &[4], &[3]]) {
+            let stored = mean(&apart, layer);
+            assert_close(names[of_kind[0]], of_kind.iter().map(mean_of).sum(), stored, 2e-3 * stored);
         }
         let whole = picture(&scene, [40, 30], &RenderConfig { fixtures: false, ..config });
         assert!(whole.fixtures().is_empty());
@@ -217,6 +218,38 @@ fn the_light_of_a_lamp_is_that_of_the_scene_where_no_other_is_on() {
             assert_close(&format!("fixture {fixture}, channel {channel}"), found, expected, 0.01 * expected);
         }
     }
+}
+
+#[test]
+fn the_light_of_a_window_is_that_of_the_room_where_the_other_is_shut() {
+    // Two windows in the open end of a room, one of them with two panes, and a picture's glass on the wall; a black plate outside shuts one.
+    let thin = |name: &str| Material::new(name, Bsdf::ThinDielectric { eta: 1.5, transmittance: Rgb::splat(0.9).into() });
+    let shutter = (screen(Vec3::new(0.985, 0.5, 0.0), 0.42), Material::diffuse("shutter", Rgb::BLACK));
+    let scene_of = |shut: bool| {
+        let mut walls = room(1.0);
+        walls.triangles.drain(2..4);
+        let mut meshes = vec![
+            (walls, Material::diffuse("wall", Rgb::splat(0.6))),
+            (screen(Vec3::new(0.98, -0.6, 0.0), 0.3), thin("left")),
+            (screen(Vec3::new(0.98, 0.5, 0.0), 0.4), thin("right")),
+            (screen(Vec3::new(0.96, -0.6, 0.0), 0.3), thin("inner left")),
+            (screen(Vec3::new(-0.98, 0.0, 0.0), 0.3), thin("glass of a picture")),
+        ];
+        meshes.extend(shut.then(|| shutter.clone()));
+        let mut scene = scene(meshes);
+        scene.environment = Some(Environment::Constant { radiance: Rgb::new(0.5, 0.7, 1.0) });
+        scene
+    };
+    let config = RenderConfig { samples: 512, fixtures: true, ..RenderConfig::default() };
+    let (open, right_shut) = (scene_of(false), scene_of(true));
+    let ready = RenderScene::new(&open, &Quiet).unwrap();
+    let found: Vec<(&str, &[u32])> = ready.fixtures().iter().map(|fixture| (fixture.name.as_str(), &fixture.parts[..])).collect();
+    assert_eq!(found, [("sky", &[][..]), ("part 2", &[2]), ("part 1", &[1])]);
+    let (open, right_shut) = (picture(&open, [24, 18], &config), picture(&right_shut, [24, 18], &config));
+    // Where the right one is shut only the left one is listed, beside the sky, and sends the same light.
+    assert_eq!(right_shut.fixtures().len(), 2);
+    let [found, expected] = [light_of(&open, 2), light_of(&right_shut, 1)].map(|light| light.iter().sum::<f64>());
+    assert_close("the left window", found, expected, 0.02 * expected);
 }
 
 #[test]
@@ -409,7 +442,7 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
         next.restore(&kept, b"key").unwrap();
         if next.is_done() {
             assert_eq!(bytes(&next.frame()), bytes(&whole.frame()));
-            assert!(fixture_bytes(&next.frame()) == fixture_bytes(&whole.frame()) && next.frame().fixtures().len() == 4);
+            assert!(fixture_bytes(&next.frame()) == fixture_bytes(&whole.frame()) && next.frame().fixtures().len() == 5);
             break;
         }
         let before = next.samples();
