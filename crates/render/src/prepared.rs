@@ -90,7 +90,7 @@ impl<'s> RenderScene<'s> {
     /// The same, with what belongs to each.
     #[inline]
     pub(crate) fn told_apart(&self) -> &Fixtures {
-        self.fixtures.get_or_init(|| Fixtures::find(self))
+        self.fixtures.get_or_init(|| Lights::find_fixtures(self))
     }
 
     /// Number of triangles in world space.

@@ -5,10 +5,7 @@
 //! in the same way.
 
 use super::bounds::{Emitters, LightBounds};
-use super::delta;
-use super::panes::{Pane, panes};
 use super::sample::{LightKind, LightSample};
-use crate::prepared::RenderScene;
 use enfilade_frame::MAX_FIXTURES;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Light, PartId, Scene};
@@ -85,6 +82,13 @@ pub(crate) struct Fixtures {
     of_pane: Vec<u16>,
 }
 
+/// A part that the sky shines through.
+pub(super) struct Pane {
+    pub part: PartId,
+    pub bounds: Bounds3,
+    pub area_m2: f32,
+}
+
 /// An emissive part, a light at a point, or a pane.
 struct Source {
     bounds: Bounds3,
@@ -96,20 +100,9 @@ struct Source {
 }
 
 impl Fixtures {
-    /// Finds what lights a scene, thing by thing.
-    pub fn find(ready: &RenderScene<'_>) -> Self {
-        let (scene, lights) = (ready.scene, &ready.lights);
-        let at_points = scene.lights.iter().enumerate().filter_map(|(number, light)| Some((number, delta::light_bounds(light)?)));
-        let (numbers, bounds): (Vec<usize>, Vec<LightBounds>) = at_points.unzip();
-        let emitters: Vec<LightBounds> = lights.surfaces.bounds.iter().copied().chain(bounds).collect();
-        let panes = if lights.sky.is_some() { panes(ready) } else { Vec::new() };
-        let far = [lights.sky.is_some(), !lights.distant.is_empty()];
-        Self::new(scene, &emitters, &panes, &lights.surfaces.part_of_patch, &numbers, far)
-    }
-
     /// Those of a scene. `parts` are the parts of the first emitters of the hierarchy, whose bounds are `bounds`; the others are the lights
     /// of the scene with the numbers `lights`.
-    fn new(
+    pub(super) fn new(
         scene: &Scene,
         bounds: &[LightBounds],
         panes: &[Pane],

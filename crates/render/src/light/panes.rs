@@ -1,5 +1,10 @@
-//! Panes that the sky shines through: the parts that windows are made of, whatever they are called.
+//! Finds the fixtures of a scene, and for them the panes that the sky shines through: the parts that windows are made of, whatever they are
+//! called.
 
+use super::bounds::LightBounds;
+use super::delta;
+use super::fixtures::{Fixtures, Pane};
+use super::lights::Lights;
 use crate::prepared::RenderScene;
 use crate::triangles::emits;
 use enfilade_math::{Bounds3, Distribution1, Onb, Ray, Rng, Vec3, hash_u64, warp};
@@ -15,15 +20,21 @@ const MIN_FOUND: u32 = 6;
 /// Rays begin this far before a pane, metres: behind no picture light goes on as far.
 const BEFORE_M: f32 = 0.3;
 
-/// A part that the sky shines through.
-pub(super) struct Pane {
-    pub part: PartId,
-    pub bounds: Bounds3,
-    pub area_m2: f32,
+impl Lights<'_> {
+    /// Finds what lights a scene, thing by thing.
+    pub fn find_fixtures(ready: &RenderScene<'_>) -> Fixtures {
+        let (scene, lights) = (ready.scene, &ready.lights);
+        let at_points = scene.lights.iter().enumerate().filter_map(|(number, light)| Some((number, delta::light_bounds(light)?)));
+        let (numbers, bounds): (Vec<usize>, Vec<LightBounds>) = at_points.unzip();
+        let emitters: Vec<LightBounds> = lights.surfaces.bounds.iter().copied().chain(bounds).collect();
+        let panes = if lights.sky.is_some() { panes(ready) } else { Vec::new() };
+        let far = [lights.sky.is_some(), !lights.distant.is_empty()];
+        Fixtures::new(scene, &emitters, &panes, &lights.surfaces.part_of_patch, &numbers, far)
+    }
 }
 
 /// The panes of a scene, in the order of its parts. A function of the scene alone, whatever the number of threads.
-pub(super) fn panes(ready: &RenderScene<'_>) -> Vec<Pane> {
+fn panes(ready: &RenderScene<'_>) -> Vec<Pane> {
     let scene = ready.scene;
     let is_glass = |part: &Part| scene.materials[part.material as usize].bsdf.is_pane() && !emits(scene, part);
     let parts = scene.parts.par_iter().enumerate();
