@@ -13,7 +13,6 @@ use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
 use enfilade_math::{Ray, Rgb, Sampler, Vec3};
-use std::cell::Cell;
 
 /// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
@@ -97,14 +96,7 @@ impl<'a, 's> Integrator<'a, 's> {
     #[inline]
     fn transmittance_and_window(&self, ray: &Ray) -> (Rgb, Option<u16>) {
         let fixtures = self.scene.told_apart();
-        let farthest = Cell::new((0.0, None));
-        let through = self.scene.transmittance_of(ray, |hit| {
-            let window = fixtures.of_pane(self.scene.triangles.part_of(hit.triangle));
-            if window.is_some() && hit.t > farthest.get().0 {
-                farthest.set((hit.t, window));
-            }
-        });
-        (through, farthest.get().1)
+        self.scene.transmittance_and_pane(ray, |part| fixtures.of_pane(part))
     }
 
     /// What comes from beyond the scene, by its origin; `window` is the one that it comes through.

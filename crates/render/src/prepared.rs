@@ -7,7 +7,7 @@ use crate::texture::{Cone, Footprint, Textures};
 use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
-use enfilade_scene::{Alpha, Cx, Material, Scene};
+use enfilade_scene::{Alpha, Cx, Material, PartId, Scene};
 use std::cell::Cell;
 use std::sync::OnceLock;
 
@@ -116,9 +116,23 @@ impl<'s> RenderScene<'s> {
         self.transmittance_of(ray, |_| ())
     }
 
-    /// The same, which tells `pane` every pane on the way, in no order.
+    /// The same, and what `name` calls the farthest pane on the way that it has a name for, by its part.
     #[inline]
-    pub(crate) fn transmittance_of(&self, ray: &Ray, pane: impl Fn(&Hit)) -> Rgb {
+    pub(crate) fn transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
+        let farthest = Cell::new((0.0, None));
+        let through = self.transmittance_of(ray, |hit| {
+            if hit.t > farthest.get().0
+                && let Some(named) = name(self.triangles.part_of(hit.triangle))
+            {
+                farthest.set((hit.t, Some(named)));
+            }
+        });
+        (through, farthest.get().1)
+    }
+
+    /// The fraction of light that gets through; `pane` is told every pane on the way, in no order.
+    #[inline]
+    fn transmittance_of(&self, ray: &Ray, pane: impl Fn(&Hit)) -> Rgb {
         let through = Cell::new(Rgb::WHITE);
         let blocked = self.bvh.occluded_filtered(ray, |hit| {
             if !self.is_present(hit, AlphaTest::Stochastic) {

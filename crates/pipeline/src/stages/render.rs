@@ -218,7 +218,7 @@ fn list_fixtures(job: &Job, found: &[enfilade_render::Fixture]) -> Result<(), Er
         id,
         kind: fixture.kind.name().into(),
         name: fixture.name.clone(),
-        intensity: (matches!(fixture.kind, FixtureKind::Lamp | FixtureKind::Rest)).then_some(fixture.intensity),
+        intensity: matches!(fixture.kind, FixtureKind::Lamp | FixtureKind::Rest).then_some(fixture.intensity),
         position: fixture.position,
         node_ids: fixture.parts.iter().map(|part| part + 1).collect(),
         lights: fixture.lights.clone(),

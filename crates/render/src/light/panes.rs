@@ -10,7 +10,6 @@ use crate::triangles::emits;
 use enfilade_math::{Bounds3, Distribution1, Onb, Ray, Rng, Vec3, hash_u64, warp};
 use enfilade_scene::{Part, PartId};
 use rayon::prelude::*;
-use std::cell::Cell;
 
 /// The second-longest side of the box around a pane is at least this long, metres: no drinking glass is one.
 const MIN_SIDE_M: f32 = 0.15;
@@ -69,13 +68,8 @@ fn pane(ready: &RenderScene<'_>, number: PartId, part: &Part) -> Option<Pane> {
         let Some(normal) = normal_of(&triangles[chosen]).try_normalize() else { continue };
         let toward = warp::cosine_hemisphere([rng.next_f32(), rng.next_f32()]);
         let direction = Onb::from_z(if rng.next_f32() < 0.5 { normal } else { -normal }).to_world(toward);
-        let outermost = Cell::new((0.0, None));
-        let through = ready.transmittance_of(&Ray::new(at - direction * BEFORE_M, direction), |hit| {
-            if hit.t > outermost.get().0 {
-                outermost.set((hit.t, Some(ready.triangles.part_of(hit.triangle))));
-            }
-        });
-        found += u32::from(!through.is_black() && outermost.get().1 == Some(number));
+        let (through, outermost) = ready.transmittance_and_pane(&Ray::new(at - direction * BEFORE_M, direction), Some);
+        found += u32::from(!through.is_black() && outermost == Some(number));
     }
     (found >= MIN_FOUND).then(|| Pane { part: number, bounds, area_m2: by_area.total() as f32 })
 }
