@@ -5,7 +5,6 @@
 use crate::bsdf::Value;
 use crate::integrator::{Direct, Integrator, bsdf_set, roulette_throughput};
 use crate::pixel_sample::{CameraSample, FixtureLight, PixelSample};
-use crate::prepared::AlphaTest;
 use crate::split::{Arriving, Origin};
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex};
@@ -20,14 +19,18 @@ impl Integrator<'_, '_> {
         // Find the first surface. Where there is none, the background is seen, and all of it is residual.
         let mut sample = PixelSample::default();
         let Some(ray) = camera.ray else { return sample };
-        let Some(hit) = self.scene.closest(&ray, AlphaTest::Stochastic) else {
+        let sampler = &camera.sampler;
+        let cone = Cone::camera(self.pixel_angle);
+        let seen = self.scene.seen(&ray, &cone, || sampler.set(bsdf_set(0))[3]);
+        sample.expected_reflectance = seen.reflectance;
+        let Some(hit) = seen.hit else {
             let background = self.scene.lights.background(ray.direction);
             sample.split.add_background(background);
             sample.residual = background.total();
             self.background_by_origin(background, None).into_iter().for_each(|(from, light)| sample.add_seen(from, light));
             return sample;
         };
-        let segment = Segment::from_camera(ray, Cone::camera(self.pixel_angle));
+        let segment = Segment::from_camera(ray, cone);
         let surface = self.scene.surface(&hit, ray.direction, &segment.cone);
 
         // Add what the first surface emits towards the camera. No light sample could have found it, so it counts in full.
@@ -40,7 +43,6 @@ impl Integrator<'_, '_> {
         // Sample a light and add what the surface reflects of it: next-event estimation, weighted against the BSDF's own directions.
         let bsdf = surface.bsdf(self.scene);
         let vertex = Vertex::new(self.guide, surface, bsdf);
-        let sampler = &camera.sampler;
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;
         if let Some(Direct { weight, light, from, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {
@@ -52,7 +54,8 @@ impl Integrator<'_, '_> {
             illumination += self.add_scattered(&mut sample, &weight, &arriving, crosses);
         }
 
-        // Sample the direction in which the path goes on. The first surface always has one: Russian roulette begins after it.
+        // Sample the direction in which the path goes on. The first surface always has one: Russian roulette begins after it, and its number
+        // serves to draw among surfaces that are partly there.
         let u = sampler.set(bsdf_set(0));
         if let Some((weight, mut next)) = vertex.scatter([u[0], u[1], u[2]], &segment) {
             next.window = self.window(&segment, &vertex.surface, &next);

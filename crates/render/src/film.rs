@@ -11,6 +11,7 @@ use enfilade_math::Rgb;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelSum {
     samples: u32,
+    /// Sum of the reflectance, or of what is expected of it.
     reflectance: Rgb,
     /// Sum of reflectance × illumination.
     diffuse: Rgb,
@@ -42,7 +43,7 @@ impl PixelSum {
     /// Adds a sample.
     pub fn add(&mut self, s: &PixelSample) {
         self.samples += 1;
-        self.reflectance += s.reflectance;
+        self.reflectance += s.expected_reflectance.unwrap_or(s.reflectance);
         self.residual += s.residual;
         let luminance = (s.reflectance * s.illumination.unwrap_or_default() + s.residual).luminance();
         let off = luminance - self.mean;

@@ -60,6 +60,7 @@ mod integrator;
 mod layers;
 mod light;
 mod look;
+mod opacity;
 mod partial;
 mod pixel_sample;
 mod prepared;

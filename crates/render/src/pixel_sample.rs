@@ -20,6 +20,8 @@ pub(crate) struct CameraSample {
 pub(crate) struct PixelSample {
     /// Diffuse reflectance A of the first surface.
     pub reflectance: Rgb,
+    /// What A is expected to be, where the first surface is drawn by opacity.
+    pub expected_reflectance: Option<Rgb>,
     /// Demodulated diffuse light E; `None` where this sample did not measure it.
     pub illumination: Option<Rgb>,
     /// Everything else, R.

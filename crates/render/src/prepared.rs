@@ -162,18 +162,26 @@ impl<'s> RenderScene<'s> {
 
     /// Whether the surface is present at a hit, by its opacity there.
     pub(crate) fn is_present(&self, hit: &Hit, test: AlphaTest) -> bool {
-        let opacity = |p| self.textures.scalar(p, self.triangles.get(hit.triangle).uv(hit.weights()), &Footprint::POINT);
+        let opacity = self.opacity(hit);
+        match test {
+            _ if opacity >= 1.0 => true,
+            AlphaTest::Half => opacity >= 0.5,
+            // Independent between rays, because no two hit at the same place; the same for the same ray.
+            AlphaTest::Stochastic => {
+                let h = hash_u32(hit.triangle ^ hash_u32(hit.u.to_bits() ^ hash_u32(hit.v.to_bits() ^ hit.t.to_bits())));
+                opacity > (h >> 8) as f32 * (1.0 / 16_777_216.0)
+            }
+        }
+    }
+
+    /// How much of the surface is there at a hit: 0 none, 1 and above all of it.
+    #[inline]
+    pub(crate) fn opacity(&self, hit: &Hit) -> f32 {
+        let read = |p| self.textures.scalar(p, self.triangles.get(hit.triangle).uv(hit.weights()), &Footprint::POINT);
         match &self.material_at(hit).alpha {
-            Alpha::Opaque => true,
-            Alpha::Mask { opacity: p, cutoff } => opacity(p) >= *cutoff,
-            Alpha::Blend { opacity: p } => match test {
-                AlphaTest::Half => opacity(p) >= 0.5,
-                // Independent between rays, because no two hit at the same place; the same for the same ray.
-                AlphaTest::Stochastic => {
-                    let h = hash_u32(hit.triangle ^ hash_u32(hit.u.to_bits() ^ hash_u32(hit.v.to_bits() ^ hit.t.to_bits())));
-                    opacity(p) > (h >> 8) as f32 * (1.0 / 16_777_216.0)
-                }
-            },
+            Alpha::Opaque => 1.0,
+            Alpha::Mask { opacity, cutoff } => f32::from(u8::from(read(opacity) >= *cutoff)),
+            Alpha::Blend { opacity } => read(opacity),
         }
     }
 }

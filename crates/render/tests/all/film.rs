@@ -182,6 +182,36 @@ fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
 }
 
 #[test]
+fn the_reflectance_of_sheer_cloth_is_exact_and_its_colour_as_even_as_samples_allow() {
+    let velvet = || (screen(Vec3::new(0.9, 0.0, 0.0), 2.0), Material::diffuse("velvet", Rgb::BLACK));
+    let cloth = |x: f32, opacity: f32| {
+        let white = Material::diffuse("cloth", Rgb::splat(0.8));
+        (screen(Vec3::new(x, 0.0, 0.0), 2.0), Material { alpha: Alpha::Blend { opacity: opacity.into() }, ..white })
+    };
+    let seen = |parts: Vec<(Mesh, Material)>, layers: [Layer; 2]| {
+        let mut scene = scene(parts);
+        scene.environment = Some(Environment::Constant { radiance: Rgb::WHITE });
+        let frame = picture(&scene, [24, 18], &RenderConfig { samples: 16, ..RenderConfig::default() });
+        layers.map(|layer| frame.get(layer).unwrap()).map(|values| (0..values.len()).map(|i| values.get(i)).collect::<Vec<f64>>())
+    };
+
+    // Before black, the light of the whole sky is on one layer. If samples drew independently, colours would be spread by 0.09.
+    let [reflectance, color] = seen(vec![velvet(), cloth(0.5, 0.3)], [Layer::DiffuseReflectance, Layer::Color]);
+    for reflectance in reflectance {
+        assert_close("one layer", reflectance, 0.8 * 0.3, 2e-4);
+    }
+    let off: Vec<f64> = color.into_iter().map(|color| color - 0.8 * 0.3).collect();
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    let spread = (off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64).sqrt();
+    assert!(mean.abs() < 5e-3 && spread < 0.05, "colour off by {mean}, spread by {spread}");
+    // The far layer is seen by the rays that the near one lets through, and the background by the others.
+    let [reflectance, _] = seen(vec![cloth(0.5, 0.5), cloth(0.6, 0.25)], [Layer::DiffuseReflectance, Layer::Color]);
+    for reflectance in reflectance {
+        assert_close("two layers", reflectance, 0.8 * (0.5 + 0.5 * 0.25), 4e-4);
+    }
+}
+
+#[test]
 fn of_very_many_lamps_the_weakest_have_their_light_together() {
     let mut s = scene(vec![(room(1.0), Material::diffuse("wall", Rgb::splat(0.5)))]);
     let position = |i: u32| Vec3::new(0.3 * (i % 7) as f32 - 0.9, 0.3 * (i / 7) as f32 - 0.9, 0.3 * (i % 5) as f32 - 0.6);
