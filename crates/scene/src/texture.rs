@@ -102,12 +102,11 @@ impl Wrap {
     /// The four texels of `n` along an axis around a texture coordinate, and its place between the middle two (0 at the second).
     #[inline]
     pub fn four(self, coordinate: f32, n: u32) -> ([usize; 4], f32) {
-        let (a, b, share) = self.neighbours(coordinate, n);
+        let n = n as i32;
         let position = self.reduced(coordinate) * n as f32 - 0.5;
         let first = floor(position);
-        // These may be one texel further out than `index` accepts.
-        let outer = |i: i32| self.nearest((i as f32 + 0.5) / n as f32, n);
-        ([outer(first - 1), a, b, outer(first + 2)], share)
+        let index = |i: i32| self.index(i, n);
+        ([index(first - 1), index(first), index(first + 1), index(first + 2)], position - first as f32)
     }
 
     /// A texture coordinate as a place on the axis of `n` texels, and its neighbours: the texel whose centre is at or before it, the
@@ -130,12 +129,13 @@ impl Wrap {
         }
     }
 
-    /// The texel on 0..n for an integer up to one step outside the range of [`Wrap::reduced`].
+    /// The texel on 0..n for an integer up to two steps outside the range of [`Wrap::reduced`].
     #[inline]
     fn index(self, i: i32, n: i32) -> usize {
         (match self {
-            Self::Repeat if i < 0 => i + n,
-            Self::Repeat if i >= n => i - n,
+            // Of a single texel two steps lead back to it.
+            Self::Repeat if i < 0 => (i + n).max(0),
+            Self::Repeat if i >= n => (i - n).min(n - 1),
             Self::Repeat => i,
             Self::Clamp => i.clamp(0, n - 1),
             Self::Mirror => {

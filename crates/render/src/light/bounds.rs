@@ -6,22 +6,32 @@
 use super::sample::LightPoint;
 use enfilade_math::{Bounds3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::fmt::Debug;
 
 /// Cosine of the emission angle of cones, whose emission is straight ahead: zero but for rounding.
 const STRAIGHT_AHEAD: f32 = 0.99;
 
 /// What a node knows of the emitters below it.
 pub(super) trait Emitters: Copy {
+    /// What their importance follows from, ready for use.
+    type Reach: Reach;
+
     /// The box around them.
     fn bounds(&self) -> Bounds3;
     /// What they emit in all; those without are never drawn.
     fn power(&self) -> f32;
     /// Both together.
     fn union(&self, other: &Self) -> Self;
-    /// About the light that they send to a point if nothing is in the way.
-    fn importance(&self, at: &LightPoint) -> f32;
     /// The measure of the directions that they emit to.
     fn orientation_measure(&self) -> f32;
+    /// Prepares their importance.
+    fn reach(&self) -> Self::Reach;
+}
+
+/// How far the light of emitters reaches.
+pub(super) trait Reach: Copy + Debug {
+    /// About the light that they send to a point if nothing is in the way.
+    fn importance(&self, at: &LightPoint) -> f32;
 }
 
 /// Box, cone and power of one emitter or of many.
@@ -59,7 +69,23 @@ impl LightBounds {
     }
 }
 
+/// [`LightBounds`] as their importance needs them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightReach {
+    center: Vec3,
+    /// Of the ball around the box.
+    radius: f32,
+    axis: Vec3,
+    power: f32,
+    cos_normals: f32,
+    sin_normals: f32,
+    cos_emission: f32,
+    two_sided: bool,
+}
+
 impl Emitters for LightBounds {
+    type Reach = LightReach;
+
     fn bounds(&self) -> Bounds3 {
         self.bounds
     }
@@ -83,35 +109,6 @@ impl Emitters for LightBounds {
         }
     }
 
-    /// About the irradiance that the emitters could cast on a point if nothing were in the way; zero only where they cannot.
-    #[inline]
-    fn importance(&self, at: &LightPoint) -> f32 {
-        let to = self.bounds.center() - at.p;
-        let radius_squared = 0.25 * self.bounds.extent().length_squared();
-        let distance_squared = to.length_squared();
-        if distance_squared <= radius_squared {
-            return self.power / radius_squared.max(f32::MIN_POSITIVE);
-        }
-        let wi = to / distance_squared.sqrt();
-        // The box spans this angle about its centre.
-        let sin_box = (radius_squared / distance_squared).sqrt();
-        let cos_box = (1.0 - sin_box * sin_box).max(0.0).sqrt();
-
-        let cos_axis = -self.axis.dot(wi);
-        let cos_axis = if self.two_sided { cos_axis.abs() } else { cos_axis };
-        let (sin_normal, cos_normal) = without((sine(cos_axis), cos_axis), (sine(self.cos_normals), self.cos_normals));
-        let (_, cos_emission) = without((sin_normal, cos_normal), (sin_box, cos_box));
-        if cos_emission <= self.cos_emission {
-            return 0.0;
-        }
-        let mut importance = self.power * cos_emission / distance_squared;
-        if at.n != Vec3::ZERO {
-            let cos_receiver = at.n.dot(wi);
-            importance *= without((sine(cos_receiver), cos_receiver), (sin_box, cos_box)).1.max(0.0);
-        }
-        importance
-    }
-
     /// Ω of the surface area–orientation heuristic: the measure of the directions that the cone emits to.
     fn orientation_measure(&self) -> f32 {
         let normals = self.cos_normals.clamp(-1.0, 1.0).acos();
@@ -121,12 +118,57 @@ impl Emitters for LightBounds {
             2.0 * PI * (1.0 - cos) + FRAC_PI_2 * (2.0 * widest * sin - (normals - 2.0 * widest).cos() - 2.0 * normals * sin + cos);
         if self.two_sided { 2.0 * measure } else { measure }
     }
+
+    fn reach(&self) -> LightReach {
+        LightReach {
+            center: self.bounds.center(),
+            radius: 0.5 * self.bounds.extent().length(),
+            axis: self.axis,
+            power: self.power,
+            cos_normals: self.cos_normals,
+            sin_normals: sine(self.cos_normals),
+            cos_emission: self.cos_emission,
+            two_sided: self.two_sided,
+        }
+    }
+}
+
+impl Reach for LightReach {
+    /// About the irradiance that the emitters could cast on a point if nothing were in the way; zero only where they cannot.
+    ///
+    /// Every case is reckoned and one is chosen: which one it will be, no processor can foresee.
+    #[inline]
+    fn importance(&self, at: &LightPoint) -> f32 {
+        let to = self.center - at.p;
+        let distance_squared = to.length_squared();
+        let radius_squared = self.radius * self.radius;
+        let nearness = 1.0 / distance_squared.sqrt();
+        let wi = to * nearness;
+        // The box spans this angle about its centre.
+        let sin_box = self.radius * nearness;
+        let cos_box = (1.0 - sin_box * sin_box).max(0.0).sqrt();
+
+        let cos_receiver = at.n.dot(wi);
+        let receiver = without((sine(cos_receiver), cos_receiver), (sin_box, cos_box)).1.max(0.0);
+        let receiver = if at.n == Vec3::ZERO { 1.0 } else { receiver };
+
+        let cos_axis = -self.axis.dot(wi);
+        let cos_axis = if self.two_sided { cos_axis.abs() } else { cos_axis };
+        let normal = without((sine(cos_axis), cos_axis), (self.sin_normals, self.cos_normals));
+        let (_, cos_emission) = without(normal, (sin_box, cos_box));
+        let emitted = if cos_emission > self.cos_emission { cos_emission } else { 0.0 };
+
+        let outside = self.power * nearness * nearness * emitted * receiver;
+        if distance_squared <= radius_squared { self.power / radius_squared.max(f32::MIN_POSITIVE) } else { outside }
+    }
 }
 
 /// Sine and cosine of max(0, a − b), for angles on [0, π] given by their sine and cosine.
 #[inline]
 fn without(a: (f32, f32), b: (f32, f32)) -> (f32, f32) {
-    if a.1 >= b.1 { (0.0, 1.0) } else { (a.0 * b.1 - a.1 * b.0, a.1 * b.1 + a.0 * b.0) }
+    let (sin, cos) = (a.0 * b.1 - a.1 * b.0, a.1 * b.1 + a.0 * b.0);
+    let positive = a.1 < b.1;
+    (if positive { sin } else { 0.0 }, if positive { cos } else { 1.0 })
 }
 
 #[inline]
@@ -188,7 +230,7 @@ mod tests {
             let node = patches[1..].iter().fold(leaf(&patches[0]), |all, patch| all.union(&leaf(patch)));
             let at = LightPoint { p: direction(&mut rng) * 2.5 + Vec3::splat(0.5), n: direction(&mut rng) };
             let arriving = patches.iter().any(|(p, n)| (*p - at.p).dot(at.n) > 1e-3 && (at.p - *p).dot(*n) > 1e-3);
-            assert!(!arriving || node.importance(&at) > 0.0);
+            assert!(!arriving || node.reach().importance(&at) > 0.0);
         }
     }
 }

@@ -9,7 +9,7 @@
 //! What is not found here — other surfaces, other lights, places seen through panes — is left to sampled directions alone. This file has the
 //! hierarchy of the glints; [`super::sunlit`] finds and samples them.
 
-use super::bounds::Emitters;
+use super::bounds::{Emitters, Reach};
 use super::sample::LightPoint;
 use super::tree::LightTree;
 use enfilade_math::{Bounds3, Vec3, warp};
@@ -64,7 +64,23 @@ pub(super) struct GlintBounds {
     pub to_sun: Vec3,
 }
 
+/// [`GlintBounds`] as their importance needs them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GlintReach {
+    center: Vec3,
+    /// Of the ball around the box.
+    radius_2: f32,
+    axis: Vec3,
+    power: f32,
+    grazing: f32,
+    /// See [`GlintBounds::spread`].
+    spread: f32,
+    to_sun: Vec3,
+}
+
 impl Emitters for GlintBounds {
+    type Reach = GlintReach;
+
     fn bounds(&self) -> Bounds3 {
         self.bounds
     }
@@ -88,37 +104,49 @@ impl Emitters for GlintBounds {
         }
     }
 
+    fn orientation_measure(&self) -> f32 {
+        PI * self.spread().min(1.0)
+    }
+
+    fn reach(&self) -> GlintReach {
+        GlintReach {
+            center: self.bounds.center(),
+            radius_2: 0.25 * self.bounds.extent().length_squared(),
+            axis: self.axis,
+            power: self.power,
+            grazing: self.grazing,
+            spread: self.spread(),
+            to_sun: self.to_sun,
+        }
+    }
+}
+
+impl Reach for GlintReach {
     /// The lobe is that of GGX about the mean normal, made wider by how much the normals and the direction of the point vary within the
     /// node: both move the half vector. (Heitz 2014 for the lobe; variances add as in Toksvig 2005, "Mipmapping Normal Maps".)
     #[inline]
     fn importance(&self, at: &LightPoint) -> f32 {
-        let to = self.bounds.center() - at.p;
-        let radius_2 = 0.25 * self.bounds.extent().length_squared();
-        let distance_2 = to.length_squared().max(radius_2);
+        let to = self.center - at.p;
+        let distance_2 = to.length_squared().max(self.radius_2);
         let nearness = 1.0 / distance_2;
         let wi = to * nearness.sqrt();
         // Twice as long as the cosine between the half vector and either direction.
         let half = self.to_sun - wi;
         let square = half.length_squared().max(MIN_HALF);
         let cos = half.dot(self.axis).max(0.0);
-        let width = self.spread() + radius_2 * nearness / (3.0 * square);
+        let width = self.spread + self.radius_2 * nearness / (3.0 * square);
         let lobe = ggx((cos * cos / square).min(1.0), width.min(1.0));
         let schlick = (1.0 - 0.5 * square.sqrt()).max(0.0).powi(5);
         let mut importance = 0.25 * (self.power + self.grazing * schlick) * lobe * nearness;
         if at.n != Vec3::ZERO {
-            importance *= (at.n.dot(wi) + (radius_2 * nearness).sqrt()).clamp(0.0, 1.0);
+            importance *= (at.n.dot(wi) + (self.radius_2 * nearness).sqrt()).clamp(0.0, 1.0);
         }
         importance
-    }
-
-    fn orientation_measure(&self) -> f32 {
-        PI * self.spread().min(1.0)
     }
 }
 
 impl GlintBounds {
     /// Variance of the half vector about the mean normal: of the lobes, and of the normals about their mean.
-    #[inline]
     fn spread(&self) -> f32 {
         self.alpha_2 + 2.0 * (1.0 - self.mean_length).max(0.0)
     }

@@ -4,7 +4,7 @@
 //! area–orientation heuristic and traversed with one random number, at each node towards the more important child. The upper
 //! end of the tree is a *cut*: clusters, among which [`super::LightChoice`] chooses by what it has learned.
 
-use super::bounds::{Emitters, LightBounds};
+use super::bounds::{Emitters, LightBounds, Reach};
 use super::sample::LightPoint;
 use enfilade_math::{Bounds3, ONE_MINUS_EPSILON};
 
@@ -15,21 +15,23 @@ const MAX_DEPTH_BY_COST: u32 = 48;
 
 /// A tree with one emitter a leaf.
 #[derive(Debug)]
-pub(super) struct LightTree<E = LightBounds> {
-    nodes: Vec<Node<E>>,
+pub(super) struct LightTree<E: Emitters = LightBounds> {
+    nodes: Vec<Node<E::Reach>>,
+    /// Of each node.
+    bounds: Vec<E>,
     parents: Vec<u32>,
     leaf_of_emitter: Vec<u32>,
 }
 
-impl<E> Default for LightTree<E> {
+impl<E: Emitters> Default for LightTree<E> {
     fn default() -> Self {
-        Self { nodes: Vec::new(), parents: Vec::new(), leaf_of_emitter: Vec::new() }
+        Self { nodes: Vec::new(), bounds: Vec::new(), parents: Vec::new(), leaf_of_emitter: Vec::new() }
     }
 }
 
 #[derive(Debug)]
-struct Node<E> {
-    bounds: E,
+struct Node<R> {
+    reach: R,
     kind: Kind,
 }
 
@@ -60,7 +62,7 @@ impl<E: Emitters> LightTree<E> {
         self.parents.push(parent);
         if let [emitter] = *items {
             let bounds = emitters[emitter as usize];
-            self.nodes.push(Node { bounds, kind: Kind::Leaf { emitter } });
+            self.push(bounds, Kind::Leaf { emitter });
             self.leaf_of_emitter[emitter as usize] = index as u32;
             return bounds;
         }
@@ -68,13 +70,19 @@ impl<E: Emitters> LightTree<E> {
         let middle = middle.unwrap_or(items.len() / 2);
         let (left, right) = items.split_at_mut(middle);
         // Holds the place until the children are known.
-        self.nodes.push(Node { bounds: emitters[left[0] as usize], kind: Kind::Inner { second: 0 } });
+        self.push(emitters[left[0] as usize], Kind::Inner { second: 0 });
         let first = self.build(emitters, left, depth + 1, index as u32);
         let second_index = self.nodes.len() as u32;
         let second = self.build(emitters, right, depth + 1, index as u32);
         let bounds = first.union(&second);
-        self.nodes[index] = Node { bounds, kind: Kind::Inner { second: second_index } };
+        self.nodes[index] = Node { reach: bounds.reach(), kind: Kind::Inner { second: second_index } };
+        self.bounds[index] = bounds;
         bounds
+    }
+
+    fn push(&mut self, bounds: E, kind: Kind) {
+        self.nodes.push(Node { reach: bounds.reach(), kind });
+        self.bounds.push(bounds);
     }
 
     /// At most `limit` nodes that together contain all emitters. Beginning with the root, the node with the largest power × size is split
@@ -82,9 +90,9 @@ impl<E: Emitters> LightTree<E> {
     pub fn cut(&self, limit: usize, smallest_m: f32) -> Vec<u32> {
         let mut cut = if self.nodes.is_empty() { Vec::new() } else { vec![0u32] };
         let weight = |node: u32| {
-            let Node { bounds, kind } = &self.nodes[node as usize];
+            let bounds = &self.bounds[node as usize];
             let size = bounds.bounds().extent().length();
-            if matches!(kind, Kind::Leaf { .. }) || size < smallest_m { 0.0 } else { bounds.power() * size }
+            if matches!(self.nodes[node as usize].kind, Kind::Leaf { .. }) || size < smallest_m { 0.0 } else { bounds.power() * size }
         };
         while cut.len() < limit {
             let heaviest = (0..cut.len()).max_by(|&a, &b| weight(cut[a]).total_cmp(&weight(cut[b])).then(b.cmp(&a)));
@@ -113,7 +121,7 @@ impl<E: Emitters> LightTree<E> {
     /// Importance of all emitters below `node`.
     #[inline]
     pub fn importance(&self, node: u32, at: &LightPoint) -> f32 {
-        self.nodes[node as usize].bounds.importance(at)
+        self.nodes[node as usize].reach.importance(at)
     }
 
     /// An emitter below `node`, its probability given the node, and `u` renewed. `None` when none can send light to the point.

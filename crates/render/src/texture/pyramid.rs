@@ -97,22 +97,8 @@ impl<'s> Pyramid<'s> {
     /// Linear RGBA of a texel of a level by its number.
     #[inline]
     fn texel(&self, level: usize, index: usize) -> Vec4 {
-        if level == 0 {
-            return match self.full {
-                Full::Bytes(texels, values) => {
-                    let [r, g, b, a] = texels[index].map(usize::from);
-                    Vec4::new(values[r], values[g], values[b], a as f32 * (1.0 / 255.0))
-                }
-                Full::Floats(texels) => {
-                    let [r, g, b] = texels[index];
-                    Vec4::new(r, g, b, 1.0)
-                }
-            };
-        }
-        match &self.levels[level - 1].texels {
-            Texels::Shorts(texels) => Vec4::from_array(texels[index].map(f32::from)) * (1.0 / SHORT),
-            Texels::Floats(texels) => Vec4::from_array(texels[index]),
-        }
+        let [texel] = self.texels(level, [index]);
+        texel
     }
 
     /// Texels of a level along both axes.
@@ -164,9 +150,9 @@ impl<'s> Pyramid<'s> {
         let (left, right, fx) = texture.wrap[0].neighbours(at.x, width);
         let (top, bottom, fy) = texture.wrap[1].neighbours(at.y, height);
         let (top, bottom) = (top * width as usize, bottom * width as usize);
-        let texel = |index: usize| self.texel(level, index);
-        let upper = texel(top + left) * (1.0 - fx) + texel(top + right) * fx;
-        let lower = texel(bottom + left) * (1.0 - fx) + texel(bottom + right) * fx;
+        let [a, b, c, d] = self.texels(level, [top + left, top + right, bottom + left, bottom + right]);
+        let upper = a * (1.0 - fx) + b * fx;
+        let lower = c * (1.0 - fx) + d * fx;
         upper * (1.0 - fy) + lower * fy
     }
 
@@ -185,28 +171,66 @@ impl<'s> Pyramid<'s> {
         let (width, height) = self.size(level);
         let (columns, fx) = texture.wrap[0].four(at.x, width);
         let (rows, fy) = texture.wrap[1].four(at.y, height);
-        let h = |row: usize, column: usize| self.luminance(level, rows[row] * width as usize + columns[column]);
-        let middle = [1, 2].map(|r| [0, 1, 2, 3].map(|c| h(r, c)));
-        let outer = [0, 3].map(|r| [1, 2].map(|c| h(r, c)));
-        let along = |row: &[f32; 4]| (row[2] - row[0]) * (1.0 - fx) + (row[3] - row[1]) * fx;
-        let across = |a: f32, b: f32| a * (1.0 - fx) + b * fx;
-        let by_column = along(&middle[0]) * (1.0 - fy) + along(&middle[1]) * fy;
-        let upper = across(middle[1][1] - outer[0][0], middle[1][2] - outer[0][1]);
-        let lower = across(outer[1][0] - middle[0][1], outer[1][1] - middle[0][2]);
-        let by_row = upper * (1.0 - fy) + lower * fy;
+        let ([x0, x1, x2, x3], [y0, y1, y2, y3]) = (columns, rows);
+        let [y0, y1, y2, y3] = [y0 * width as usize, y1 * width as usize, y2 * width as usize, y3 * width as usize];
+        // Of four by four texels without the corners.
+        #[rustfmt::skip]
+        let at = [
+                     y0 + x1, y0 + x2,
+            y1 + x0, y1 + x1, y1 + x2, y1 + x3,
+            y2 + x0, y2 + x1, y2 + x2, y2 + x3,
+                     y3 + x1, y3 + x2,
+        ];
+        let [a1, a2, b0, b1, b2, b3, c0, c1, c2, c3, d1, d2] = self.luminances(level, at);
+        let between = |a: f32, b: f32, share: f32| a * (1.0 - share) + b * share;
+        let by_column = between(between(b2 - b0, b3 - b1, fx), between(c2 - c0, c3 - c1, fx), fy);
+        let by_row = between(between(c1 - a1, c2 - a2, fx), between(d1 - b1, d2 - b2, fx), fy);
         Vec2::new(0.5 * by_column * width as f32, -0.5 * by_row * height as f32)
     }
 
+    /// See [`Pyramid::texel`]. How a level is stored is asked once, not for each.
     #[inline]
-    fn luminance(&self, level: usize, index: usize) -> f32 {
-        match (self.full, level) {
-            (Full::Bytes(texels, values), 0) if self.grey => values[usize::from(texels[index][0])],
-            _ => {
-                let t = self.texel(level, index);
-                if self.grey { t.x } else { Rgb::new(t.x, t.y, t.z).luminance() }
-            }
+    fn texels<const N: usize>(&self, level: usize, at: [usize; N]) -> [Vec4; N] {
+        let mut read = [Vec4::ZERO; N];
+        let places = read.iter_mut().zip(at);
+        match (self.full, level.checked_sub(1).map(|level| &self.levels[level].texels)) {
+            (Full::Bytes(texels, values), None) => places.for_each(|(read, i)| *read = of_bytes(texels[i], values)),
+            (Full::Floats(texels), None) => places.for_each(|(read, i)| *read = of_floats(texels[i])),
+            (_, Some(Texels::Shorts(texels))) => places.for_each(|(read, i)| *read = of_shorts(texels[i])),
+            (_, Some(Texels::Floats(texels))) => places.for_each(|(read, i)| *read = Vec4::from_array(texels[i])),
         }
+        read
     }
+
+    /// Luminances of texels of a level by their numbers.
+    #[inline]
+    fn luminances<const N: usize>(&self, level: usize, at: [usize; N]) -> [f32; N] {
+        let mut read = [0.0; N];
+        let places = read.iter_mut().zip(at);
+        match (self.full, level.checked_sub(1).map(|level| &self.levels[level].texels)) {
+            (Full::Bytes(texels, values), None) if self.grey => places.for_each(|(read, i)| *read = values[usize::from(texels[i][0])]),
+            (_, Some(Texels::Shorts(texels))) if self.grey => places.for_each(|(read, i)| *read = f32::from(texels[i][0]) * (1.0 / SHORT)),
+            _ => places.zip(self.texels(level, at)).for_each(|((read, _), t)| *read = Rgb::new(t.x, t.y, t.z).luminance()),
+        }
+        read
+    }
+}
+
+#[inline]
+fn of_bytes(texel: [u8; 4], values: &[f32; 256]) -> Vec4 {
+    let [r, g, b, a] = texel;
+    let value = |code: u8| values[usize::from(code)];
+    Vec4::new(value(r), value(g), value(b), f32::from(a) * (1.0 / 255.0))
+}
+
+#[inline]
+fn of_floats([r, g, b]: [f32; 3]) -> Vec4 {
+    Vec4::new(r, g, b, 1.0)
+}
+
+#[inline]
+fn of_shorts([r, g, b, a]: [u16; 4]) -> Vec4 {
+    Vec4::new(f32::from(r), f32::from(g), f32::from(b), f32::from(a)) * (1.0 / SHORT)
 }
 
 /// The texels of `n` that texel `i` of `m` ≤ `n` covers, and how much of each.
