@@ -115,7 +115,7 @@ impl PixelSum {
         for c in 0..3 {
             let a = reflectance[c];
             let demodulated = if a > f16::ZERO { diffuse[c] / a.to_f32() } else { mean_illumination[c] };
-            let stored = compose(a, demodulated, residual[c]);
+            let stored = compose(a, demodulated, residual[c] + beyond(diffuse[c], a));
             saturated |= stored.saturated;
             out.reflectance[c] = a;
             out.illumination[c] = stored.illumination;
@@ -135,19 +135,23 @@ pub(crate) fn resolve_split(sum: &Split, samples: u32) -> [[f16; 3]; Split::PART
     std::array::from_fn(|index| (sum.part(index) / n).to_array().map(|v| f16::from_f32(v.min(F16_LIMIT))))
 }
 
+/// What of a pixel's diffuse light its stored reflectance and the brightest illumination do not hold; the residual takes it.
+fn beyond(diffuse: f32, reflectance: f16) -> f32 {
+    (diffuse - reflectance.to_f32() * F16_LIMIT).max(0.0)
+}
+
 /// The light of a fixture as it is stored: its part of the illumination and of the residual, given the sums of reflectance × illumination and
 /// of the residual over the pixel's samples.
 ///
-/// Where the reflectance is zero nothing is reflected diffusely, and the illumination is zero. What it cannot hold is in the residual.
+/// Where the reflectance is zero the illumination is zero. What it cannot hold is in the residual.
 pub(crate) fn resolve_fixture(pixel: &PixelSum, [diffuse, residual]: [Rgb; 2]) -> [[f16; 3]; 2] {
     let n = pixel.samples.max(1) as f32;
     let mut stored = [[f16::ZERO; 3]; 2];
     for (c, a) in pixel.stored_reflectance().into_iter().enumerate() {
-        let a = a.to_f32();
-        let illumination = if a > 0.0 { diffuse[c] / n / a } else { 0.0 };
-        let beyond = a * (illumination - F16_LIMIT).max(0.0);
+        let diffuse = diffuse[c] / n;
+        let illumination = if a > f16::ZERO { diffuse / a.to_f32() } else { 0.0 };
         stored[0][c] = f16::from_f32(illumination.min(F16_LIMIT));
-        stored[1][c] = f16::from_f32((residual[c] / n + beyond).min(F16_LIMIT));
+        stored[1][c] = f16::from_f32((residual[c] / n + beyond(diffuse, a)).min(F16_LIMIT));
     }
     stored
 }
@@ -254,6 +258,20 @@ mod tests {
         assert_eq!(illumination[1], F16_LIMIT);
         let a = f16::from_f32(1e-6).to_f32();
         assert!((a * illumination[1] + residual[1] - 1.25).abs() < 1e-3, "{residual:?}");
+    }
+
+    #[test]
+    fn light_of_what_is_hardly_there_is_not_lost() {
+        for expected in [1e-3, 1e-6, 1e-8] {
+            let (reflectance, illumination) = (Rgb::splat(0.5), Some(Rgb::splat(4.0)));
+            let mut sum = PixelSum::default();
+            let expected_reflectance = Some(Rgb::splat(expected));
+            sum.add(&PixelSample { reflectance, expected_reflectance, illumination, ..PixelSample::default() });
+            sum.add(&PixelSample { expected_reflectance, ..PixelSample::default() });
+            let p = sum.resolve();
+            identity_holds(&p);
+            assert!((p.color[0].to_f32() - 1.0).abs() < 1e-3, "{expected}: {p:?}");
+        }
     }
 
     #[test]

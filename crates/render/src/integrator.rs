@@ -30,7 +30,8 @@ const MIN_COLOR: f32 = 0.05;
 /// The most panes, one behind the other, that are looked through at a path's last surface where bounces are limited.
 const MAX_PANES: usize = 64;
 
-/// The set of random numbers for the direction at a bounce. Set 0 is the camera's; each bounce has two more.
+/// The set of random numbers for the direction at a bounce; the fourth is for Russian roulette, and at the first surface, which has none, for
+/// the draw by opacity. Set 0 is the camera's; each bounce has two more.
 pub(crate) const fn bsdf_set(bounce: u32) -> u32 {
     1 + 2 * bounce
 }

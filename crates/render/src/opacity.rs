@@ -1,7 +1,8 @@
 //! What a camera ray shows where surfaces are only partly there: one of them drawn by opacity, and the reflectance that is expected.
 //!
-//! Rays further on draw for themselves ([`AlphaTest::Stochastic`](crate::prepared::AlphaTest)). A camera ray draws with a number that is
-//! stratified over its pixel, and the stored reflectance, which no denoiser touches, has no noise from the draw at all.
+//! All other rays draw for themselves ([`AlphaTest::Stochastic`](crate::prepared::AlphaTest)). A camera ray draws with a number that is
+//! stratified over its pixel, and the stored reflectance, which no denoiser touches, has no noise from the draw at all: the illumination
+//! has it instead.
 
 use crate::prepared::RenderScene;
 use crate::texture::Cone;
@@ -37,9 +38,8 @@ impl RenderScene<'_> {
             return Seen { hit: whole, reflectance: None };
         }
 
-        // Go through them from near to far, with the share of rays that get as far as each. The hierarchy may name a triangle twice.
+        // Go through them from near to far, with the share of rays that get as far as each.
         partly.sort_by(|(a, _), (b, _)| a.t.total_cmp(&b.t).then(a.triangle.cmp(&b.triangle)));
-        partly.dedup_by_key(|(hit, _)| hit.triangle);
         partly.extend(whole.map(|hit| (hit, 1.0)));
         let number = number();
         let mut seen = Seen { hit: None, reflectance: None };

@@ -136,7 +136,7 @@ impl Emitters for LightBounds {
 impl Reach for LightReach {
     /// About the irradiance that the emitters could cast on a point if nothing were in the way; zero only where they cannot.
     ///
-    /// Every case is reckoned and one is chosen: which one it will be, no processor can foresee.
+    /// All cases are computed and one is selected, without branches, which processors would often foresee wrongly.
     #[inline]
     fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.center - at.p;
@@ -158,7 +158,7 @@ impl Reach for LightReach {
         let (_, cos_emission) = without(normal, (sin_box, cos_box));
         let emitted = if cos_emission > self.cos_emission { cos_emission } else { 0.0 };
 
-        let outside = self.power * nearness * nearness * emitted * receiver;
+        let outside = self.power * emitted * receiver * nearness * nearness;
         if distance_squared <= radius_squared { self.power / radius_squared.max(f32::MIN_POSITIVE) } else { outside }
     }
 }

@@ -68,7 +68,7 @@ pub(super) struct GlintBounds {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GlintReach {
     center: Vec3,
-    /// Of the ball around the box.
+    /// Square of the radius of the ball around the box.
     radius_2: f32,
     axis: Vec3,
     power: f32,

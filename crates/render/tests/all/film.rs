@@ -195,7 +195,8 @@ fn the_reflectance_of_sheer_cloth_is_exact_and_its_colour_as_even_as_samples_all
         layers.map(|layer| frame.get(layer).unwrap()).map(|values| (0..values.len()).map(|i| values.get(i)).collect::<Vec<f64>>())
     };
 
-    // Before black, the light of the whole sky is on one layer. If samples drew independently, colours would be spread by 0.09.
+    // One layer has the light of half the sky (E = 1), and what lies behind is black. If samples drew independently, colours would be spread
+    // by 0.09.
     let [reflectance, color] = seen(vec![velvet(), cloth(0.5, 0.3)], [Layer::DiffuseReflectance, Layer::Color]);
     for reflectance in reflectance {
         assert_close("one layer", reflectance, 0.8 * 0.3, 2e-4);
