@@ -17,20 +17,21 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 30] = [
+const FLOORS: [(&str, Floor); 31] = [
     ("math", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
     ("vrscene", Floor::Number(1)),
     ("scene", Floor::Number(2)),
     ("import", Floor::Number(3)),
-    ("home", Floor::Number(3)),
+    ("textures", Floor::Number(3)),
     ("explore", Floor::Number(3)),
     ("render", Floor::Number(3)),
     ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
     ("suggest", Floor::Number(3)),
     ("shapes", Floor::Number(3)),
+    ("home", Floor::Number(4)),
     ("label", Floor::Number(4)),
     ("loader", Floor::Number(4)),
     ("multiview", Floor::Number(4)),

@@ -1,10 +1,10 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
-//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes and [`texture`] pictures;
-//! [`materials`] and [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out
-//! rooms, [`room`] and [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds,
-//! [`builder`] names, labels and collects the parts. What [`check`] would object to is moved until it rests on something and runs into
-//! nothing, and removed where that fails. [`assets`] are models of others that may stand in for our furniture.
+//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes; [`materials`] and
+//! [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out rooms, [`room`] and
+//! [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds, [`builder`] names, labels
+//! and collects the parts. What [`check`] would object to is moved until it rests on something and runs into nothing, and removed where
+//! that fails. [`assets`] are models of others that may stand in for our furniture.
 //!
 //! ```
 //! use enfilade_home::check::faults;
@@ -35,7 +35,6 @@ pub mod rooms;
 mod settle;
 pub mod shape;
 pub mod shell;
-pub mod texture;
 
 pub use config::HomeConfig;
 pub use home::{Home, Removal, Shift};

@@ -8,9 +8,9 @@ use crate::furniture::{Door, Passage, Window, board};
 use crate::materials::Finish;
 use crate::room::{Filling, Room, RoomKind, Wall};
 use crate::shape::{Reshape, slab_with_openings};
-use crate::texture::FLOOR_STRIPS;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_textures::FLOOR_STRIPS;
 
 /// How far floor, walls and ceiling reach into each other, so that no light comes through the joints.
 const OVERLAP: f32 = 0.1;

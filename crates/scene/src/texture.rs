@@ -102,21 +102,24 @@ impl Wrap {
     /// The four texels of `n` along an axis around a texture coordinate, and its place between the middle two (0 at the second).
     #[inline]
     pub fn four(self, coordinate: f32, n: u32) -> ([usize; 4], f32) {
-        let n = n as i32;
-        let position = self.reduced(coordinate) * n as f32 - 0.5;
-        let first = floor(position);
-        let index = |i: i32| self.index(i, n);
-        ([index(first - 1), index(first), index(first + 1), index(first + 2)], position - first as f32)
+        let (first, share) = self.placed(coordinate, n);
+        ([-1, 0, 1, 2].map(|i| self.index(first + i, n as i32)), share)
     }
 
     /// A texture coordinate as a place on the axis of `n` texels, and its neighbours: the texel whose centre is at or before it, the
     /// next one, and the share of the latter.
     #[inline]
     pub fn neighbours(self, coordinate: f32, n: u32) -> (usize, usize, f32) {
-        let n = n as i32;
+        let (first, share) = self.placed(coordinate, n);
+        (self.index(first, n as i32), self.index(first + 1, n as i32), share)
+    }
+
+    /// The texel whose centre is at or before a texture coordinate, before it is wrapped, and the share of the next one.
+    #[inline]
+    fn placed(self, coordinate: f32, n: u32) -> (i32, f32) {
         let position = self.reduced(coordinate) * n as f32 - 0.5;
         let first = floor(position);
-        (self.index(first, n), self.index(first + 1, n), position - first as f32)
+        (first, position - first as f32)
     }
 
     /// The coordinate within one period (repeat: [0,1], mirror: [0,2]) or, clamped, within [−1,2], so that integers hold it.

@@ -118,7 +118,7 @@ pub enum Verb {
     Export(ExportArgs),
     /// A real data set in the layout that training reads
     Ingest(IngestArgs),
-    /// Frames -> MP4, GIF or animated WebP of each trajectory, layer by layer
+    /// Frames -> MP4 or GIF of each trajectory, layer by layer
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),

@@ -42,7 +42,7 @@ pub struct ExportArgs {
 /// `animate`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade animate out\n  enfilade animate out --layers color,depth_meters,semantic --fps 10\n  \
-    enfilade animate out --scene home --camera cam_00 --layers tonemap --format webp -o films\n\nExposure and ranges are the same in \
+    enfilade animate out --scene home --camera cam_00 --layers tonemap --format gif -o films\n\nExposure and ranges are the same in \
     all frames, but in tonemap, which is Hypersim's. docs/previews.md has the names.")]
 pub struct AnimateArgs {
     /// The dataset's folder
@@ -77,8 +77,6 @@ pub enum AnimationFormatArg {
     Mp4,
     /// 256 colours per picture; for everything that shows pictures
     Gif,
-    /// Animated WebP; for browsers
-    Webp,
 }
 
 impl From<AnimationFormatArg> for AnimationFormat {
@@ -86,7 +84,6 @@ impl From<AnimationFormatArg> for AnimationFormat {
         match arg {
             AnimationFormatArg::Mp4 => Self::Mp4,
             AnimationFormatArg::Gif => Self::Gif,
-            AnimationFormatArg::Webp => Self::Webp,
         }
     }
 }

@@ -7,9 +7,9 @@ use super::{CONTACT, board};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::shape::Reshape;
-use crate::texture::{BOOK_COLUMNS, BOOK_ROWS};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_textures::{BOOK_COLUMNS, BOOK_ROWS};
 
 /// One book in its own space: spine at y = 0 facing +y, standing on z = 0, from x = 0 to its thickness. `cell` picks its jacket.
 fn book(thickness: f32, depth: f32, height: f32, cell: usize) -> Mesh {

@@ -10,9 +10,9 @@ use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::palette::Palette;
 use crate::shape::{Reshape, grid, lathe, leaf, rounded_box, spline, tube};
-use crate::texture::{BOOK_COLUMNS, PaintingStyle};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_textures::{BOOK_COLUMNS, PaintingStyle};
 use std::f32::consts::TAU;
 
 /// A turned vase, with or without branches.

@@ -7,10 +7,10 @@ use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::palette::Palette;
 use crate::shape::{Reshape, grid, lathe, picture_frame};
-use crate::texture::{PaintingStyle, painting};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use enfilade_scene::{Bsdf, ColorParam, Material, TextureRef};
+use enfilade_textures::{PaintingStyle, painting};
 
 /// A framed picture; its origin is the middle of its back, on the wall's face.
 #[derive(Clone, Copy, Debug)]

@@ -3,9 +3,9 @@
 use super::wall::lightened;
 use super::{Layers, Maker, rough};
 use crate::palette::COTTON;
-use crate::texture::{self, Pattern, RugStyle, Weave};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, Material, Principled};
+use enfilade_textures::{self as texture, Pattern, RugStyle, Weave};
 
 /// What people wear besides the palette's colours: denim, black, white, grey, camel, navy, olive, wine.
 const CLOTHES: [Rgb; 8] = [

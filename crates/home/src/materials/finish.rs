@@ -18,7 +18,7 @@ pub enum Finish {
     /// Bare lime plaster, trowelled.
     Plaster,
     Brick,
-    /// Eight strips of wood, one above the other: see [`crate::texture::FLOOR_STRIPS`].
+    /// Eight strips of wood, one above the other: see [`enfilade_textures::FLOOR_STRIPS`].
     PlankFloor,
     /// Herringbone or laid strips, laid by the picture.
     ParquetFloor,
@@ -118,7 +118,7 @@ pub enum Finish {
     // Paper.
     Paper,
     Cardboard,
-    /// A sheet of spines: texture coordinates choose the book, see [`crate::texture::BOOK_COLUMNS`].
+    /// A sheet of spines: texture coordinates choose the book, see [`enfilade_textures::BOOK_COLUMNS`].
     BookJackets,
 
     // Screens: texture coordinates run over the unit square.

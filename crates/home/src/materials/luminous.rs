@@ -3,9 +3,9 @@
 //! A lit screen shows a picture in the colours of the palette, as bright as the exposure of the home makes it.
 
 use super::{Maker, coated};
-use crate::texture::{self, Display};
 use enfilade_math::Rgb;
 use enfilade_scene::{Bsdf, Material, TextureRef, Wrap};
+use enfilade_textures::{self as texture, Display};
 
 /// White of a screen, kcd/m²: 250 cd/m² (ISO 9241-307 asks for 100 at least).
 const SCREEN_KCD: f32 = 0.25;

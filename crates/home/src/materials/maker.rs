@@ -2,9 +2,9 @@
 
 use crate::light::Exposure;
 use crate::palette::Palette;
-use crate::texture::{Paint, Skin};
 use enfilade_math::{Rgb, Rng, Vec2, hash_text};
 use enfilade_scene::{Bsdf, ColorParam, Image, Material, NormalMap, ScalarParam, Scene};
+use enfilade_textures::{Paint, Skin};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 

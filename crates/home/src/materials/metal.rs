@@ -2,9 +2,9 @@
 //! refractiveindex.info.
 
 use super::Maker;
-use crate::texture::{self, Grain};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::{Bsdf, Material, ScalarParam};
+use enfilade_textures::{self as texture, Grain};
 
 /// Real and imaginary part.
 type Index = [Rgb; 2];

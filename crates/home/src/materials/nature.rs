@@ -2,9 +2,9 @@
 
 use super::solid::FRUITS;
 use super::{Maker, coated, rough};
-use crate::texture;
 use enfilade_math::Rgb;
 use enfilade_scene::Material;
+use enfilade_textures as texture;
 
 /// Jackets of books besides the palette's colours.
 const JACKETS: [Rgb; 9] = [

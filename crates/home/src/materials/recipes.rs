@@ -1,9 +1,9 @@
 //! The table of all finishes: which material each becomes.
 
 use super::{Finish, Maker, coated, glass, metal, rough};
-use crate::texture::SlabLook;
 use enfilade_math::Rgb;
 use enfilade_scene::Material;
+use enfilade_textures::SlabLook;
 
 impl Maker<'_> {
     /// The material of a finish in the colours of the room.

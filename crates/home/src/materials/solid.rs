@@ -1,9 +1,9 @@
 //! Wood, stone, pottery, lacquer and plastic: bodies under a clear surface.
 
 use super::{Maker, coated, rough};
-use crate::texture::{self, SlabLook, WoodTone};
 use enfilade_math::Rgb;
 use enfilade_scene::Material;
+use enfilade_textures::{self as texture, SlabLook, WoodTone};
 
 /// Colours of household plastic and of lacquered toys besides those of the palette.
 const BRIGHT: [Rgb; 4] =

@@ -1,9 +1,9 @@
 //! Walls, ceilings and floors: paint, plaster, wallpaper, brick, planks, parquet, tiles, carpet, concrete.
 
 use super::{Maker, coated, rough};
-use crate::texture;
 use enfilade_math::Rgb;
 use enfilade_scene::Material;
+use enfilade_textures as texture;
 
 impl Maker<'_> {
     /// Matt emulsion on rolled plaster. White emulsion reflects 80 to 85 % (EN ISO 2813 calls it matt below 10 gloss units at 85°).

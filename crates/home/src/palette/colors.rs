@@ -2,8 +2,8 @@
 
 use super::oklch::any_color;
 use super::tiles::{GLAZE, floor_tile, quiet, wall_tile};
-use crate::texture::{PaperPattern, Pattern, SlabLook, TileLook, WoodTone};
 use enfilade_math::{Rgb, Rng};
+use enfilade_textures::{PaperPattern, Pattern, SlabLook, TileLook, WoodTone};
 
 /// The surfaces of one room. Colours are linear reflectances.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::colors::{Palette, WHITE};
 use super::tiles::{floor_tile, wall_tile};
-use crate::texture::{PaperPattern, Pattern, SlabLook, WoodTone};
 use enfilade_math::{Rgb, Rng};
+use enfilade_textures::{PaperPattern, Pattern, SlabLook, WoodTone};
 
 /// A palette in sRGB codes.
 pub(super) struct Family {

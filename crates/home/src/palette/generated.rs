@@ -3,8 +3,8 @@
 use super::colors::{Palette, WHITE};
 use super::oklch::oklch;
 use super::tiles::{floor_tile, wall_tile};
-use crate::texture::{PaperPattern, Pattern, SlabLook, WoodTone};
 use enfilade_math::Rng;
+use enfilade_textures::{PaperPattern, Pattern, SlabLook, WoodTone};
 
 /// A palette of one leading hue and its companions.
 ///

@@ -1,7 +1,7 @@
 //! Tiles of walls and floors in the formats that are sold: metro tiles, large slabs, hand-made squares, terracotta.
 
-use crate::texture::{TileFigure, TileLook};
 use enfilade_math::{Rgb, Rng};
+use enfilade_textures::{TileFigure, TileLook};
 
 /// White of glazed tiles.
 pub(super) const GLAZE: Rgb = Rgb::new(0.76, 0.755, 0.73);

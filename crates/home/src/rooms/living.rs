@@ -9,8 +9,8 @@ use crate::furniture::{
 };
 use crate::place::{Piece, Spot};
 use crate::room::{RoomKind, Wall};
-use crate::texture::PaintingStyle;
 use enfilade_math::{DAffine3, Vec2, Vec3};
+use enfilade_textures::PaintingStyle;
 use std::f32::consts::PI;
 
 /// From the sofa's front to the coffee table.

@@ -41,6 +41,15 @@ enum Texels {
     Floats(Vec<[f32; 4]>),
 }
 
+/// How the texels of a level lie in memory.
+#[derive(Clone, Copy)]
+enum Stored<'a> {
+    Bytes(&'a [[u8; 4]], &'static [f32; 256]),
+    Triples(&'a [[f32; 3]]),
+    Shorts(&'a [[u16; 4]]),
+    Floats(&'a [[f32; 4]]),
+}
+
 const SHORT: f32 = 65535.0;
 
 impl<'s> Pyramid<'s> {
@@ -188,31 +197,36 @@ impl<'s> Pyramid<'s> {
         Vec2::new(0.5 * by_column * width as f32, -0.5 * by_row * height as f32)
     }
 
-    /// See [`Pyramid::texel`]. How a level is stored is asked once, not for each.
+    /// How a level is stored: asked once for all texels that are read together.
+    #[inline]
+    fn stored(&self, level: usize) -> Stored<'_> {
+        match (self.full, level.checked_sub(1).map(|level| &self.levels[level].texels)) {
+            (Full::Bytes(texels, values), None) => Stored::Bytes(texels, values),
+            (Full::Floats(texels), None) => Stored::Triples(texels),
+            (_, Some(Texels::Shorts(texels))) => Stored::Shorts(texels),
+            (_, Some(Texels::Floats(texels))) => Stored::Floats(texels),
+        }
+    }
+
+    /// See [`Pyramid::texel`].
     #[inline]
     fn texels<const N: usize>(&self, level: usize, at: [usize; N]) -> [Vec4; N] {
-        let mut read = [Vec4::ZERO; N];
-        let places = read.iter_mut().zip(at);
-        match (self.full, level.checked_sub(1).map(|level| &self.levels[level].texels)) {
-            (Full::Bytes(texels, values), None) => places.for_each(|(read, i)| *read = of_bytes(texels[i], values)),
-            (Full::Floats(texels), None) => places.for_each(|(read, i)| *read = of_floats(texels[i])),
-            (_, Some(Texels::Shorts(texels))) => places.for_each(|(read, i)| *read = of_shorts(texels[i])),
-            (_, Some(Texels::Floats(texels))) => places.for_each(|(read, i)| *read = Vec4::from_array(texels[i])),
+        match self.stored(level) {
+            Stored::Bytes(texels, values) => at.map(|i| of_bytes(texels[i], values)),
+            Stored::Triples(texels) => at.map(|i| of_floats(texels[i])),
+            Stored::Shorts(texels) => at.map(|i| of_shorts(texels[i])),
+            Stored::Floats(texels) => at.map(|i| Vec4::from_array(texels[i])),
         }
-        read
     }
 
     /// Luminances of texels of a level by their numbers.
     #[inline]
     fn luminances<const N: usize>(&self, level: usize, at: [usize; N]) -> [f32; N] {
-        let mut read = [0.0; N];
-        let places = read.iter_mut().zip(at);
-        match (self.full, level.checked_sub(1).map(|level| &self.levels[level].texels)) {
-            (Full::Bytes(texels, values), None) if self.grey => places.for_each(|(read, i)| *read = values[usize::from(texels[i][0])]),
-            (_, Some(Texels::Shorts(texels))) if self.grey => places.for_each(|(read, i)| *read = f32::from(texels[i][0]) * (1.0 / SHORT)),
-            _ => places.zip(self.texels(level, at)).for_each(|((read, _), t)| *read = Rgb::new(t.x, t.y, t.z).luminance()),
+        match self.stored(level) {
+            Stored::Bytes(texels, values) if self.grey => at.map(|i| values[usize::from(texels[i][0])]),
+            Stored::Shorts(texels) if self.grey => at.map(|i| f32::from(texels[i][0]) * (1.0 / SHORT)),
+            _ => self.texels(level, at).map(|t| Rgb::new(t.x, t.y, t.z).luminance()),
         }
-        read
     }
 }
 

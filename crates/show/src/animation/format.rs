@@ -7,20 +7,17 @@ pub enum AnimationFormat {
     Mp4,
     /// 256 colours per picture, dithered; shown wherever pictures are.
     Gif,
-    /// Animated WebP: all colours, shown by browsers.
-    Webp,
 }
 
 impl AnimationFormat {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Mp4, Self::Gif, Self::Webp];
+    pub const ALL: [Self; 2] = [Self::Mp4, Self::Gif];
 
     /// Its name, which is the extension of its files too.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mp4 => "mp4",
             Self::Gif => "gif",
-            Self::Webp => "webp",
         }
     }
 
@@ -29,7 +26,6 @@ impl AnimationFormat {
         match self {
             Self::Mp4 => [3840, 2160],
             Self::Gif => [65535, 65535],
-            Self::Webp => [16383, 16383],
         }
     }
 }
@@ -41,7 +37,7 @@ pub enum AnimationError {
     #[error("{0} pictures per second; expected more than 0.01 and at most 100")]
     Rate(f64),
     /// The pictures are too large for the format.
-    #[error("pictures of {found}, but {format} holds at most {most}; choose another --format, which may be webp or gif")]
+    #[error("pictures of {found}, but {format} holds at most {most}; choose another --format, which may be gif")]
     TooLarge {
         /// Name of the format.
         format: &'static str,

@@ -1,13 +1,12 @@
-//! Moving pictures: a row of pictures as MP4 (H.264), GIF or animated WebP.
+//! Moving pictures: a row of pictures as MP4 (H.264) or GIF.
 //!
 //! Each encoder runs on one thread, so that the bytes do not depend on the number of threads. Transparency is laid over black,
-//! since H.264 has none. GIF and WebP keep a picture of at most 256 colours exactly.
+//! since H.264 has none. GIF keeps a picture of at most 256 colours exactly.
 
 mod colors;
 mod format;
 mod gif;
 mod mp4;
-mod webp;
 
 pub use format::{AnimationError, AnimationFormat};
 
@@ -22,7 +21,6 @@ pub struct Animation {
 enum Encoder {
     Mp4(Box<mp4::Mp4>),
     Gif(gif::Gif),
-    Webp(Box<webp::Webp>),
 }
 
 impl Animation {
@@ -41,7 +39,6 @@ impl Animation {
         let encoder = match format {
             AnimationFormat::Mp4 => Encoder::Mp4(Box::new(mp4::Mp4::begin(size, fps)?)),
             AnimationFormat::Gif => Encoder::Gif(gif::Gif::begin(size, fps)?),
-            AnimationFormat::Webp => Encoder::Webp(Box::new(webp::Webp::begin(size, fps)?)),
         };
         Ok(Self { size, encoder })
     }
@@ -58,7 +55,6 @@ impl Animation {
         match &mut self.encoder {
             Encoder::Mp4(mp4) => mp4.add(&rgb, times.max(1)),
             Encoder::Gif(gif) => gif.add(&rgb, times.max(1)),
-            Encoder::Webp(webp) => webp.add(&rgb, times.max(1)),
         }
     }
 
@@ -70,7 +66,6 @@ impl Animation {
         match self.encoder {
             Encoder::Mp4(mp4) => mp4.finish(),
             Encoder::Gif(gif) => gif.finish(),
-            Encoder::Webp(webp) => webp.finish(),
         }
     }
 }

@@ -269,7 +269,7 @@ mod tests {
         for frame in [0, 1] {
             dataset.drop_rendered(["room", "cam_00"], frame).unwrap();
         }
-        let films = animate(folder.path(), &["color_rendered", "color"], AnimationFormat::Webp);
+        let films = animate(folder.path(), &["color_rendered", "color"], AnimationFormat::Gif);
         assert_eq!(films[0].as_ref().unwrap_err().to_string(), "room/cam_00 has no frame with color_rendered");
         assert_eq!(films[1].as_ref().unwrap().frames, 2);
         std::fs::remove_file(dataset.layout().layer("room", "cam_00", 0, Layer::Semantic)).unwrap();

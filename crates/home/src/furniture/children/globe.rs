@@ -6,9 +6,9 @@ use crate::furniture::form::{rod, turned};
 use crate::furniture::{CONTACT, Furniture, on};
 use crate::materials::{Finish, coated};
 use crate::shape::{Reshape, sphere, tube};
-use crate::texture::paint;
 use enfilade_math::{DAffine3, Rgb, Rng, Vec2, Vec3};
 use enfilade_scene::{ColorParam, TextureRef};
+use enfilade_textures::paint;
 use std::f32::consts::{PI, TAU};
 
 /// A globe on its stand.

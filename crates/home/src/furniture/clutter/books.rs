@@ -8,9 +8,9 @@ use crate::furniture::form::{all, cut_out, rod};
 use crate::furniture::{CONTACT, Furniture, Magazines, board, grained, on};
 use crate::materials::Finish;
 use crate::shape::{Reshape, bevelled_box, grid};
-use crate::texture::{BOOK_COLUMNS, BOOK_ROWS};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_textures::{BOOK_COLUMNS, BOOK_ROWS};
 
 /// Books that stand between two bookends.
 #[derive(Clone, Copy, Debug)]

@@ -8,8 +8,8 @@ use crate::furniture::{CONTACT, Furniture, board, grained, on};
 use crate::materials::Finish;
 use crate::palette::Palette;
 use crate::shape::{Reshape, bevelled_box, grid, picture_frame, rounded_loop, sphere, tube};
-use crate::texture::PaintingStyle;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_textures::PaintingStyle;
 
 /// A small framed picture that stands on its strut.
 #[derive(Clone, Copy, Debug)]

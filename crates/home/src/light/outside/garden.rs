@@ -1,8 +1,8 @@
 //! Gardens and open country: rings of trees, a lawn, hills with fields and woods.
 
 use super::{Surroundings, View, hazed};
-use crate::texture::noise::{fbm, smoothstep};
 use enfilade_math::{Rgb, Vec2};
+use enfilade_textures::noise::{fbm, smoothstep};
 
 /// A ring of trees: how high they rise in degrees, how hazy they are, how many crowns stand around.
 pub(super) struct Trees {

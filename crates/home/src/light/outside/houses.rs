@@ -2,8 +2,8 @@
 
 use super::garden::Trees;
 use super::{LIT_WINDOW, Surroundings, View, hazed};
-use crate::texture::noise::{fbm, lattice, smoothstep};
 use enfilade_math::{Rgb, Vec2};
+use enfilade_textures::noise::{fbm, lattice, smoothstep};
 use std::f32::consts::TAU;
 
 /// A ring of houses.

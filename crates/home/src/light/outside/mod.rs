@@ -7,8 +7,8 @@ mod garden;
 mod houses;
 mod skyline;
 
-use crate::texture::noise::smoothstep;
 use enfilade_math::{Rgb, Vec2, Vec3};
+use enfilade_textures::noise::smoothstep;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 

@@ -1,8 +1,8 @@
 //! A city seen from high up: rings of towers, the farther the hazier, with lit windows at night.
 
 use super::{LIT_WINDOW, Surroundings, View, hazed};
-use crate::texture::noise::{fbm, lattice, smoothstep};
 use enfilade_math::{Rgb, Vec2};
+use enfilade_textures::noise::{fbm, lattice, smoothstep};
 use std::f32::consts::TAU;
 
 /// A ring of towers: its radius, how many there are, their minimum and maximum height, and how hazy they are.

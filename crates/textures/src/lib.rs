@@ -1,4 +1,4 @@
-//! Procedural pictures: what surfaces look like up close.
+//! Procedural textures: what the surfaces of a home look like up close.
 //!
 //! Every picture is a function of a seed. [`Paint`] says how many metres a picture covers, so that shapes, whose texture
 //! coordinates are metres, show it at its true size.
@@ -6,7 +6,7 @@
 mod books;
 mod fabric;
 mod hide;
-pub(crate) mod noise;
+pub mod noise;
 mod painting;
 mod paper;
 mod plaster;
