@@ -84,7 +84,7 @@ describe("what is derived", () => {
         assert.match(await card.innerText(), /sees \d+(\.\d)? % of this\s+this sees \d+(\.\d)? % of it\s+\d+\.\d\d m apart, turned \d+°/);
         await card.click();
         await addressSays("otherCamera", "cam_01");
-        await painted();
+        await page.waitForFunction(() => window.view.stage.last.length === 2);
         assert.equal(await page.locator("#other-camera").innerText(), "cam_01 ");
         assert.deepEqual(await page.evaluate(() => window.view.stage.last.map(({ camera, frame, layer }) => [camera.name, frame, layer])), [["cam_00", 0, "color"], ["cam_01", other.frame, "color"]]);
         await pointAtMiddle(0.25);
