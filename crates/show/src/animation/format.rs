@@ -37,7 +37,7 @@ pub enum AnimationError {
     #[error("{0} pictures per second; expected more than 0.01 and at most 100")]
     Rate(f64),
     /// The pictures are too large for the format.
-    #[error("pictures of {found}, but {format} holds at most {most}; choose another --format, which may be gif")]
+    #[error("pictures of {found}, but {format} holds at most {most}; --format gif holds the largest")]
     TooLarge {
         /// Name of the format.
         format: &'static str,
