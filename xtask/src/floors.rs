@@ -17,8 +17,9 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 31] = [
+const FLOORS: [(&str, Floor); 32] = [
     ("math", Floor::Number(0)),
+    ("parallel", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
     ("vrscene", Floor::Number(1)),

@@ -65,7 +65,12 @@ impl Library {
     /// A model of `family` of a size that `fits`, with its number; `None` leaves the family to our own. Without models of it no random
     /// number is drawn.
     pub(crate) fn pick(&self, family: &Family, fits: impl Fn(Vec3) -> bool, rng: &mut Rng) -> Option<(usize, Arc<Model>)> {
-        let fitting: Vec<_> = self.models.get(family.name)?.iter().filter(|(_, model)| fits(model.size)).collect();
+        let models = self.models.get(family.name)?;
+        self.draw(models.iter().filter(|(_, model)| fits(model.size)).collect(), rng)
+    }
+
+    /// One of these, by their weights.
+    fn draw(&self, fitting: Vec<&(usize, Arc<Model>)>, rng: &mut Rng) -> Option<(usize, Arc<Model>)> {
         let total: f32 = fitting.iter().map(|(_, model)| model.weight).sum();
         if total <= 0.0 || rng.next_f32() >= self.share {
             return None;

@@ -207,6 +207,11 @@ impl Floor {
 
     /// Places a group at the cheapest spot where it fits; the poses of its pieces, or `None` where it fits nowhere.
     pub fn place(&mut self, group: &[Piece], spots: Vec<Spot>, cost: impl Fn(&Self, &Spot) -> f32) -> Option<(Spot, Vec<DAffine3>)> {
+        self.place_by(group, spots, &cost)
+    }
+
+    /// Compiled once, not for every cost.
+    fn place_by(&mut self, group: &[Piece], spots: Vec<Spot>, cost: &dyn Fn(&Self, &Spot) -> f32) -> Option<(Spot, Vec<DAffine3>)> {
         let mut priced: Vec<(f32, Spot)> = spots.into_iter().map(|s| (cost(self, &s), s)).filter(|(c, _)| c.is_finite()).collect();
         priced.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut trials = 0;

@@ -24,6 +24,11 @@ use enfilade_math::{Vec2, Vec3};
 /// A sheet of `nu` × `nv` quads over vertices numbered 0..=nu, 0..=nv, without normals. It faces where its u direction cross
 /// its v direction points; quads that collapse to a line or a point (poles) lose their empty triangles.
 pub fn grid(nu: usize, nv: usize, position: impl Fn(usize, usize) -> Vec3, uv: impl Fn(usize, usize) -> Vec2) -> Mesh {
+    grid_by([nu, nv], &position, &uv)
+}
+
+/// Compiled once, not for every shape.
+fn grid_by([nu, nv]: [usize; 2], position: &dyn Fn(usize, usize) -> Vec3, uv: &dyn Fn(usize, usize) -> Vec2) -> Mesh {
     let mut mesh = Mesh::default();
     for j in 0..=nv {
         for i in 0..=nu {
