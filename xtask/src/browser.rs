@@ -19,8 +19,8 @@ const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "g
 const STEPS: [Step; 5] = [
     Step {
         name: "packages",
-        about: "node and the packages that the lock file names are there",
-        remedy: "install node 20 or later with npm (on Debian: apt install nodejs npm); the packages come from the npm registry",
+        about: "node, the packages that the lock file names and a browser are there",
+        remedy: "install node 20 or later with npm, and Chromium (on Debian: apt install nodejs npm chromium); the packages come from the npm registry",
         run: packages,
     },
     Step {
@@ -62,7 +62,8 @@ fn packages(house: &House) -> Result<String, String> {
             return Err(format!("`{tool} --version` does not answer"));
         }
     }
-    npm(house, &["ci", "--silent", "--no-audit", "--no-fund"])
+    npm(house, &["ci", "--silent", "--no-audit", "--no-fund"])?;
+    browser(house).map(|found| found.display().to_string())
 }
 
 /// Bundles three.js anew beside the bundle that is kept, and compares.

@@ -8,7 +8,6 @@ use crate::record::RECORD_FORMAT;
 use crate::{ColorKind, Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Cx, Pose, Warning};
-use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -345,11 +344,11 @@ impl Dataset {
             let record = write_file_aside(path, size, *layer, values, &attributes(*layer, description.as_deref()))?;
             Ok((self.name_in_scene(scene, path), record))
         };
-        let written: Result<BTreeMap<_, _>, DatasetError> = files.par_iter().map(write).collect();
+        let written: Result<Vec<_>, DatasetError> = enfilade_parallel::try_map(&files, write);
         if written.is_err() {
             self.remove_aside(scene, camera, number, frame);
         }
-        written
+        Ok(written?.into_iter().collect())
     }
 
     /// Removes what [`Self::write_aside`] wrote. Failures are ignored, since an earlier error is being returned.

@@ -5,7 +5,6 @@ use crate::frames::read_json;
 use crate::layout_version::format;
 use crate::{ColorKind, Dataset, DatasetError, FileRecord, ViewFault, refuse_newer_layout, write_json};
 use enfilade_frame::{Dtype, LAYERS, LayerSpec, Pass};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -313,10 +312,10 @@ impl Dataset {
     pub fn verify_checksums_of(&self, scene: &str, entry: &SceneEntry) -> Result<Vec<String>, DatasetError> {
         let frames = entry.cameras.iter().flat_map(|(camera, entry)| entry.frames.iter().map(move |frame| (camera, frame)));
         let files: Vec<_> = frames.flat_map(|(camera, f)| f.files.iter().map(move |file| (camera, f.frame, file))).collect();
-        let check = |(camera, frame, (name, expected)): (&String, u32, (&String, &FileRecord))| {
+        let check = |&(camera, frame, (name, expected)): &(&String, u32, (&String, &FileRecord))| {
             self.check_file([scene, camera], frame, name, expected)
         };
-        let problems: Vec<Option<String>> = files.into_par_iter().map(check).collect::<Result<_, _>>()?;
+        let problems: Vec<Option<String>> = enfilade_parallel::try_map(&files, check)?;
         Ok(problems.into_iter().flatten().collect())
     }
 

@@ -5,7 +5,6 @@ use crate::frames::write_layer;
 use crate::read::{read_image, sorted_names};
 use crate::{Dataset, DatasetError, FramePair, check_name};
 use enfilade_frame::{Frame, Layer, Values};
-use rayon::prelude::*;
 
 /// That a pair has this layer says that it has layers.
 const FIRST: Layer = Layer::OpticalFlow;
@@ -21,7 +20,8 @@ impl Dataset {
         check_name("camera name", &pair.second.0)?;
         let size = [layers.height as usize, layers.width as usize];
         let each: Vec<(Layer, &Values)> = layers.iter().collect();
-        each.par_iter().try_for_each(|&(layer, values)| write_layer(&self.layout().pair_layer(pair, layer), size, layer, values))
+        let write = |&(layer, values): &(Layer, &Values)| write_layer(&self.layout().pair_layer(pair, layer), size, layer, values);
+        enfilade_parallel::try_map(&each, write).map(drop)
     }
 
     /// One layer that leads from the first frame of a pair to the second, with the first one's height and width.

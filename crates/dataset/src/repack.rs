@@ -84,7 +84,7 @@ impl Dataset {
             }
         }
         let counted = Counted::new(cx, "images", images.len());
-        let sizes: Vec<[u64; 2]> = images.par_iter().map(|image| counted.unit(|| image.run())).collect::<Result<_, DatasetError>>()?;
+        let sizes: Vec<[u64; 2]> = enfilade_parallel::try_map(&images, |image| counted.unit(|| image.run()))?;
         self.copy_manifest(copy)?;
         growing.take_place()?;
         let sum = |which: usize| sizes.iter().map(|sizes| sizes[which]).sum();

@@ -8,7 +8,6 @@ use crate::things::Things;
 use enfilade_dataset::{Caption, Dataset, DatasetError};
 use enfilade_math::DVec3;
 use enfilade_scene::Cx;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// How much was found and said.
@@ -57,7 +56,7 @@ pub fn describe(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Option<De
     for (camera, seen) in filmed.iter().filter(|(_, seen)| !seen.is_empty()) {
         let names = [scene, camera];
         let scope = |seen| Scope::new(&things, &described, &relations, seen);
-        let captions: Vec<Caption> = seen.par_iter().map(|(seen, eye)| caption(&scope(seen), names, *eye)).collect();
+        let captions: Vec<Caption> = enfilade_parallel::map(seen, |(seen, eye)| caption(&scope(seen), names, *eye));
         let mut asker = Asker::new(names);
         let (frames, eyes): (Vec<&SeenFrame>, Vec<DVec3>) = seen.iter().map(|(seen, eye)| (seen, *eye)).unzip();
         of_video(&mut asker, &things, &described, &frames, &eyes);

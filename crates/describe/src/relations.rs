@@ -8,7 +8,6 @@ use crate::contact::{self, AGAINST_M, Attempt, Meeting};
 use enfilade_dataset::{InstanceRelation, RelationKind};
 use enfilade_math::{DVec2, DVec3};
 use enfilade_scene::{CEILING, WALL};
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Of the rays that meet what carries a thing most, another meets at least this share if it carries the thing too.
@@ -67,7 +66,7 @@ pub fn relations(bodies: &[Body], front: impl Fn(i16) -> Option<DVec2> + Sync) -
         found
     };
     let things: Vec<usize> = (0..bodies.len()).filter(|&i| bodies[i].is_thing()).collect();
-    let mut all: Vec<InstanceRelation> = things.par_iter().flat_map_iter(of_thing).collect();
+    let mut all: Vec<InstanceRelation> = enfilade_parallel::flat_map(&things, of_thing);
     all.sort_by_key(|r| (r.subject, r.kind, r.object, r.object_semantic));
     all
 }
@@ -84,7 +83,7 @@ fn supports(bodies: &[Body]) -> Vec<Support> {
         let others: Vec<(usize, &Body)> = near(bodies, i, 0.03).collect();
         if bodies[i].is_thing() { contact::attempts(&bodies[i], &others) } else { Vec::new() }
     };
-    let attempts: Vec<Vec<Attempt>> = (0..bodies.len()).into_par_iter().map(attempts).collect();
+    let attempts: Vec<Vec<Attempt>> = enfilade_parallel::map_up_to(bodies.len(), attempts);
     let mut supports: Vec<Support> = vec![Support::default(); bodies.len()];
     let mut carried: Vec<bool> = bodies.iter().map(|body| !body.is_thing()).collect();
     loop {

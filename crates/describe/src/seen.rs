@@ -4,7 +4,6 @@ use crate::colors::{NAMES, color_name};
 use enfilade_dataset::{Dataset, DatasetError, counted};
 use enfilade_frame::{Layer, Values};
 use enfilade_scene::{Counted, Cx, Warning};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Reflectance below this is none: what mirrors, metals and glass have.
@@ -60,7 +59,7 @@ pub fn look(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32], cx: &
     }
     let frames = Counted::new(cx, "frames", whole.len());
     let one = |&number: &u32| frames.unit(|| look_at(dataset, [scene, camera], number, has(number, Layer::DiffuseReflectance)));
-    whole.par_iter().map(one).collect()
+    enfilade_parallel::try_map(&whole, one)
 }
 
 fn look_at(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, colored: bool) -> Result<SeenFrame, DatasetError> {

@@ -3,8 +3,8 @@
 use crate::CarveConfig;
 use enfilade_geometry::Bvh;
 use enfilade_math::{DMat3, DVec3, Ray, Vec3, warp};
+use enfilade_parallel::flat_map_up_to;
 use enfilade_scene::{Cx, StartCamera, Warning, WorldMesh};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Columns of the search grid along the longer side of the scene, at most.
@@ -126,20 +126,17 @@ fn places(world: &WorldMesh, bvh: &Bvh, config: &StartsConfig) -> Vec<Standpoint
     let spacing = spacing.max(0.25) as f32;
     let (nx, ny) = ((size.x / spacing).ceil() as usize, (size.y / spacing).ceil() as usize);
     let directions: Vec<Vec3> = (0..RAYS).map(|k| warp::fibonacci_sphere(k, RAYS).as_vec3()).collect();
-    (0..nx * ny)
-        .into_par_iter()
-        .flat_map_iter(|column| {
-            let (x, y) = ((column % nx) as f32 + 0.5, (column / nx) as f32 + 0.5);
-            let (x, y) = (world.bounds.min.x + spacing * x, world.bounds.min.y + spacing * y);
-            let floors = floors(world, bvh, x, y, config.headroom_m as f32);
-            let eyes = floors.into_iter().map(move |z| (Vec3::new(x, y, z + config.eye_height_m as f32), z));
-            eyes.filter_map(|(eye, floor_z)| {
-                let score = judge(bvh, eye, config.clearance_m as f32, &directions)?;
-                Some(Standpoint { eye, floor_z, score })
-            })
-            .collect::<Vec<_>>()
+    flat_map_up_to(nx * ny, |column| {
+        let (x, y) = ((column % nx) as f32 + 0.5, (column / nx) as f32 + 0.5);
+        let (x, y) = (world.bounds.min.x + spacing * x, world.bounds.min.y + spacing * y);
+        let floors = floors(world, bvh, x, y, config.headroom_m as f32);
+        let eyes = floors.into_iter().map(move |z| (Vec3::new(x, y, z + config.eye_height_m as f32), z));
+        eyes.filter_map(|(eye, floor_z)| {
+            let score = judge(bvh, eye, config.clearance_m as f32, &directions)?;
+            Some(Standpoint { eye, floor_z, score })
         })
-        .collect()
+        .collect::<Vec<_>>()
+    })
 }
 
 /// Heights of the level surfaces of a column that have headroom above them.

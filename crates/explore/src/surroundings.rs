@@ -2,8 +2,8 @@
 
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Ray, warp};
+use enfilade_parallel::flat_map;
 use enfilade_scene::{PartId, WorldMesh};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// The back of a part counts only when at most this share of the rays that meet it from around the starts meets its back: others are
@@ -114,7 +114,7 @@ fn fronts(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3]) -> Vec<bool> {
     };
     let places: Vec<DVec3> = starts.iter().flat_map(around).collect();
     let met: Vec<SurfacePoint> =
-        places.par_iter().flat_map_iter(|p| (0..RAYS).filter_map(|k| meet(world, bvh, *p, warp::fibonacci_sphere(k, RAYS)))).collect();
+        flat_map(&places, |&p| (0..RAYS).filter_map(move |k| meet(world, bvh, p, warp::fibonacci_sphere(k, RAYS))));
     let parts = world.sources.iter().map(|source| source.part as usize + 1).max().unwrap_or(0);
     let (mut all, mut behind) = (vec![0u32; parts], vec![0u32; parts]);
     for point in met {

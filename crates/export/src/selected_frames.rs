@@ -4,7 +4,6 @@ use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::{Dataset, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Structure, Warning};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Which part of a dataset to export.
@@ -240,7 +239,7 @@ impl<'d> SelectedFrames<'d> {
         views: &[View<'_>],
         work: impl Fn(View<'_>) -> Result<T, ExportError> + Sync,
     ) -> Result<Vec<T>, ExportError> {
-        views.par_iter().map(|&view| counted.unit(|| work(view))).collect()
+        enfilade_parallel::try_map(views, |&view| counted.unit(|| work(view)))
     }
 
     /// Tells the caller of something that is left out.

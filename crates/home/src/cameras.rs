@@ -10,7 +10,6 @@ use crate::room::{Room, RoomKind};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
 use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;
 
@@ -61,7 +60,7 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
         };
         let fov = FOV_X_RAD[usize::from(room.size.x * room.size.y < SMALL)];
         let eyes = places(&boxes, room);
-        let mut views: Vec<View> = eyes.par_iter().flat_map_iter(|&eye| home.look_around(room, eye, fov as f32)).collect();
+        let mut views: Vec<View> = enfilade_parallel::flat_map(&eyes, |&eye| home.look_around(room, eye, fov as f32));
         views.sort_by(|a, b| b.worth.total_cmp(&a.worth));
         let mut chosen: Vec<View> = Vec::new();
         for view in views {

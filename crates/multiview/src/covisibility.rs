@@ -11,7 +11,6 @@ use enfilade_dataset::{Covisibility, CovisibleFrame, HiddenBy};
 use enfilade_math::DVec3;
 use enfilade_render::Lookout;
 use enfilade_scene::{Counted, Cx};
-use rayon::prelude::*;
 
 /// How covisibility is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,12 +56,12 @@ pub fn covisibility(
     let n = filmed.len();
     let counted = Counted::new(cx, "grids", n);
     let grid = |frame: usize| counted.unit(|| read_grid(filmed, frame, config));
-    let grids: Vec<Grid> = (0..n).into_par_iter().map(grid).collect::<Result<_, _>>()?;
+    let grids: Vec<Grid> = enfilade_parallel::try_map_up_to(n, grid)?;
     let lookout = package.map(ScenePackage::lookout).transpose()?;
 
     let counted = Counted::new(cx, "frames", n);
     let column = |by: usize| counted.unit(|| column(filmed, &grids, lookout.as_ref(), by));
-    let columns: Vec<Vec<f32>> = (0..n).into_par_iter().map(column).collect::<Result<_, _>>()?;
+    let columns: Vec<Vec<f32>> = enfilade_parallel::try_map_up_to(n, column)?;
     let listed = |(frame, grid): (usize, &Grid)| {
         let (camera, number) = filmed.name(frame);
         let surface_pixels = grid.points.len() as u32;

@@ -10,7 +10,6 @@ use enfilade_dataset::Tracks;
 use enfilade_math::{DVec3, hash_u64};
 use enfilade_render::Lookout;
 use enfilade_scene::{CameraView, Counted, Cx};
-use rayon::prelude::*;
 
 /// The generalised golden ratio of two dimensions, the real root of x³ = x + 1.
 const GOLDEN: f64 = 1.324_717_957_244_746;
@@ -53,14 +52,14 @@ pub fn tracks(
 ) -> Result<Tracks, MultiviewError> {
     let counted = Counted::new(cx, "frames", frames.len());
     let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
-    let seeds: Vec<Vec<Seed>> = (0..frames.len()).into_par_iter().map(seeds).collect::<Result<_, _>>()?;
+    let seeds: Vec<Vec<Seed>> = enfilade_parallel::try_map_up_to(frames.len(), seeds)?;
     let seeds: Vec<Seed> = seeds.into_iter().flatten().collect();
     let views: Vec<CameraView<'_>> = frames.iter().map(|&frame| filmed.view(frame)).collect();
     let follow = |seed: &Seed| {
         let at = |(place, view): (usize, &CameraView<'_>)| image(lookout, view, seed, place == seed.frame as usize);
         views.iter().enumerate().map(at).collect::<Vec<_>>()
     };
-    let followed: Vec<([f32; 2], bool)> = seeds.par_iter().flat_map_iter(follow).collect();
+    let followed: Vec<([f32; 2], bool)> = enfilade_parallel::flat_map(&seeds, follow);
     Ok(Tracks {
         frames: frames.iter().map(|&frame| filmed.name(frame).1).collect(),
         positions: seeds.iter().map(|seed| seed.p_world).collect(),

@@ -20,7 +20,7 @@ use std::sync::{Mutex, PoisonError};
 const PIECES: usize = 32;
 
 /// What `value` makes of every item.
-pub fn map<S: Sync, T: Send>(items: &[S], value: impl Fn(&S) -> T + Sync) -> Vec<T> {
+pub fn map<'s, S: Sync, T: Send>(items: &'s [S], value: impl Fn(&'s S) -> T + Sync) -> Vec<T> {
     in_pieces(items.len(), |piece| items[piece].iter().map(&value).collect())
 }
 
@@ -30,7 +30,7 @@ pub fn map_up_to<T: Send>(count: usize, value: impl Fn(usize) -> T + Sync) -> Ve
 }
 
 /// What `values` makes of every item, one after the other: lists, or an `Option` where some items are left out.
-pub fn flat_map<S: Sync, V: IntoIterator<Item: Send>>(items: &[S], values: impl Fn(&S) -> V + Sync) -> Vec<V::Item> {
+pub fn flat_map<'s, S: Sync, V: IntoIterator<Item: Send>>(items: &'s [S], values: impl Fn(&'s S) -> V + Sync) -> Vec<V::Item> {
     in_pieces(items.len(), |piece| items[piece].iter().flat_map(&values).collect())
 }
 
@@ -43,7 +43,7 @@ pub fn flat_map_up_to<V: IntoIterator<Item: Send>>(count: usize, values: impl Fn
 ///
 /// # Errors
 /// The first in the order of the items among those that came up; what has not begun by then is left out.
-pub fn try_map<S: Sync, T: Send, E: Send>(items: &[S], value: impl Fn(&S) -> Result<T, E> + Sync) -> Result<Vec<T>, E> {
+pub fn try_map<'s, S: Sync, T: Send, E: Send>(items: &'s [S], value: impl Fn(&'s S) -> Result<T, E> + Sync) -> Result<Vec<T>, E> {
     try_map_up_to(items.len(), |i| value(&items[i]))
 }
 

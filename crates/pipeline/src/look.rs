@@ -18,7 +18,6 @@ use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, CameraView, Cx, Intrinsics, Pose, Scene, StartCamera, Warning};
 use enfilade_show::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_show::preview::{PreviewSpec, Subject};
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -164,7 +163,7 @@ fn best_view(look: &Look, places: &[StartCamera]) -> Option<StartCamera> {
         let far_m = look.bvh.closest(&ray).map_or(0.0, |hit| f64::from(hit.t).min(FAR_M));
         saliency.score(&view_stats(&look.world, &look.bvh, &test, &view.pose(0))) * far_m.sqrt()
     };
-    let scores: Vec<f64> = views.par_iter().map(score).collect();
+    let scores: Vec<f64> = enfilade_parallel::map(&views, score);
     views.into_iter().zip(scores).max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(view, _)| view)
 }
 

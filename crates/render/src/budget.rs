@@ -9,7 +9,6 @@
 //! a pixel has no other say than its small part in the whole picture's noise.
 
 use enfilade_frame::NOISE_FLOOR;
-use rayon::prelude::*;
 
 /// A pixel's error is estimated from its neighbours within this many rows and columns.
 const REACH: usize = 3;
@@ -91,7 +90,7 @@ fn errors(width: usize, estimates: &[Estimate]) -> Vec<f64> {
     let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() / estimates.len().max(1) as f64;
     let floor = NOISE_FLOOR as f32 * mean as f32;
     let around = |p: usize| f64::from(error_around(estimates, [width, height], [p % width, p / width], floor));
-    (0..estimates.len()).into_par_iter().map(around).collect()
+    enfilade_parallel::map_up_to(estimates.len(), around)
 }
 
 /// Root mean square, over the pixels around one, of a sample's standard deviation in relation to luminance.

@@ -11,7 +11,6 @@ use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::{Alpha, CameraView, Scene};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// A scene ready to be looked at: rays and cut-outs, without its light.
@@ -101,8 +100,8 @@ impl<'s> Lookout<'s> {
         let last = view.camera().size().map(|side| side - 1);
         // In the middle of each cell of the grid, which the border may cut.
         let at = |cell: u32, axis: usize| (cell * step + step / 2).min(last[axis]);
-        let pixels: Vec<Pixel> =
-            (0..width * height).into_par_iter().map(|i| self.pixel(view, at(i % width, 0), at(i / width, 1))).collect();
+        let pixel = |i: u32| self.pixel(view, at(i % width, 0), at(i / width, 1));
+        let pixels: Vec<Pixel> = enfilade_parallel::map_up_to((width * height) as usize, |i| pixel(i as u32));
         let single = |f: fn(&PixelGeometry) -> f32| Values::F32(pixels.iter().map(|p| p.geometry.as_ref().map_or(f32::NAN, f)).collect());
         let mut frame = Frame::new(width, height);
         frame.insert(Layer::DepthMeters, single(|g| g.distance_m));

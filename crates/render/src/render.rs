@@ -20,6 +20,7 @@ use crate::tile_film::TileFilm;
 use crate::tiles::Tiles;
 use enfilade_frame::{Frame, f16, picture_noise};
 use enfilade_math::Rgb;
+use enfilade_parallel::{map, map_up_to};
 use enfilade_scene::{CameraView, Cx};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -255,7 +256,7 @@ impl<'a, 's> FrameRender<'a, 's> {
 
     /// A value of every pixel, row by row.
     fn rows<T: Copy + Default + Send>(&self, value: impl Fn(&PixelSum) -> T + Sync) -> Vec<T> {
-        let values: Vec<Vec<T>> = self.film.par_iter().map(|film| film.sums.iter().map(&value).collect()).collect();
+        let values: Vec<Vec<T>> = map(&self.film, |film| film.sums.iter().map(&value).collect());
         self.tiles.rows(&values)
     }
 
@@ -330,15 +331,10 @@ impl<'a, 's> FrameRender<'a, 's> {
     pub fn frame(&self) -> Frame {
         // Resolve the sums of every pixel, and find the geometry at its centre.
         let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);
-        let pixels: Vec<Vec<Pixel>> = self
-            .film
-            .par_iter()
-            .zip(0..tiles.count())
-            .map(|(film, tile)| {
-                let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, view, x, y) };
-                film.sums.iter().zip(tiles.pixels(tile)).map(pixel).collect()
-            })
-            .collect();
+        let pixels: Vec<Vec<Pixel>> = map_up_to(self.film.len(), |tile| {
+            let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, view, x, y) };
+            self.film[tile].sums.iter().zip(tiles.pixels(tile as u32)).map(pixel).collect()
+        });
 
         // Arrange them as layers, row by row.
         let [width, height] = view.camera().size();
@@ -346,12 +342,12 @@ impl<'a, 's> FrameRender<'a, 's> {
         if self.integrator.config.splits {
             let resolved =
                 |film: &TileFilm| film.splits.iter().zip(&film.sums).map(|(split, sum)| resolve_split(split, sum.samples())).collect();
-            let parts: Vec<Vec<_>> = self.film.par_iter().map(resolved).collect();
+            let parts: Vec<Vec<_>> = map(&self.film, resolved);
             add_splits(&mut frame, &tiles.rows(&parts));
         }
         for fixture in 0..self.film.first().map_or(0, |film| film.fixture_count) {
             let resolved = |film: &TileFilm| film.of_fixture(fixture).map(|(sum, light)| resolve_fixture(sum, light)).collect();
-            let lights: Vec<Vec<_>> = self.film.par_iter().map(resolved).collect();
+            let lights: Vec<Vec<_>> = map(&self.film, resolved);
             add_fixture(&mut frame, &tiles.rows(&lights));
         }
         frame

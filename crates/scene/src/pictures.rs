@@ -32,7 +32,7 @@ struct Bytes(Vec<u8>);
 
 /// Writes all pictures: what `serde(with)` asks for.
 pub fn serialize<S: Serializer>(images: &[Image], serializer: S) -> Result<S::Ok, S::Error> {
-    images.par_iter().map(packed).collect::<Vec<_>>().serialize(serializer)
+    enfilade_parallel::map(images, packed).serialize(serializer)
 }
 
 /// Reads all pictures: what `serde(with)` asks for.

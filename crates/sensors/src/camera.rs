@@ -176,7 +176,7 @@ impl CameraSensor {
             let left = 1.0 - drawn.vignetting + drawn.vignetting * cosine.powi(4);
             rgb.map(|v| (f64::from(v) * left) as f32)
         };
-        Ok((0..subject.frame.pixels()).into_par_iter().map(pixel).collect())
+        Ok(enfilade_parallel::map_up_to(subject.frame.pixels(), pixel))
     }
 
     /// The factor of radiance, before stops.
@@ -216,8 +216,7 @@ impl CameraSensor {
             let values = sensed.iter().flat_map(|&rgb| [0, 1, 2].map(|c| f16::from_f64(balanced(rgb, c)))).collect();
             return Data::Layer(Layer::Color, Values::F16(values));
         }
-        let shown: Vec<[f32; 3]> =
-            sensed.par_iter().map(|&rgb| [0, 1, 2].map(|c| encode(balanced(rgb, c)).powf(drawn.contrast) as f32)).collect();
+        let shown = enfilade_parallel::map(&sensed, |&rgb| [0, 1, 2].map(|c| encode(balanced(rgb, c)).powf(drawn.contrast) as f32));
         let shown = if drawn.sharpening > 0.0 { sharpened(size, &shown, drawn.sharpening as f32) } else { shown };
         let bytes: Vec<u8> = shown.as_flattened().iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
         if self.format == CameraFormat::Png {
@@ -257,7 +256,7 @@ fn sharpened([width, height]: [usize; 2], picture: &[[f32; 3]], amount: f32) -> 
         }
         [0, 1, 2].map(|c| picture[i][c] + amount * (picture[i][c] - sum[c] / 9.0))
     };
-    (0..picture.len()).into_par_iter().map(pixel).collect()
+    enfilade_parallel::map_up_to(picture.len(), pixel)
 }
 
 fn jpeg([width, height]: [usize; 2], rgb: &[u8], quality: u8) -> Vec<u8> {

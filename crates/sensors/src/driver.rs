@@ -4,7 +4,6 @@ use crate::{Reading, Sensor, SensorError, Sensors, Subject};
 use enfilade_dataset::{ChosenFrames, Dataset, SensedFrame};
 use enfilade_frame::{Frame, Layer};
 use enfilade_scene::{Counted, Cx, Projection};
-use rayon::prelude::*;
 
 /// Shows frames to sensors, and writes what they give below `sensors/` of the dataset: a folder for each, with its settings, and in it scenes
 /// and cameras. Readings of a sensor of the same name but other settings are removed first. Gives the number of frames.
@@ -73,7 +72,7 @@ fn show(
             sensors.iter().map(sensed).collect()
         })
     };
-    let rows: Vec<Vec<SensedFrame>> = frames.par_iter().map(readings).collect::<Result<_, _>>()?;
+    let rows: Vec<Vec<SensedFrame>> = enfilade_parallel::try_map(frames, readings)?;
     for (i, sensor) in sensors.iter().enumerate() {
         let rows: Vec<&SensedFrame> = rows.iter().map(|row| &row[i]).collect();
         dataset.write_sensed_frames(sensor.name(), [scene, camera], &rows)?;

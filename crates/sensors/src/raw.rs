@@ -1,7 +1,6 @@
 //! The pixels of an image sensor: from light to numbers, with noise, behind a mosaic of colours.
 
 use enfilade_math::Rng;
-use rayon::prelude::*;
 
 /// Above this many electrons their Poisson distribution is a normal one: it is told from that by a skewness of a tenth.
 const MANY_ELECTRONS: f64 = 100.0;
@@ -33,17 +32,17 @@ impl Pixels {
 
     /// Three values of every pixel.
     pub fn all(&self, light: &[[f32; 3]], rng: &Rng) -> Vec<[f32; 3]> {
-        let measure = |(i, rgb): (usize, &[f32; 3])| {
+        let measure = |i: usize| {
             let mut rng = rng.fork(i as u64);
-            rgb.map(|v| self.measure(v, &mut rng))
+            light[i].map(|v| self.measure(v, &mut rng))
         };
-        light.par_iter().enumerate().map(measure).collect()
+        enfilade_parallel::map_up_to(light.len(), measure)
     }
 
     /// The one value of every pixel that its place in the mosaic lets through.
     pub fn mosaic(&self, [width, _]: [usize; 2], light: &[[f32; 3]], rng: &Rng) -> Vec<f32> {
-        let measure = |(i, rgb): (usize, &[f32; 3])| self.measure(rgb[channel(i % width, i / width)], &mut rng.fork(i as u64));
-        light.par_iter().enumerate().map(measure).collect()
+        let measure = |i: usize| self.measure(light[i][channel(i % width, i / width)], &mut rng.fork(i as u64));
+        enfilade_parallel::map_up_to(light.len(), measure)
     }
 }
 
@@ -66,7 +65,7 @@ pub(crate) fn demosaiced([width, height]: [usize; 2], values: &[f32]) -> Vec<[f3
         let own = channel(x, y);
         [0, 1, 2].map(|c| if c == own || counts[c] == 0.0 { values[i] } else { sums[c] / counts[c] })
     };
-    (0..values.len()).into_par_iter().map(pixel).collect()
+    enfilade_parallel::map_up_to(values.len(), pixel)
 }
 
 /// A number of events that are independent of each other, of a mean.

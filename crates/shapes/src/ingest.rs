@@ -3,7 +3,6 @@
 use crate::ShapesError;
 use crate::classes::{CATEGORIES, category_id};
 use crate::layout::{Annotation, Document, Image};
-use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
@@ -77,11 +76,8 @@ pub fn ingest_pix3d(root: &Path, split: Option<&Path>) -> Result<Ingested, Shape
         }
     }
     let mismatched = entries.len() - outside_split - kept.len();
-    let objects: Vec<(Image, Annotation)> = kept
-        .par_iter()
-        .enumerate()
-        .map(|(index, entry)| object(root, &list, entry, index as u64 + 1, ids.as_ref()))
-        .collect::<Result<_, _>>()?;
+    let object = |index: usize| object(root, &list, kept[index], index as u64 + 1, ids.as_ref());
+    let objects: Vec<(Image, Annotation)> = enfilade_parallel::try_map_up_to(kept.len(), object)?;
     let mut document = Document::empty("Pix3D (Sun et al. 2018, CC BY 4.0), for Mesh R-CNN");
     (document.images, document.annotations) = objects.into_iter().unzip();
     document.images.sort_by_key(|image| image.id);

@@ -28,16 +28,15 @@ pub use wood::{FLOOR_STRIPS, HERRINGBONE_M, WoodTone, floor_planks, herringbone,
 
 use enfilade_math::{Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{ColorParam, Image, Pixels, ScalarParam, TextureRef};
-use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// A picture of `width` × `height` pixels from a function of texture coordinates on `[0,1]²` (v upward) to linear reflectance.
 pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + Sync) -> Image {
-    let texels = pixel_centers(width, height).map(|uv| {
+    let texels = of_pixels([width, height], |uv| {
         let c = color(uv);
         [encode(c.r), encode(c.g), encode(c.b), 255]
     });
-    Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: true, texels: texels.collect() } }
+    Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: true, texels } }
 }
 
 /// What a surface is like at one point.
@@ -63,20 +62,22 @@ pub struct Skin {
 /// A surface of `width` × `height` pixels from a function of texture coordinates on `[0,1]²` (v upward).
 pub fn skin(name: &str, [width, height]: [u32; 2], grain: impl Fn(Vec2) -> Grain + Sync) -> Skin {
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    let both = pixel_centers(width, height).map(|uv| {
+    let both = of_pixels([width, height], |uv| {
         let Grain { color: c, alpha, height } = grain(uv);
         ([encode(c.r), encode(c.g), encode(c.b), byte(alpha)], [byte(height), byte(height), byte(height), 255])
     });
-    let (colors, heights): (Vec<_>, Vec<_>) = both.unzip();
+    let (colors, heights) = both.into_iter().unzip();
     let image = |name: String, srgb, texels| Image { name, width, height, pixels: Pixels::Rgba8 { srgb, texels } };
     Skin { color: image(name.into(), true, colors), height: image(format!("{name} relief"), false, heights) }
 }
 
-fn pixel_centers(width: u32, height: u32) -> impl IndexedParallelIterator<Item = Vec2> {
+/// A value at the middle of every pixel.
+fn of_pixels<T: Send>([width, height]: [u32; 2], value: impl Fn(Vec2) -> T + Sync) -> Vec<T> {
     let size = Vec2::new(width as f32, height as f32);
-    (0..width * height).into_par_iter().map(move |i| {
+    enfilade_parallel::map_up_to((width * height) as usize, |i| {
+        let i = i as u32;
         let center = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / size;
-        Vec2::new(center.x, 1.0 - center.y)
+        value(Vec2::new(center.x, 1.0 - center.y))
     })
 }
 

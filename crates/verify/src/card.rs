@@ -2,6 +2,7 @@
 
 use super::law::Law;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Collects the worst value per law.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,16 +21,22 @@ pub(super) struct Finding {
 impl Card {
     /// Records one check. `place` is asked only when the value is the worst so far; of equal ones the first counts.
     pub fn observe(&mut self, law: Law, value: f64, place: impl FnOnce() -> String) {
-        let value = if value.is_nan() { f64::INFINITY } else { value };
-        match self.findings.get_mut(&law) {
-            None => {
-                self.findings.insert(law, Finding { value, place: place(), checks: 1 });
-            }
-            Some(finding) => {
+        if let Some(worst) = self.count(law, if value.is_nan() { f64::INFINITY } else { value }) {
+            worst.place = place();
+        }
+    }
+
+    /// The finding with one more check in it, if this value is the worst so far.
+    fn count(&mut self, law: Law, value: f64) -> Option<&mut Finding> {
+        match self.findings.entry(law) {
+            Entry::Vacant(none) => Some(none.insert(Finding { value, place: String::new(), checks: 1 })),
+            Entry::Occupied(known) => {
+                let finding = known.into_mut();
                 finding.checks += 1;
-                if value > finding.value {
-                    (finding.value, finding.place) = (value, place());
-                }
+                (value > finding.value).then(|| {
+                    finding.value = value;
+                    finding
+                })
             }
         }
     }

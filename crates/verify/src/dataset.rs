@@ -22,7 +22,6 @@ use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Structure, Trajectory};
-use rayon::prelude::*;
 
 /// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a violation, not as
 /// an error.
@@ -46,7 +45,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let counted = Counted::new(cx, "frames", frames.len());
     let check = |&(filmed, index): &(&Filmed, usize)| counted.unit(|| facts.check_frame(dataset, filmed, index));
-    let found: Vec<Found> = frames.par_iter().map(check).collect();
+    let found: Vec<Found> = enfilade_parallel::map(&frames, check);
     facts.check_relations(dataset, &mut card);
     let unchecked = facts.check_sensed(dataset, &mut card);
     let (mut values, mut pairs, mut excused) = (Vec::new(), Vec::new(), Vec::new());

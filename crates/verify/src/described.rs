@@ -36,7 +36,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, card: &mut Card) {
         let subject = surfaces.get(&(relation.subject, 0));
         subject.zip(surfaces.get(&object)).map_or(f64::INFINITY, |(a, b)| off_m(relation, a, b))
     };
-    let found: Vec<f64> = relations.par_iter().map(off).collect();
+    let found: Vec<f64> = enfilade_parallel::map(&relations, off);
     for (relation, off) in relations.iter().zip(found) {
         let at = || {
             let InstanceRelation { subject, kind, object, object_semantic, distance_m } = relation;

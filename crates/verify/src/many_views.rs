@@ -11,7 +11,6 @@ use enfilade_dataset::{Covisibility, CovisibleFrame};
 use enfilade_frame::Values;
 use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// A surface hides a point for sure when it is nearer than this share of the point's distance.
@@ -49,7 +48,7 @@ struct Certain {
 pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&CovisibleFrame) -> Option<Listed<'a>> + Sync, card: &mut Card) {
     check_range(scene, stored, card);
     let grid = |frame: &CovisibleFrame| read(frame).map(|listed| listed.points(frame.grid_step_px));
-    let grids: Vec<Option<Vec<DVec3>>> = stored.frames.par_iter().map(grid).collect();
+    let grids: Vec<Option<Vec<DVec3>>> = enfilade_parallel::map(&stored.frames, grid);
     for (frame, points) in stored.frames.iter().zip(&grids).filter_map(|(frame, points)| Some((frame, points.as_ref()?))) {
         let off = points.len().abs_diff(frame.surface_pixels as usize) as f64 / f64::from(frame.surface_pixels.max(1));
         card.observe(Law::Covisibility, off, || {
@@ -61,8 +60,8 @@ pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&Covis
             )
         });
     }
-    let column = |(by, frame): (usize, &CovisibleFrame)| {
-        let mut card = Card::default();
+    let column = |by: usize| {
+        let (frame, mut card) = (&stored.frames[by], Card::default());
         let Some(listed) = grids[by].as_ref().and_then(|_| read(frame)) else { return card };
         for (of, points) in grids.iter().enumerate().filter_map(|(of, points)| Some((of, points.as_ref().filter(|p| !p.is_empty())?))) {
             let (certain, n, share) = (listed.certain(points), points.len() as f64, f64::from(stored.share(of, by)));
@@ -75,7 +74,7 @@ pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&Covis
         }
         card
     };
-    let cards: Vec<Card> = stored.frames.par_iter().enumerate().map(column).collect();
+    let cards: Vec<Card> = enfilade_parallel::map_up_to(stored.frames.len(), column);
     cards.into_iter().for_each(|found| card.merge(found));
 }
 

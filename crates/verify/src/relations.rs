@@ -10,7 +10,6 @@ use super::read::readable;
 use super::tracks;
 use enfilade_dataset::{Dataset, FramePair, Tracks};
 use enfilade_frame::Layer;
-use rayon::prelude::*;
 
 /// Gives a frame by camera and number; `None` where it is not there.
 type Listing<'l, 'a> = &'l (dyn Fn(&str, u32) -> Option<Listed<'a>> + Sync);
@@ -22,7 +21,7 @@ pub(super) fn check(dataset: &Dataset, (scene, cameras): (&str, &[&str]), listed
     }
     let pairs = cameras.iter().filter_map(|camera| readable(card, dataset.pairs_with_layers(scene, camera)));
     let pairs: Vec<FramePair> = pairs.flatten().collect();
-    let cards: Vec<Card> = pairs.par_iter().map(|pair| check_pair(dataset, pair, listed)).collect();
+    let cards: Vec<Card> = enfilade_parallel::map(&pairs, |pair| check_pair(dataset, pair, listed));
     cards.into_iter().for_each(|found| card.merge(found));
     for camera in cameras {
         if let Some(stored) = there(dataset.read_tracks(scene, camera)).and_then(|read| readable(card, read)) {
@@ -38,7 +37,7 @@ fn check_tracks<'a>(name: &str, stored: &Tracks, listed: &(dyn Fn(u32) -> Option
         let contradictions = listed(stored.frames[place]).map(|frame| tracks::check(name, stored, place, &frame, &mut card));
         (card, contradictions)
     };
-    let found: Vec<(Card, Option<usize>)> = (0..stored.frames.len()).into_par_iter().map(check).collect();
+    let found: Vec<(Card, Option<usize>)> = enfilade_parallel::map_up_to(stored.frames.len(), check);
     let there: Vec<usize> = found.iter().filter_map(|(_, contradictions)| *contradictions).collect();
     let (wrong, all) = (there.iter().sum::<usize>(), there.len() * stored.positions.len());
     let share = wrong.saturating_sub(BETWEEN_SAMPLES) as f64 / all.max(1) as f64;

@@ -6,7 +6,6 @@ use super::read::readable;
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_scene::Camera;
 use enfilade_sensors::{Data, Sensor};
-use rayon::prelude::*;
 
 /// Checks the readings of a scene's cameras. What cannot be read goes on the card; notes tell of what could not be checked.
 pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)], card: &mut Card) -> Vec<String> {
@@ -28,7 +27,8 @@ pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)],
         }
         for (camera, model) in cameras {
             let frames = readable(card, dataset.sensed_frame_numbers(&name, [scene, camera])).unwrap_or_default();
-            let cards: Vec<Card> = frames.par_iter().map(|&number| check_frame(dataset, &sensor, (scene, camera, number), model)).collect();
+            let check = |&number: &u32| check_frame(dataset, &sensor, (scene, camera, number), model);
+            let cards: Vec<Card> = enfilade_parallel::map(&frames, check);
             cards.into_iter().for_each(|found| card.merge(found));
         }
     }

@@ -91,7 +91,7 @@ impl DisplayOrder {
 /// The importance of a face is the time at which a random process with rate 2^(−area / half-life) removes it, which is exponentially
 /// distributed (Efraimidis & Spirakis 2006). It is kept as a logarithm because the rates of large faces underflow.
 fn by_importance(corners: &[[Vec3; 3]]) -> Vec<u32> {
-    let areas: Vec<f64> = corners.par_iter().map(area_m2).collect();
+    let areas: Vec<f64> = enfilade_parallel::map(corners, area_m2);
     let mut sorted = areas.clone();
     let half_life = match sorted.len() {
         0 => 1.0,

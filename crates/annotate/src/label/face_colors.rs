@@ -2,7 +2,6 @@
 
 use enfilade_math::{Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{Bsdf, ColorParam, Material, Parameter, ScalarParam, Scene, TriangleSource, WorldMesh, from_bytes};
-use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// A face is divided into this many triangles along a side; the texture is read in the middle of each.
@@ -38,7 +37,7 @@ impl FaceColors {
                 shown(places.iter().map(at).sum::<Rgb>() / places.len() as f32)
             })
         };
-        Self::Known(faces.par_iter().map(of_face).collect())
+        Self::Known(enfilade_parallel::map(faces, of_face))
     }
 
     /// Three bytes for each of so many faces.

@@ -7,7 +7,6 @@ use super::scene::AnnotatedScene;
 use enfilade_geometry::{Bvh, NOTHING, VisibilityBuffer};
 use enfilade_math::{DVec3, Ray, Vec3};
 use enfilade_scene::PartLabel;
-use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -61,7 +60,7 @@ impl Seen {
             faces.sort_unstable();
             SeenView { camera, frame: frame.frame, faces }
         };
-        let views = all.par_iter().map(view).collect();
+        let views = enfilade_parallel::map(&all, view);
         Self { views_of, cameras, views }
     }
 

@@ -3,7 +3,6 @@
 use super::camera::PageCamera;
 use enfilade_geometry::{Bvh, Hit, NOTHING, VisibilityBuffer};
 use enfilade_math::{Bounds3, Ray, Vec3};
-use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::{BTreeSet, HashSet};
 
@@ -120,17 +119,17 @@ pub struct Picked {
 impl VisibleScene<'_> {
     /// The faces seen in the covered pixels, ascending.
     pub fn visible_faces(&self, camera: &PageCamera, covered: &Covered) -> Vec<u32> {
-        let faces: HashSet<u32> = match covered {
+        let mut faces: Vec<u32> = match covered {
             Covered::Pixels(pixels) => {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
-                pixels.par_iter().filter_map(centre).collect()
+                enfilade_parallel::flat_map(pixels, centre)
             }
             // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is clipped.
             Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.clip.is_some() => {
-                let row = |y: u32| (first[0]..=last[0]).map(move |x| [x, y]);
-                let centre = |[x, y]: [u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
-                let seen = (first[1]..=last[1]).into_par_iter().map(|y| row(y).filter_map(centre).collect::<HashSet<u32>>());
-                seen.reduce(HashSet::new, union)
+                let rows: Vec<u32> = (first[1]..=last[1]).collect();
+                let centre = |x: u32, y: u32| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
+                let row = |&y: &u32| (first[0]..=last[0]).filter_map(|x| centre(x, y)).collect::<HashSet<u32>>();
+                enfilade_parallel::flat_map(&rows, row)
             }
             Covered::Rectangle(first, last) => {
                 let tops: Vec<u32> = (first[1]..=last[1]).step_by(BAND_ROWS as usize).collect();
@@ -148,11 +147,11 @@ impl VisibleScene<'_> {
                     };
                     buffer.triangles().iter().zip(buffer.inverse_z()).enumerate().filter_map(seen).collect::<HashSet<u32>>()
                 };
-                tops.par_iter().map(band).reduce(HashSet::new, union)
+                enfilade_parallel::flat_map(&tops, band)
             }
         };
-        let mut faces: Vec<u32> = faces.into_iter().collect();
         faces.sort_unstable();
+        faces.dedup();
         faces
     }
 
@@ -171,12 +170,4 @@ impl VisibleScene<'_> {
         let is_there = |hit: &Hit| clip.is_none_or(|clip| clip.contains(ray.at(hit.t)));
         self.bvh.closest_filtered(ray, |hit| is_there(hit) && !self.hidden.contains(&self.piece_of_face[hit.triangle as usize]))
     }
-}
-
-fn union(mut a: HashSet<u32>, b: HashSet<u32>) -> HashSet<u32> {
-    if a.len() < b.len() {
-        return union(b, a);
-    }
-    a.extend(b);
-    a
 }

@@ -9,7 +9,6 @@ use super::shape::area_m2;
 use super::stroke::VisibleScene;
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, Ray, Vec3};
-use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// Points of the pieces that are looked for from each place.
@@ -68,7 +67,7 @@ impl Context<'_> {
             let same_way = 0.5 + 0.5 * (from - target.centre).normalize().dot(own);
             target.seen_from(from) * (0.7 + 0.3 * share) + SAME_WAY * same_way + if is_inside(self.bvh, from) { INSIDE } else { 0.0 }
         };
-        let worths: Vec<f32> = places.par_iter().map(worth).collect();
+        let worths: Vec<f32> = enfilade_parallel::map(&places, worth);
         let best = (0..places.len()).max_by(|&a, &b| worths[a].total_cmp(&worths[b]).then(b.cmp(&a)));
         Ok(best.map(|i| Viewpoint { from: places[i].1, to: target.centre }))
     }

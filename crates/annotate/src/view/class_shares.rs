@@ -12,7 +12,6 @@ use axum::response::Response;
 use enfilade_dataset::Elements;
 use enfilade_dataset::hdf5::read_array;
 use enfilade_frame::Layer;
-use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -40,7 +39,7 @@ impl Viewer {
                 self.layers_of_frames(scene, &camera, None)?.into_iter().filter(|(_, layers)| layers.contains(&(Layer::Semantic as usize)));
             places.extend(labelled.map(|(frame, _)| FramePlace { scene: scene.into(), camera: camera.clone(), frame }));
         }
-        let counted: Vec<_> = places.par_iter().map(|place| self.shares(place)).collect();
+        let counted: Vec<_> = enfilade_parallel::map(&places, |place| self.shares(place));
         let mut lost = Problems::default();
         let mut seen = BTreeSet::new();
         let mut frames = Vec::new();

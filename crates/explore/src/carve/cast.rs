@@ -4,7 +4,7 @@ use super::rays::{Fan, Rays, Tile};
 use crate::grid::{Leaps, VoxelGrid, WalkEnd};
 use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;
-use rayon::prelude::*;
+use enfilade_parallel::{each, map};
 
 /// Casts all rays from `position`, frees what they pass, and returns how many left the domain.
 ///
@@ -22,16 +22,18 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
     // Where nothing is known yet, one ray of every fan goes ahead.
     leaps.refresh(grid);
     if grid.state(position) != Voxel::Free {
-        rays.fans.par_iter().with_min_len(64).filter_map(|fan| fan.tiles.first()).for_each(|tile| {
-            walk(leaps, tile.first, 0.0);
+        each(rays.fans.len(), |i| {
+            if let Some(tile) = rays.fans[i].tiles.first() {
+                walk(leaps, tile.first, 0.0);
+            }
         });
         leaps.refresh(grid);
     }
 
     // One ray of every tile, from where the cone around its fan first meets something not known to be free.
-    rays.fans.par_iter().with_min_len(8).for_each(|fan| {
-        let from_t = clear_in_fan(leaps, fan);
-        for tile in &fan.tiles {
+    each(rays.fans.len(), |i| {
+        let from_t = clear_in_fan(leaps, &rays.fans[i]);
+        for tile in &rays.fans[i].tiles {
             walk(leaps, tile.first, from_t);
         }
     });
@@ -47,7 +49,7 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
         let from_t = clear_in_fan(leaps, fan);
         fan.tiles.iter().map(|tile| left_of_tile(tile, from_t)).sum::<usize>()
     };
-    rays.fans.par_iter().with_min_len(4).map(left_of_fan).sum()
+    map(&rays.fans, left_of_fan).into_iter().sum()
 }
 
 #[cfg(test)]

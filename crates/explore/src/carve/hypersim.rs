@@ -6,8 +6,8 @@ use crate::armadillo::Armadillo;
 use crate::grid::VoxelGrid;
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray};
+use enfilade_parallel::map;
 use enfilade_scene::WorldMesh;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Rays whose distances are pooled, the ray itself among them.
@@ -48,7 +48,7 @@ pub(super) fn verify(bvh: &Bvh, grid: &VoxelGrid, directions: &[DVec3], index: u
     if grid.state(start) != Voxel::Occupied {
         return Ok(start);
     }
-    let distances: Vec<f64> = directions.par_iter().with_min_len(256).map(|d| hit(bvh, grid, start, *d)).collect();
+    let distances = map(directions, |d| hit(bvh, grid, start, *d));
     let mut ways = pool(directions, &distances);
     ways.sort_by(|a, b| b.1.total_cmp(&a.1));
     let step = 0.25 * grid.voxel_m();
@@ -76,5 +76,5 @@ fn pool(directions: &[DVec3], distances: &[f64]) -> Vec<(DVec3, f64)> {
         near.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         (*d, near[..count].iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min))
     };
-    directions.par_iter().with_min_len(256).map(pooled).collect()
+    map(directions, pooled)
 }

@@ -12,7 +12,7 @@ use crate::grid::{Cube, VoxelGrid};
 use crate::space::Leak;
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Ray, Vec3};
-use rayon::prelude::*;
+use enfilade_parallel::map;
 use std::collections::BTreeMap;
 
 /// Level directions from which a place is judged.
@@ -77,7 +77,7 @@ impl Inside {
         while !wave.is_empty() {
             wave.sort_unstable();
             wave.dedup();
-            let enclosed: Vec<bool> = wave.par_iter().map(|cube| enclosure.encloses(middle_voxel(grid, *cube))).collect();
+            let enclosed: Vec<bool> = map(&wave, |cube| enclosure.encloses(middle_voxel(grid, *cube)));
             judged.extend(wave.iter().copied().zip(enclosed));
             let touching = |cube: Cube| {
                 let beside = neighbours(cube).into_iter().enumerate();
@@ -100,7 +100,7 @@ impl Inside {
                         .fold(0, |b, i| b | 1 << i),
                 }
             };
-            let inside: Vec<u64> = cubes.par_iter().map(voxels).collect();
+            let inside: Vec<u64> = map(&cubes, voxels);
             Self(cubes.into_iter().map(|(cube, _)| *cube).zip(inside).collect())
         })
     }

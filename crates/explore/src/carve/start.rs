@@ -4,8 +4,8 @@ use crate::ExploreError;
 use crate::grid::VoxelGrid;
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray, warp};
+use enfilade_parallel::{map, map_up_to};
 use enfilade_scene::WorldMesh;
-use rayon::prelude::*;
 
 /// Directions around a start position.
 const RAYS: usize = 2048;
@@ -38,17 +38,13 @@ struct Surroundings {
 impl Surroundings {
     fn look(world: &WorldMesh, bvh: &Bvh, p: DVec3) -> Self {
         let directions: Vec<DVec3> = (0..RAYS).map(|k| warp::fibonacci_sphere(k, RAYS)).collect();
-        let hits: Vec<(f64, bool)> = directions
-            .par_iter()
-            .with_min_len(128)
-            .map(|d| match bvh.closest(&Ray::new(p.as_vec3(), d.as_vec3())) {
-                Some(hit) => {
-                    let [a, b, c] = world.corners[hit.triangle as usize];
-                    (f64::from(hit.t), (b - a).cross(c - a).dot(d.as_vec3()) > 0.0)
-                }
-                None => (f64::INFINITY, false),
-            })
-            .collect();
+        let hits: Vec<(f64, bool)> = map(&directions, |d| match bvh.closest(&Ray::new(p.as_vec3(), d.as_vec3())) {
+            Some(hit) => {
+                let [a, b, c] = world.corners[hit.triangle as usize];
+                (f64::from(hit.t), (b - a).cross(c - a).dot(d.as_vec3()) > 0.0)
+            }
+            None => (f64::INFINITY, false),
+        });
         let share = |n: usize| n as f64 / RAYS as f64;
         Self {
             behind_share: share(hits.iter().filter(|(_, behind)| *behind).count()),
@@ -69,7 +65,7 @@ impl Surroundings {
             let near = self.directions.iter().zip(&self.distances_m).filter(|(other, _)| other.dot(*d) >= POOL_RAD.cos());
             near.map(|(_, t)| *t).fold(f64::INFINITY, f64::min)
         };
-        let mut ways: Vec<(DVec3, f64)> = self.directions.par_iter().map(|d| (*d, pooled(d))).collect();
+        let mut ways: Vec<(DVec3, f64)> = map(&self.directions, |d| (*d, pooled(d)));
         ways.sort_by(|a, b| b.1.total_cmp(&a.1));
         ways
     }
@@ -77,8 +73,8 @@ impl Surroundings {
 
 /// Whether nearly nothing is around a point.
 pub(super) fn is_open(bvh: &Bvh, p: DVec3) -> bool {
-    let misses = (0..RAYS).into_par_iter().with_min_len(128).filter(|k| misses(bvh, p, warp::fibonacci_sphere(*k, RAYS))).count();
-    misses as f64 >= OPEN_SHARE * RAYS as f64
+    let misses = map_up_to(RAYS, |k| misses(bvh, p, warp::fibonacci_sphere(k, RAYS)));
+    misses.into_iter().filter(|misses| *misses).count() as f64 >= OPEN_SHARE * RAYS as f64
 }
 
 /// Whether a point is in a building rather than in front of one or above it: few of the directions around it, and of the level ones,

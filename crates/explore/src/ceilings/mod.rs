@@ -10,8 +10,8 @@ pub use lamps::LampPlace;
 
 use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Vec3};
+use enfilade_parallel::map_up_to;
 use enfilade_scene::WorldMesh;
-use rayon::prelude::*;
 use std::collections::VecDeque;
 
 /// Plumb lines along the longer side of the scene, at most, and the least distance between them, metres.
@@ -71,12 +71,12 @@ impl Ceiling {
 /// The ceilings of a scene, in the order of their westernmost pieces.
 pub fn ceilings(world: &WorldMesh, bvh: &Bvh) -> Vec<Ceiling> {
     let grid = Grid::over(world);
-    let columns: Vec<Vec<Piece>> = (0..grid.columns()).into_par_iter().map(|i| pieces(world, bvh, grid.column(i), &grid)).collect();
+    let columns: Vec<Vec<Piece>> = map_up_to(grid.columns() as usize, |i| pieces(world, bvh, grid.column(i as u32), &grid));
     // Numbers of the pieces, column by column.
     let first: Vec<usize> = columns.iter().scan(0, |next, column| Some(std::mem::replace(next, *next + column.len()))).collect();
     let all: Vec<Piece> = columns.iter().flatten().copied().collect();
     let joined = |i: usize| neighbours(bvh, &grid, &columns, &first, &all[i]);
-    let neighbours: Vec<Vec<usize>> = (0..all.len()).into_par_iter().map(joined).collect();
+    let neighbours: Vec<Vec<usize>> = map_up_to(all.len(), joined);
     let groups = connected(&neighbours).into_iter();
     let ceilings = groups.map(|group| Ceiling { pieces: group.into_iter().map(|i| all[i]).collect(), spacing_m: grid.spacing_m });
     ceilings.filter(|c| c.area_m2() >= MIN_AREA_M2 && c.pieces.iter().any(|piece| piece.free_m >= HEADROOM_M)).collect()

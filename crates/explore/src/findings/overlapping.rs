@@ -2,8 +2,8 @@
 
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Distribution1, Ray, Rng, Vec3, warp};
+use enfilade_parallel::{flat_map_up_to, map};
 use enfilade_scene::{PartId, WorldMesh};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Points on the scene's surfaces, spread by area.
@@ -29,11 +29,10 @@ pub struct Overlap {
 /// The overlaps of a scene, the largest first.
 pub(super) fn overlaps(world: &WorldMesh, bvh: &Bvh) -> Vec<Overlap> {
     let area = |[a, b, c]: &[Vec3; 3]| 0.5 * (*b - *a).cross(*c - *a).length();
-    let areas: Vec<f32> = world.corners.par_iter().map(area).collect();
+    let areas: Vec<f32> = map(&world.corners, area);
     let Some(by_area) = Distribution1::new(&areas) else { return Vec::new() };
     let total_m2: f64 = areas.iter().map(|a| f64::from(*a)).sum();
-    let found: Vec<[PartId; 2]> =
-        (0..POINTS).into_par_iter().filter_map(|k| overlap_at(world, bvh, &by_area, &mut Rng::new(k as u64))).collect();
+    let found = flat_map_up_to(POINTS, |k| overlap_at(world, bvh, &by_area, &mut Rng::new(k as u64)));
     let mut counts: BTreeMap<[PartId; 2], usize> = BTreeMap::new();
     found.into_iter().for_each(|parts| *counts.entry(parts).or_default() += 1);
     let often = counts.into_iter().filter(|(_, count)| *count >= LEAST_POINTS);

@@ -4,8 +4,8 @@ use crate::Ceiling;
 use crate::surroundings::meet;
 use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Vec3, warp};
+use enfilade_parallel::{flat_map, map_up_to};
 use enfilade_scene::{PartId, WorldMesh};
-use rayon::prelude::*;
 use std::f32::consts::TAU;
 
 /// Places in all rooms together, about, and directions around each.
@@ -38,9 +38,10 @@ pub(super) fn backs(world: &WorldMesh, bvh: &Bvh, ceilings: &[Ceiling]) -> Optio
     let places: Vec<Vec3> = ceilings.iter().flat_map(|ceiling| ceiling.midpoints(PLACES.div_ceil(ceilings.len()))).collect();
     let look = |p: &Vec3| {
         let p = p.as_dvec3();
-        (0..DIRECTIONS).filter_map(move |k| meet(world, bvh, p, warp::fibonacci_sphere(k, DIRECTIONS)))
+        let met = (0..DIRECTIONS).filter_map(move |k| meet(world, bvh, p, warp::fibonacci_sphere(k, DIRECTIONS)));
+        met.map(|point| (point.part, point.behind))
     };
-    let met: Vec<(PartId, bool)> = places.par_iter().flat_map_iter(look).map(|point| (point.part, point.behind)).collect();
+    let met: Vec<(PartId, bool)> = flat_map(&places, look);
     if met.is_empty() {
         return None;
     }
@@ -61,13 +62,13 @@ pub(super) fn open_floor_m2(world: &WorldMesh, bvh: &Bvh) -> f64 {
     }
     let (low, size) = (world.bounds.min, world.bounds.extent());
     let spacing_m = (size.x.max(size.y) / MAX_LINES).max(MIN_SPACING_M);
-    let [nx, ny] = [size.x, size.y].map(|length| (length / spacing_m).ceil() as u32);
-    let is_open = |i: &u32| {
+    let [nx, ny] = [size.x, size.y].map(|length| (length / spacing_m).ceil() as usize);
+    let is_open = |i: usize| {
         let (x, y) = ((i / ny) as f32 + 0.5, (i % ny) as f32 + 0.5);
         let from = Vec3::new(low.x + spacing_m * x, low.y + spacing_m * y, low.z + size.z + 1.0);
         bvh.closest(&Ray::new(from, Vec3::NEG_Z)).is_some_and(|hit| is_walled(bvh, from - Vec3::Z * (hit.t - WALLS_AT_M)))
     };
-    let open = (0..nx * ny).into_par_iter().filter(is_open).count();
+    let open = map_up_to(nx * ny, is_open).into_iter().filter(|open| *open).count();
     open as f64 * f64::from(spacing_m).powi(2)
 }
 

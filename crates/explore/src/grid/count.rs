@@ -3,15 +3,15 @@
 use super::{BLOCK, Block, VoxelGrid};
 use enfilade_geometry::VoxelKey;
 use enfilade_math::{DVec3, Rng};
-use rayon::prelude::*;
+use enfilade_parallel::{flat_map, flat_map_up_to};
 use std::sync::atomic::Ordering::Relaxed;
 
 impl VoxelGrid {
     /// Number of free and of occupied voxels.
     pub(crate) fn counts(&self) -> (u64, u64) {
         let occupied = |block: &Block| block.occupied.iter().map(|row| u64::from(row.load(Relaxed).count_ones())).sum::<u64>();
-        let counts = self.blocks.par_iter().filter_map(|block| block.get()).map(|b| (b.free_count.load(Relaxed).into(), occupied(b)));
-        counts.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
+        let counts = flat_map(&self.blocks, |block| block.get().map(|b| (u64::from(b.free_count.load(Relaxed)), occupied(b))));
+        counts.into_iter().fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
     }
 
     /// Number of voxels in the domain.
@@ -39,8 +39,8 @@ impl VoxelGrid {
 
     /// The first and the last free cell along each axis; `None` when there are none.
     pub(crate) fn free_bounds(&self) -> Option<(VoxelKey, VoxelKey)> {
-        let bounds_of = |(index, block): (usize, &std::sync::OnceLock<Box<Block>>)| {
-            let block = block.get()?;
+        let bounds_of = |index: usize| {
+            let block = self.block(index)?;
             let (mut low, mut high) = ([BLOCK; 3], [0; 3]);
             for (row, bits) in block.free.iter().enumerate() {
                 let bits = bits.load(Relaxed);
@@ -56,7 +56,7 @@ impl VoxelGrid {
         let union = |a: ([i32; 3], [i32; 3]), b: ([i32; 3], [i32; 3])| {
             (std::array::from_fn(|i| a.0[i].min(b.0[i])), std::array::from_fn(|i| a.1[i].max(b.1[i])))
         };
-        let bounds = self.blocks.par_iter().enumerate().filter_map(bounds_of).reduce_with(union)?;
+        let bounds = flat_map_up_to(self.blocks.len(), bounds_of).into_iter().reduce(union)?;
         Some((self.key(bounds.0), self.key(bounds.1)))
     }
 

@@ -6,7 +6,7 @@
 
 use super::{BLOCK, BLOCK_LEVEL, ROWS, VOLUME, VoxelGrid};
 use enfilade_math::DVec3;
-use rayon::prelude::*;
+use enfilade_parallel::map;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// What a byte says. Leaps of 2^(code − [`FREE`] − 1) follow [`FREE`].
@@ -37,8 +37,7 @@ impl Leaps {
     /// Brings the field up to date where anything was freed.
     pub(crate) fn refresh(&mut self, grid: &VoxelGrid) {
         // Blocks in whose neighbourhood anything was freed since the last time.
-        let free: Vec<u32> =
-            grid.blocks.par_iter().with_min_len(64).map(|block| block.get().map_or(0, |b| b.free_count.load(Relaxed))).collect();
+        let free: Vec<u32> = grid.blocks.iter().map(|block| block.get().map_or(0, |b| b.free_count.load(Relaxed))).collect();
         self.codes.resize_with(grid.blocks.len(), || None);
         self.free.resize(grid.blocks.len(), 0);
         let changed = |index: usize| grid.around(index).into_iter().flatten().any(|other| free[other] != self.free[other]);
@@ -54,7 +53,7 @@ impl Leaps {
             .collect();
 
         // Their fields, from the grid.
-        let made: Vec<Box<Codes>> = stale.par_iter().map(|&index| codes(grid, index)).collect();
+        let made: Vec<Box<Codes>> = map(&stale, |&index| codes(grid, index));
         for (index, codes) in stale.into_iter().zip(made) {
             self.codes[index] = Some(codes);
         }

@@ -3,7 +3,7 @@
 use super::overlap::OverlapTest;
 use super::{BLOCK, VoxelGrid, for_each_cell};
 use enfilade_math::{DVec3, Vec3};
-use rayon::prelude::*;
+use enfilade_parallel::each;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// Boxes are grown by this many voxels in overlap tests, so that a wall on the border of two voxels occupies both whatever the
@@ -16,7 +16,7 @@ const BRICK: i32 = 4;
 impl VoxelGrid {
     /// Marks every voxel that a triangle touches as occupied.
     pub(crate) fn occupy(&self, triangles: &[[Vec3; 3]]) {
-        triangles.par_iter().with_min_len(256).for_each(|corners| self.occupy_triangle(corners.map(|p| self.cells(p.as_dvec3()))));
+        each(triangles.len(), |i| self.occupy_triangle(triangles[i].map(|p| self.cells(p.as_dvec3()))));
     }
 
     fn occupy_triangle(&self, corners: [DVec3; 3]) {

@@ -2,7 +2,7 @@
 
 use super::VoxelGrid;
 use enfilade_math::{DVec3, Vec3};
-use rayon::prelude::*;
+use enfilade_parallel::each;
 
 /// Distance of the samples, voxels. Their grid begins at the centroid.
 const SPACING: f64 = 0.25;
@@ -11,8 +11,8 @@ impl VoxelGrid {
     /// Marks the voxels of sample points on triangles that have a vertex in the box from `min` to `max` (metres).
     pub(crate) fn occupy_samples(&self, triangles: &[[Vec3; 3]], min: DVec3, max: DVec3) {
         let inside = |p: DVec3| p.cmpge(min).all() && p.cmple(max).all();
-        triangles.par_iter().with_min_len(256).for_each(|corners| {
-            let corners = corners.map(|p| p.as_dvec3());
+        each(triangles.len(), |i| {
+            let corners = triangles[i].map(|p| p.as_dvec3());
             if corners.iter().any(|p| inside(*p)) {
                 self.sample_triangle(corners, inside);
             }

@@ -12,8 +12,8 @@ use super::report::{CoverageReport, Fault, PartCoverage};
 use super::stills::{candidates, reachable};
 use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
+use enfilade_parallel::{flat_map, flat_map_up_to, map};
 use enfilade_scene::Pose;
-use rayon::prelude::*;
 use std::collections::BinaryHeap;
 
 /// Places tried for a view of a patch that no pose drawn at random sees often enough.
@@ -104,13 +104,13 @@ fn drawn(planner: &Planner, places: &Places, n: usize, draft: &mut Draft, rng: &
         let place = places.points[rng.below(places.points.len())];
         candidates(planner, 0, place, &mut rng).into_iter().next()
     };
-    let poses: Vec<Pose> = (0..n).into_par_iter().filter_map(one).collect();
+    let poses: Vec<Pose> = flat_map_up_to(n, one);
     without_faults(planner, poses, draft)
 }
 
 /// Those of `poses` that have no fault by a coarse look.
 fn without_faults(planner: &Planner, poses: Vec<Pose>, draft: &mut Draft) -> Vec<Pose> {
-    let faults: Vec<_> = poses.par_iter().map(|pose| planner.gates.coarse_fault(pose)).collect();
+    let faults = map(&poses, |pose| planner.gates.coarse_fault(pose));
     faults.iter().flatten().for_each(|fault| draft.rejected.add(*fault));
     poses.into_iter().zip(faults).filter(|(_, fault)| fault.is_none()).map(|(pose, _)| pose).collect()
 }
@@ -143,7 +143,7 @@ fn aimed(
             planner.rules.toward(0, place, direction, roll)
         })
     };
-    let poses: Vec<Pose> = chosen.par_iter().filter_map(one).collect();
+    let poses: Vec<Pose> = flat_map(&chosen, one);
     without_faults(planner, poses, draft)
 }
 
@@ -153,7 +153,7 @@ pub(super) fn seen_by_each(planner: &Planner, patches: &[Patch], poses: &[Pose],
     let sees = |pose: &Pose, patch: &Patch| {
         is_near(patch, pose.position, config) && glancer.frames(pose, patch.p_world) && glancer.reaches(pose.position, patch.p_world)
     };
-    poses.par_iter().map(|pose| (0..patches.len() as u32).filter(|i| sees(pose, &patches[*i as usize])).collect()).collect()
+    map(poses, |pose| (0..patches.len() as u32).filter(|i| sees(pose, &patches[*i as usize])).collect())
 }
 
 /// Whether a patch, if it is visible, counts as seen from a position: near enough, and not too grazingly. Both sides count.

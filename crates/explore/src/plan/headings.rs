@@ -3,7 +3,7 @@
 use super::planner::Planner;
 use super::rules::posed;
 use enfilade_math::DVec3;
-use rayon::prelude::*;
+use enfilade_parallel::map_up_to;
 use std::f64::consts::{PI, TAU};
 
 /// Headings compared at every control point.
@@ -24,7 +24,8 @@ impl Headings {
     /// camera has room, and so it is for the headings beside it.
     pub fn new(planner: &Planner, positions: &[DVec3], wanted: Vec<DVec3>, look_distance_m: f64) -> Self {
         let level = planner.rules.pitch_limits_rad();
-        let rows = positions.par_iter().zip(wanted).map(|(&position, mut wanted)| {
+        let rows = map_up_to(positions.len(), |j| {
+            let (position, mut wanted) = (positions[j], wanted[j]);
             let sees = |wanted: DVec3| -> [bool; HEADINGS] {
                 std::array::from_fn(|y| {
                     let target = position + look_distance_m * direction(angle(y), wanted.y);
@@ -43,7 +44,7 @@ impl Headings {
             let inner: [bool; HEADINGS] = std::array::from_fn(|y| (0..3).all(|k| open[(y + HEADINGS - 1 + k) % HEADINGS]));
             (wanted, if inner.contains(&true) { inner } else { open })
         });
-        let (wanted, allowed) = rows.unzip();
+        let (wanted, allowed) = rows.into_iter().unzip();
         Self { wanted, allowed }
     }
 

@@ -7,8 +7,8 @@ use super::rules::{pitch_rad, turned_rad};
 use super::{Mode, PlanConfig};
 use crate::{Preset, ViewStats};
 use enfilade_geometry::Surfaces;
+use enfilade_parallel::{map, map_up_to};
 use enfilade_scene::{Pose, StartCamera, Trajectory};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Points by which the share of the area that was seen is measured.
@@ -42,7 +42,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         }
         (row, faults)
     };
-    let rows: Vec<(FrameRow, Vec<Fault>)> = (0..poses.len()).into_par_iter().map(measured).collect();
+    let rows: Vec<(FrameRow, Vec<Fault>)> = map_up_to(poses.len(), measured);
 
     let mut per_frame = FrameValues::default();
     let (mut relaxed, mut bare_frames) = (Vec::new(), Vec::new());
@@ -150,7 +150,7 @@ fn broken_rules(planner: &Planner, pose: &Pose, row: &FrameRow) -> impl Iterator
 fn seen(planner: &Planner, poses: &[Pose]) -> (f64, f64) {
     let patches = patches(planner.world, SAMPLES);
     let glancer = planner.gates.glancer;
-    let seen: Vec<bool> = patches.par_iter().map(|patch| poses.iter().any(|pose| glancer.sees(pose, patch.p_world))).collect();
+    let seen = map(&patches, |patch| poses.iter().any(|pose| glancer.sees(pose, patch.p_world)));
     let (mut area, mut seen_area, mut parts) = (0.0, 0.0, BTreeMap::new());
     for (patch, seen) in patches.iter().zip(seen) {
         area += patch.area_m2;

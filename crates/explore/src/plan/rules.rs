@@ -4,8 +4,8 @@ use super::PlanConfig;
 use crate::FreeSpace;
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DQuat, DVec3, Ray, Rng};
+use enfilade_parallel::flat_map;
 use enfilade_scene::Pose;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// A point is seen when no surface is nearer than this much beyond it, as a share of its distance: the original's margin.
@@ -43,12 +43,12 @@ impl<'a> Rules<'a> {
 
     /// Those of `points` where a camera may be that is seen from `last`.
     pub fn positions_seen_from(&self, last: DVec3, points: Vec<DVec3>) -> Vec<DVec3> {
-        points.into_par_iter().with_min_len(64).filter(|p| self.is_position(*p) && self.sees(last, *p)).collect()
+        flat_map(&points, |&p| (self.is_position(p) && self.sees(last, p)).then_some(p))
     }
 
     /// Those of `points` where a target may be that is seen from `last`.
     pub fn targets_seen_from(&self, last: DVec3, points: Vec<DVec3>) -> Vec<DVec3> {
-        points.into_par_iter().with_min_len(64).filter(|p| self.is_free(*p) && self.sees(last, *p)).collect()
+        flat_map(&points, |&p| (self.is_free(p) && self.sees(last, p)).then_some(p))
     }
 
     /// In a free voxel.

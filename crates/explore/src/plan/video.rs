@@ -15,8 +15,8 @@ use super::timing::Schedule;
 use super::tour::{Polyline, Tour, no_way, tour};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
+use enfilade_parallel::flat_map_up_to;
 use enfilade_scene::Pose;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Control points are this far apart along the tour where there is room, metres, and no closer than the second where there is little.
@@ -91,8 +91,8 @@ impl Path {
 fn blocked(planner: &Planner, spline: &NearSpline) -> Vec<usize> {
     let at = |k: usize| spline.at((k as f64 / SUBSTEPS as f64).min(spline.end()));
     let is_blocked = |k: usize| !planner.rules.is_clear_way(at(k), at(k + 1)) || !planner.rules.is_at_height(at(k));
-    let has_blocked = |stretch: &usize| (stretch * SUBSTEPS..(stretch + 1) * SUBSTEPS).any(is_blocked);
-    (0..spline.end() as usize).into_par_iter().filter(has_blocked).collect()
+    let has_blocked = |stretch: usize| (stretch * SUBSTEPS..(stretch + 1) * SUBSTEPS).any(is_blocked);
+    flat_map_up_to(spline.end() as usize, |stretch| has_blocked(stretch).then_some(stretch))
 }
 
 /// Control points with another one halfway wherever that changes a blocked stretch, unless they are close already.
@@ -161,8 +161,7 @@ impl Shot {
             let Some(angles) = headings.smoothest(&strides) else { break };
             shot.angles = NearSpline::new(angles);
             let steps = (n - 1) * SUBSTEPS;
-            let us: Vec<f64> =
-                (0..=steps).into_par_iter().map(|k| k as f64 / SUBSTEPS as f64).filter(|u| !shot.sees(planner, *u)).collect();
+            let us: Vec<f64> = flat_map_up_to(steps + 1, |k| Some(k as f64 / SUBSTEPS as f64).filter(|u| !shot.sees(planner, *u)));
             let Some(&worst) = us.first() else { return Ok(shot) };
             blind = Some(shot.path.spline.at(worst));
             for u in us {

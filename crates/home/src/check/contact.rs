@@ -3,7 +3,6 @@
 use super::meet::{Body, overlap};
 use super::{family_of, is_shell};
 use enfilade_math::Vec3;
-use rayon::prelude::*;
 
 /// Objects may sink this far into each other: feet into a rug's pile, screws into a wall, metres.
 const SINK: f32 = 0.004;
@@ -144,9 +143,9 @@ impl Contacts {
 }
 
 fn meetings(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
-    pairs.par_iter().copied().filter(|&(a, b)| runs_into(&bodies[a], &bodies[b], Vec3::ZERO)).collect()
+    enfilade_parallel::flat_map(pairs, |&(a, b)| runs_into(&bodies[a], &bodies[b], Vec3::ZERO).then_some((a, b)))
 }
 
 fn touching(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
-    pairs.par_iter().copied().filter(|&(a, b)| touches(&bodies[a], &bodies[b], Vec3::ZERO)).collect()
+    enfilade_parallel::flat_map(pairs, |&(a, b)| touches(&bodies[a], &bodies[b], Vec3::ZERO).then_some((a, b)))
 }

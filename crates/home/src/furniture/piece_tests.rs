@@ -16,7 +16,6 @@ use crate::shape::{Reshape, bevelled_box};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, DVec3, Rng, Vec3};
 use enfilade_scene::Scene;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
@@ -300,7 +299,7 @@ fn faults(family: &Family) -> Vec<String> {
 
 #[test]
 fn every_piece_is_joined_to_what_carries_its_object() {
-    let found: Vec<String> = FAMILIES.par_iter().flat_map_iter(faults).collect();
+    let found: Vec<String> = enfilade_parallel::flat_map(FAMILIES, faults);
     assert!(found.is_empty(), "these hang in the air:\n{}", found.join("\n"));
 }
 

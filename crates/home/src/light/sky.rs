@@ -5,7 +5,6 @@ use super::{Exposure, Weather};
 use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::sky::SUN_RADIUS_RAD;
 use enfilade_scene::{Environment, Image, Light, MapRows, Pixels, Scene, direction_from_uv};
-use rayon::prelude::*;
 
 /// Width of the sky's picture in pixels: a third of a degree each.
 const WIDTH: u32 = 1024;
@@ -26,7 +25,7 @@ pub fn illuminate(scene: &mut Scene, outward: &[Vec2], weather: &Weather, surrou
         }
         exposure.expose(surroundings.radiance(d, weather.radiance(d))).to_array()
     };
-    let texels = (0..width * height).into_par_iter().map(texel).collect();
+    let texels = enfilade_parallel::map_up_to((width * height) as usize, |pixel| texel(pixel as u32));
     scene.images.push(Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) });
     let image = scene.images.len() as u32 - 1;
     scene.environment = Some(Environment::Map { image, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world });

@@ -18,7 +18,6 @@ mod rectangle;
 use enfilade_dataset::{BoxKind, Dataset, DatasetError};
 use enfilade_math::{DMat3, DVec2, DVec3, OrientedBox};
 use enfilade_scene::{Labels, Scene};
-use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// The boxes of an instance, by [`BoxKind`] as index.
@@ -26,7 +25,7 @@ pub type InstanceBoxes = [OrientedBox; 3];
 
 /// The boxes of every instance: entry i is instance i; `None` for 0 and for numbers that no triangle has.
 pub fn scene_boxes(scene: &Scene, labels: &Labels) -> Vec<Option<InstanceBoxes>> {
-    instance_points(scene, labels).into_par_iter().map(|points| boxes_around(&points)).collect()
+    enfilade_parallel::map(&instance_points(scene, labels), |points| boxes_around(points))
 }
 
 /// Writes the boxes of every instance of a scene, and returns the files and how many instances have boxes.

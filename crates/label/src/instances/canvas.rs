@@ -4,7 +4,6 @@ use super::Solid;
 use enfilade_dataset::PixelArea;
 use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{Camera, CameraRay, CameraView, Projection};
-use rayon::prelude::*;
 
 /// Side of the squares of pixels whose rays are compared with whole objects before they are cast.
 const TILE: i32 = 16;
@@ -42,7 +41,7 @@ impl Canvas {
     pub(super) fn silhouettes(&self, solids: &[Solid], view: &CameraView<'_>) -> Vec<Silhouette> {
         let [left, above] = self.margin;
         let blocks: Vec<[i32; 4]> = squares([-left, -above, self.width + left, self.height + above], BLOCK).collect();
-        let found: Vec<Vec<(usize, Silhouette)>> = blocks.into_par_iter().map(|block| self.cast_block(solids, view, block)).collect();
+        let found: Vec<Vec<(usize, Silhouette)>> = enfilade_parallel::map(&blocks, |block| self.cast_block(solids, view, *block));
         let mut whole = vec![Silhouette::default(); solids.len()];
         for (solid, part) in found.into_iter().flatten() {
             whole[solid].full = whole[solid].full.union(part.full);

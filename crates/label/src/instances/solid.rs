@@ -3,7 +3,6 @@
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DVec3, Vec3};
 use enfilade_scene::{Labels, WorldMesh};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// An instance as rays meet it when nothing else is there.
@@ -26,7 +25,8 @@ pub fn solids(world: &WorldMesh, labels: &Labels) -> Vec<Solid> {
             corners.entry(label.instance).or_insert_with(|| (label.semantic, Vec::new())).1.push(*triangle);
         }
     }
-    corners.into_par_iter().map(|(instance, (semantic, corners))| Solid::new(instance, semantic, &corners)).collect()
+    let instances: Vec<_> = corners.into_iter().collect();
+    enfilade_parallel::map(&instances, |(instance, (semantic, corners))| Solid::new(*instance, *semantic, corners))
 }
 
 impl Solid {

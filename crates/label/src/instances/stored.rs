@@ -4,7 +4,6 @@ use super::{Solid, frame_instances};
 use enfilade_dataset::{Dataset, DatasetError, InstanceView};
 use enfilade_frame::Layer;
 use enfilade_scene::{CameraView, Counted, Cx};
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
@@ -30,7 +29,7 @@ pub fn write_instances(
     };
     dataset.remove_amodal_masks(scene, camera, made.keys().copied())?;
     let numbers: Vec<u32> = frames.iter().copied().collect();
-    let views: Vec<Vec<InstanceView>> = numbers.par_iter().map(one).collect::<Result<_, _>>()?;
+    let views: Vec<Vec<InstanceView>> = enfilade_parallel::try_map(&numbers, one)?;
     dataset.write_instance_views(scene, camera, &views.concat())?;
     let masks = frames.iter().map(|&frame| dataset.layout().amodal_masks(scene, camera, frame));
     Ok(masks.chain([dataset.layout().frame_instances(scene, camera)]).collect())

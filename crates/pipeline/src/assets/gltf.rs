@@ -5,13 +5,12 @@ use enfilade_home::assets::{Body, Model};
 use enfilade_import::ImportOptions;
 use enfilade_math::{DMat3, Vec3};
 use enfilade_scene::Quiet;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The models of these files, given by name and path, in their order; the error of a broken one names the file and what to do.
 pub(super) fn models(files: &[(String, PathBuf)], table: &Table) -> Vec<Result<Model, String>> {
-    files.par_iter().map(|(name, path)| model(name, path, table)).collect()
+    enfilade_parallel::map(files, |(name, path)| model(name, path, table))
 }
 
 /// A model of which only its size, and whether it shines, is kept until it is wanted: memory would not hold a whole library.

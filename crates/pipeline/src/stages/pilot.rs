@@ -12,7 +12,6 @@ use enfilade_label::boxes::scene_boxes;
 use enfilade_label::instances::solids;
 use enfilade_render::{FrameRender, Guide, Probe, RenderConfig, RenderScene, add_extra_layers, samples_wanted};
 use enfilade_scene::{Camera, CameraView, Cx, Quiet, Trajectory, WorldMesh};
-use rayon::prelude::*;
 use std::path::Path;
 
 /// Folder within the work folder of a scene.
@@ -108,7 +107,7 @@ fn probe_frame(scene: &RenderScene<'_>, guide: &Guide, view: &CameraView<'_>, co
     let pixels = f64::from(Probe::SIDE * Probe::SIDE);
     let planned = f64::from(width) * f64::from(height) * f64::from(config.samples);
     let probes = (SHARE * planned / (pixels * f64::from(samples))).clamp(PROBES[0], PROBES[1]);
-    let one = |corner: [u32; 2]| -> Result<(Probe<'_, '_>, f64), Error> {
+    let one = |&corner: &[u32; 2]| -> Result<(Probe<'_, '_>, f64), Error> {
         let mut probe = Probe::new(scene, guide, view, config, corner).map_err(Error::stage)?;
         // The first sample warms the caches, as earlier tiles do in a whole frame.
         let first = if samples > 1 { 1 } else { 0 };
@@ -117,7 +116,7 @@ fn probe_frame(scene: &RenderScene<'_>, guide: &Guide, view: &CameraView<'_>, co
         probe.take(samples);
         Ok((probe, (thread_cpu_s() - before_s) / (pixels * f64::from(samples - first))))
     };
-    let tried: Vec<(Probe<'_, '_>, f64)> = corners([width, height], probes).into_par_iter().map(one).collect::<Result<_, _>>()?;
+    let tried: Vec<(Probe<'_, '_>, f64)> = enfilade_parallel::try_map(&corners([width, height], probes), one)?;
     let (probes, costs): (Vec<_>, Vec<_>) = tried.into_iter().unzip();
     let wanted = samples_wanted(config, &probes);
     Ok(wanted.into_iter().zip(costs).map(|(samples, cpu_s)| ProbeCost { samples, cpu_s }).collect())

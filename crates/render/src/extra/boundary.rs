@@ -3,7 +3,6 @@
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_scene::{CameraRay, CameraView};
-use rayon::prelude::*;
 
 /// A neighbour within this fraction of the distance of one's own plane is on the same surface.
 const JUMP: f64 = 0.03;
@@ -28,7 +27,7 @@ pub(super) fn boundaries(view: &CameraView<'_>, frame: &Frame) -> Vec<u8> {
         // Between two edges a pixel is near to one and far from the other: being in front counts.
         codes.filter(|code| *code > 0).min().unwrap_or(0)
     };
-    (0..width * height).into_par_iter().map(code).collect()
+    enfilade_parallel::map_up_to((width * height) as usize, |pixel| code(pixel as i64))
 }
 
 /// What one pixel shows.

@@ -13,9 +13,9 @@ use crate::texture::Cone;
 use appearance::Appearance;
 use enfilade_frame::{Frame, Layer, Values, f16, traits};
 use enfilade_math::{Ray, Rgb, Vec3};
+use enfilade_parallel::map_up_to;
 use enfilade_scene::{CameraRay, CameraView};
 use flow::Flow;
-use rayon::prelude::*;
 
 /// Metals below this GGX alpha show a reflection that can be made out.
 const MIRROR_ALPHA: f32 = 0.01;
@@ -35,7 +35,7 @@ pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Op
     let [width, height] = view.camera().size();
     assert_eq!([frame.width, frame.height], [width, height], "the frame must be of the view's size");
     let at = |index: u32| (index % width, index / width);
-    let pixels: Vec<Option<Extra>> = (0..width * height).into_par_iter().map(|index| extra(scene, view, next, at(index))).collect();
+    let pixels: Vec<Option<Extra>> = map_up_to((width * height) as usize, |index| extra(scene, view, next, at(index as u32)));
     let boundary = boundary::boundaries(view, frame);
 
     let half = |f: fn(&Extra) -> f32| Values::F16(pixels.iter().map(|p| f16::from_f32(p.as_ref().map_or(0.0, f))).collect());
@@ -64,7 +64,7 @@ pub(crate) fn add_flow(scene: &RenderScene<'_>, from: &CameraView<'_>, to: &Came
         let centre = (f64::from(index % frame.width) + 0.5, f64::from(index / frame.width) + 0.5);
         flow::flow(scene, from, to, centre, sighting(scene, from, centre)?.p_world)
     };
-    let flows: Vec<Option<Flow>> = (0..frame.width * frame.height).into_par_iter().map(pixel).collect();
+    let flows: Vec<Option<Flow>> = map_up_to((frame.width * frame.height) as usize, |index| pixel(index as u32));
     insert_flow(frame, &flows);
 }
 

@@ -10,7 +10,6 @@ use enfilade_frame::f16;
 use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Vec3};
 use enfilade_scene::CameraView;
-use rayon::prelude::*;
 
 /// Surfaces of one part that are no farther apart, as a share of the distance, and face the same way are one.
 const SAME: f32 = 1e-6;
@@ -82,7 +81,7 @@ pub(crate) fn surfaces(scene: &RenderScene<'_>, view: &CameraView<'_>, count: us
         along(scene, &first, &mut met);
         (met, bent(scene, &first))
     };
-    let pixels: Vec<(Vec<Met>, Bent)> = (0..width * height).into_par_iter().map(pixel).collect();
+    let pixels: Vec<(Vec<Met>, Bent)> = enfilade_parallel::map_up_to((width * height) as usize, |index| pixel(index as u32));
     let met = || pixels.iter().flat_map(|(met, _)| met);
     RaySurfaces {
         count,

@@ -15,7 +15,7 @@ use super::square::{BINS, SIDE, SquareDensity};
 use crate::light::LightChoice;
 use crate::prepared::RenderScene;
 use enfilade_math::{Bounds3, Onb, Rgb, Vec3, warp};
-use rayon::prelude::*;
+use enfilade_parallel::{map, map_up_to};
 
 /// Sweeps of the radiosity system: each adds a bounce.
 const SWEEPS: usize = 8;
@@ -70,39 +70,34 @@ impl Field {
         // Group the sites into cells. Send a ray through each bin of each cell, and sample the direct light there.
         let cells = Self::cells(bounds, sites, effort.cells);
         let rays = Rays { scene, choice, cells: &cells, seed };
-        let gathered: Vec<(Rgb, Vec<GatherHit>)> =
-            (0..cells.len()).into_par_iter().map(|cell| (rays.direct(cell), rays.gather(cell, 0).collect())).collect();
+        let gathered: Vec<(Rgb, Vec<GatherHit>)> = map_up_to(cells.len(), |cell| (rays.direct(cell), rays.gather(cell, 0).collect()));
 
         // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more.
         let mut indirect = vec![Rgb::BLACK; cells.len()];
         let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
-            indirect =
-                gathered.par_iter().map(|(_, hits)| hits.iter().map(|hit| hit.radiance(&total)).sum::<Rgb>() / BINS as f32).collect();
+            indirect = map(&gathered, |(_, hits)| hits.iter().map(|hit| hit.radiance(&total)).sum::<Rgb>() / BINS as f32);
         }
 
         // Find small bright places, in each cell and in the whole scene.
         let total = total(&indirect);
-        let bright: Vec<Vec<Bright>> = gathered.par_iter().enumerate().map(|(cell, (_, hits))| rays.bright(cell, hits, &total)).collect();
+        let bright: Vec<Vec<Bright>> = map_up_to(cells.len(), |cell| rays.bright(cell, &gathered[cell].1, &total));
         let patches = patches(gathered.iter().map(|(_, hits)| &hits[..]), &total, cells.size());
 
         // Describe the light of each cell: the spheres to aim at, and the radiance through its bins beside them, from its own rays, further
         // rounds of rays, and the bright places that its neighbours found.
-        let lights = gathered
-            .par_iter()
-            .enumerate()
-            .map(|(cell, (_, hits))| {
-                let aimed = rays.aimed(cell, hits, &patches, &total);
-                let mut arriving = BinnedLight::beside(&aimed);
-                hits.iter().enumerate().for_each(|(bin, hit)| arriving.add(bin, hit, &total));
-                for round in 1..effort.rounds {
-                    rays.gather(cell, round).enumerate().for_each(|(bin, hit)| arriving.add(bin, &hit, &total));
-                }
-                arriving.spread(&rays, cell, &bright);
-                arriving.learned(&aimed)
-            })
-            .collect();
+        let lights = map_up_to(cells.len(), |cell| {
+            let (_, hits) = &gathered[cell];
+            let aimed = rays.aimed(cell, hits, &patches, &total);
+            let mut arriving = BinnedLight::beside(&aimed);
+            hits.iter().enumerate().for_each(|(bin, hit)| arriving.add(bin, hit, &total));
+            for round in 1..effort.rounds {
+                rays.gather(cell, round).enumerate().for_each(|(bin, hit)| arriving.add(bin, &hit, &total));
+            }
+            arriving.spread(&rays, cell, &bright);
+            arriving.learned(&aimed)
+        });
         Some(Self { cells, lights })
     }
 

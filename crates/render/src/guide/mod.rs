@@ -21,7 +21,6 @@ use cells::Site;
 use enfilade_math::{Rng, hash_u64};
 use enfilade_scene::CameraView;
 use field::Effort;
-use rayon::prelude::*;
 
 /// The most random walks; frames with few samples learn from fewer.
 const PATHS: u64 = 1 << 16;
@@ -54,19 +53,16 @@ impl Guide {
         let samples = pixel_samples(views, config);
         let paths = if views.is_empty() { 0 } else { (samples / 64).clamp(256, PATHS) };
         let seed = hash_u64(config.seed ^ 0x6_1d3);
-        let sites: Vec<Site> = (0..paths)
-            .into_par_iter()
-            .flat_map_iter(|path| {
-                let view = &views[(path % views.len() as u64) as usize];
-                let mut sites = Vec::new();
-                walk(scene, view, VERTICES, Rng::new(hash_u64(seed ^ hash_u64(path))), |surface, bsdf, _| {
-                    if !bsdf.reflectance.is_black() {
-                        sites.push(Site { p: surface.p, n: surface.ns_smooth });
-                    }
-                });
-                sites
-            })
-            .collect();
+        let sites: Vec<Site> = enfilade_parallel::flat_map_up_to(paths as usize, |path| {
+            let view = &views[path % views.len()];
+            let mut sites = Vec::new();
+            walk(scene, view, VERTICES, Rng::new(hash_u64(seed ^ hash_u64(path as u64))), |surface, bsdf, _| {
+                if !bsdf.reflectance.is_black() {
+                    sites.push(Site { p: surface.p, n: surface.ns_smooth });
+                }
+            });
+            sites
+        });
 
         // Solve for the light there, with an effort in proportion to the samples that will profit.
         let cells = (samples / SAMPLES_PER_CELL).clamp(64, MAX_CELLS);

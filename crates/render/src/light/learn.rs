@@ -10,8 +10,8 @@ use crate::surface::{self, Surface};
 use crate::texture::Cone;
 use crate::walk::{pixel_samples, walk};
 use enfilade_math::{INV_PI, Onb, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
+use enfilade_parallel::{flat_map_up_to, map_up_to};
 use enfilade_scene::CameraView;
-use rayon::prelude::*;
 
 /// The most random walks for one camera and for many; small pictures learn from fewer.
 const PATHS: u64 = 8192;
@@ -39,7 +39,7 @@ impl LightChoice {
 
         // Walk through the scene and look for the sky from every surface: where it is seen, there are windows.
         let windows = if scene.lights.sky.is_some() {
-            let seen: Vec<Glimpses> = (0..paths / 2).into_par_iter().map(|path| glimpses(scene, view(path), rng(0, path))).collect();
+            let seen: Vec<Glimpses> = map_up_to(paths as usize / 2, |path| glimpses(scene, view(path as u64), rng(0, path as u64)));
             let mut all = Glimpses::default();
             for mut one in seen {
                 all.surfaces.append(&mut one.surfaces);
@@ -51,16 +51,13 @@ impl LightChoice {
         };
 
         // Walk again and try the sources, portals among them, at every surface.
-        let arrivals: Vec<Arrival> = (0..paths)
-            .into_par_iter()
-            .flat_map_iter(|path| {
-                let mut arrivals = Vec::new();
-                walk(scene, view(path), VERTICES, rng(1, path), |surface, _, rng| {
-                    try_sources(scene, windows.as_ref(), surface, rng, &mut arrivals);
-                });
-                arrivals
-            })
-            .collect();
+        let arrivals: Vec<Arrival> = flat_map_up_to(paths as usize, |path| {
+            let mut arrivals = Vec::new();
+            walk(scene, view(path as u64), VERTICES, rng(1, path as u64), |surface, _, rng| {
+                try_sources(scene, windows.as_ref(), surface, rng, &mut arrivals);
+            });
+            arrivals
+        });
         Self::from_arrivals(&scene.lights, windows, &arrivals)
     }
 }

@@ -9,7 +9,6 @@ use crate::prepared::RenderScene;
 use crate::triangles::emits;
 use enfilade_math::{Bounds3, Distribution1, Onb, Ray, Rng, Vec3, hash_u64, warp};
 use enfilade_scene::{Part, PartId};
-use rayon::prelude::*;
 
 /// The second-longest side of the box around a pane is at least this long, metres: no drinking glass is one.
 const MIN_SIDE_M: f32 = 0.15;
@@ -36,8 +35,11 @@ impl Lights<'_> {
 fn panes(ready: &RenderScene<'_>) -> Vec<Pane> {
     let scene = ready.scene;
     let is_glass = |part: &Part| scene.materials[part.material as usize].bsdf.is_pane() && !emits(scene, part);
-    let parts = scene.parts.par_iter().enumerate();
-    parts.filter(|(_, part)| is_glass(part)).filter_map(|(number, part)| pane(ready, number as PartId, part)).collect()
+    let of_part = |number: usize| {
+        let part = &scene.parts[number];
+        if is_glass(part) { pane(ready, number as PartId, part) } else { None }
+    };
+    enfilade_parallel::flat_map_up_to(scene.parts.len(), of_part)
 }
 
 /// The pane that a part is, if the sky shines through it with no other pane beyond: glass within a room is none.

@@ -14,7 +14,6 @@ use crate::vertex::{sides_agree, viewing};
 use enfilade_geometry::Hit;
 use enfilade_math::{Bounds3, Ray, Rgb, Vec3, offset_origin};
 use enfilade_scene::{Alpha, Light};
-use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// A glossy reflection this many times as bright at its peak as a white diffuse one is a glint.
@@ -40,11 +39,12 @@ impl Glints {
         let eligible: Vec<bool> = (scene.scene.materials.iter())
             .map(|m| m.alpha == Alpha::Opaque && !m.bsdf.transmits() && m.emission.factor.is_black())
             .collect();
-        let found: Vec<(Glinting, Vec<GlintBounds>)> = (0..count as u32)
-            .into_par_iter()
-            .filter(|&number| eligible[scene.triangles.material(number) as usize])
-            .filter_map(|number| glinting(scene, number, -*direction, irradiance.luminance()))
-            .collect();
+        let of_triangle = |number: usize| {
+            let number = number as u32;
+            let may = eligible[scene.triangles.material(number) as usize];
+            if may { glinting(scene, number, -*direction, irradiance.luminance()) } else { None }
+        };
+        let found: Vec<(Glinting, Vec<GlintBounds>)> = enfilade_parallel::flat_map_up_to(count, of_triangle);
         let (mut triangles, mut of_emitter, mut emitters) = (Vec::new(), Vec::new(), Vec::new());
         for (place, (triangle, mut pieces)) in found.into_iter().enumerate() {
             triangles.push(Glinting { first: emitters.len() as u32, ..triangle });

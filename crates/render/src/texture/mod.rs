@@ -12,7 +12,6 @@ pub(crate) use cone::{Cone, Footprint};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::{Alpha, ColorParam, Image, Material, ScalarParam, TextureRef};
 use pyramid::Pyramid;
-use rayon::prelude::*;
 
 /// The pictures of a scene, ready to be read.
 #[derive(Debug, Default)]
@@ -34,16 +33,12 @@ impl<'s> Textures<'s> {
                 uses[t.image as usize] = Use::CutOut;
             }
         }
-        let pyramids = images
-            .par_iter()
-            .zip(uses)
-            .map(|(image, usage)| match usage {
-                Use::Unused => Pyramid::single(image),
-                Use::Texture => Pyramid::new(image, false),
-                Use::CutOut => Pyramid::new(image, true),
-            })
-            .collect();
-        Self { pyramids }
+        let pyramid = |index: usize| match uses[index] {
+            Use::Unused => Pyramid::single(&images[index]),
+            Use::Texture => Pyramid::new(&images[index], false),
+            Use::CutOut => Pyramid::new(&images[index], true),
+        };
+        Self { pyramids: enfilade_parallel::map_up_to(images.len(), pyramid) }
     }
 
     /// Linear RGB and alpha of `texture` around `uv`.

@@ -2,8 +2,8 @@
 
 use super::Footprint;
 use enfilade_math::{Rgb, Vec2, Vec4, linear_from_srgb};
+use enfilade_parallel::flat_map_up_to;
 use enfilade_scene::{Filter, Image, Pixels, TextureRef};
-use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// A picture with its levels.
@@ -79,10 +79,10 @@ impl<'s> Pyramid<'s> {
     /// The level after `level`, which has `width` × `height` texels.
     fn halved(&self, level: usize, width: u32, height: u32, cut_out: bool) -> Level {
         let (w, h) = ((width / 2).max(1), (height / 2).max(1));
-        let row = |y: u32| {
+        let row = |y: usize| {
             (0..w).map(move |x| {
                 let (mut color, mut plain, mut alpha, mut total) = (Vec4::ZERO, Vec4::ZERO, 0.0, 0.0);
-                for (j, wy) in covered(y, height, h) {
+                for (j, wy) in covered(y as u32, height, h) {
                     for (i, wx) in covered(x, width, w) {
                         let (texel, weight) = (self.texel(level, (j * width + i) as usize), wx * wy);
                         plain += texel * weight;
@@ -95,10 +95,9 @@ impl<'s> Pyramid<'s> {
                 mean.truncate().extend(alpha / total).to_array()
             })
         };
-        let rows = (0..h).into_par_iter().flat_map_iter(row);
         let texels = match self.full {
-            Full::Bytes(..) => Texels::Shorts(rows.map(|t| t.map(|v| (v * SHORT + 0.5) as u16)).collect()),
-            Full::Floats(_) => Texels::Floats(rows.collect()),
+            Full::Bytes(..) => Texels::Shorts(flat_map_up_to(h as usize, |y| row(y).map(|t| t.map(|v| (v * SHORT + 0.5) as u16)))),
+            Full::Floats(_) => Texels::Floats(flat_map_up_to(h as usize, row)),
         };
         Level { width: w, height: h, texels }
     }

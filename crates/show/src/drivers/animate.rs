@@ -12,7 +12,6 @@ use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_scene::{Counted, Cx};
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Pictures per second of trajectories that are no videos, as in the toolkit's animations.
@@ -148,7 +147,7 @@ pub fn animate_camera(
         write_bytes(&animated.path, bytes)?;
         Ok(Ok(animated))
     };
-    films.par_iter().map(|film| counted.unit(|| one(film))).collect()
+    enfilade_parallel::try_map(films, |film| counted.unit(|| one(film)))
 }
 
 impl Shot<'_> {
@@ -192,8 +191,7 @@ impl Shot<'_> {
         let unencodable = |source| AnimateError::Animation { scene: self.scene.into(), camera: self.camera.into(), source };
         let mut animation: Option<Animation> = None;
         for batch in (0..numbers.len()).collect::<Vec<_>>().chunks(BATCH) {
-            let pictures: Vec<Picture> =
-                batch.par_iter().map(|&i| self.picture(film, numbers[i], display, stretch.as_ref())).collect::<Result<_, _>>()?;
+            let pictures: Vec<Picture> = enfilade_parallel::try_map(batch, |&i| self.picture(film, numbers[i], display, stretch.as_ref()))?;
             for (&i, picture) in batch.iter().zip(&pictures) {
                 let before = if i == 0 { numbers[0] - first } else { 0 };
                 let times = numbers.get(i + 1).map_or(1, |next| next - numbers[i]).saturating_add(before);
@@ -221,12 +219,12 @@ impl Shot<'_> {
         if !is_stretched(layer) {
             return Ok(None);
         }
-        let one = |&number: &u32| {
+        let one = |&number: &u32| -> Result<_, DatasetError> {
             let frame = self.dataset.read_frame(self.scene, self.camera, number, &[layer])?;
             let step = (frame.pixels() * numbers.len()).div_ceil(RANGE_SAMPLES);
             Ok(frame.get(layer).map(|values| shown_values(layer, values, step)).unwrap_or_default())
         };
-        let frames: Vec<Vec<Vec<f64>>> = numbers.par_iter().map(one).collect::<Result<_, DatasetError>>()?;
+        let frames: Vec<Vec<Vec<f64>>> = enfilade_parallel::try_map(numbers, one)?;
         let channels = frames.iter().map(Vec::len).max().unwrap_or(0);
         let pooled = |c: usize| frames.iter().flat_map(|frame| &frame[c]).copied().collect();
         Ok(Some(Stretch::over((0..channels).map(pooled).collect())))

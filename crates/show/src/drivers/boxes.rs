@@ -12,7 +12,6 @@ use enfilade_label::class_name;
 use enfilade_label::instances::visible_areas;
 use enfilade_math::OrientedBox;
 use enfilade_scene::{CameraView, Counted, Cx, Labels};
-use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// Instances that show fewer pixels than this share of the image are drawn without text.
@@ -51,7 +50,7 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         }
         Ok(files)
     };
-    let files: Vec<Vec<PathBuf>> = frames.par_iter().map(|number| counted.unit(|| one(number))).collect::<Result<_, _>>()?;
+    let files: Vec<Vec<PathBuf>> = enfilade_parallel::try_map(frames, |number| counted.unit(|| one(number)))?;
     Ok(files.into_iter().flatten().collect())
 }
 

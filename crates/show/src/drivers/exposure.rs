@@ -6,7 +6,6 @@ use crate::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_dataset::{Dataset, DatasetError, ToneMapRow};
 use enfilade_frame::Layer;
 use enfilade_frame::tonemap::{GAMMA, PERCENTILE, ToneMap};
-use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// Pixels that the exposure of a trajectory is measured from, at most: as many as say it within a thousandth.
@@ -63,5 +62,5 @@ pub(super) fn measure(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u
         let step = (frame.pixels() * frames.len()).div_ceil(SAMPLES);
         Ok(Brightness::of_frame(&frame, step).unwrap_or_default())
     };
-    frames.par_iter().map(one).collect()
+    enfilade_parallel::try_map(frames, one)
 }

@@ -20,7 +20,6 @@ use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{CameraView, Counted, Cx};
 use present::read_present;
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -38,11 +37,12 @@ pub fn preview_camera(
     cx: &dyn Cx,
 ) -> Result<Vec<PathBuf>, DatasetError> {
     let count = Counted::new(cx, "frames", frames.len());
-    let one = |(index, &number): (usize, &u32)| {
+    let one = |index: usize| {
+        let number = frames[index];
         let wanted = |spec: &PreviewSpec| spec.of_trajectory() || !made.contains(&number);
         count.unit(|| preview_frame(dataset, [scene, camera], number, exposures.of(index), wanted))
     };
-    let files: Vec<Vec<PathBuf>> = frames.par_iter().enumerate().map(one).collect::<Result<_, _>>()?;
+    let files: Vec<Vec<PathBuf>> = enfilade_parallel::try_map_up_to(frames.len(), one)?;
     Ok(files.into_iter().flatten().collect())
 }
 
@@ -72,7 +72,7 @@ fn preview_frame(
         write_bytes(&path, bytes)?;
         Ok(Some(path))
     };
-    let written: Vec<Option<PathBuf>> = specs.par_iter().map(one).collect::<Result<_, _>>()?;
+    let written: Vec<Option<PathBuf>> = enfilade_parallel::try_map(&specs, one)?;
     Ok(written.into_iter().flatten().collect())
 }
 
@@ -101,10 +101,8 @@ pub fn write_contact_sheet(
         return Ok(None);
     }
     let all = LAYERS.map(|spec| spec.layer);
-    let shown: Vec<(u32, Frame)> = spread(frames.len(), config.frames)
-        .into_par_iter()
-        .map(|i| Ok((frames[i], read_present(dataset, scene, camera, frames[i], &all)?)))
-        .collect::<Result<_, DatasetError>>()?;
+    let read = |&i: &usize| read_present(dataset, scene, camera, frames[i], &all).map(|frame| (frames[i], frame));
+    let shown: Vec<(u32, Frame)> = enfilade_parallel::try_map(&spread(frames.len(), config.frames), read)?;
     let sheet = trajectory_sheet(SheetTitle { scene, camera, frames: frames.len() }, &shown, display, config);
     let path = dataset.layout().contact_sheet(scene, camera);
     write_bytes(&path, jpeg(&sheet))?;

@@ -4,7 +4,6 @@ use super::planned::Planned;
 use enfilade_geometry::Voxel;
 use enfilade_math::{DVec3, Distribution1, Ray, Rng};
 use enfilade_scene::{Camera, CameraView, Trajectory};
-use rayon::prelude::*;
 
 /// Points spread over all surfaces; a share of them is known to within half a per cent.
 const POINTS: usize = 40_000;
@@ -27,7 +26,7 @@ pub(super) struct SurfacePoint {
 pub(super) fn coverage(planned: &Planned<'_>, camera: &Camera, trajectory: &Trajectory) -> Vec<SurfacePoint> {
     let poses = &trajectory.poses;
     let views: Vec<CameraView<'_>> = (0..poses.len()).map(|i| CameraView::of_frame(camera, poses, i)).collect();
-    let seen = |p_world: DVec3| {
+    let seen = |&p_world: &DVec3| {
         let mut point = SurfacePoint { p_world, times: 0, first: None };
         for (i, _) in views.iter().enumerate().filter(|(_, view)| sees(planned, view, p_world)) {
             point.times += 1;
@@ -35,7 +34,7 @@ pub(super) fn coverage(planned: &Planned<'_>, camera: &Camera, trajectory: &Traj
         }
         point
     };
-    points(planned).into_par_iter().map(seen).collect()
+    enfilade_parallel::map(&points(planned), seen)
 }
 
 /// Points by area, in an order that does not matter, without those that free space does not touch.

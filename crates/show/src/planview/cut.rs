@@ -2,7 +2,6 @@
 
 use enfilade_math::DVec3;
 use enfilade_scene::WorldMesh;
-use rayon::prelude::*;
 
 /// Which way a drawing looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +64,7 @@ impl Cut {
     /// A triangle within the plane gives none. Corners on the plane count as in front of it, so that two triangles that share
     /// an edge within the plane give that edge at most once each.
     pub fn lines(&self, world: &WorldMesh) -> Vec<[DVec3; 2]> {
-        world.corners.par_iter().filter_map(|corners| self.line(corners.map(|p| p.as_dvec3()))).collect()
+        enfilade_parallel::flat_map(&world.corners, |corners| self.line(corners.map(|p| p.as_dvec3())))
     }
 
     fn line(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {

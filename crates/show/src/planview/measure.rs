@@ -5,7 +5,6 @@ use super::planned::Planned;
 use enfilade_geometry::Surfaces;
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Pose, Trajectory};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// What is measured of one frame.
@@ -55,7 +54,7 @@ impl<'a> Measuring<'a> {
     /// Of the poses from index `first` on, which see `sights`; the pose before them sees `before`.
     pub fn measures(&self, first: usize, sights: &[Sight], before: Option<&Sight>) -> Vec<FrameMeasures> {
         let one = |k: usize| self.measure(first + k, &sights[k], if k == 0 { before } else { Some(&sights[k - 1]) });
-        (0..sights.len()).into_par_iter().map(one).collect()
+        enfilade_parallel::map_up_to(sights.len(), one)
     }
 
     fn measure(&self, i: usize, sight: &Sight, before: Option<&Sight>) -> FrameMeasures {

@@ -34,14 +34,13 @@ use enfilade_dataset::{Dataset, DatasetError, remove_folder, write_bytes};
 use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
-use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory};
+use enfilade_scene::{Camera, CameraView, Cx, Trajectory};
 use figure::figure;
 pub use floor_plan::floor_plan_svg;
 use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
 use measure::{FrameMeasures, Measuring};
 pub use planned::Planned;
-use rayon::prelude::*;
 pub(crate) use report::Report;
 use statistics::Distances;
 use std::path::PathBuf;
@@ -135,18 +134,18 @@ fn see(
     let mut before: Option<Sight> = None;
     for first in (0..poses.len()).step_by(AT_A_TIME) {
         let range = first..poses.len().min(first + AT_A_TIME);
-        let sight = |i| look::look(planned.world, planned.bvh, &CameraView::of_frame(camera, poses, i));
-        let mut sights: Vec<Sight> = range.clone().into_par_iter().map(sight).collect();
-        let write = |(pose, sight): (&Pose, &Sight)| {
-            let path = dataset.layout().plan_view(planned.scene, &trajectory.name, pose.frame);
-            write_bytes(&path, jpeg(&sight.in_toolkit_colors(colors)))?;
+        let sight = |k| look::look(planned.world, planned.bvh, &CameraView::of_frame(camera, poses, first + k));
+        let mut sights: Vec<Sight> = enfilade_parallel::map_up_to(range.len(), sight);
+        let write = |k: usize| {
+            let path = dataset.layout().plan_view(planned.scene, &trajectory.name, poses[first + k].frame);
+            write_bytes(&path, jpeg(&sights[k].in_toolkit_colors(colors)))?;
             Ok(path)
         };
-        let written: Result<Vec<PathBuf>, DatasetError> = poses[range.clone()].par_iter().zip(&sights).map(write).collect();
+        let written: Result<Vec<PathBuf>, DatasetError> = enfilade_parallel::try_map_up_to(range.len(), write);
         files.extend(written?);
         seen.measures.extend(measuring.measures(first, &sights, before.as_ref()));
-        let here = shown.par_iter().filter(|i| range.contains(*i));
-        seen.thumbnails.par_extend(here.map(|i| Thumbnail::new(*i, &sights[i - first], shown.len())));
+        let thumbnail = |i: &usize| range.contains(i).then(|| Thumbnail::new(*i, &sights[i - first], shown.len()));
+        seen.thumbnails.extend(enfilade_parallel::flat_map(&shown, thumbnail));
         sights.iter().for_each(|sight| seen.distances.add(sight));
         before = sights.pop();
     }
@@ -201,12 +200,11 @@ fn pages(subject: &Subject<'_>, seen: &Digest) -> Vec<Page> {
         ("section_xz", "Section along x", Look::AlongY, "seen along +y"),
         ("section_yz", "Section along y", Look::AgainstX, "seen along -x"),
     ];
-    let drawn = cuts.into_par_iter().map(|(name, title, look, from)| {
+    let mut pages: Vec<Page> = enfilade_parallel::map(&cuts, |&(name, title, look, from)| {
         let cut = Cut { look, through };
         let caption = format!("{title} at {}, {from}", cut.name());
         Page { name, caption, drawing: figure(subject, cut, title), format: Format::PngAndSvg }
     });
-    let mut pages: Vec<Page> = drawn.collect();
     let cut = Cut { look: Look::Down, through };
     pages.push(Page {
         name: "coverage",
@@ -259,7 +257,7 @@ mod tests {
     use enfilade_geometry::VoxelKey;
     use enfilade_geometry::{Bvh, OccupancyTree};
     use enfilade_scene::StartCamera;
-    use enfilade_scene::{Intrinsics, Quiet};
+    use enfilade_scene::{Intrinsics, Pose, Quiet};
     use enfilade_testroom::box_room;
     use std::collections::BTreeMap;
     use std::path::Path;

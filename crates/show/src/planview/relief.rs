@@ -7,7 +7,6 @@ use crate::picture::Picture;
 use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
-use rayon::prelude::*;
 
 /// sRGB of what is free, where a surface lies far behind the plane.
 pub(super) const FREE: [u8; 3] = [224, 238, 250];
@@ -54,12 +53,13 @@ pub(super) fn relief(planned: &Planned<'_>, chart: &Chart) -> Picture {
     let [left, top, width, height] = chart.place;
     let (columns, rows) = (width * OVERSAMPLING, height * OVERSAMPLING);
     let away = -chart.cut.look.axes()[2];
-    let sample = |i: u32| {
+    let sample = |i: usize| {
+        let i = i as u32;
         let part = |pixel: u32, sample: u32| f64::from(pixel) + (f64::from(sample) + 0.5) / f64::from(OVERSAMPLING);
         let p = chart.to_world([part(left, i % columns), part(top, i / columns)]);
         ground(planned, p, away)
     };
-    let samples: Vec<Ground> = (0..columns * rows).into_par_iter().with_min_len(4096).map(sample).collect();
+    let samples: Vec<Ground> = enfilade_parallel::map_up_to((columns * rows) as usize, sample);
     let far_m = far(&samples);
     let color_of = |x: u32, y: u32| {
         let at = |x: u32, y: u32| samples[(y.min(rows - 1) * columns + x.min(columns - 1)) as usize];

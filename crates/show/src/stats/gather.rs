@@ -4,7 +4,6 @@ use super::measure::{Counts, Image, WANTED, measure};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError};
 use enfilade_frame::Layer;
 use enfilade_scene::{Counted, Cx, Labels, PartLabel, Projection};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
@@ -58,7 +57,7 @@ pub fn gather(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<Gathe
         let one = |&(filmed, frame): &(&Filmed<'_>, u32)| counted.unit(|| measure_frame(dataset, filmed, frame, &shared));
         let cameras = filmed.iter().filter(|filmed| filmed.scene == scene);
         let frames: Vec<(&Filmed<'_>, u32)> = cameras.flat_map(|filmed| filmed.frames.iter().map(move |&frame| (filmed, frame))).collect();
-        let images: Vec<Option<NamedImage>> = frames.par_iter().map(one).collect::<Result<_, _>>()?;
+        let images: Vec<Option<NamedImage>> = enfilade_parallel::try_map(&frames, one)?;
         gathered.images.extend(images.into_iter().flatten());
         let (mut counts, shown) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
         count_objects(dataset, scene, &shown, &mut counts);

@@ -41,7 +41,6 @@ use enfilade_scene::Cx;
 use html::{Shown, statistics_page};
 use outlier::Outlier;
 use plots::{Plot, Reference, cost_plots, plots};
-use rayon::prelude::*;
 use report::{Report, cost_outliers, is_report};
 use std::path::{Path, PathBuf};
 
@@ -101,8 +100,8 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
         cost_tables::write_tables(&folder, costs)?;
         files.extend(COST_FILES.map(|name| folder.join(name)));
     }
-    let drawn: Vec<[PathBuf; 2]> = shown.par_iter().chain(&cost_shown).map(|plot| write_plot(&folder, plot)).collect::<Result<_, _>>()?;
-    files.extend(drawn.into_iter().flatten());
+    let all: Vec<_> = shown.iter().chain(&cost_shown).collect();
+    files.extend(enfilade_parallel::try_map(&all, |plot| write_plot(&folder, plot))?.into_iter().flatten());
     let preview = |outlier: &Outlier| preview_from(dataset, &folder, outlier);
     let name = name_of(dataset)?;
     let page = statistics_page(&Shown {
