@@ -2,9 +2,9 @@
 //! and `cluster`.
 //!
 //! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
-//! Python module as it is installed; [`browser`] tests the pages; [`docs`](mod@docs) makes the documentation site; [`fuzz`] searches for bytes that break what reads them;
-//! [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how long it took and, on failure, what
-//! to do.
+//! Python module as it is installed; [`browser`] tests the pages; [`docs`](mod@docs) makes the documentation site; [`fuzz`] searches for
+//! bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how
+//! long it took and, on failure, what to do.
 
 mod acceptance;
 mod bench;

@@ -1,12 +1,13 @@
 //! Every path of the tree, in one place. Nothing here touches the disk.
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
-//! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames,
-//! `_detail/metadata_fixtures.csv`, `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
+//! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/metadata_fixtures.csv`,
+//! `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
 //! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
-//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`, `questions.jsonl`,
-//! `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users' programs have made on a farm and, for cameras that are more than a pinhole,
-//! `camera.json` and its arrays. Beside the layers of `scene_<camera>_final_hdf5` lie those of fixtures.
+//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`,
+//! `questions.jsonl`, `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users'
+//! programs have made on a farm and, for cameras that are more than a pinhole, `camera.json` and its arrays. Beside the layers of
+//! `scene_<camera>_final_hdf5` lie those of fixtures.
 
 use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};

@@ -1,10 +1,11 @@
-//! A dataset in the layouts that other programs load: COCO (instances and panoptic), BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG, WebDataset,
-//! Croissant, OpenCV's cameras, Pix3D, Hugging Face's Parquet files, SpatialLM, Structured3D, TUM RGB-D, Replica, MapAnything's WAI, and
+//! A dataset in the layouts that other programs load: COCO (instances and panoptic), BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, depth PNG,
+//! WebDataset, Croissant, OpenCV's cameras, Pix3D, Hugging Face's Parquet files, SpatialLM, Structured3D, TUM RGB-D, Replica, MapAnything's WAI, and
 //! labelled points (PLY).
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
-//! whose first lines say what it writes and in which units, axes and pixel coordinates, `readmes/` the page that goes with its files. `docs/export.md` has all of them in one table.
+//! whose first lines say what it writes and in which units, axes and pixel coordinates, `readmes/` the page that goes with its files.
+//! `docs/export.md` has all of them in one table.
 //!
 //! An export is complete or absent: it grows under another name beside its place and is renamed when all is written.
 //!

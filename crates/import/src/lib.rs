@@ -35,8 +35,8 @@
 //!   those beside the scene file's folder, in whatever case; the report says which was used.
 //! - A texture that is missing or broken is an error, unless [`ImportOptions::allow_missing_textures`] is set.
 //! - A scene that stands farther than 8 km from the origin of its coordinates, as those of maps do, is moved to it, and the report says by how
-//!   much ([`ImportReport::offset_m`]). OBJ, PLY, USD, FBX, pbrt, Mitsuba and placements of all formats are read in double precision, so that nothing is
-//!   lost on the way.
+//!   much ([`ImportReport::offset_m`]). OBJ, PLY, USD, FBX, pbrt, Mitsuba and placements of all formats are read in double precision, so
+//!   that nothing is lost on the way.
 //! - A scene has no colours of vertices. Where a file has them, a mean of theirs colours the part (glTF, OBJ, PLY, USD's display
 //!   colour, `mesh_attribute` of Mitsuba) or they are dropped (FBX, pbrt); the report says so.
 //! - A scene does not move. Skins and morph targets have the pose that the file states (glTF, FBX) or stay at rest (USD); animations

@@ -1,8 +1,8 @@
 //! How much noise a second of rendering leaves: the number by which path tracers are compared.
 //!
-//! `noise [SCENE | home]… [--samples N] [--max-bounces N] [--even] [--unguided]` renders each scene's first camera at 256×192 twice, with different seeds, and prints the
-//! error (mean of variance / (mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % left out), the samples per
-//! core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
+//! `noise [SCENE | home]… [--samples N] [--max-bounces N] [--even] [--unguided]` renders each scene's first camera at 256×192 twice, with
+//! different seeds, and prints the error (mean of variance / (mean² + 0.01), the image scaled to a mean of 0.5, the worst 0.1 % left out),
+//! the samples per core-second, and error × core-seconds per megapixel, which does not depend on the number of samples.
 
 use anyhow::{Context, Result};
 use enfilade_frame::tonemap::ToneMap;

@@ -1,8 +1,8 @@
 //! Makes the stored dataset of a version, which the versions after it must read: `crates/pipeline/tests/all/stored` has the tests.
 //!
 //! `store_dataset ROOM ARCHIVE` runs `ROOM/dataset.toml` and packs the room, the dataset `out`, and `stored.json` into the file
-//! ARCHIVE, a `.tar.gz`. `stored.json` has the versions of the stages, and checksums of the values of all layers. Pictures and statistics are left out:
-//! they are made from the rest, and would be most of it.
+//! ARCHIVE, a `.tar.gz`. `stored.json` has the versions of the stages, and checksums of the values of all layers. Pictures and statistics
+//! are left out: they are made from the rest, and would be most of it.
 //!
 //! ```text
 //! cd crates/pipeline && cargo run --example store_dataset -- tests/data/room tests/data/dataset-0.1.0.tar.gz

@@ -47,7 +47,8 @@ impl Workdir {
     /// Opens or creates the work folder of `out`, and locks it.
     ///
     /// # Errors
-    /// When `out` is something other than a dataset or one of a newer layout, cannot be written or is not spelled in UTF-8, or another process works on it.
+    /// When `out` is something other than a dataset or one of a newer layout, cannot be written or is not spelled in UTF-8, or another
+    /// process works on it.
     pub fn create(out: &Path) -> Result<Self, Error> {
         refuse_other_text(out)?;
         if out.join(WORKDIR).is_dir() {

@@ -164,10 +164,11 @@ pub enum Tasks {
 /// Renders tasks of a job, or goes on with them, and commits their frames: what `enfilade farm work` does on a node. Interrupted, as by Ctrl-C, it
 /// keeps the frame in the making in the job, and the next worker goes on within it.
 ///
-/// tasks: a number, several, or text such as "0-3" or "1,5,9-12". shard: instead of them the i-th of n shares of all tasks, as (i, n), counted from 0.
-/// scratch: a folder of this node, for scenes and frames in the making; `enfilade-farm` in the temporary folder unless given.
+/// tasks: a number, several, or text such as "0-3" or "1,5,9-12". shard: instead of them the i-th of n shares of all tasks, as (i, n),
+/// counted from 0. scratch: a folder of this node, for scenes and frames in the making; `enfilade-farm` in the temporary folder unless given.
 ///
-/// Gives a dictionary for each task: how it `ended` ("done", "transient" or "permanent"), the `error` if it failed, numbers of frames, seconds, memory.
+/// Gives a dictionary for each task: how it `ended` ("done", "transient" or "permanent"), the `error` if it failed, numbers of frames,
+/// seconds, memory.
 #[pyfunction]
 #[pyo3(signature = (job, tasks=None, *, shard=None, scratch=None))]
 pub fn work<'py>(

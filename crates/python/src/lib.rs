@@ -1,8 +1,8 @@
 //! The Python module `enfilade`: datasets as numpy arrays, and the verbs of the command line.
 //!
 //! This crate only converts: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
-//! shapes from `enfilade-shapes`, jobs of many machines from `enfilade-farm`. Arrays are handed over without a copy, and the interpreter is released while anything is read,
-//! decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
+//! shapes from `enfilade-shapes`, jobs of many machines from `enfilade-farm`. Arrays are handed over without a copy, and the interpreter is
+//! released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
 
 mod arguments;
 mod arrays;

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .json, .house, .semantic.txt, .scene)
-/// to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
+/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene,
+/// .json, .house, .semantic.txt, .scene) to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
 ///
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.
 /// meters_per_unit: metres per unit of the file.
@@ -51,8 +51,8 @@ pub fn import_scene<'py>(
 /// rooms: kinds of rooms (living, kitchen, dining, bedroom, childrens, study, bathroom, toilet, hall, laundry), each as often as wanted; four to
 /// eight, as the seed decides, unless given.
 /// seed: of everything random. layout, furniture, materials, light: seeds of that alone.
-/// realism: share of the colours that go together. clutter: density of small things; 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
-/// moment: "day", "evening" or "night"; as the seed decides unless given.
+/// realism: share of the colours that go together. clutter: density of small things; 0 has none but what shelves and cabinets hold, 1 is a
+/// home that is lived in, 2 is untidy. moment: "day", "evening" or "night"; as the seed decides unless given.
 /// assets: folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits.
 /// assets_share: share of the things for which a model fits that are models.
 /// allow_broken_assets: goes on with our own furniture where a model is broken.

@@ -64,8 +64,8 @@ pub fn stage<'py>(
     conclude(py, &watched(py, &bar, run)?)
 }
 
-/// Checks a dataset, ours or Hypersim's, against laws that every dataset must obey, and gives the report as a dictionary: `passed`, `laws`, `gates` and
-/// the values of all frames.
+/// Checks a dataset, ours or Hypersim's, against laws that every dataset must obey, and gives the report as a dictionary: `passed`, `laws`,
+/// `gates` and the values of all frames.
 ///
 /// scenes: only these; otherwise the report is also written to verify.json and verify.html, and a warning tells where that cannot be done.
 #[pyfunction]

@@ -145,9 +145,9 @@ impl<'a, 's> Integrator<'a, 's> {
         }
     }
 
-    /// Where a path goes on, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None` where it ends. Two arguments concern Russian roulette alone: `so_far`, the
-    /// throughput to the camera ([`roulette_throughput`]), and `expected`, the luminance that the first surface is expected to reflect of
-    /// the light that sampled directions find there (0: unknown).
+    /// Where a path goes on, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None`
+    /// where it ends. Two arguments concern Russian roulette alone: `so_far`, the throughput to the camera ([`roulette_throughput`]), and
+    /// `expected`, the luminance that the first surface is expected to reflect of the light that sampled directions find there (0: unknown).
     #[inline]
     fn next_step(
         &self,

@@ -1,8 +1,9 @@
 //! A frame in the making as bytes, so that it can go on in another process.
 //!
 //! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
-//! where light is split, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is to have in the end, row by row; per pixel its sums, tile by
-//! tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes on has the bytes of one that was never interrupted.
+//! where light is split, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is
+//! to have in the end, row by row; per pixel its sums, tile by tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes
+//! on has the bytes of one that was never interrupted.
 
 use enfilade_math::hash_u64;
 

@@ -90,7 +90,8 @@ impl Structure {
         }
     }
 
-    /// How far a point of a wall, floor or ceiling is from the nearest plane of its kind, metres; from the nearest face itself for walls, or a ceiling if that is nearer.
+    /// How far a point of a wall, floor or ceiling is from the nearest plane of its kind, metres; from the nearest face itself for walls,
+    /// or a ceiling if that is nearer.
     /// `None` for other classes, and where there is no plane.
     pub fn off_m(&self, class: i16, p: DVec3) -> Option<f64> {
         let least = |found: &mut dyn Iterator<Item = f64>| found.min_by(f64::total_cmp);

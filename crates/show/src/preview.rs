@@ -1,8 +1,8 @@
 //! A picture of every layer, under Hypersim's names.
 //!
 //! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other; `display.jpg` alone has
-//! the exposure of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance × illumination: under
-//! that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
+//! the exposure of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance ×
+//! illumination: under that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
 //! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
 
 use crate::display::Display;

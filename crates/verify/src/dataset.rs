@@ -23,8 +23,8 @@ use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Structure, Trajectory};
 
-/// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a violation, not as
-/// an error.
+/// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a
+/// violation, not as an error.
 ///
 /// Frames are read in parallel, no more than two per thread at a time; the report is the same for every number of threads.
 ///

@@ -22,7 +22,8 @@ pub struct FrameValues {
     /// What `color` holds: `rendered`, or `denoised by PROGRAM`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<String>,
-    /// Noise of color as it was rendered: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x the image's mean).
+    /// Noise of color as it was rendered: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x
+    /// the image's mean).
     pub noise: Option<f64>,
     /// The noise at which rendering was to stop, where that was asked for.
     pub noise_target: Option<f32>,

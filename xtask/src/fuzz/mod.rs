@@ -5,7 +5,8 @@
 //! longer search goes on where a shorter one ended. Two targets are searched at a time. With `--seed` chance repeats itself: from the same
 //! corpus the same inputs are tried, as far as the time goes. `--quick` leaves out the readers of datasets and
 //! of the whole program, without which the program that searches builds much faster. `--as-tested` searches with the program that
-//! `cargo xtask test` has built on unattended machines: without coverage, so seeds are only varied and nothing is learned, but nothing is built either.
+//! `cargo xtask test` has built on unattended machines: without coverage, so seeds are only varied and nothing is learned, but nothing is
+//! built either.
 
 mod report;
 mod search;

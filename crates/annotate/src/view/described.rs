@@ -12,7 +12,8 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 impl Viewer {
-    /// What the instances of a scene are, how they stand to each other, its rooms and the names of their planes; empty lists where nobody has said it.
+    /// What the instances of a scene are, how they stand to each other, its rooms and the names of their planes; empty lists where nobody
+    /// has said it.
     pub(super) fn described(&self, scene: &str, lost: &mut Problems) -> Value {
         let instances = lost.or_nothing("objects", self.described_instances(scene));
         let relations = lost.or_nothing("objects", self.instance_relations(scene));

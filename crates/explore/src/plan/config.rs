@@ -59,8 +59,8 @@ pub struct PlanConfig {
     pub overlap: Option<[f64; 2]>,
     /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
     pub max_void_share: f64,
-    /// Views that show the back of things in more than this share of the pixels are taken only when nothing better is found. Parts that are seen from behind around the start camera too
-    /// (thin ones with two sides, ones modelled inside out) do not count.
+    /// Views that show the back of things in more than this share of the pixels are taken only when nothing better is found. Parts that are
+    /// seen from behind around the start camera too (thin ones with two sides, ones modelled inside out) do not count.
     pub max_back_face_share: f64,
     /// Something nearer than this is too near, metres.
     pub min_depth_m: f64,

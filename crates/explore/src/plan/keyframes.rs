@@ -57,8 +57,9 @@ struct FlatRow {
 /// Reads poses made by hand from the text of `file`, whose name ends in `.json` or `.csv`.
 ///
 /// JSON is an array of `{"frame": 0, "position": [x, y, z], "look_at": [x, y, z]}`; CSV has the columns `frame`, `position_x`,
-/// `position_y`, `position_z`, `look_at_x`, `look_at_y`, `look_at_z`, separated by commas, semicolons or tabs. Metres, z up. Optional are `roll_deg`, or `up` (`up_x`, `up_y`,
-/// `up_z`) for a vector that shall be upright in the picture. Frames ascend from 0; those left out are interpolated.
+/// `position_y`, `position_z`, `look_at_x`, `look_at_y`, `look_at_z`, separated by commas, semicolons or tabs. Metres, z up. Optional are
+/// `roll_deg`, or `up` (`up_x`, `up_y`, `up_z`) for a vector that shall be upright in the picture. Frames ascend from 0; those left out are
+/// interpolated.
 ///
 /// # Errors
 /// [`ExploreError::Keyframes`] with the row, what was found there, and what was expected.

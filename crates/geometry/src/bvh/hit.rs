@@ -5,7 +5,8 @@
 pub struct Hit {
     /// Parameter on the ray, strictly between its `t_min` and `t_max`.
     pub t: f32,
-    /// Index of the triangle in the order given to [`Bvh::new`](super::Bvh::new), or its number among those given to [`Bvh::with_placements`](super::Bvh::with_placements).
+    /// Index of the triangle in the order given to [`Bvh::new`](super::Bvh::new), or its number among those given to
+    /// [`Bvh::with_placements`](super::Bvh::with_placements).
     pub triangle: u32,
     /// Barycentric weight of corner 1, in [0, 1].
     pub u: f32,

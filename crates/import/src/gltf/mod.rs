@@ -28,8 +28,8 @@
 //!
 //! # Environments
 //!
-//! glTF has no environment. `environment` in the `extras` of the scene is one (`environment.rs` has its form). Where `extras` of the scene hold `mitsuba_emitters` or `pbrt_lights`, as converters of well-known
-//! scenes leave them, their environment map is used, and reported as guessed.
+//! glTF has no environment. `environment` in the `extras` of the scene is one (`environment.rs` has its form). Where `extras` of the scene
+//! hold `mitsuba_emitters` or `pbrt_lights`, as converters of well-known scenes leave them, their environment map is used, and reported as guessed.
 
 mod accessor;
 mod budget;

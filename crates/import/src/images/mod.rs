@@ -1,7 +1,8 @@
 //! Pictures: PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, KTX2, PNM, Radiance HDR, OpenEXR and PFM into [`Image`](enfilade_scene::Image).
 //!
-//! Of animations and files of several pictures the first one counts. Eight bits a channel stay eight bits; sixteen are rounded to eight; floating-point pictures become linear RGB
-//! without alpha, in which a value that is not a number or below zero becomes 0 and an infinite one the largest half float.
+//! Of animations and files of several pictures the first one counts. Eight bits a channel stay eight bits; sixteen are rounded to eight;
+//! floating-point pictures become linear RGB without alpha, in which a value that is not a number or below zero becomes 0 and an infinite
+//! one the largest half float.
 
 mod dds;
 mod decode;

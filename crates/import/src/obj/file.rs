@@ -68,8 +68,8 @@ impl ObjFile {
         (count > 0).then(|| (sum / count as f32).clamp(Vec3::ZERO, Vec3::ONE))
     }
 
-    /// The mesh of some groups, in positions from [`Self::origin`]. Vertices are shared by corners with the same indices, polygons are cut into triangles. Normals
-    /// and texture coordinates are there when any corner has one; corners without one get zero (which is replaced later).
+    /// The mesh of some groups, in positions from [`Self::origin`]. Vertices are shared by corners with the same indices, polygons are cut
+    /// into triangles. Normals and texture coordinates are there when any corner has one; corners without one get zero (which is replaced later).
     pub(crate) fn mesh<'g>(&self, groups: impl Iterator<Item = &'g Group> + Clone) -> Mesh {
         let any = |k: usize| groups.clone().any(|g| g.corners.iter().any(|c| c[k] != NONE));
         let (with_uvs, with_normals) = (any(1), any(2));

@@ -1,7 +1,8 @@
 //! From the keys of `dataset.toml` to settings: how the levels are laid over each other, and where a value stands that cannot be.
 //!
 //! From the weakest to the strongest: built-in defaults or those of a `preset`, the file's top level, the scene's own keys, the command line. On each
-//! level `quality` sets the samples (and for a reference what makes it one), and the keys of `render` win over it. What counts in the end is checked, `checks` has the ranges.
+//! level `quality` sets the samples (and for a reference what makes it one), and the keys of `render` win over it. What counts in the end
+//! is checked, `checks` has the ranges.
 
 use super::camera::CameraConfig;
 use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_name};
