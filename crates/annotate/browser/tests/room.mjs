@@ -11,6 +11,8 @@ import { join } from "node:path";
 const ARGUMENTS = [
     "--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    // Only what is drawn by WebGL needs it; the rest of the page is cheaper without.
+    "--disable-gpu-rasterization", "--disable-gpu-compositing",
 ];
 
 /** Boxes of the room: name, corner, corner, metres; two chairs are alike, and `lamps` are two boxes in one part. */
