@@ -61,10 +61,10 @@ pub fn try_map_up_to<T: Send, E: Send>(count: usize, value: impl Fn(usize) -> Re
     in_pieces(count, |piece| piece.map_while(one).collect()).into_iter().collect()
 }
 
-/// Does `work` for every number below `count`.
-pub fn each(count: usize, work: impl Fn(usize) + Sync) {
-    let size = size(count);
-    hand_out(count.div_ceil(size), &|k| piece(k, size, count).for_each(&work));
+/// Does `work` for every item.
+pub fn each<'s, S: Sync>(items: &'s [S], work: impl Fn(&'s S) + Sync) {
+    let size = size(items.len());
+    hand_out(items.len().div_ceil(size), &|k| items[piece(k, size, items.len())].iter().for_each(&work));
 }
 
 /// What `make` makes of ranges that together are all numbers below `count`, one after the other.
@@ -75,10 +75,9 @@ fn in_pieces<T: Send>(count: usize, make: impl Fn(Range<usize>) -> Vec<T> + Sync
         let values = make(piece(k, size, count));
         *made[k].lock().unwrap_or_else(PoisonError::into_inner) = values;
     });
-    let mut all = Vec::with_capacity(count);
-    for piece in made {
-        all.append(&mut piece.into_inner().unwrap_or_else(PoisonError::into_inner));
-    }
+    let mut pieces: Vec<Vec<T>> = made.into_iter().map(|piece| piece.into_inner().unwrap_or_else(PoisonError::into_inner)).collect();
+    let mut all = Vec::with_capacity(pieces.iter().map(Vec::len).sum());
+    pieces.iter_mut().for_each(|piece| all.append(piece));
     all
 }
 
@@ -114,9 +113,9 @@ mod tests {
     }
 
     #[test]
-    fn each_number_is_worked_on_once() {
+    fn each_item_is_worked_on_once() {
         let seen: Vec<Mutex<usize>> = (0..333).map(|_| Mutex::new(0)).collect();
-        each(seen.len(), |i| *seen[i].lock().unwrap() += 1);
+        each(&seen, |times| *times.lock().unwrap() += 1);
         assert!(seen.into_iter().all(|times| times.into_inner().unwrap() == 1));
     }
 

@@ -22,7 +22,7 @@ struct Group {
     without: &'static [&'static str],
     /// A file in which `§` stands for the key; [`SCENE`] is added where it has no scene.
     file: &'static str,
-    /// Where the resolved configuration has them: JSON pointers, in which `§` is the key.
+    /// Where the resolved configuration has them: JSON pointers without the first slash, in which `§` is the key.
     at: &'static [&'static str],
 }
 
@@ -42,7 +42,7 @@ const GROUPS: [Group; 19] = [
         of: "Document",
         without: &SECTIONS,
         file: "§\n",
-        at: &["/scenes/0/plan/§", "/scenes/0/§"],
+        at: &["scenes/0/plan/§", "scenes/0/§"],
         ..NOTHING
     },
     Group {
@@ -76,7 +76,7 @@ const GROUPS: [Group; 19] = [
         about: "What the scene files do not say themselves.",
         of: "ImportKeys",
         file: "[import]\n§\n",
-        at: &["/scenes/0/source/file/§"],
+        at: &["scenes/0/source/file/§"],
         ..NOTHING
     },
     Group {
@@ -84,7 +84,7 @@ const GROUPS: [Group; 19] = [
         about: "Of `[import]` or a scene. `date`, `hour` and `latitude_deg` go with `sky`.",
         of: "Keys",
         file: "[import.environment]\nsky = \"clear\"\n§\n",
-        at: &["/scenes/0/source/file/environment/§"],
+        at: &["scenes/0/source/file/environment/§"],
         ..NOTHING
     },
     Group {
@@ -92,7 +92,7 @@ const GROUPS: [Group; 19] = [
         about: "Of a scene; [generated homes](homes.md) says what comes of it. Seeds that are not given follow from `seed`.",
         of: "HomeConfig",
         file: "[[scene]]\nname = \"a\"\n[scene.home]\n§\n",
-        at: &["/scenes/0/source/home/§"],
+        at: &["scenes/0/source/home/§"],
         ..NOTHING
     },
     Group {
@@ -101,7 +101,7 @@ const GROUPS: [Group; 19] = [
         of: "RenderPatch",
         more: &["RenderConfig"],
         file: "[render]\n§\n",
-        at: &["/scenes/0/render/§", "/scenes/0/§"],
+        at: &["scenes/0/render/§", "scenes/0/§"],
         ..NOTHING
     },
     Group {
@@ -110,7 +110,7 @@ const GROUPS: [Group; 19] = [
         of: "CameraConfig",
         without: &["lens", "shutter", "stereo"],
         file: "[camera]\n§\n",
-        at: &["/scenes/0/camera/§"],
+        at: &["scenes/0/camera/§"],
         ..NOTHING
     },
     Group {
@@ -118,7 +118,7 @@ const GROUPS: [Group; 19] = [
         about: "Of `[camera]`, for depth of field: with `focus_distance_m`, and `aperture_radius_m` or `f_number` and `focal_length_mm`.",
         of: "LensConfig",
         file: "[camera.lens]\naperture_radius_m = 0.01\nfocus_distance_m = 2\n§\n",
-        at: &["/scenes/0/camera/lens/§"],
+        at: &["scenes/0/camera/lens/§"],
         ..NOTHING
     },
     Group {
@@ -126,7 +126,7 @@ const GROUPS: [Group; 19] = [
         about: "Of `[camera]`, for motion blur and rolling shutter.",
         of: "Shutter",
         file: "[camera.shutter]\nexposure_s = 0\n§\n",
-        at: &["/scenes/0/camera/shutter/§"],
+        at: &["scenes/0/camera/shutter/§"],
         ..NOTHING
     },
     Group {
@@ -142,7 +142,7 @@ const GROUPS: [Group; 19] = [
         of: "PlanPatch",
         more: &["PlanConfig"],
         file: "[plan]\n§\n",
-        at: &["/scenes/0/plan/§"],
+        at: &["scenes/0/plan/§"],
         ..NOTHING
     },
     mode("`mode = { kind = \"video\", … }`", "VideoConfig", "[plan.mode]\nkind = \"video\"\n§\n"),
@@ -156,7 +156,7 @@ const GROUPS: [Group; 19] = [
                 textures (`texture`). The other kinds have the same keys without `weight`.",
         of: "Saliency::texture",
         file: "[plan.saliency]\nkind = \"texture\"\n§\n",
-        at: &["/scenes/0/plan/saliency/§"],
+        at: &["scenes/0/plan/saliency/§"],
         ..NOTHING
     },
     Group {
@@ -165,7 +165,7 @@ const GROUPS: [Group; 19] = [
         of: "CarvePatch",
         more: &["CarveConfig"],
         file: "[carve]\n§\n",
-        at: &["/scenes/0/carve/§"],
+        at: &["scenes/0/carve/§"],
         ..NOTHING
     },
     Group {
@@ -174,7 +174,7 @@ const GROUPS: [Group; 19] = [
         of: "GatePatch",
         more: &["GateConfig"],
         file: "[gate]\n§\n",
-        at: &["/scenes/0/gate/§"],
+        at: &["scenes/0/gate/§"],
         ..NOTHING
     },
     Group {
@@ -183,13 +183,13 @@ const GROUPS: [Group; 19] = [
         of: "FarmKeys",
         more: &["FarmConfig"],
         file: "[farm]\nafter_frame = [\"true\"]\n§\n",
-        at: &["/farm/§"],
+        at: &["farm/§"],
         ..NOTHING
     },
 ];
 
 const fn mode(heading: &'static str, of: &'static str, file: &'static str) -> Group {
-    Group { heading, about: "Of `[plan]`.", of, file, at: &["/scenes/0/plan/mode/§"], ..NOTHING }
+    Group { heading, about: "Of `[plan]`.", of, file, at: &["scenes/0/plan/mode/§"], ..NOTHING }
 }
 
 impl Group {
@@ -272,7 +272,7 @@ impl Program {
         }
         let without = self.ask(&group.with(name, None))?;
         let Some(config) = without.get("config") else { return Err(format!("`{name}` cannot be left out: {}", without["error"])) };
-        if let Some(value) = group.at.iter().find_map(|at| config.pointer(&at.replace('§', name))) {
+        if let Some(value) = group.at.iter().find_map(|at| config.pointer(&format!("/{}", at.replace('§', name)))) {
             let is_empty = value.is_null() || value.as_array().is_some_and(Vec::is_empty);
             return Ok(if is_empty { "none".into() } else { format!("`{}`", toml(value)) });
         }

@@ -126,10 +126,10 @@ impl VisibleScene<'_> {
             }
             // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is clipped.
             Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.clip.is_some() => {
-                let rows: Vec<u32> = (first[1]..=last[1]).collect();
+                let rows = (last[1] + 1).saturating_sub(first[1]) as usize;
                 let centre = |x: u32, y: u32| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
-                let row = |&y: &u32| (first[0]..=last[0]).filter_map(|x| centre(x, y)).collect::<HashSet<u32>>();
-                enfilade_parallel::flat_map(&rows, row)
+                let row = |y: u32| (first[0]..=last[0]).filter_map(|x| centre(x, y)).collect::<HashSet<u32>>();
+                enfilade_parallel::flat_map_up_to(rows, |k| row(first[1] + k as u32))
             }
             Covered::Rectangle(first, last) => {
                 let tops: Vec<u32> = (first[1]..=last[1]).step_by(BAND_ROWS as usize).collect();

@@ -22,8 +22,8 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
     // Where nothing is known yet, one ray of every fan goes ahead.
     leaps.refresh(grid);
     if grid.state(position) != Voxel::Free {
-        each(rays.fans.len(), |i| {
-            if let Some(tile) = rays.fans[i].tiles.first() {
+        each(&rays.fans, |fan| {
+            if let Some(tile) = fan.tiles.first() {
                 walk(leaps, tile.first, 0.0);
             }
         });
@@ -31,9 +31,9 @@ pub(super) fn cast(grid: &VoxelGrid, leaps: &mut Leaps, rays: &Rays, position: D
     }
 
     // One ray of every tile, from where the cone around its fan first meets something not known to be free.
-    each(rays.fans.len(), |i| {
-        let from_t = clear_in_fan(leaps, &rays.fans[i]);
-        for tile in &rays.fans[i].tiles {
+    each(&rays.fans, |fan| {
+        let from_t = clear_in_fan(leaps, fan);
+        for tile in &fan.tiles {
             walk(leaps, tile.first, from_t);
         }
     });

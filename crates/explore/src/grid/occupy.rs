@@ -16,7 +16,7 @@ const BRICK: i32 = 4;
 impl VoxelGrid {
     /// Marks every voxel that a triangle touches as occupied.
     pub(crate) fn occupy(&self, triangles: &[[Vec3; 3]]) {
-        each(triangles.len(), |i| self.occupy_triangle(triangles[i].map(|p| self.cells(p.as_dvec3()))));
+        each(triangles, |corners| self.occupy_triangle(corners.map(|p| self.cells(p.as_dvec3()))));
     }
 
     fn occupy_triangle(&self, corners: [DVec3; 3]) {

@@ -11,8 +11,8 @@ impl VoxelGrid {
     /// Marks the voxels of sample points on triangles that have a vertex in the box from `min` to `max` (metres).
     pub(crate) fn occupy_samples(&self, triangles: &[[Vec3; 3]], min: DVec3, max: DVec3) {
         let inside = |p: DVec3| p.cmpge(min).all() && p.cmple(max).all();
-        each(triangles.len(), |i| {
-            let corners = triangles[i].map(|p| p.as_dvec3());
+        each(triangles, |corners| {
+            let corners = corners.map(|p| p.as_dvec3());
             if corners.iter().any(|p| inside(*p)) {
                 self.sample_triangle(corners, inside);
             }

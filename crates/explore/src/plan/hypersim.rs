@@ -9,8 +9,8 @@ use crate::view::TestImage;
 use crate::{ExploreError, FreeSpace, ViewStats};
 use enfilade_geometry::{Bvh, Voxel};
 use enfilade_math::{DVec3, Ray};
-use enfilade_parallel::map;
 use enfilade_scene::{Intrinsics, Pose, StartCamera, WorldMesh};
+use rayon::prelude::*;
 
 /// Deviation of each component of the up vector, before which it is (0, 0, 1).
 const UP_NOISE: f64 = 0.1;
@@ -128,11 +128,11 @@ impl Walker<'_> {
     }
 
     fn views(&self, poses: &[Pose]) -> Vec<(Pose, ViewStats)> {
-        map(poses, |pose| {
-            let mut sight = self.image.sight(self.world);
+        let look = |sight: &mut crate::view::Sight, pose: &Pose| {
             sight.look(self.bvh, &self.image, pose);
             (*pose, sight.judge(self.world, &self.config.saliency))
-        })
+        };
+        poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
     }
 
     /// Free points around `last`, near the height of `first`, that are seen from `last`.

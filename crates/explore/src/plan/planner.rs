@@ -5,10 +5,10 @@ use super::gates::Gates;
 use super::report::{CoverageReport, Fault, RejectedCounts};
 use super::rules::Rules;
 use crate::ViewStats;
-use crate::view::TestImage;
+use crate::view::{Sight, TestImage};
 use enfilade_math::{Distribution1, Rng};
-use enfilade_parallel::map;
 use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, WorldMesh};
+use rayon::prelude::*;
 
 /// Scores above this are scaled down together.
 const MAX_SCORE: f64 = 1e30;
@@ -47,11 +47,11 @@ impl<'a> Planner<'a> {
 
     /// What each pose shows.
     pub fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
-        map(poses, |pose| {
-            let mut sight = self.image.sight(self.world);
+        let look = |sight: &mut Sight, pose: &Pose| {
             sight.look(self.rules.bvh, &self.image, pose);
             sight.judge(self.world, &self.config.saliency)
-        })
+        };
+        poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
     }
 
     /// What a view is worth.
