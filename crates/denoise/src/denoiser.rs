@@ -4,26 +4,28 @@ use crate::installed::Installed;
 use crate::network::{Instructions, NAME, Network};
 use crate::{DenoiseError, Noisy};
 use std::path::Path;
+use std::sync::{Arc, LazyLock};
 
 /// What takes noise away from pictures. Both kinds compute the same network and differ in the last bits alone.
 pub struct Denoiser(Kind);
 
 enum Kind {
-    BuiltIn(Box<Network>),
+    BuiltIn(Arc<Network>),
     Installed(Installed),
 }
 
 impl Denoiser {
     /// The network in the binary, which needs nothing installed. It works on the threads of the rayon pool in which
-    /// [`Self::filter`] is called, and gives the same bytes on every processor and any number of threads. Making it takes some
-    /// hundredths of a second and 65 MB of memory.
+    /// [`Self::filter`] is called, and gives the same bytes on every processor and any number of threads. The first of a process takes some
+    /// hundredths of a second, and all of them together 65 MB of memory.
     pub fn built_in() -> Self {
-        Self::built_in_with(Instructions::best())
+        static NETWORK: LazyLock<Arc<Network>> = LazyLock::new(|| Arc::new(Network::new(Instructions::best())));
+        Self(Kind::BuiltIn(NETWORK.clone()))
     }
 
     /// As [`Self::built_in`], with instructions of choice: for tests and measurements.
     pub fn built_in_with(instructions: Instructions) -> Self {
-        Self(Kind::BuiltIn(Box::new(Network::new(instructions))))
+        Self(Kind::BuiltIn(Arc::new(Network::new(instructions))))
     }
 
     /// Loads the library from `place` (its file, or the folder that it lies in; `None`: where the system's loader looks) and

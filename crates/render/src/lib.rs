@@ -51,6 +51,7 @@ mod bsdf;
 mod budget;
 mod camera_path;
 mod config;
+mod delivered;
 mod error;
 mod extra;
 mod film;

@@ -4,6 +4,7 @@ import { chromium } from "playwright-core";
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { appendFileSync, cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { after } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -111,10 +112,16 @@ export async function serve(t, file, port = 0, verb = "annotate", more = []) {
     return { url, port: Number(new URL(url).port), end };
 }
 
-/** A browser that the test's end closes. @param {import("node:test").TestContext} t */
+/** The browser of a file's tests, from the first that needs it to the last. @type {Promise<import("playwright-core").Browser> | undefined} */
+let launched;
+after(async () => (await launched)?.close());
+
+/** The browser of these tests; the test's end closes the windows that it opened. @param {import("node:test").TestContext} t */
 export async function browser(t) {
-    const one = await chromium.launch({ executablePath: process.env.ENFILADE_CHROMIUM ?? "/usr/bin/chromium", args: ARGUMENTS });
-    t.after(() => one.close());
+    launched ??= chromium.launch({ executablePath: process.env.ENFILADE_CHROMIUM ?? "/usr/bin/chromium", args: ARGUMENTS });
+    const one = await launched;
+    const before = new Set(one.contexts());
+    t.after(() => Promise.all(one.contexts().filter((context) => !before.has(context)).map((context) => context.close())));
     return one;
 }
 
