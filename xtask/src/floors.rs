@@ -210,7 +210,15 @@ mod tests {
 
     #[test]
     fn quick_tests_are_those_of_the_lower_floors() {
-        let expected = ["enfilade-math", "enfilade-parallel", "enfilade-geometry", "enfilade-frame", "enfilade-vrscene", "enfilade-scene"];
+        let expected = [
+            "enfilade-math",
+            "enfilade-parallel",
+            "enfilade-geometry",
+            "enfilade-frame",
+            "enfilade-vrscene",
+            "enfilade-scene",
+            "enfilade-denoise",
+        ];
         assert_eq!(packages_up_to(2).collect::<Vec<_>>(), expected);
     }
 }

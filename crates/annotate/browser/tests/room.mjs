@@ -157,7 +157,14 @@ export function pixelOf(page, name) {
         const piece = state.pieces.names.findIndex((one) => one.includes(wanted));
         const { left, top, width, height } = stage.element.getBoundingClientRect();
         const seen = (x, y) => stage.seenAt(x, y).piece === piece;
-        for (let y = 8; y < height - 8; y += 4) for (let x = 8; x < width - 8; x += 4) if (seen(x, y) && seen(x - 6, y) && seen(x + 6, y) && seen(x, y + 6) && seen(x, y - 6)) return [left + x, top + y];
+        // Each look waits for the graphics: at a stretch of a row first, then at its pixels.
+        const stretch = 64;
+        for (let y = 8; y < height - 8; y += 4)
+            for (let from = 8; from < width - 8; from += stretch) {
+                const to = Math.min(from + stretch, width - 8);
+                if (!stage.seenIn([from, y, to - 1, y]).has(piece)) continue;
+                for (let x = from; x < to; x += 4) if (seen(x, y) && seen(x - 6, y) && seen(x + 6, y) && seen(x, y + 6) && seen(x, y - 6)) return [left + x, top + y];
+            }
         throw new Error(`${wanted} is not seen`);
     }, name);
 }
