@@ -24,11 +24,11 @@ const FLOORS: [(&str, Floor); 32] = [
     ("frame", Floor::Number(1)),
     ("vrscene", Floor::Number(1)),
     ("scene", Floor::Number(2)),
-    ("denoise", Floor::Number(2)),
     ("import", Floor::Number(3)),
     ("textures", Floor::Number(3)),
     ("explore", Floor::Number(3)),
     ("render", Floor::Number(3)),
+    ("denoise", Floor::Number(3)),
     ("dataset", Floor::Number(3)),
     ("suggest", Floor::Number(3)),
     ("shapes", Floor::Number(3)),
@@ -210,15 +210,7 @@ mod tests {
 
     #[test]
     fn quick_tests_are_those_of_the_lower_floors() {
-        let expected = [
-            "enfilade-math",
-            "enfilade-parallel",
-            "enfilade-geometry",
-            "enfilade-frame",
-            "enfilade-vrscene",
-            "enfilade-scene",
-            "enfilade-denoise",
-        ];
+        let expected = ["enfilade-math", "enfilade-parallel", "enfilade-geometry", "enfilade-frame", "enfilade-vrscene", "enfilade-scene"];
         assert_eq!(packages_up_to(2).collect::<Vec<_>>(), expected);
     }
 }

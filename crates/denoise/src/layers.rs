@@ -65,8 +65,8 @@ fn values(frame: &Frame, layer: Layer) -> Result<Vec<f32>, DenoiseError> {
     Ok((0..values.len()).map(|i| number(values.get(i) as f32)).collect())
 }
 
-/// Point samples, three per pixel, row by row, filtered as the colours are; the image ends with copies of its border.
-pub fn filtered(values: &[f32], width: usize) -> Vec<f32> {
+/// Point samples, three per pixel, filtered as the colours are; the image ends with copies of its border.
+fn filtered(values: &[f32], width: usize) -> Vec<f32> {
     let rows: Vec<f32> = values.chunks(3 * width).flat_map(|row| weighted(row, 3)).collect();
     weighted(&rows, 3 * width).collect()
 }

@@ -32,5 +32,5 @@ mod network;
 
 pub use denoiser::Denoiser;
 pub use error::DenoiseError;
-pub use layers::{INPUTS, Noisy, denoise, filtered};
+pub use layers::{INPUTS, Noisy, denoise};
 pub use network::Instructions;

@@ -1,5 +1,4 @@
-//! Where the samples go: to each pixel in proportion to the error that it would have left, of the picture as rendered here, of the denoised
-//! one in [`crate::delivered`].
+//! Where the samples go: to each pixel in proportion to the error that it would have left.
 //!
 //! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number. So
 //! the mean of a pixel stays unbiased, which it would not if a dark first sample could end the search for a bright one (Kirk & Arvo 1991,
@@ -40,8 +39,10 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// The number of samples of every pixel, row by row, whose errors are these.
-    pub fn allocate(&self, errors: &[f64]) -> Vec<u32> {
+    /// The number of samples of every pixel, row by row.
+    pub fn allocate(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
+        let errors = errors(width, estimates);
+
         // Where no error can be told, either nothing is left to improve or nothing is known.
         let total: f64 = errors.iter().sum();
         if !(total > 0.0 && total.is_finite()) {
@@ -49,7 +50,7 @@ impl Budget {
             return vec![if is_clean { self.first } else { self.mean }; errors.len()];
         }
         let taken = vec![self.first; errors.len()];
-        self.spread(errors, &taken, self.noise.map(f64::from))
+        self.spread(&errors, &taken, self.noise.map(f64::from))
     }
 
     /// The number of samples of every pixel, row by row, when they have `taken` so many and left the noise `measured` above its target.
@@ -84,7 +85,7 @@ impl Budget {
 }
 
 /// What a sample leaves of error in each pixel, row by row, by the pixels around it.
-pub(crate) fn errors(width: usize, estimates: &[Estimate]) -> Vec<f64> {
+fn errors(width: usize, estimates: &[Estimate]) -> Vec<f64> {
     let height = estimates.len() / width.max(1);
     let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() / estimates.len().max(1) as f64;
     let floor = NOISE_FLOOR as f32 * mean as f32;
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn noisy_pixels_get_more_and_the_mean_is_kept() {
-        let counts = Budget { first: 8, mean: 64, noise: None }.allocate(&errors(64, &half_noisy()));
+        let counts = Budget { first: 8, mean: 64, noise: None }.allocate(64, &half_noisy());
         let mean = counts.iter().sum::<u32>() as f32 / counts.len() as f32;
         assert!((mean - 64.0).abs() < 1.0, "mean {mean}");
         let (quiet, noisy) = (counts[10 * 64 + 5], counts[10 * 64 + 60]);
@@ -143,16 +144,16 @@ mod tests {
     #[test]
     fn a_noise_target_takes_what_it_needs_up_to_the_bound() {
         let budget = |noise| Budget { first: 8, mean: 4096, noise: Some(noise) };
-        let counts = budget(0.05).allocate(&errors(64, &half_noisy()));
+        let counts = budget(0.05).allocate(64, &half_noisy());
         let left =
             half_noisy().iter().zip(&counts).map(|(e, &n)| e.variance / (1.2f32.powi(2) * n as f32)).sum::<f32>() / counts.len() as f32;
         assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
-        let bounded = budget(1e-6).allocate(&errors(64, &half_noisy()));
+        let bounded = budget(1e-6).allocate(64, &half_noisy());
         assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);
         // What is beyond all numbers is not taken for clean.
         let wild = vec![Estimate { mean: 1.0, variance: f32::INFINITY }; 25];
-        assert_eq!(budget(0.05).allocate(&errors(5, &wild)), [4096; 25]);
-        assert_eq!(budget(0.05).allocate(&errors(5, &[Estimate::default(); 25])), [8; 25]);
+        assert_eq!(budget(0.05).allocate(5, &wild), [4096; 25]);
+        assert_eq!(budget(0.05).allocate(5, &[Estimate::default(); 25]), [8; 25]);
     }
 
     #[test]
@@ -160,7 +161,7 @@ mod tests {
         // The noise as measured is ten per cent above what the errors around the pixels tell.
         let estimates = half_noisy();
         let budget = Budget { first: 8, mean: 4096, noise: Some(0.05) };
-        let taken = budget.allocate(&errors(64, &estimates));
+        let taken = budget.allocate(64, &estimates);
         let noise = |counts: &[u32]| {
             let squares = estimates.iter().zip(counts).map(|(e, &n)| f64::from(e.variance) / (1.44 * f64::from(n)));
             1.1 * (squares.sum::<f64>() / counts.len() as f64).sqrt()
@@ -181,8 +182,8 @@ mod tests {
         one[12] = Estimate { mean: 0.0, variance: 0.0 };
         let budget = Budget { first: 1, mean: 16, noise: None };
         // Only the image's totals connect the two.
-        let (a, b) = (budget.allocate(&errors(5, &flat))[12], budget.allocate(&errors(5, &one))[12]);
+        let (a, b) = (budget.allocate(5, &flat)[12], budget.allocate(5, &one)[12]);
         assert!(a.abs_diff(b) <= 2, "{a} and {b}");
-        assert_eq!(Budget { first: 4, mean: 16, noise: None }.allocate(&errors(1, &[Estimate::default()])), [16]);
+        assert_eq!(Budget { first: 4, mean: 16, noise: None }.allocate(1, &[Estimate::default()]), [16]);
     }
 }

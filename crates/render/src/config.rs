@@ -49,8 +49,7 @@ pub struct RenderConfig {
     /// Samples per pixel of the colour layers (geometry layers are one point sample): the mean over the image when samples are
     /// spread by need, the most that a noise target may take. At least 1; default 64.
     pub samples: u32,
-    /// Spreads the samples over the pixels by the error that each one has left: with a noise target that of the picture as rendered, else the
-    /// geometric mean of that and the denoised picture's. Default true.
+    /// Spreads the samples over the pixels in proportion to the error that each one has left. Default true.
     pub adaptive: bool,
     /// Stops below `samples` where this noise is reached: the root mean square over the image of each pixel's standard error over
     /// (its luminance + 0.2 × the image's mean). The first samples tell how many it takes, a quarter of `samples` and at most 64; what is

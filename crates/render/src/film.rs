@@ -22,8 +22,6 @@ pub(crate) struct PixelSum {
     /// which sums of squares would lose in rounding.
     mean: f32,
     deviations: f32,
-    /// Sum of the colour of the samples before [`PixelSum::end_first_half`].
-    first_half: Rgb,
 }
 
 /// The colour values of one pixel as they are stored.
@@ -40,7 +38,7 @@ pub(crate) struct PixelColor {
 
 impl PixelSum {
     /// Words of [`PixelSum::to_words`].
-    pub const WORDS: usize = 19;
+    pub const WORDS: usize = 16;
 
     /// Adds a sample.
     pub fn add(&mut self, s: &PixelSample) {
@@ -56,17 +54,6 @@ impl PixelSum {
             self.illumination += illumination;
             self.illumination_samples += 1;
         }
-    }
-
-    /// Tells apart the samples before and after this call.
-    pub fn end_first_half(&mut self) {
-        self.first_half = self.diffuse + self.residual;
-    }
-
-    /// Mean colour of the first `half` of the samples, after which [`PixelSum::end_first_half`] was called, and of the others.
-    pub fn halves(&self, half: u32) -> [Rgb; 2] {
-        let mean = |sum: Rgb, count: u32| sum / count.max(1) as f32;
-        [mean(self.first_half, half), mean(self.diffuse + self.residual - self.first_half, self.samples.saturating_sub(half))]
     }
 
     /// Number of samples.
@@ -88,8 +75,7 @@ impl PixelSum {
     /// The sums, bit by bit.
     pub fn to_words(self) -> [u32; Self::WORDS] {
         let mut words = [0; Self::WORDS];
-        let colors =
-            [self.reflectance, self.diffuse, self.illumination, self.residual, self.first_half].into_iter().flat_map(Rgb::to_array);
+        let colors = [self.reflectance, self.diffuse, self.illumination, self.residual].into_iter().flat_map(Rgb::to_array);
         let floats = colors.chain([self.mean, self.deviations]).map(f32::to_bits);
         words.iter_mut().zip([self.samples, self.illumination_samples].into_iter().chain(floats)).for_each(|(word, bits)| *word = bits);
         words
@@ -106,14 +92,13 @@ impl PixelSum {
             diffuse: color(5),
             illumination: color(8),
             residual: color(11),
-            first_half: color(14),
-            mean: float(17),
-            deviations: float(18),
+            mean: float(14),
+            deviations: float(15),
         }
     }
 
     /// The diffuse reflectance as it is stored.
-    pub fn stored_reflectance(&self) -> [f16; 3] {
+    fn stored_reflectance(&self) -> [f16; 3] {
         (self.reflectance / self.samples.max(1) as f32).to_array().map(|v| f16::from_f32(v.clamp(0.0, 1.0)))
     }
 

@@ -51,7 +51,6 @@ mod bsdf;
 mod budget;
 mod camera_path;
 mod config;
-mod delivered;
 mod error;
 mod extra;
 mod film;

@@ -3,7 +3,7 @@
 //! A pixel's samples are those of the frame, since they depend on where it is and on no other pixel; so a probe does what the frame will
 //! do there, and what it finds out about the pixels' noise is what the frame will find out.
 
-use crate::budget::{Estimate, errors};
+use crate::budget::Estimate;
 use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::film::PixelSum;
@@ -54,7 +54,7 @@ impl<'a, 's> Probe<'a, 's> {
     pub fn take(&mut self, samples: u32) {
         let [x, y] = self.corner;
         let pixels: Vec<(u32, u32)> = (0..Self::SIDE * Self::SIDE).map(|i| (x + i % Self::SIDE, y + i / Self::SIDE)).collect();
-        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], 0, &mut self.film);
+        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], &mut self.film);
     }
 }
 
@@ -62,13 +62,12 @@ impl<'a, 's> Probe<'a, 's> {
 pub fn samples_wanted(config: &RenderConfig, probes: &[Probe<'_, '_>]) -> Vec<f64> {
     let pixels = (Probe::SIDE * Probe::SIDE) as usize;
     let schedule = Schedule::new(config);
-    // Without a noise target the mean is given. How it is spread, the whole picture tells, which a forecast does not render.
-    if schedule.is_even() || config.noise.is_none() {
+    if schedule.is_even() {
         return vec![f64::from(config.samples); probes.len()];
     }
     // The probes count as one image, one below the other. Where two meet, pixels count as neighbours that are none in the frame, which
     // changes the answer a little.
     let estimates: Vec<Estimate> = probes.iter().flat_map(|probe| &probe.film.sums).map(PixelSum::estimate).collect();
-    let wanted = schedule.budget(config).allocate(&errors(Probe::SIDE as usize, &estimates));
+    let wanted = schedule.budget(config).allocate(Probe::SIDE as usize, &estimates);
     wanted.chunks(pixels).map(|probe| probe.iter().map(|n| f64::from(*n)).sum::<f64>() / pixels as f64).collect()
 }

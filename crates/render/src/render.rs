@@ -4,9 +4,8 @@
 //! (see [`crate::budget`]), and further passes take those. With a noise target there may be rounds of further passes, until what is left
 //! is measured not to be above it.
 
-use crate::budget::{Budget, errors};
+use crate::budget::Budget;
 use crate::config::RenderConfig;
-use crate::delivered::{self, Halves};
 use crate::error::RenderError;
 use crate::film::{PixelSum, resolve_fixture, resolve_split};
 use crate::geometry_pass::pixel_geometry;
@@ -212,7 +211,7 @@ impl<'a, 's> FrameRender<'a, 's> {
             let goal =
                 |(&(x, y), sum): (&(u32, u32), &PixelSum)| schedule.goal(pass, sum.samples(), wanted[(y * width + x) as usize]).min(max);
             let goals: Vec<u32> = pixels.iter().zip(&film.sums).map(goal).collect();
-            add_samples(integrator, view, &pixels, &goals, schedule.first / 2, film);
+            add_samples(integrator, view, &pixels, &goals, film);
             cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
         });
         if goal < whole {
@@ -222,12 +221,9 @@ impl<'a, 's> FrameRender<'a, 's> {
         // After the first samples, decide from their noise how many each pixel is to have in the end.
         self.done += 1;
         if self.done == schedule.first_passes && !self.is_done() {
-            let mut errors = errors(width as usize, &self.rows(PixelSum::estimate));
-            if self.integrator.config.noise.is_none() {
-                // The picture that is loaded is denoised, but what was rendered is kept: half of each, in the mean of the logarithms.
-                errors.iter_mut().zip(self.denoised_errors()).for_each(|(error, denoised)| *error = (*error * denoised).sqrt());
-            }
-            self.settle(schedule.budget(self.integrator.config).allocate(&errors));
+            let budget = schedule.budget(self.integrator.config);
+            let wanted = budget.allocate(width as usize, &self.rows(PixelSum::estimate));
+            self.settle(wanted);
         }
 
         // When these are taken and the noise is still above its target, go on.
@@ -237,20 +233,6 @@ impl<'a, 's> FrameRender<'a, 's> {
         {
             self.settle(wanted);
         }
-    }
-
-    /// What the first samples say of the denoised picture's error in each pixel, row by row.
-    fn denoised_errors(&self) -> Vec<f64> {
-        let (scene, view, half) = (self.integrator.scene, &self.view, self.schedule.first / 2);
-        let pixels: Vec<Vec<Halves>> = map_up_to(self.film.len(), |tile| {
-            let halves = |(sum, (x, y)): (&PixelSum, _)| Halves {
-                colors: sum.halves(half),
-                reflectance: sum.stored_reflectance(),
-                normal: pixel_geometry(scene, view, x, y).map_or([f16::ZERO; 3], |geometry| geometry.normal_bump_world),
-            };
-            self.film[tile].sums.iter().zip(self.tiles.pixels(tile as u32)).map(halves).collect()
-        });
-        delivered::errors(self.view.camera().size(), &self.tiles.rows(&pixels))
     }
 
     /// Sets the samples that each pixel is to have in the end, and with a noise target the number of passes that they take.

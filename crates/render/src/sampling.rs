@@ -10,21 +10,17 @@ use enfilade_scene::CameraView;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
-/// Adds samples to the pixels of a tile until each has its goal. The first `half` of each pixel's are told apart from the others.
+/// Adds samples to the pixels of a tile until each has its goal.
 pub(crate) fn add_samples(
     integrator: &Integrator<'_, '_>,
     view: &CameraView<'_>,
     pixels: &[(u32, u32)],
     goals: &[u32],
-    half: u32,
     film: &mut TileFilm,
 ) {
     for (i, &pixel) in pixels.iter().enumerate() {
         for index in film.sums[i].samples()..goals[i] {
             film.add(i, &integrator.sample(&camera_sample(integrator.config, view, pixel, index)));
-            if index + 1 == half {
-                film.sums[i].end_first_half();
-            }
         }
     }
 }
