@@ -4,9 +4,9 @@ import { chromium } from "playwright-core";
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { appendFileSync, cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { after } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { after } from "node:test";
 
 /** Graphics by the processor, so that every machine draws alike; nothing that talks to the network. */
 const ARGUMENTS = [
