@@ -36,7 +36,7 @@ def places(seed: int, step: int, batch_size: int, count: int) -> list[tuple[int,
 def batch(
     pictures: Pictures, chosen: list[tuple[int, int]], seed: int, config: Augment, tasks: tuple[str, ...], camera: Camera | None = None
 ) -> tuple[torch.Tensor, dict[str, torch.Tensor]]:
-    """Colours on [0, 1], N x 3 x the augmentation's size, and the truth by task at half of it: classes, or depth in metres.
+    """Colours on [0, 1], N x 3 x the augmentation's size, and the truth by task at half of it: classes, or depth in metres; where pictures are.
 
     camera: photographs the pictures anew, before all else.
     """
@@ -54,8 +54,8 @@ def batch(
         image = F.interpolate(part, size=config.size, mode="bilinear", antialias=True)[0]
         matrices.append(torch.from_numpy(color_matrix(drawn.jitter)).float())
         colors.append(image.flip(2) if drawn.flip else image)
-        y = _nearest(top, rows, half[0], whole[0], pictures.depth_m.shape[1])
-        x = _nearest(left, columns, half[1], whole[1], pictures.depth_m.shape[2])
+        y = _nearest(top, rows, half[0], whole[0], pictures.depth_m.shape[1]).to(frame.device)
+        x = _nearest(left, columns, half[1], whole[1], pictures.depth_m.shape[2]).to(frame.device)
         if drawn.flip:
             x = x.flip(0)
         for task in tasks:
@@ -65,7 +65,7 @@ def batch(
             else:
                 truths[task].append(pictures.classes(task, index)[y[:, None], x])
     flat = torch.stack(colors).float().flatten(2) / 255.0
-    images = torch.bmm(torch.stack(matrices), flat).clamp(0.0, 1.0).view(len(chosen), 3, height, width)
+    images = torch.bmm(torch.stack(matrices).to(flat.device), flat).clamp(0.0, 1.0).view(len(chosen), 3, height, width)
     return images.contiguous(memory_format=torch.channels_last), {task: torch.stack(found) for task, found in truths.items()}
 
 

@@ -28,7 +28,7 @@ def photographed(camera: Camera, random: np.random.Generator, frame: torch.Tenso
 
     # The grey world: means of the channels become as equal as the camera makes them.
     means = image.mean((1, 2)).clamp(min=1e-3)
-    image = image * ((torch.tensor(LUMA) * means).sum() / means).pow(balance)[:, None, None]
+    image = image * ((torch.tensor(LUMA, device=image.device) * means).sum() / means).pow(balance)[:, None, None]
 
     # The tone curve and the exposure, then sharpening by what a blurred picture lacks.
     image = (gain * image).clamp(0.0, 1.0).pow(tone)
@@ -36,5 +36,5 @@ def photographed(camera: Camera, random: np.random.Generator, frame: torch.Tenso
         around = F.avg_pool2d(F.pad(image[None], (1, 1, 1, 1), mode="replicate"), 3, stride=1)[0]
         image = image + sharpening * (image - around)
     if noise > 0.0:
-        image = image + noise * torch.from_numpy(random.standard_normal(image.shape, dtype=np.float32))
+        image = image + noise * torch.from_numpy(random.standard_normal(image.shape, dtype=np.float32)).to(image.device)
     return image.clamp(0.0, 1.0) * 255.0

@@ -47,7 +47,7 @@ def judge(network: torch.nn.Module, pictures: Pictures, study: Study) -> dict[st
 def predict(network: torch.nn.Module, pictures: Pictures, part: slice, study: Study) -> dict[str, np.ndarray]:
     """By task, in the size of the labels: classes (uint8), or depth in metres."""
     device = device_of(study)
-    network.eval()
+    network.to(device).eval()
     images = (pictures.color[part].float() / 255.0).to(device, memory_format=torch.channels_last)
     with torch.no_grad(), autocast(study, device):
         found = network(images)

@@ -40,10 +40,14 @@ class Pictures:
     def __len__(self) -> int:
         return len(self.names)
 
+    def to(self, device: torch.device) -> "Pictures":
+        """The same there."""
+        return Pictures(self.color.to(device), self.classes40.to(device), self.depth_m.to(device), self.names)
+
     def classes(self, task: str, index: int | slice) -> torch.Tensor:
         """uint8: the classes of a task, from 0, and VOID."""
         found = self.classes40[index]
-        return found if task == SEMANTICS40 else nyu13()[found.long()]
+        return found if task == SEMANTICS40 else nyu13().to(found.device)[found.long()]
 
 
 def nyu13() -> torch.Tensor:

@@ -80,7 +80,7 @@ def train(
     if state is not None and state.get("key") != key:
         raise CheckpointError(f"{last}: is of another run, {state.get('key')!r}, expected {key!r}; delete it, or choose another output")
     network = UNet(study.heads) if state else begin()
-    network = network.to(device, memory_format=torch.channels_last).train()
+    network, pictures = network.to(device, memory_format=torch.channels_last).train(), pictures.to(device)
     optimizer = torch.optim.AdamW(network.parameters(), lr=recipe.learning_rate, weight_decay=recipe.weight_decay)
     step, losses, sums, began = 0, [], torch.zeros(len(study.tasks)), time.process_time()
     if state is not None:
@@ -98,8 +98,8 @@ def train(
         set_learning_rate(optimizer, rate)
         optimizer.zero_grad(set_to_none=True)
         with autocast(study, device):
-            predicted = network(images.to(device))
-        found = torch.stack([loss(task, predicted[task], truths[task].to(device)) for task in study.tasks])
+            predicted = network(images)
+        found = torch.stack([loss(task, predicted[task], truths[task]) for task in study.tasks])
         (found * weights).sum().backward()
         optimizer.step()
         step, sums = step + 1, sums + found.detach().cpu()
