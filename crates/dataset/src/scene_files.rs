@@ -7,12 +7,14 @@ use crate::mesh_files::write_mesh;
 use crate::tables::{Table, write_parameters};
 use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes, write_json};
 use enfilade_math::DVec3;
-use enfilade_scene::{Scene, Structure};
+use enfilade_scene::{Part, Scene, Structure};
 use std::path::Path;
 
 /// What Hypersim writes for a node that belongs to no object.
 const NULL_OBJECT: &str = "_NULL_OBJECT";
 const NODE_COLUMNS: [&str; 4] = ["node_id", "node_name", "object_id", "object_name"];
+/// Of our own scenes alone: 1 where [`Node::is_partly_there`].
+const PARTLY_THERE: &str = "partly_there";
 const METERS: &str = "meters_per_asset_unit";
 
 /// A row of `metadata_nodes.csv`: a render entity and the object it belongs to.
@@ -26,6 +28,9 @@ pub struct Node {
     pub object_id: Option<u32>,
     /// Name of the object.
     pub object_name: String,
+    /// Whether opacity or holes show what lies behind it, so that colours and reflectances of its pixels are partly of that. False where it
+    /// is not known.
+    pub is_partly_there: bool,
 }
 
 impl Dataset {
@@ -46,9 +51,12 @@ impl Dataset {
             return Err(DatasetError::Unstorable { what: format!("scene {scene_name:?}"), problem });
         }
         write_parameters(&self.layout().metadata_scene(scene_name), &[(METERS, 1.0)])?;
-        let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &NODE_COLUMNS);
-        nodes.rows =
-            scene.parts.iter().enumerate().map(|(i, p)| vec![(i + 1).to_string(), p.name.clone(), i.to_string(), p.name.clone()]).collect();
+        let mut nodes = Table::new(&self.layout().metadata_nodes(scene_name), &[&NODE_COLUMNS[..], &[PARTLY_THERE]].concat());
+        let node = |(i, part): (usize, &Part)| {
+            let partly = u8::from(scene.materials[part.material as usize].is_partly_there());
+            vec![(i + 1).to_string(), part.name.clone(), i.to_string(), part.name.clone(), partly.to_string()]
+        };
+        nodes.rows = scene.parts.iter().enumerate().map(node).collect();
         nodes.write()?;
         let mut materials = Table::new(&self.layout().metadata_materials(scene_name), &["material_id", "material_name"]);
         materials.rows = scene.materials.iter().enumerate().map(|(i, m)| vec![(i + 1).to_string(), m.name.clone()]).collect();
@@ -98,7 +106,8 @@ impl Dataset {
         read_node_table(&self.layout().metadata_nodes(scene))
     }
 
-    /// Writes `metadata_nodes.csv`, and `metadata_scene.csv` of a scene in metres: what a scene needs that was rendered elsewhere.
+    /// Writes `metadata_nodes.csv`, and `metadata_scene.csv` of a scene in metres: what a scene needs that was rendered elsewhere. Of its
+    /// nodes it is not known which are partly there.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -164,7 +173,7 @@ impl Dataset {
 pub fn read_node_table(path: &Path) -> Result<Vec<Node>, DatasetError> {
     let table = Table::read(path)?;
     let [id, name, object, object_name] = NODE_COLUMNS.map(|column| table.column(column));
-    let (id, name, object, object_name) = (id?, name?, object?, object_name?);
+    let (id, name, object, object_name, partly) = (id?, name?, object?, object_name?, table.column(PARTLY_THERE).ok());
     let node = |row: usize| {
         let node_id: u32 = table.parse(row, id)?;
         if node_id as usize != row + 1 {
@@ -173,7 +182,8 @@ pub fn read_node_table(path: &Path) -> Result<Vec<Node>, DatasetError> {
         }
         let text = |column: usize| table.rows[row][column].clone();
         let object_id = u32::try_from(table.parse::<i64>(row, object)?).ok().filter(|_| text(object_name) != NULL_OBJECT);
-        Ok(Node { node_id, node_name: text(name), object_id, object_name: text(object_name) })
+        let is_partly_there = partly.is_some_and(|column| text(column) == "1");
+        Ok(Node { node_id, node_name: text(name), object_id, object_name: text(object_name), is_partly_there })
     };
     (0..table.rows.len()).map(node).collect()
 }
@@ -182,6 +192,7 @@ pub fn read_node_table(path: &Path) -> Result<Vec<Node>, DatasetError> {
 mod tests {
     use super::*;
     use crate::mesh_files::tests::two_parts;
+    use enfilade_scene::{Alpha, Material};
 
     #[test]
     fn nodes_are_the_parts_from_one() {
@@ -189,10 +200,23 @@ mod tests {
         let dataset = Dataset::create(folder.path()).unwrap();
         dataset.write_scene("room", &two_parts()).unwrap();
         let nodes = dataset.read_nodes("room").unwrap();
-        let expected =
-            |id: u32, name: &str| Node { node_id: id, node_name: name.into(), object_id: Some(id - 1), object_name: name.into() };
+        let expected = |id: u32, name: &str| Node {
+            node_id: id,
+            node_name: name.into(),
+            object_id: Some(id - 1),
+            object_name: name.into(),
+            is_partly_there: false,
+        };
         assert_eq!(nodes, [expected(1, "floor, oak"), expected(2, "lamp")]);
         assert_eq!(dataset.meters_per_asset_unit("room").unwrap(), 1.0);
+        // A lamp of a shade that is half transparent.
+        let mut scene = two_parts();
+        let shade = &mut scene.parts[1].material;
+        let half = Material { alpha: Alpha::Blend { opacity: 0.5.into() }, ..scene.materials[*shade as usize].clone() };
+        *shade = scene.materials.len() as u32;
+        scene.materials.push(half);
+        dataset.write_scene("room", &scene).unwrap();
+        assert_eq!(dataset.read_nodes("room").unwrap().iter().map(|n| n.is_partly_there).collect::<Vec<_>>(), [false, true]);
     }
 
     #[test]

@@ -335,6 +335,15 @@ impl Material {
         Self::new(name, Bsdf::Diffuse { reflectance: reflectance.into() })
     }
 
+    /// Whether its surface has holes or shows what lies behind it, by its opacity.
+    pub fn is_partly_there(&self) -> bool {
+        match self.alpha {
+            Alpha::Opaque => false,
+            Alpha::Mask { opacity, .. } => opacity.texture.is_some(),
+            Alpha::Blend { opacity } => opacity.texture.is_some() || opacity.factor < 1.0,
+        }
+    }
+
     /// Calls `found` with every texture that the material reads.
     pub fn textures<'a>(&'a self, mut found: impl FnMut(&'a TextureRef)) {
         self.bsdf.parameters(&mut |parameter| match parameter {

@@ -107,6 +107,8 @@ struct SceneFacts {
     released: bool,
     meters_per_unit: f64,
     entities: usize,
+    /// By entity: those that show what lies behind them.
+    partly_there: Vec<bool>,
     labels: Option<SceneLabels>,
     boxes: Vec<(BoxKind, boxes::Boxes)>,
     /// Of scenes with a layout whose classes are NYU40's.
@@ -145,6 +147,7 @@ impl SceneFacts {
             released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
             entities: nodes.len(),
+            partly_there: nodes.iter().map(|node| node.is_partly_there).collect(),
             structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
             labels,
             boxes: boxes::read_boxes(dataset, name, card),
@@ -317,7 +320,7 @@ impl SceneFacts {
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
         }
-        let sight = Sight { frame: &frame, view: camera, rounding };
+        let sight = Sight { frame: &frame, view: camera, rounding, partly_there: &self.partly_there };
         for (other, there) in self.neighbours(filmed, index) {
             let mut card = Card::default();
             found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut card));
@@ -363,7 +366,8 @@ impl SceneFacts {
         let (frame, rounding) = read_frame(self.stored(dataset), partner, number, &two_views::COMPARED, &mut Card::default())?;
         let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
         let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];
-        two_views::compare(&self.name, names, [sight, &Sight { frame: &frame, view, rounding }], card)
+        let there = Sight { frame: &frame, view, rounding, partly_there: &self.partly_there };
+        two_views::compare(&self.name, names, [sight, &there], card)
     }
 }
 

@@ -150,7 +150,13 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
 async fn objects_that_were_split_off_are_told_with_class_and_instance() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = dataset(folder.path());
-    let node = |node_id, name: &str, object_id| Node { node_id, node_name: name.into(), object_id, object_name: name.into() };
+    let node = |node_id, name: &str, object_id| Node {
+        node_id,
+        node_name: name.into(),
+        object_id,
+        object_name: name.into(),
+        is_partly_there: false,
+    };
     dataset.write_nodes("room", &[node(1, "sky", None), node(2, "harp", Some(0))]).unwrap();
     let labels = Labels { parts: vec![PartLabel { semantic: 3, instance: 1 }, PartLabel { semantic: 7, instance: 2 }] };
     dataset.write_label_tables("room", &labels).unwrap();

@@ -43,7 +43,7 @@ impl Stage {
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
     pub const fn version(self) -> u32 {
         match self {
-            Self::Import => 13,
+            Self::Import => 14,
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,
@@ -52,7 +52,7 @@ impl Stage {
             Self::Label => 2,
             Self::Boxes => 1,
             Self::Preview => 5,
-            Self::Verify => 9,
+            Self::Verify => 10,
         }
     }
 

@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     fn node(node_id: u32, name: &str, object: Option<u32>, object_name: &str) -> Node {
-        Node { node_id, node_name: name.into(), object_id: object, object_name: object_name.into() }
+        Node { node_id, node_name: name.into(), object_id: object, object_name: object_name.into(), is_partly_there: false }
     }
 
     const THEIRS: &str =
