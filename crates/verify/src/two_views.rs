@@ -346,7 +346,7 @@ impl<'a> Raster<'a> {
             found.first_faults[1].get_or_insert_with(|| format!("{} is part {id} there", at()));
             return;
         }
-        let is_partly_there = self.partly_there.get(id as usize - 1).is_some_and(|&is| is);
+        let is_partly_there = (id as usize).checked_sub(1).and_then(|part| self.partly_there.get(part)).is_some_and(|&is| is);
         if is_partly_there || largest_row(&carried.jacobian) > REACH as f64 {
             return;
         }
