@@ -172,8 +172,8 @@ impl Dataset {
 /// When it is missing or damaged, or the entities are not numbered 1, 2, 3, … in order.
 pub fn read_node_table(path: &Path) -> Result<Vec<Node>, DatasetError> {
     let table = Table::read(path)?;
-    let [id, name, object, object_name] = NODE_COLUMNS.map(|column| table.column(column));
-    let (id, name, object, object_name, partly) = (id?, name?, object?, object_name?, table.column(PARTLY_THERE).ok());
+    let [id, name, object, object_name] = table.columns(NODE_COLUMNS)?;
+    let partly = table.column(PARTLY_THERE).ok();
     let node = |row: usize| {
         let node_id: u32 = table.parse(row, id)?;
         if node_id as usize != row + 1 {

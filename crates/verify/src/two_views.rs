@@ -281,17 +281,12 @@ impl<'a> Raster<'a> {
         (resolved && alike >= UNFOLDED).then_some(Carried { image, bend, jacobian })
     }
 
-    /// The least distance of a surface between four pixels: theirs, and where it is not flat that of all pixels around that show it, because a
-    /// pleat may lie between any two.
-    fn nearest(&self, cell: &[usize; 4]) -> f64 {
-        let is_shown = |&k: &usize| self.shown[k] == self.shown[cell[0]];
-        let turns = |k: usize| self.normals.as_ref().is_some_and(|normals| normals[cell[0]].dot(normals[k]) < FLAT);
-        let least = |pixels: &mut dyn Iterator<Item = usize>| pixels.map(|k| self.distance.get(k)).fold(f64::INFINITY, f64::min);
-        if self.around(cell[0]).filter(is_shown).any(turns) {
-            least(&mut self.around(cell[0]).filter(is_shown))
-        } else {
-            least(&mut cell.iter().copied())
-        }
+    /// How near the surface of a pixel comes among those around that show it too, because a pleat may lie between any two; infinite where it is
+    /// flat.
+    fn nearest_relief(&self, pixel: usize) -> f64 {
+        let around = || self.around(pixel).filter(|&k| self.shown[k] == self.shown[pixel]);
+        let turns = |k: usize| self.normals.as_ref().is_some_and(|normals| normals[pixel].dot(normals[k]) < FLAT);
+        if around().any(turns) { around().map(|k| self.distance.get(k)).fold(f64::INFINITY, f64::min) } else { f64::INFINITY }
     }
 
     /// Cosine of the largest angle between a pixel's normal and those around it; 1 without normals.
@@ -321,7 +316,8 @@ impl<'a> Raster<'a> {
         if id == -1.0 || cell.iter().any(|&k| other.shown[k] != other.shown[cell[0]]) {
             return;
         }
-        let (least, most) = (other.nearest(cell), cell.iter().map(|&k| other.distance.get(k)).fold(0.0, f64::max));
+        let shown = cell.map(|k| other.distance.get(k));
+        let (least, most) = shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
         let distance = carried.image.distance;
         // Both distances are rounded, and the first moves the image too, which counts as often again at slants of 45 degrees and less.
         let halves = 2.0 * (self.rounding.of_distance(self.distance.get(pixel)) + other.rounding.of_distance(most));
@@ -329,7 +325,8 @@ impl<'a> Raster<'a> {
         if distance > most + open {
             return; // hidden
         }
-        let seen_through = distance < least - open;
+        let is_before = |surface: f64| distance < surface - open;
+        let seen_through = is_before(least) && is_before(other.nearest_relief(cell[0]));
         found.distance.count(seen_through);
         let at = || format!("pixel ({}, {}), part {}", pixel % self.width, pixel / self.width, self.ids.get(pixel));
         if seen_through {
