@@ -112,7 +112,7 @@ pub struct RenderArgs {
 #[derive(Args)]
 #[command(next_help_heading = "Rendering (of an existing dataset: from now on)")]
 pub struct RenderFlags {
-    /// Samples per pixel: the mean over the image, or with --noise the most
+    /// Samples per pixel: the mean over the image, or with --noise the most [default: those of the quality; with --noise 65536]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Stop where the noise is this small: 2% or 0.02

@@ -21,9 +21,10 @@ pub enum Quality {
     Reference,
 }
 
-/// Noise of a reference, see [`RenderConfig::noise`], and the most samples that it may take: thirty times what it takes in most rooms.
+/// Noise of a reference, see [`RenderConfig::noise`].
 const REFERENCE_NOISE: f32 = 0.02;
-const REFERENCE_SAMPLES: u32 = 65_536;
+/// The most samples per pixel that a noise target may take where nobody says: thirty times what a reference takes in most rooms.
+pub(super) const MOST_SAMPLES: u32 = 65_536;
 
 impl Quality {
     /// Samples per pixel; of a reference the most of them.
@@ -32,7 +33,7 @@ impl Quality {
             Self::Draft => 8,
             Self::Normal => 32,
             Self::High => 128,
-            Self::Reference => REFERENCE_SAMPLES,
+            Self::Reference => MOST_SAMPLES,
         }
     }
 
@@ -103,7 +104,7 @@ impl Overrides {
 pub struct RenderChoices {
     /// Samples per pixel, or the most of them where there is a noise target.
     pub samples: Option<u32>,
-    /// Noise target, see [`enfilade_render::RenderConfig::noise`].
+    /// Noise target, see [`enfilade_render::RenderConfig::noise`]. Without `samples` it takes as many as it needs, up to 65,536.
     pub noise: Option<f32>,
     /// Longest path.
     pub max_bounces: Option<u32>,
@@ -140,7 +141,8 @@ impl RenderChoices {
     }
 
     fn apply_to_transport(&self, render: &mut RenderConfig) {
-        render.samples = self.samples.unwrap_or(render.samples);
+        let below = if self.noise.is_some() { MOST_SAMPLES } else { render.samples };
+        render.samples = self.samples.unwrap_or(below);
         render.noise = self.noise.or(render.noise);
         render.max_bounces = self.max_bounces.or(render.max_bounces);
         render.clamp = self.clamp.or(render.clamp);

@@ -1,12 +1,12 @@
 //! From the keys of `dataset.toml` to settings: how the levels are laid over each other, and where a value stands that cannot be.
 //!
 //! From the weakest to the strongest: built-in defaults or those of a `preset`, the file's top level, the scene's own keys, the command line. On each
-//! level `quality` sets the samples (and for a reference what makes it one), and the keys of `render` win over it. What counts in the end
-//! is checked, `checks` has the ranges.
+//! level `quality` sets the samples (and for a reference what makes it one), `noise` takes as many as it needs, and the keys of `render` win
+//! over both. What counts in the end is checked, `checks` has the ranges.
 
 use super::camera::CameraConfig;
 use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_name};
-use super::choices::{Overrides, Quality};
+use super::choices::{MOST_SAMPLES, Overrides, Quality};
 use super::document::{Document, Level, SceneKeys};
 use super::expand::expand;
 use super::farm::FarmConfig;
@@ -216,6 +216,9 @@ impl Resolver<'_> {
         scene.save_every_s = value(&render.save_every_s).unwrap_or(scene.save_every_s);
         scene.color = render.color.as_ref().map_or(scene.color, |color| *color.get_ref());
         scene.keep_rendered = render.keep_rendered.as_ref().map_or(scene.keep_rendered, |keep| *keep.get_ref());
+        if render.noise.is_some() {
+            scene.render.samples = MOST_SAMPLES;
+        }
         render.apply(&mut scene.render);
         plan.apply(&mut scene.plan);
         carve.apply(&mut scene.carve);

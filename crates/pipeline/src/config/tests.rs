@@ -114,6 +114,24 @@ fn a_scenes_quality_wins_over_the_samples_of_the_file() {
 }
 
 #[test]
+fn a_noise_target_takes_as_many_samples_as_it_needs_unless_its_level_or_one_above_says_how_many() {
+    let told = |text: &str, overrides: Overrides| {
+        let scene = config_with(text, &overrides).scenes.remove(0);
+        (scene.render.samples, scene.render.noise)
+    };
+    let (nothing, noise) = (Overrides::default(), RenderChoices { noise: Some(0.03), ..RenderChoices::default() });
+    let most = Quality::Reference.samples();
+    for text in [format!("render.noise = 0.05\n{SCENE}"), format!("quality = \"draft\"\nrender.samples = 9\n{SCENE}render.noise = 0.05\n")] {
+        assert_eq!(told(&text, nothing.clone()), (most, Some(0.05)), "{text}");
+    }
+    for text in [format!("render.noise = 0.05\n{SCENE}render.samples = 9\n"), format!("render = {{ noise = 0.05, samples = 9 }}\n{SCENE}")] {
+        assert_eq!(told(&text, nothing.clone()), (9, Some(0.05)), "{text}");
+    }
+    let draft = Overrides { quality: Some(Quality::Draft), render: noise, ..Overrides::default() };
+    assert_eq!(told(&format!("render.samples = 9\n{SCENE}"), draft), (most, Some(0.03)));
+}
+
+#[test]
 fn a_reference_is_unbiased_and_another_quality_takes_that_back() {
     let told = |text: &str, quality: Option<Quality>| {
         let scene = config_with(text, &Overrides { quality, ..Overrides::default() }).scenes.remove(0);
