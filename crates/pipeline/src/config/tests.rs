@@ -121,10 +121,12 @@ fn a_noise_target_takes_as_many_samples_as_it_needs_unless_its_level_or_one_abov
     };
     let (nothing, noise) = (Overrides::default(), RenderChoices { noise: Some(0.03), ..RenderChoices::default() });
     let most = Quality::Reference.samples();
-    for text in [format!("render.noise = 0.05\n{SCENE}"), format!("quality = \"draft\"\nrender.samples = 9\n{SCENE}render.noise = 0.05\n")] {
+    for text in [format!("render.noise = 0.05\n{SCENE}"), format!("quality = \"draft\"\nrender.samples = 9\n{SCENE}render.noise = 0.05\n")]
+    {
         assert_eq!(told(&text, nothing.clone()), (most, Some(0.05)), "{text}");
     }
-    for text in [format!("render.noise = 0.05\n{SCENE}render.samples = 9\n"), format!("render = {{ noise = 0.05, samples = 9 }}\n{SCENE}")] {
+    for text in [format!("render.noise = 0.05\n{SCENE}render.samples = 9\n"), format!("render = {{ noise = 0.05, samples = 9 }}\n{SCENE}")]
+    {
         assert_eq!(told(&text, nothing.clone()), (9, Some(0.05)), "{text}");
     }
     let draft = Overrides { quality: Some(Quality::Draft), render: noise, ..Overrides::default() };
