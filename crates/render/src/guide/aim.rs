@@ -5,11 +5,11 @@ use enfilade_math::{ONE_MINUS_EPSILON, Onb, Vec3};
 use std::f32::consts::TAU;
 
 /// The most spheres that a cell aims at.
-pub(super) const MAX_AIMS: usize = 3;
+pub(super) const MAX_AIMS: usize = 8;
 /// The smallest sine of half of a cone's angle: float32 hardly tells the directions of narrower cones apart.
 const MIN_SINE: f32 = 0.005;
-/// The largest such sine: spheres in wider cones are too near to be aimed at.
-const MAX_SINE: f32 = 0.7;
+/// The largest such sine: spheres in wider cones are too near to be aimed at, and bins are fine enough for them.
+const MAX_SINE: f32 = 0.3;
 
 /// A sphere, and the fraction of the directions that go to it.
 #[derive(Clone, Copy, Debug)]
@@ -145,7 +145,7 @@ mod tests {
         let n = 100_000;
         let (mut none, mut overlap, mut expected) = (0, 0, 0.0f64);
         let both = |d: Vec3| aims.all()[..2].iter().all(|aim| aim.cone(Vec3::ZERO).is_some_and(|cone| cone.pdf(d) > 0.0));
-        let wide = Aim { center: Vec3::Z, radius: 0.5, fraction: 1.0 }.cone(Vec3::ZERO).expect("far enough");
+        let wide = Aim { center: 2.0 * Vec3::Z, radius: 0.5, fraction: 1.0 }.cone(Vec3::ZERO).expect("far enough");
         for _ in 0..n {
             let u = [rng.next_f32(), rng.next_f32()];
             match aims.sample(u, Vec3::ZERO) {

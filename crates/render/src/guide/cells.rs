@@ -68,11 +68,6 @@ impl Cells {
         cells
     }
 
-    /// Metres across a cell.
-    pub fn size(&self) -> f32 {
-        1.0 / self.scale
-    }
-
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.sites.len()

@@ -3,14 +3,16 @@
 //! From every cell one ray goes out through each bin of the cosine-weighted hemisphere; what it meets is remembered as a cell and a
 //! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
 //! tracing another ray. With the cells' light known, rays through the bins, those that are there and further ones where many samples pay
-//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is aimed at apart from
-//! the bins (see [`super::patch`]), and looked for from the cells around as well (see [`super::bright`]).
+//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is found by photons too
+//! (see [`super::spots`]), aimed at apart from the bins (see [`super::patch`]), and looked for from the cells around (see
+//! [`super::bright`]).
 
 use super::aim::Aims;
 use super::bright::Bright;
 use super::cells::{Cells, Site};
 use super::patch::{Aimed, patches, with_fractions};
 use super::rays::{GatherHit, Rays};
+use super::spots::{Spot, Spots};
 use super::square::{BINS, SIDE, SquareDensity};
 use crate::light::LightChoice;
 use crate::prepared::RenderScene;
@@ -23,6 +25,8 @@ const SWEEPS: usize = 8;
 const CELLS_ACROSS: f32 = 48.0;
 /// No cell is smaller, in metres.
 const MIN_CELL: f32 = 0.05;
+/// Spots along the side of a cell of this smallest size.
+const SPOTS_ACROSS: f32 = 8.0;
 
 /// The light that arrives in a cell, as a density of directions and its irradiance.
 #[derive(Debug)]
@@ -47,6 +51,8 @@ pub(crate) struct Field {
 pub(super) struct Effort {
     /// About the largest number of cells.
     pub cells: usize,
+    /// Photons that look for small bright places.
+    pub photons: usize,
     /// Rays through each bin of each cell.
     pub rounds: usize,
 }
@@ -67,14 +73,23 @@ impl Field {
         if bounds.is_empty() {
             return None;
         }
-        // Group the sites into cells. Send a ray through each bin of each cell, and sample the direct light there.
-        let cells = Self::cells(bounds, sites, effort.cells);
-        let rays = Rays { scene, choice, cells: &cells, seed };
+        // Group the sites into cells, and find the spots that are too small and bright for these. Send a ray through each bin of each cell,
+        // and sample the direct light there.
+        let fine = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
+        let cells = Self::cells(bounds, sites, fine, effort.cells);
+        let spots = Spots::find(scene, choice, bounds.min, fine / SPOTS_ACROSS, effort.photons, seed);
+        let rays = Rays { scene, choice, cells: &cells, spots: &spots, seed };
         let gathered: Vec<(Rgb, Vec<GatherHit>)> = map_up_to(cells.len(), |cell| (rays.direct(cell), rays.gather(cell, 0).collect()));
 
-        // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more.
+        // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more. A spot has the
+        // indirect light of the cell that it lies in.
         let mut indirect = vec![Rgb::BLACK; cells.len()];
-        let total = |indirect: &[Rgb]| -> Vec<Rgb> { gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i).collect() };
+        let around =
+            |spot: &Spot, indirect: &[Rgb]| indirect.get(cells.find(spot.site.p, spot.site.n) as usize).copied().unwrap_or_default();
+        let total = |indirect: &[Rgb]| -> Vec<Rgb> {
+            let of_cells = gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i);
+            of_cells.chain(spots.spots.iter().map(|spot| spot.light + around(spot, indirect))).collect()
+        };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
             indirect = map(&gathered, |(_, hits)| hits.iter().map(|hit| hit.radiance(&total)).sum::<Rgb>() / BINS as f32);
@@ -83,7 +98,7 @@ impl Field {
         // Find small bright places, in each cell and in the whole scene.
         let total = total(&indirect);
         let bright: Vec<Vec<Bright>> = map_up_to(cells.len(), |cell| rays.bright(cell, &gathered[cell].1, &total));
-        let patches = patches(gathered.iter().map(|(_, hits)| &hits[..]), &total, cells.size());
+        let patches = patches(gathered.iter().map(|(_, hits)| &hits[..]), &spots.spots, &total, fine);
 
         // Describe the light of each cell: the spheres to aim at, and the radiance through its bins beside them, from its own rays, further
         // rounds of rays, and the bright places that its neighbours found.
@@ -101,10 +116,9 @@ impl Field {
         Some(Self { cells, lights })
     }
 
-    /// The cells of the sites, about `max` of them at most. They lie on surfaces, so their number goes with the inverse square of their
-    /// size.
-    fn cells(bounds: Bounds3, sites: &[Site], max: usize) -> Cells {
-        let size = (bounds.extent().length() / CELLS_ACROSS).max(MIN_CELL);
+    /// The cells of the sites, of `size` metres, or larger where there would be more than about `max`. They lie on surfaces, so their number
+    /// goes with the inverse square of their size.
+    fn cells(bounds: Bounds3, sites: &[Site], size: f32, max: usize) -> Cells {
         let cells = Cells::new(bounds.min, size, sites);
         if cells.len() <= max {
             return cells;

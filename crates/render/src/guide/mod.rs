@@ -9,6 +9,7 @@ mod cells;
 mod field;
 mod patch;
 mod rays;
+mod spots;
 mod square;
 
 pub(crate) use field::{CellLight, Field};
@@ -22,7 +23,7 @@ use enfilade_math::{Rng, hash_u64};
 use enfilade_scene::CameraView;
 use field::Effort;
 
-/// The most random walks; frames with few samples learn from fewer.
+/// The most random walks, and the most photons; frames with few samples learn from fewer.
 const PATHS: u64 = 1 << 16;
 /// One cell for this many samples. A cell costs about as much as a hundred.
 const SAMPLES_PER_CELL: u64 = 1024;
@@ -67,7 +68,7 @@ impl Guide {
         // Solve for the light there, with an effort in proportion to the samples that will profit.
         let cells = (samples / SAMPLES_PER_CELL).clamp(64, MAX_CELLS);
         let rounds = (samples / cells / SAMPLES_PER_ROUND).clamp(1, MAX_ROUNDS);
-        let effort = Effort { cells: cells as usize, rounds: rounds as usize };
+        let effort = Effort { cells: cells as usize, photons: paths as usize, rounds: rounds as usize };
         let field = if config.guiding { Field::solve(scene, &choice, &sites, effort, seed) } else { None };
         Self { choice, field }
     }

@@ -7,6 +7,7 @@ use super::aim::{Aim, MAX_AIMS};
 use super::bright::BRIGHT;
 use super::cells::Site;
 use super::rays::{GatherHit, LOOKING, Rays, mean, site_of};
+use super::spots::Spot;
 use super::square::BINS;
 use enfilade_math::{Bounds3, Rgb, Rng, Vec3};
 use std::f32::consts::PI;
@@ -16,8 +17,10 @@ const MAX_PLACES: usize = 4096;
 /// Places within this many cell sizes are of one patch, if they send at least this fraction of the light of the brightest of them.
 const REACH: f32 = 0.25;
 const ALIKE: f32 = 0.1;
+/// Patches become one where they fill at least this fraction of a sphere around both.
+const FILL: f32 = 0.35;
 /// The most patches that a cell looks for.
-const CANDIDATES: usize = 6;
+const CANDIDATES: usize = 16;
 /// How often it looks for one, the second time in the part that it saw the first time, and rays each time.
 const STEPS: usize = 2;
 const RAYS: usize = 16;
@@ -25,7 +28,7 @@ const RAYS: usize = 16;
 const DIMMEST: f32 = 0.25;
 const WITHIN: f32 = 1.2;
 /// A cell looks for a patch and aims at it if that sends it at least this fraction of what it receives from places that are not bright.
-const MIN_FRACTION: f32 = 0.1;
+const MIN_FRACTION: f32 = 0.005;
 /// The largest fraction of the directions that are aimed.
 const MAX_AIMED: f32 = 0.8;
 /// Cosine of a patch that lies on the horizon.
@@ -47,14 +50,17 @@ pub(super) struct BrightPatch {
 /// A sphere to aim at, and the irradiance over π that comes from it.
 pub(super) type Aimed = (Aim, Rgb);
 
-/// The bright patches among the places that the rays of all cells met, given the light of the cells, which are `size` metres across.
-pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, total: &[Rgb], size: f32) -> Vec<BrightPatch> {
+/// The bright patches among the places that the rays of all cells met and among `spots`, given the light of the cells and spots. `size` is
+/// that of the smallest cells, metres.
+pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, spots: &[Spot], total: &[Rgb], size: f32) -> Vec<BrightPatch> {
     let mut left: Vec<(Vec3, f32)> = cells
         .flat_map(|hits| {
             let min = BRIGHT * mean(hits, total);
             hits.iter().map(|hit| (hit.p, hit.unmirrored(total).luminance())).filter(move |&(_, radiance)| radiance > min)
         })
         .collect();
+    let min = BRIGHT * total.iter().map(|light| light.luminance()).sum::<f32>() / total.len() as f32;
+    left.extend(spots.iter().map(|spot| (spot.site.p, spot.radiance.luminance())).filter(|&(_, radiance)| radiance > min));
     left.sort_by(|a, b| b.1.total_cmp(&a.1));
     left.truncate(MAX_PLACES);
     let reach = REACH * size;
@@ -70,7 +76,32 @@ pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, total: &
         let count = places.len() as f32;
         patches.push(BrightPatch { center, radius: radius.max(0.5 * reach / count.sqrt()), radiance: sum / count });
     }
-    patches
+    merged(patches)
+}
+
+/// Patches without those that together fill a sphere: the inside of a shade is one, and the cups of a chandelier's bulbs are several.
+fn merged(patches: Vec<BrightPatch>) -> Vec<BrightPatch> {
+    // Each with its area over π.
+    let mut left: Vec<(BrightPatch, f32)> = patches.into_iter().map(|patch| (patch, patch.radius.powi(2))).collect();
+    let mut first = 0;
+    while first < left.len() {
+        let fills = |second: usize| {
+            let patch = left[first].0.around(&left[second].0);
+            let fill = (left[first].1 + left[second].1) / patch.radius.powi(2);
+            (left[first].0.is_like(&left[second].0) && fill > FILL).then_some((second, fill))
+        };
+        // Take in the one that fills best, until none does.
+        let Some((second, _)) = (first + 1..left.len()).filter_map(fills).max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            first += 1;
+            continue;
+        };
+        let (taken, area) = left.remove(second);
+        let (patch, own) = &mut left[first];
+        let radiance = (patch.radiance * *own + taken.radiance * area) / (*own + area);
+        *patch = BrightPatch { radiance, ..patch.around(&taken) };
+        *own += area;
+    }
+    left.into_iter().map(|(patch, _)| patch).collect()
 }
 
 /// The mean luminance of a cell without the bins that meet a bright place.
@@ -88,6 +119,25 @@ pub(super) fn with_fractions(aimed: &[Aimed], found: f32) -> impl Iterator<Item 
 }
 
 impl BrightPatch {
+    /// This patch with the sphere around it and another one.
+    fn around(&self, other: &Self) -> Self {
+        let way = other.center - self.center;
+        let distance = way.length();
+        if distance + other.radius <= self.radius {
+            return *self;
+        }
+        if distance + self.radius <= other.radius {
+            return Self { radiance: self.radiance, ..*other };
+        }
+        let radius = 0.5 * (self.radius + other.radius + distance);
+        Self { center: self.center + way * ((radius - self.radius) / distance), radius, ..*self }
+    }
+
+    /// True when neither is much brighter than the other.
+    fn is_like(&self, other: &Self) -> bool {
+        self.radiance.min(other.radiance) > ALIKE * self.radiance.max(other.radiance)
+    }
+
     /// Irradiance over π at a site if all of the patch were visible from there.
     fn expected(&self, site: &Site) -> f32 {
         let way = self.center - site.p;
@@ -153,5 +203,39 @@ impl Rays<'_, '_> {
             aim = Aim { center: bounds.center(), radius: radius.clamp(aim.radius / (1.0 + count.sqrt()), aim.radius), ..aim };
         }
         Some((aim, light))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patches_that_fill_a_sphere_become_one() {
+        let patch = |x: f32, radius: f32, radiance: f32| BrightPatch { center: Vec3::new(x, 0.0, 0.0), radius, radiance };
+        // Two that touch, one within the first, one far away, and one that is much dimmer.
+        let merged =
+            merged(vec![patch(0.0, 0.1, 9.0), patch(0.2, 0.1, 3.0), patch(0.01, 0.02, 9.0), patch(2.0, 0.1, 9.0), patch(0.1, 0.1, 0.2)]);
+        assert_eq!(merged.len(), 3);
+        let [one, far, dim] = merged[..] else { unreachable!("three") };
+        assert!((one.center.x - 0.1).abs() < 1e-6 && (one.radius - 0.2).abs() < 1e-6, "{one:?}");
+        assert!((5.9..6.5).contains(&one.radiance), "{one:?}");
+        assert_eq!((far.center.x, far.radius, dim.radiance), (2.0, 0.1, 0.2));
+    }
+
+    #[test]
+    fn a_sphere_around_two_holds_both() {
+        let patch = |x: f32, radius: f32| BrightPatch { center: Vec3::new(x, 0.0, 0.0), radius, radiance: 1.0 };
+        for (a, b) in [
+            (patch(0.0, 0.1), patch(0.5, 0.3)),
+            (patch(0.0, 0.5), patch(0.1, 0.2)),
+            (patch(0.1, 0.2), patch(0.0, 0.5)),
+            (patch(1.0, 0.1), patch(1.0, 0.1)),
+        ] {
+            let around = a.around(&b);
+            for inner in [a, b] {
+                assert!(around.center.distance(inner.center) + inner.radius <= around.radius + 1e-6, "{around:?} around {inner:?}");
+            }
+        }
     }
 }

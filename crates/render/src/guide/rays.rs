@@ -1,6 +1,7 @@
 //! The rays that gather light for a scene's cells (final gathering), and what they meet.
 
 use super::cells::{Cells, NONE, Site};
+use super::spots::Spots;
 use super::square::{BINS, SIDE};
 use crate::bsdf::Event;
 use crate::light::{LightChoice, LightPoint};
@@ -20,22 +21,22 @@ const DIRECT: usize = 0;
 const ROUNDS: usize = 1;
 pub(super) const LOOKING: usize = u16::MAX as usize;
 
-/// What a gathering ray met: a cell and the fraction of its light that comes back along the ray, the same of a cell seen in a mirror or
-/// gloss, and the light of sources.
+/// What a gathering ray met: a cell or spot and the fraction of its light that comes back along the ray, the same of one seen in a mirror
+/// or gloss, and the light of sources.
 #[derive(Clone, Copy)]
 pub(super) struct GatherHit {
-    /// Where the cell was met, in the world.
+    /// Where it was met, in the world.
     pub p: Vec3,
-    /// Number of the cell that was met, and the fraction of its light that comes back.
+    /// The number of what was met, see [`Rays::place`], and the fraction of its light that comes back.
     diffuse: (u32, Rgb),
-    /// The same of a cell seen by way of mirrors, gloss and glass.
+    /// The same of what is seen by way of mirrors, gloss and glass.
     mirrored: (u32, Rgb),
     /// Luminance that sources send along the ray, weighted against light sampling.
     pub emitted: f32,
 }
 
 impl GatherHit {
-    /// Radiance that arrives, given the light of the cells.
+    /// Radiance that arrives, given the light of the cells and spots.
     pub fn radiance(&self, total: &[Rgb]) -> Rgb {
         self.unmirrored(total) + self.mirrored(total)
     }
@@ -61,9 +62,9 @@ pub(super) fn mean(hits: &[GatherHit], total: &[Rgb]) -> f32 {
     hits.iter().map(|hit| hit.luminance(total)).sum::<f32>() / BINS as f32
 }
 
-/// The light that a cell sends back along a ray.
-fn sent((cell, fraction): (u32, Rgb), total: &[Rgb]) -> Rgb {
-    if cell == NONE { Rgb::BLACK } else { fraction * total[cell as usize] }
+/// The light that a cell or spot sends back along a ray.
+fn sent((place, fraction): (u32, Rgb), total: &[Rgb]) -> Rgb {
+    if place == NONE { Rgb::BLACK } else { fraction * total[place as usize] }
 }
 
 /// The rays that leave the cells.
@@ -71,6 +72,7 @@ pub(super) struct Rays<'a, 's> {
     pub scene: &'a RenderScene<'s>,
     pub choice: &'a LightChoice,
     pub cells: &'a Cells,
+    pub spots: &'a Spots,
     pub seed: u64,
 }
 
@@ -81,6 +83,12 @@ impl Rays<'_, '_> {
 
     pub(super) fn rng(&self, cell: usize, purpose: usize) -> Rng {
         Rng::new(hash_u64(self.seed ^ hash_u64((purpose as u64) << 32 | cell as u64)))
+    }
+
+    /// The number under which the light at a surface point is known: that of its cell or, after all cells, of the spot that it lies on;
+    /// [`NONE`] where neither is.
+    fn place(&self, p: Vec3, n: Vec3) -> u32 {
+        self.spots.at(p, n).map_or_else(|| self.cells.find(p, n), |spot| (self.cells.len() + spot) as u32)
     }
 
     /// Direct irradiance over π in a cell, the mean over its sites.
@@ -104,63 +112,56 @@ impl Rays<'_, '_> {
     /// What is met from a site in a unit direction, sampled with density `pdf`.
     pub fn gather_one(&self, site: &Site, direction: Vec3, pdf: f32, rng: &mut Rng) -> GatherHit {
         let ray = Ray::new(offset_origin(site.p, site.n), direction);
-        gather_hit(self.scene, self.choice, self.cells, &LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
+        self.gather_hit(&LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
+    }
+
+    /// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
+    fn gather_hit(&self, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> GatherHit {
+        let &Rays { scene, choice, .. } = self;
+        let mut hit = GatherHit { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
+        let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut hit.emitted) else { return hit };
+        let mut bsdf = surface.bsdf(scene);
+        let mut albedo = bsdf.albedo(surface.wo.dot(surface.ns));
+        hit.p = surface.p;
+        hit.diffuse = (self.place(surface.p, surface.ns_smooth), through * albedo.blurred());
+
+        // Follow one sample of what the surface mirrors or refracts, until it meets a surface that is not sharp.
+        let (mut surface, mut fraction) = (surface, through);
+        for _ in 0..MIRRORS {
+            let chance = MIRROR_GAIN * albedo.sharp.luminance();
+            if rng.next_f32() >= chance {
+                break;
+            }
+            fraction *= (1.0 / chance).max(1.0);
+            let onb = surface.onb();
+            let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
+            // The blurred part counts as diffuse already.
+            fraction *= sample.weight.specular * albedo.sharp_fraction();
+            let direction = onb.to_world(sample.wi).normalize();
+            if fraction.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
+                break;
+            }
+            let sampled = (sample.event == Event::Finite).then(|| (surface.light_point(), sample.pdf));
+            let mut emitted = 0.0;
+            let next = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
+            hit.emitted += fraction.luminance() * emitted;
+            let Some((next, through)) = next else { break };
+            surface = next;
+            bsdf = surface.bsdf(scene);
+            albedo = bsdf.albedo(surface.wo.dot(surface.ns));
+            fraction *= through;
+            if !albedo.blurred().is_black() {
+                hit.mirrored = (self.place(surface.p, surface.ns_smooth), fraction * albedo.blurred());
+                break;
+            }
+        }
+        hit
     }
 }
 
 /// The one of a cell's sites that the ray through a bin leaves from.
 pub(super) fn site_of(sites: &[Site], bin: usize, round: usize) -> Site {
     sites[(bin + bin / SIDE + round) % sites.len()]
-}
-
-/// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
-fn gather_hit(
-    scene: &RenderScene<'_>,
-    choice: &LightChoice,
-    cells: &Cells,
-    from: &LightPoint,
-    ray: Ray,
-    pdf: f32,
-    rng: &mut Rng,
-) -> GatherHit {
-    let mut hit = GatherHit { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
-    let Some((surface, through)) = first_surface(scene, choice, ray, Some((*from, pdf)), &mut hit.emitted) else { return hit };
-    let mut bsdf = surface.bsdf(scene);
-    let mut albedo = bsdf.albedo(surface.wo.dot(surface.ns));
-    hit.p = surface.p;
-    hit.diffuse = (cells.find(surface.p, surface.ns_smooth), through * albedo.blurred());
-
-    // Follow one sample of what the surface mirrors or refracts, until it meets a surface that is not sharp.
-    let (mut surface, mut fraction) = (surface, through);
-    for _ in 0..MIRRORS {
-        let chance = MIRROR_GAIN * albedo.sharp.luminance();
-        if rng.next_f32() >= chance {
-            break;
-        }
-        fraction *= (1.0 / chance).max(1.0);
-        let onb = surface.onb();
-        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
-        // The blurred part counts as diffuse already.
-        fraction *= sample.weight.specular * albedo.sharp_fraction();
-        let direction = onb.to_world(sample.wi).normalize();
-        if fraction.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
-            break;
-        }
-        let sampled = (sample.event == Event::Finite).then(|| (surface.light_point(), sample.pdf));
-        let mut emitted = 0.0;
-        let next = first_surface(scene, choice, surface.ray(direction), sampled, &mut emitted);
-        hit.emitted += fraction.luminance() * emitted;
-        let Some((next, through)) = next else { break };
-        surface = next;
-        bsdf = surface.bsdf(scene);
-        albedo = bsdf.albedo(surface.wo.dot(surface.ns));
-        fraction *= through;
-        if !albedo.blurred().is_black() {
-            hit.mirrored = (cells.find(surface.p, surface.ns_smooth), fraction * albedo.blurred());
-            break;
-        }
-    }
-    hit
 }
 
 /// The first surface beyond panes, and what they let through. Adds the luminance that arrives from sources, weighted against light

@@ -86,6 +86,18 @@ impl Patch {
         LightBounds::flat(bounds, self.normal, radiance * self.area, two_sided)
     }
 
+    /// A point of the patch, uniform over its area for `u` uniform on [0,1)².
+    #[inline]
+    pub fn place(&self, u: [f32; 2]) -> Vec3 {
+        match self.shape {
+            Shape::Triangle([a, b, c]) => {
+                let w = warp::triangle(u);
+                a * (1.0 - w.x - w.y) + b * w.x + c * w.y
+            }
+            Shape::Rectangle { corner, sides, .. } => corner + sides[0] * u[0] + sides[1] * u[1],
+        }
+    }
+
     /// A point of the patch for `u` uniform on [0,1)². `None` when it is seen edge-on.
     #[inline]
     pub fn sample(&self, p: Vec3, u: [f32; 2]) -> Option<PatchPoint> {
@@ -106,11 +118,7 @@ impl Patch {
                 let distance = q.distance(p);
                 return (distance > 0.0).then(|| PatchPoint { q, wi: (q - p) / distance, distance, pdf: 1.0 / rectangle.solid_angle });
             }
-            (_, Shape::Triangle([a, b, c])) => {
-                let w = warp::triangle(u);
-                a * (1.0 - w.x - w.y) + b * w.x + c * w.y
-            }
-            (_, Shape::Rectangle { corner, sides, .. }) => corner + sides[0] * u[0] + sides[1] * u[1],
+            _ => self.place(u),
         };
         let distance = q.distance(p);
         let wi = (q - p) / distance;

@@ -119,11 +119,18 @@ impl Windows {
         if !self.bounds.contains(p) || (p[portal.axis] - portal.min[portal.axis]).abs() < MIN_HEIGHT_M {
             return None;
         }
-        let mut at = portal.min;
-        let [a, b] = others(portal.axis);
-        at[a] += u[0] * (portal.max[a] - portal.min[a]);
-        at[b] += u[1] * (portal.max[b] - portal.min[b]);
+        let at = portal.place(u);
         Some(self.box_from_world.transpose() * (at - p).try_normalize()?)
+    }
+
+    /// Where light that goes in the unit direction `d` enters the room, for `u` uniform on [0,1)³, and the area that it crosses there over
+    /// its probability, m². `None` from a portal that it leaves through.
+    pub fn entry(&self, d: Vec3, u: [f32; 3]) -> Option<(Vec3, f32)> {
+        let count = self.portals.len();
+        let portal = &self.portals[((u[2] * count as f32) as usize).min(count - 1)];
+        let inwards = (self.bounds.center() - portal.min)[portal.axis].signum() * (self.box_from_world * d)[portal.axis];
+        let at = portal.place([u[0], u[1]]);
+        (inwards > 0.0).then(|| (self.box_from_world.transpose() * at, inwards * portal.area * count as f32))
     }
 
     /// The portal that the unit direction `d` from `p` goes through, and the density per solid angle with which
@@ -141,6 +148,18 @@ impl Windows {
             return None;
         }
         Some((index, t * t / (portal.area * d[axis].abs())))
+    }
+}
+
+impl Portal {
+    /// A place on it, in box coordinates, uniform for `u` uniform on [0,1)².
+    #[inline]
+    fn place(&self, u: [f32; 2]) -> Vec3 {
+        let mut at = self.min;
+        for (k, u) in others(self.axis).into_iter().zip(u) {
+            at[k] += u * (self.max[k] - self.min[k]);
+        }
+        at
     }
 }
 
@@ -359,6 +378,27 @@ mod tests {
         assert!(Windows::find(&seen).is_none());
         seen.escapes.clear();
         assert!(Windows::find(&seen).is_none());
+    }
+
+    #[test]
+    fn light_enters_through_the_area_that_it_crosses() {
+        let (seen, turn) = room(0.7, 60_000);
+        let windows = Windows::find(&seen).unwrap();
+        // From outside at 60° from the window's normal: half of its 1.2 m².
+        let direction = turn * Vec3::new(-0.5, 0.0, -0.75f32.sqrt());
+        let mut rng = Rng::new(4);
+        let n = 20_000;
+        let mut area = 0.0;
+        for _ in 0..n {
+            let Some((p, crossed)) = windows.entry(direction, [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { continue };
+            let at = turn.transpose() * p;
+            if (2.0..3.2).contains(&at.y) && (1.0..2.0).contains(&at.z) {
+                assert!((3.9..4.3).contains(&at.x), "{at}");
+                area += crossed / n as f32;
+            }
+        }
+        assert!((area - 0.6).abs() < 0.06, "{area} m²");
+        assert!(windows.entry(-direction, [0.5; 3]).is_none());
     }
 
     #[test]
