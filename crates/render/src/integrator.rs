@@ -169,7 +169,7 @@ impl<'a, 's> Integrator<'a, 's> {
         // in that proportion. Where the guide knows nothing, and for mirror-like reflection, which it says nothing of, the throughput alone
         // decides (Vorba & Křivánek 2016, "Adjoint-Driven Russian Roulette and Splitting", for the idea).
         let reflectance = vertex.bsdf.reflectance;
-        let here = so_far.luminance() * vertex.expected();
+        let here = so_far.luminance() * vertex.expected_at_most();
         let blurred = weight.specular.luminance() <= (reflectance * weight.diffuse).luminance();
         let survival = if blurred && here > 0.0 && *expected > 0.0 {
             (SURVIVAL_GAIN * here / *expected).max(MIN_SURVIVAL)
@@ -183,7 +183,7 @@ impl<'a, 's> Integrator<'a, 's> {
             return None;
         }
         if *expected == 0.0 {
-            *expected = here;
+            *expected = so_far.luminance() * vertex.expected();
         }
         Some((weight * (1.0 / survival), next))
     }

@@ -105,6 +105,8 @@ struct Guided<'a> {
     fraction: f32,
     /// Luminance of the light, found by directions, that is expected to be reflected.
     reflected: f32,
+    /// The same in the brightest place around.
+    at_most: f32,
 }
 
 impl Segment {
@@ -124,8 +126,9 @@ impl<'a, 's> Vertex<'a, 's> {
             Some(field) if !bsdf.reflectance.is_black() => field.at(surface.p, surface.ns_smooth).map(|light| {
                 let albedo = bsdf.albedo(wo.z);
                 let (fraction, reflected) = (GUIDED_FRACTION * albedo.blurred_fraction(), albedo.blurred() * light.found);
+                let at_most = albedo.blurred().luminance() * light.brightest;
                 let axes = if surface.ns_smooth == surface.ns { onb } else { Onb::from_z(surface.ns_smooth) };
-                Guided { light, onb: axes, fraction, reflected: reflected.luminance() }
+                Guided { light, onb: axes, fraction, reflected: reflected.luminance(), at_most }
             }),
             _ => None,
         };
@@ -136,6 +139,12 @@ impl<'a, 's> Vertex<'a, 's> {
     #[inline]
     pub fn expected(&self) -> f32 {
         self.guided.as_ref().map_or(0.0, |guided| guided.reflected)
+    }
+
+    /// The same in the brightest place around: paths that are given up here may miss as much.
+    #[inline]
+    pub fn expected_at_most(&self) -> f32 {
+        self.guided.as_ref().map_or(0.0, |guided| guided.at_most)
     }
 
     /// The BSDF's value for a direction, given in shading space and in the world, and the density with which [`Vertex::scatter`]

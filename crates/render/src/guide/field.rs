@@ -37,6 +37,9 @@ pub(crate) struct CellLight {
     /// Irradiance over π of the light that sampled directions find, as opposed to light samples: all indirect light, and that part of
     /// direct light which multiple importance sampling leaves to them.
     pub found: Rgb,
+    /// Luminance of the same, or of all light in the brightest place of the cell where lamps are near: a bulb's cup is brighter by far than
+    /// the mean of its cell.
+    pub brightest: f32,
 }
 
 /// The light in the cells of a scene.
@@ -100,6 +103,14 @@ impl Field {
         let bright: Vec<Vec<Bright>> = map_up_to(cells.len(), |cell| rays.bright(cell, &gathered[cell].1, &total));
         let patches = patches(gathered.iter().map(|(_, hits)| &hits[..]), &spots.spots, &total, fine);
 
+        // Find the cells in which lamps are so near that the light differs from place to place.
+        let mut near = vec![0.0f32; cells.len()];
+        for spot in &spots.spots {
+            if let Some(near) = near.get_mut(cells.find(spot.site.p, spot.site.n) as usize) {
+                *near = near.max(spot.near);
+            }
+        }
+
         // Describe the light of each cell: the spheres to aim at, and the radiance through its bins beside them, from its own rays, further
         // rounds of rays, and the bright places that its neighbours found.
         let lights = map_up_to(cells.len(), |cell| {
@@ -111,7 +122,7 @@ impl Field {
                 rays.gather(cell, round).enumerate().for_each(|(bin, hit)| arriving.add(bin, &hit, &total));
             }
             arriving.spread(&rays, cell, &bright);
-            arriving.learned(&aimed)
+            arriving.learned(&aimed, near[cell])
         });
         Some(Self { cells, lights })
     }
@@ -126,7 +137,7 @@ impl Field {
         Cells::new(bounds.min, size * (cells.len() as f32 / max as f32).sqrt(), sites)
     }
 
-    /// The light at a surface point; `None` where no walk has been.
+    /// The light at a surface point; `None` where it is not known.
     #[inline]
     pub fn at(&self, p: Vec3, n: Vec3) -> Option<&CellLight> {
         self.lights.get(self.cells.find(p, n) as usize)
@@ -201,10 +212,12 @@ impl BinnedLight {
         self.sum += by;
     }
 
-    fn learned(&self, aimed: &[Aimed]) -> CellLight {
+    /// What was learned of a cell; `near` is the luminance of the irradiance over π from near lamps in its brightest place.
+    fn learned(&self, aimed: &[Aimed], near: f32) -> CellLight {
         let found = self.sum.map(|v| v.max(0.0)) / self.rays as f32 + aimed.iter().map(|(_, light)| *light).sum::<Rgb>();
         let aims = Aims::new(with_fractions(aimed, found.luminance()));
-        CellLight { density: SquareDensity::new(&blurred(&self.bins)), aims, found }
+        let brightest = found.luminance().max(near);
+        CellLight { density: SquareDensity::new(&blurred(&self.bins)), aims, found, brightest }
     }
 }
 

@@ -15,6 +15,8 @@ const VERTICES: usize = 12;
 /// A spot receives at least this many times the irradiance of the places that photons reach, and at least this many photons.
 const BRIGHT: f32 = 4.0;
 const MIN_PHOTONS: usize = 8;
+/// Light from within this many spots' sizes is near.
+const NEAR: f32 = 8.0;
 /// Turns the seed of the field into that of the photons.
 const SEED: u64 = 0x9407;
 
@@ -27,6 +29,8 @@ pub(super) struct Spot {
     pub light: Rgb,
     /// Mean radiance that the surfaces send back.
     pub radiance: Rgb,
+    /// Luminance of the part of `light` that comes from no farther than [`NEAR`] spots.
+    pub near: f32,
 }
 
 /// The small bright places of a scene.
@@ -42,6 +46,7 @@ struct Arrival {
     site: Site,
     flux: Rgb,
     sent: Rgb,
+    is_near: bool,
 }
 
 /// The photons in one small cell.
@@ -51,6 +56,7 @@ struct Sum {
     p: Vec3,
     flux: Rgb,
     sent: Rgb,
+    near: f32,
 }
 
 impl Spots {
@@ -62,18 +68,19 @@ impl Spots {
         // Send photons, and add up what arrives in each cell.
         let arrivals: Vec<Arrival> = enfilade_parallel::flat_map_up_to(photons, |photon| {
             let mut arrivals = Vec::new();
-            follow(scene, &sources, Rng::new(hash_u64(seed ^ hash_u64(SEED << 32 | photon as u64))), &mut arrivals);
+            follow(scene, &sources, NEAR * size, Rng::new(hash_u64(seed ^ hash_u64(SEED << 32 | photon as u64))), &mut arrivals);
             arrivals
         });
         let sites: Vec<Site> = arrivals.iter().map(|arrival| arrival.site).collect();
         let cells = Cells::new(origin, size, &sites);
         let mut sums = vec![Sum::default(); cells.len()];
-        for Arrival { site, flux, sent } in &arrivals {
+        for Arrival { site, flux, sent, is_near } in &arrivals {
             let Some(sum) = sums.get_mut(cells.find(site.p, site.n) as usize) else { continue };
             sum.photons += 1;
             sum.p += site.p;
             sum.flux += *flux;
             sum.sent += *sent;
+            sum.near += if *is_near { flux.luminance() } else { 0.0 };
         }
 
         // Keep the bright ones. A cell counts as filled by one flat surface.
@@ -85,7 +92,7 @@ impl Spots {
             .filter(|(sum, _)| sum.photons >= MIN_PHOTONS && sum.flux.luminance() > min)
             .filter_map(|(sum, sites)| {
                 let site = Site { p: sum.p / sum.photons as f32, n: sites[0]?.n };
-                Some(Spot { site, light: sum.flux * scale, radiance: sum.sent * scale })
+                Some(Spot { site, light: sum.flux * scale, radiance: sum.sent * scale, near: sum.near * scale })
             })
             .collect();
         let cells = Cells::new(origin, size, &bright.iter().map(|spot| spot.site).collect::<Vec<_>>());
@@ -105,13 +112,16 @@ impl Spots {
     }
 }
 
-/// Follows a photon through panes, mirrors and glass, and notes every blurred surface that it falls on.
-fn follow(scene: &RenderScene<'_>, sources: &PhotonSources<'_, '_>, mut rng: Rng, arrivals: &mut Vec<Arrival>) {
+/// Follows a photon through panes, mirrors and glass, and notes every blurred surface that it falls on; those within `near` metres of way are
+/// near.
+fn follow(scene: &RenderScene<'_>, sources: &PhotonSources<'_, '_>, near: f32, mut rng: Rng, arrivals: &mut Vec<Arrival>) {
     let Some((mut ray, mut flux)) = sources.emit(&mut rng) else { return };
+    let mut way = 0.0;
     for _ in 0..VERTICES {
         // Find the next surface that is no pane.
         let Some(hit) = scene.closest(&ray, AlphaTest::Stochastic) else { return };
         let surface = scene.surface(&hit, ray.direction, &Cone::POINT);
+        way += hit.t;
         if let Some(through) = surface.straight_transmittance(scene) {
             flux *= through;
             ray = surface.ray(ray.direction);
@@ -121,7 +131,8 @@ fn follow(scene: &RenderScene<'_>, sources: &PhotonSources<'_, '_>, mut rng: Rng
         let albedo = bsdf.albedo(surface.wo.dot(surface.ns));
         let blurred = albedo.blurred();
         if !blurred.is_black() && flux.luminance().is_finite() {
-            arrivals.push(Arrival { site: Site { p: surface.p, n: surface.ns_smooth }, flux, sent: flux * blurred });
+            let site = Site { p: surface.p, n: surface.ns_smooth };
+            arrivals.push(Arrival { site, flux, sent: flux * blurred, is_near: way < near });
         }
 
         // Go on by what is mirrored or refracted.
