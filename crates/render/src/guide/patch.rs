@@ -59,8 +59,9 @@ pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, spots: &
             hits.iter().map(|hit| (hit.p, hit.unmirrored(total).luminance())).filter(move |&(_, radiance)| radiance > min)
         })
         .collect();
-    let min = BRIGHT * total.iter().map(|light| light.luminance()).sum::<f32>() / total.len() as f32;
-    left.extend(spots.iter().map(|spot| (spot.site.p, spot.radiance.luminance())).filter(|&(_, radiance)| radiance > min));
+    let of_cells = &total[..total.len() - spots.len()];
+    let min = BRIGHT * of_cells.iter().map(|light| light.luminance()).sum::<f32>() / of_cells.len() as f32;
+    left.extend(spots.iter().map(|spot| (spot.p, spot.radiance.luminance())).filter(|&(_, radiance)| radiance > min));
     left.sort_by(|a, b| b.1.total_cmp(&a.1));
     left.truncate(MAX_PLACES);
     let reach = REACH * size;

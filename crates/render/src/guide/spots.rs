@@ -23,8 +23,10 @@ const SEED: u64 = 0x9407;
 /// A small bright place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// The middle of the photons, and the normal where one of them arrived.
+    /// Where one of its photons arrived.
     pub site: Site,
+    /// The middle of all of them.
+    pub p: Vec3,
     /// Irradiance over π.
     pub light: Rgb,
     /// Mean radiance that the surfaces send back.
@@ -86,22 +88,18 @@ impl Spots {
         // Keep the bright ones. A cell counts as filled by one flat surface.
         let scale = INV_PI / (photons as f32 * size * size);
         let min = BRIGHT * sums.iter().map(|sum| sum.flux.luminance()).sum::<f32>() / sums.len() as f32;
-        let bright: Vec<Spot> = sums
+        let spots: Vec<Spot> = sums
             .iter()
             .zip(&cells.sites)
             .filter(|(sum, _)| sum.photons >= MIN_PHOTONS && sum.flux.luminance() > min)
             .filter_map(|(sum, sites)| {
-                let site = Site { p: sum.p / sum.photons as f32, n: sites[0]?.n };
-                Some(Spot { site, light: sum.flux * scale, radiance: sum.sent * scale, near: sum.near * scale })
+                let p = sum.p / sum.photons as f32;
+                Some(Spot { site: sites[0]?, p, light: sum.flux * scale, radiance: sum.sent * scale, near: sum.near * scale })
             })
             .collect();
-        let cells = Cells::new(origin, size, &bright.iter().map(|spot| spot.site).collect::<Vec<_>>());
-        // Where rounding has moved the middle of a spot into the cell of another, one of the two is left out.
-        let mut spots: Vec<Option<Spot>> = vec![None; cells.len()];
-        for spot in bright {
-            spots[cells.find(spot.site.p, spot.site.n) as usize].get_or_insert(spot);
-        }
-        Self { cells, spots: spots.into_iter().flatten().collect() }
+        // Each is in a cell of its own, so that cells are numbered as spots are.
+        let cells = Cells::new(origin, size, &spots.iter().map(|spot| spot.site).collect::<Vec<_>>());
+        Self { cells, spots }
     }
 
     /// The number of the spot at a surface point.
@@ -184,7 +182,7 @@ mod tests {
         let found = Spots::find(&prepared, &choice, Vec3::splat(-3.01), 0.02, 1 << 14, 1);
         assert!((1..40).contains(&found.spots.len()), "{} spots", found.spots.len());
         for spot in &found.spots {
-            assert!(spot.site.p.length() < 0.1 && spot.site.n.z > 0.9, "{spot:?}");
+            assert!(spot.p.length() < 0.1 && spot.site.n.z > 0.9, "{spot:?}");
             assert!((spot.radiance.g / (0.5 * spot.light.g) - 1.0).abs() < 0.01, "{spot:?}");
         }
         // A form factor of 0.55 below the middle, less around.
