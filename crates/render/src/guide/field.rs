@@ -12,7 +12,7 @@ use super::bright::Bright;
 use super::cells::{Cells, Site};
 use super::patch::{Aimed, patches, with_fractions};
 use super::rays::{GatherHit, Rays};
-use super::spots::{Spot, Spots};
+use super::spots::Spots;
 use super::square::{BINS, SIDE, SquareDensity};
 use crate::light::LightChoice;
 use crate::prepared::RenderScene;
@@ -87,11 +87,11 @@ impl Field {
         // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more. A spot has the
         // indirect light of the cell that it lies in.
         let mut indirect = vec![Rgb::BLACK; cells.len()];
-        let around =
-            |spot: &Spot, indirect: &[Rgb]| indirect.get(cells.find(spot.site.p, spot.site.n) as usize).copied().unwrap_or_default();
+        let cells_of_spots: Vec<usize> = spots.spots.iter().map(|spot| cells.find(spot.site.p, spot.site.n) as usize).collect();
         let total = |indirect: &[Rgb]| -> Vec<Rgb> {
             let of_cells = gathered.iter().zip(indirect).map(|((direct, _), &i)| *direct + i);
-            of_cells.chain(spots.spots.iter().map(|spot| spot.light + around(spot, indirect))).collect()
+            let around = cells_of_spots.iter().map(|&cell| indirect.get(cell).copied().unwrap_or_default());
+            of_cells.chain(spots.spots.iter().zip(around).map(|(spot, around)| spot.light + around)).collect()
         };
         for _ in 0..SWEEPS {
             let total = total(&indirect);
@@ -105,8 +105,8 @@ impl Field {
 
         // Find the cells in which lamps are so near that the light differs from place to place.
         let mut near = vec![0.0f32; cells.len()];
-        for spot in &spots.spots {
-            if let Some(near) = near.get_mut(cells.find(spot.site.p, spot.site.n) as usize) {
+        for (spot, &cell) in spots.spots.iter().zip(&cells_of_spots) {
+            if let Some(near) = near.get_mut(cell) {
                 *near = near.max(spot.near);
             }
         }

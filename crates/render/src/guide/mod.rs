@@ -7,6 +7,7 @@ mod aim;
 mod bright;
 mod cells;
 mod field;
+mod mirrored;
 mod patch;
 mod rays;
 mod spots;

@@ -1,6 +1,7 @@
 //! The rays that gather light for a scene's cells (final gathering), and what they meet.
 
 use super::cells::{Cells, NONE, Site};
+use super::mirrored::mirrored;
 use super::spots::Spots;
 use super::square::{BINS, SIDE};
 use crate::bsdf::Event;
@@ -129,16 +130,11 @@ impl Rays<'_, '_> {
         let (mut surface, mut fraction) = (surface, through);
         for _ in 0..MIRRORS {
             let chance = MIRROR_GAIN * albedo.sharp.luminance();
-            if rng.next_f32() >= chance {
-                break;
-            }
+            let Some((sample, direction)) = mirrored(&surface, &bsdf, chance, rng) else { break };
             fraction *= (1.0 / chance).max(1.0);
-            let onb = surface.onb();
-            let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { break };
             // The blurred part counts as diffuse already.
             fraction *= sample.weight.specular * albedo.sharp_fraction();
-            let direction = onb.to_world(sample.wi).normalize();
-            if fraction.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
+            if fraction.is_black() {
                 break;
             }
             let sampled = (sample.event == Event::Finite).then(|| (surface.light_point(), sample.pdf));

@@ -4,6 +4,7 @@
 //! A grid of small cells adds up the photons (Jensen 1996, "Global Illumination Using Photon Maps", for the estimate of density).
 
 use super::cells::{Cells, NONE, Site};
+use super::mirrored::mirrored;
 use crate::bsdf::Event;
 use crate::light::{LightChoice, PhotonSources};
 use crate::prepared::{AlphaTest, RenderScene};
@@ -135,16 +136,11 @@ fn follow(scene: &RenderScene<'_>, sources: &PhotonSources<'_, '_>, near: f32, m
 
         // Go on by what is mirrored or refracted.
         let chance = albedo.sharp.luminance();
-        if rng.next_f32() >= chance {
-            return;
-        }
+        let Some((sample, direction)) = mirrored(&surface, &bsdf, chance, &mut rng) else { return };
         flux *= (1.0 / chance).max(1.0);
-        let onb = surface.onb();
-        let Some(sample) = bsdf.sample(onb.to_local(surface.wo), [rng.next_f32(), rng.next_f32(), rng.next_f32()]) else { return };
         // Of what is sampled by a density, a part is blurred.
         flux *= sample.weight.specular * if sample.event == Event::Finite { albedo.sharp_fraction() } else { 1.0 };
-        let direction = onb.to_world(sample.wi).normalize();
-        if flux.is_black() || direction.dot(surface.ng) * sample.wi.z <= 0.0 {
+        if flux.is_black() {
             return;
         }
         ray = surface.ray(direction);

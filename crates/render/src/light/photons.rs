@@ -32,27 +32,22 @@ impl<'a, 's> PhotonSources<'a, 's> {
         let of_points = lights.points.iter().map(|light| delta::light_bounds(light).map_or(0.0, |b| b.power * solid_angle(&b)));
         let by_flux = Distribution1::new(&of_patches.chain(of_points).collect::<Vec<_>>());
         let sunny = choice.windows().is_some() && lights.distant_by_strength.is_some();
-        let of_the_sun = if !sunny {
-            0.0
-        } else if by_flux.is_some() {
-            OF_THE_SUN
-        } else {
-            1.0
+        let of_the_sun = match (sunny, by_flux.is_some()) {
+            (false, _) => 0.0,
+            (true, true) => OF_THE_SUN,
+            (true, false) => 1.0,
         };
         (sunny || by_flux.is_some()).then_some(Self { scene, choice, by_flux, of_the_sun })
     }
 
     /// A photon: where it goes, and its flux over its probability. `None` for one that is lost.
     pub fn emit(&self, rng: &mut Rng) -> Option<(Ray, Rgb)> {
-        let of_the_sun = rng.next_f32() < self.of_the_sun;
-        let (ray, flux, probability) = if of_the_sun {
-            let (ray, flux) = self.sunbeam(rng)?;
-            (ray, flux, self.of_the_sun)
+        let (photon, probability) = if rng.next_f32() < self.of_the_sun {
+            (self.sunbeam(rng), self.of_the_sun)
         } else {
-            let (ray, flux) = self.lamplight(rng)?;
-            (ray, flux, 1.0 - self.of_the_sun)
+            (self.lamplight(rng), 1.0 - self.of_the_sun)
         };
-        Some((ray, flux / probability))
+        photon.map(|(ray, flux)| (ray, flux / probability))
     }
 
     /// A photon of an emissive surface or of a point light.
