@@ -46,14 +46,26 @@ impl Aim {
         p.distance_squared(self.center) <= self.radius * self.radius
     }
 
+    /// The square of its distance from `p`, and of that times the sine of half of the cone's angle; `None` where it is too near.
+    #[inline]
+    fn far(&self, way: Vec3) -> Option<[f32; 2]> {
+        let square = way.length_squared();
+        let own = self.radius * self.radius;
+        (own < MAX_SINE * MAX_SINE * square).then(|| [square, own.max(MIN_SINE * MIN_SINE * square)])
+    }
+
     /// As it is seen from `p`; `None` where that is too near.
     #[inline]
     pub fn cone(&self, p: Vec3) -> Option<AimCone> {
         let way = self.center - p;
-        let square = way.length_squared();
-        let sine_2 = (self.radius * self.radius / square).max(MIN_SINE * MIN_SINE);
-        (sine_2 < MAX_SINE * MAX_SINE).then(|| AimCone { axis: way / square.sqrt(), height: sine_2 / (1.0 + (1.0 - sine_2).sqrt()) })
+        self.far(way).map(|[square, across]| AimCone { axis: way / square.sqrt(), height: height(across / square) })
     }
+}
+
+/// One minus the cosine of an angle below 90°, given the square of its sine: without cancellation.
+#[inline]
+fn height(sine_2: f32) -> f32 {
+    sine_2 / (1.0 + (1.0 - sine_2).sqrt())
 }
 
 impl AimCone {
@@ -70,14 +82,6 @@ impl AimCone {
         let sine = (height * (2.0 - height)).sqrt();
         let (sin, cos) = (TAU * u[1]).sin_cos();
         Onb::from_z(self.axis).to_world(Vec3::new(sine * cos, sine * sin, 1.0 - height)).normalize()
-    }
-
-    /// Density of [`AimCone::sample`] per solid angle.
-    #[inline]
-    pub fn pdf(&self, direction: Vec3) -> f32 {
-        // One minus the cosine, without cancellation.
-        let height = 0.5 * (direction - self.axis).length_squared();
-        if height < self.height { 1.0 / self.solid_angle() } else { 0.0 }
     }
 }
 
@@ -105,15 +109,19 @@ impl Aims {
         self.all().iter().any(|aim| aim.contains(p))
     }
 
-    /// A unit direction from `p` to one of the spheres, for `u` uniform on [0,1)²; as an error numbers uniform there, for a direction that
-    /// is not aimed.
+    /// A unit direction from `p` to one of the spheres, and its number, for `u` uniform on [0,1)²; as an error numbers uniform there, for a
+    /// direction that is not aimed.
     #[inline]
-    pub fn sample(&self, u: [f32; 2], p: Vec3) -> Result<Vec3, [f32; 2]> {
+    pub fn sample(&self, u: [f32; 2], p: Vec3) -> Result<(Vec3, usize), [f32; 2]> {
         let (mut rest, mut left) = (u[0], 1.0);
-        for aim in self.all() {
-            let Some(cone) = aim.cone(p) else { continue };
-            if rest < aim.fraction {
-                return Ok(cone.sample([rest / aim.fraction, u[1]]));
+        for (number, aim) in self.all().iter().enumerate() {
+            if aim.far(aim.center - p).is_none() {
+                continue;
+            }
+            if rest < aim.fraction
+                && let Some(cone) = aim.cone(p)
+            {
+                return Ok((cone.sample([rest / aim.fraction, u[1]]), number));
             }
             rest -= aim.fraction;
             left -= aim.fraction;
@@ -121,13 +129,21 @@ impl Aims {
         Err([(rest / left).min(ONE_MINUS_EPSILON), u[1]])
     }
 
-    /// Density per solid angle with which [`Aims::sample`] finds a direction, and the probability that it aims at none.
+    /// Density per solid angle with which [`Aims::sample`] finds a direction, and the probability that it aims at none. A direction that
+    /// was `sampled` by a sphere's number lies in its cone even if rounding puts it beside: it would count thousands of times otherwise.
     #[inline]
-    pub fn pdf(&self, direction: Vec3, p: Vec3) -> (f32, f32) {
-        self.all()
-            .iter()
-            .filter_map(|aim| Some((aim.fraction, aim.cone(p)?)))
-            .fold((0.0, 1.0), |(pdf, left), (fraction, cone)| (pdf + fraction * cone.pdf(direction), left - fraction))
+    pub fn pdf(&self, direction: Vec3, p: Vec3, sampled: Option<usize>) -> (f32, f32) {
+        let (mut pdf, mut left) = (0.0, 1.0);
+        for (number, aim) in self.all().iter().enumerate() {
+            let way = aim.center - p;
+            let Some([square, across]) = aim.far(way) else { continue };
+            left -= aim.fraction;
+            let is_inside = way.dot(direction) > 0.0 && way.cross(direction).length_squared() < across;
+            if is_inside || sampled == Some(number) {
+                pdf += aim.fraction / (TAU * height(across / square));
+            }
+        }
+        (pdf, left)
     }
 }
 
@@ -144,13 +160,14 @@ mod tests {
         let mut rng = Rng::new(1);
         let n = 100_000;
         let (mut none, mut overlap, mut expected) = (0, 0, 0.0f64);
-        let both = |d: Vec3| aims.all()[..2].iter().all(|aim| aim.cone(Vec3::ZERO).is_some_and(|cone| cone.pdf(d) > 0.0));
+        let alone = [0, 1].map(|number| Aims::new([aims.aims[number]]));
+        let both = |d: Vec3| alone.iter().all(|aims| aims.pdf(d, Vec3::ZERO, None).0 > 0.0);
         let wide = Aim { center: 2.0 * Vec3::Z, radius: 0.5, fraction: 1.0 }.cone(Vec3::ZERO).expect("far enough");
         for _ in 0..n {
             let u = [rng.next_f32(), rng.next_f32()];
             match aims.sample(u, Vec3::ZERO) {
-                Ok(d) => {
-                    assert!(aims.pdf(d, Vec3::ZERO).0 > 0.0 && (d.length() - 1.0).abs() < 1e-5, "{d:?}");
+                Ok((d, number)) => {
+                    assert!(aims.pdf(d, Vec3::ZERO, Some(number)).0 > 0.0 && (d.length() - 1.0).abs() < 1e-5, "{d:?}");
                     overlap += u32::from(both(d));
                 }
                 Err(v) => {
@@ -159,21 +176,23 @@ mod tests {
                 }
             }
             let d = wide.sample(u);
-            expected += f64::from(if both(d) { aims.pdf(d, Vec3::ZERO).0 } else { 0.0 } * wide.solid_angle()) / f64::from(n);
+            expected += f64::from(if both(d) { aims.pdf(d, Vec3::ZERO, None).0 } else { 0.0 } * wide.solid_angle()) / f64::from(n);
         }
         let fraction = |count: u32| f64::from(count) / f64::from(n);
-        assert!((fraction(none) - 0.5).abs() < 0.006 && (aims.pdf(Vec3::X, Vec3::ZERO).1 - 0.5).abs() < 1e-6, "{none} of {n}");
+        assert!((fraction(none) - 0.5).abs() < 0.006 && (aims.pdf(Vec3::X, Vec3::ZERO, None).1 - 0.5).abs() < 1e-6, "{none} of {n}");
         assert!(expected > 0.05 && (fraction(overlap) - expected).abs() < 0.006, "{} against {expected}", fraction(overlap));
     }
 
     #[test]
     fn the_smallest_and_the_nearest_are_aimed_at_without_harm() {
         let far = Aim { center: Vec3::new(0.0, 100.0, 0.0), radius: 0.01, fraction: 0.5 };
-        let cone = far.cone(Vec3::ZERO).expect("far enough");
-        let mut rng = Rng::new(2);
-        let inside = (0..10_000).filter(|_| cone.pdf(cone.sample([rng.next_f32(), rng.next_f32()])) > 0.0).count();
-        assert!(inside > 9_980, "{inside}");
-        assert!(far.cone(far.center).is_none() && Aims::new([far]).contains(far.center));
-        assert!(matches!(Aims::new([far]).sample([0.3, 0.6], far.center), Err([0.3, 0.6])));
+        let aims = Aims::new([far]);
+        // The last directions of the cone may be rounded to beside it, but have its density.
+        for edge in 0..10_000 {
+            let (direction, number) = aims.sample([0.5 * ONE_MINUS_EPSILON, edge as f32 / 10_000.0], Vec3::ZERO).expect("aimed");
+            assert!(aims.pdf(direction, Vec3::ZERO, Some(number)).0 > 1000.0);
+        }
+        assert!(far.cone(far.center).is_none() && aims.contains(far.center));
+        assert!(matches!(aims.sample([0.3, 0.6], far.center), Err([0.3, 0.6])));
     }
 }

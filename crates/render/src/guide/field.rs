@@ -150,12 +150,12 @@ impl CellLight {
     #[inline]
     pub fn sample(&self, u: [f32; 2], p: Vec3, onb: &Onb) -> (Vec3, f32) {
         match self.aims.sample(u, p) {
-            Ok(direction) => (direction, self.pdf(direction, p, onb)),
+            Ok((direction, aim)) => (direction, self.density_of(direction, p, onb, Some(aim))),
             Err(rest) => {
                 let (v, density) = self.density.sample(rest);
                 let wi = warp::cosine_hemisphere(v);
                 let direction = onb.to_world(wi);
-                let (aimed, left) = self.aims.pdf(direction, p);
+                let (aimed, left) = self.aims.pdf(direction, p, None);
                 (direction, aimed + left * density * warp::cosine_hemisphere_pdf(wi.z))
             }
         }
@@ -164,11 +164,17 @@ impl CellLight {
     /// Density of [`CellLight::sample`]; 0 below the horizon, where no light is reflected from.
     #[inline]
     pub fn pdf(&self, direction: Vec3, p: Vec3, onb: &Onb) -> f32 {
+        self.density_of(direction, p, onb, None)
+    }
+
+    /// The same, of a direction that was sampled by a sphere's number, or is any.
+    #[inline]
+    fn density_of(&self, direction: Vec3, p: Vec3, onb: &Onb, sampled: Option<usize>) -> f32 {
         let wi = onb.to_local(direction);
         if wi.z <= 0.0 {
             return 0.0;
         }
-        let (aimed, left) = self.aims.pdf(direction, p);
+        let (aimed, left) = self.aims.pdf(direction, p, sampled);
         aimed + left * self.density.density(warp::square_from_cosine_hemisphere(wi)) * warp::cosine_hemisphere_pdf(wi.z)
     }
 }
