@@ -47,7 +47,7 @@ impl Stage {
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,
-            Self::Render => 17,
+            Self::Render => 18,
             Self::Denoise => 3,
             Self::Label => 2,
             Self::Boxes => 1,
