@@ -24,7 +24,7 @@ def main():
     job = command.parse("bench cycles", __doc__, "cases", f"views, such as {LARGE_CASE}", command.comparing)
     cases = command.chosen(job.cases, list(views.VIEWS))
     ours, peer = Ours(job.measure, **job.config), Cycles()
-    store, started, rows = Store(Path(job.work) / "pictures", job.any_program), time.time(), []
+    store, started, rows = Store(Path(job.work) / "pictures", [ours, peer], job.any_program), time.time(), []
     for name in cases:
         scene = prepare(name, job, peer)
         for size, counts in command.sizes(job, name == LARGE_CASE):

@@ -27,7 +27,7 @@ def main():
         sys.exit("ENFILADE_SCENES should name the folder of the shared rooms: this measures them and generated homes")
     cases = command.chosen(job.cases, [*rooms.ROOMS, *views.VIEWS])
     ours, peer = Ours(job.measure, **job.config), Mitsuba()
-    store, started, rows, costs = Store(Path(job.work) / "pictures", job.any_program), time.time(), [], []
+    store, started, rows, costs = Store(Path(job.work) / "pictures", [ours, peer], job.any_program), time.time(), [], []
     for name in cases:
         scene = prepare(name, job)
         for size, counts in command.sizes(job, name == LARGE_CASE):

@@ -1,7 +1,9 @@
 """Pictures that were rendered, kept as soon as they are made: a benchmark that was cut off goes on where it stopped.
 
 A picture's name tells its renderer and the digests of the scene, of the settings and of the program, in this order. What any of the
-three changes is rendered again. A benchmark may ask for the references of earlier programs: the truth does not change with the program.
+three changes is rendered again. Pictures that are measured, not references, are those of all programs that are compared: where one of
+these changes, the others are measured again too, since a machine that others share is not as fast on every day. A benchmark may ask for
+the references of earlier programs: the truth does not change with the program.
 """
 
 import hashlib
@@ -28,10 +30,11 @@ def digest(*parts):
 
 
 class Store:
-    """Pictures below `folder`; those of references, of any program if `any_program`."""
+    """Pictures below `folder` for a comparison of `renderers`; those of references, of any program if `any_program`."""
 
-    def __init__(self, folder, any_program=False):
+    def __init__(self, folder, renderers, any_program=False):
         self.folder, self.any_program = Path(folder), any_program
+        self.compared = digest(*(renderer.program for renderer in renderers))
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def shot(self, renderer, scene, size, samples, seed, reference=False, **fields):
@@ -39,7 +42,7 @@ class Store:
         settings = dict(size=size, samples=samples, seed=seed) | renderer.settings(reference) | fields
         # Processor seconds are those of one kind of machine; a reference is true on all.
         stem = f"{renderer.name}-{scene.digest}-{digest(settings, None if reference else processor())}"
-        path = self.folder / f"{stem}-{digest(renderer.program)}.npz"
+        path = self.folder / f"{stem}-{digest(renderer.program) if reference else self.compared}.npz"
         earlier = sorted(self.folder.glob(f"{stem}-*.npz"), key=lambda found: found.stat().st_mtime) if reference and self.any_program else []
         if not path.exists() and not earlier:
             self.keep(renderer.shot(scene, size, samples, seed, reference, **fields), settings, path)
