@@ -106,7 +106,6 @@ struct SceneFacts {
     /// True for Hypersim's release.
     released: bool,
     meters_per_unit: f64,
-    entities: usize,
     /// By entity: those that show what lies behind them.
     partly_there: Vec<bool>,
     labels: Option<SceneLabels>,
@@ -146,7 +145,6 @@ impl SceneFacts {
             name: name.to_string(),
             released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
-            entities: nodes.len(),
             partly_there: nodes.iter().map(|node| node.is_partly_there).collect(),
             structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
             labels,
@@ -299,7 +297,7 @@ impl SceneFacts {
             rounding,
             denoised: record.as_ref().is_some_and(|record| record.color == ColorKind::Denoised),
             released: self.released,
-            entities: self.entities,
+            entities: self.partly_there.len(),
             labels: known.map(|known| &known.labels),
             pieces: known.map_or(&[], |known| &known.pieces),
             last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),

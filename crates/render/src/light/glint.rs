@@ -127,7 +127,7 @@ impl Reach for GlintReach {
     #[inline]
     fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.center - at.p;
-        let distance_2 = to.length_squared().max(self.radius_2);
+        let distance_2 = to.length_squared().max(self.radius_2).max(f32::MIN_POSITIVE);
         let nearness = 1.0 / distance_2;
         let wi = to * nearness.sqrt();
         // Twice as long as the cosine between the half vector and either direction.
