@@ -18,6 +18,8 @@ use std::f32::consts::PI;
 /// Triangles are halved until no edge is longer, in metres, but no more often than this.
 const PIECE: f32 = 0.1;
 const MAX_DEPTH: u32 = 10;
+/// The smallest square of a distance, square metres: a cluster that is a point may be asked about at that point.
+const MIN_DISTANCE_2: f32 = 1e-12;
 /// The half vector's squared length, of two at most, is taken for at least this much: along a grazing ray it may point anywhere.
 const MIN_HALF: f32 = 0.01;
 
@@ -127,7 +129,7 @@ impl Reach for GlintReach {
     #[inline]
     fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.center - at.p;
-        let distance_2 = to.length_squared().max(self.radius_2).max(f32::MIN_POSITIVE);
+        let distance_2 = to.length_squared().max(self.radius_2).max(MIN_DISTANCE_2);
         let nearness = 1.0 / distance_2;
         let wi = to * nearness.sqrt();
         // Twice as long as the cosine between the half vector and either direction.
