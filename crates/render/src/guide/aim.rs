@@ -187,6 +187,11 @@ mod tests {
     fn the_smallest_and_the_nearest_are_aimed_at_without_harm() {
         let far = Aim { center: Vec3::new(0.0, 100.0, 0.0), radius: 0.01, fraction: 0.5 };
         let aims = Aims::new([far]);
+        let cone = far.cone(Vec3::ZERO).expect("far enough");
+        let mut rng = Rng::new(2);
+        let is_inside = |d: Vec3| aims.pdf(d, Vec3::ZERO, None).0 > 0.0;
+        let inside = (0..10_000).filter(|_| is_inside(cone.sample([rng.next_f32(), rng.next_f32()]))).count();
+        assert!(inside > 9_980, "{inside}");
         // The last directions of the cone may be rounded to beside it, but have its density.
         for edge in 0..10_000 {
             let (direction, number) = aims.sample([0.5 * ONE_MINUS_EPSILON, edge as f32 / 10_000.0], Vec3::ZERO).expect("aimed");
