@@ -2,7 +2,7 @@
 
 A network that has seen homes alone is judged on the *training* photographs. That is the dial to watch while homes are changed one thing at a
 time (`--set homes=other.toml`); the test photographs are for the one final run. Beside the scores it says where homes and photographs differ:
-how frequent classes are, what is taken for what, how bright, colourful, busy and deep pictures are.
+how frequent classes are, what is taken for what, how bright, colourful, busy and deep pictures are, and how much of the loss each explains.
 """
 
 import argparse
@@ -19,7 +19,7 @@ from PIL import Image
 from ..common import checkpoints
 from ..common import config as settings
 from ..segmentation.evaluate import colored
-from . import tables
+from . import gap, tables
 from .config import DEPTH, HEADS, IMAGENET, RANDOM, SEMANTICS, Study
 from .judge import judge, predict
 from .pictures import FARTHEST_M, LUMA, VOID, Pictures
@@ -63,7 +63,8 @@ def report(network: torch.nn.Module, homes: Pictures, photographs: Pictures, stu
         if judged.confusion is not None:
             counts = np.array(judged.confusion.counts)
             found["tasks"][task] |= {"iou": judged.confusion.iou, "confusion": counts.tolist()}
-            found["tasks"][task]["share_in_homes"] = shares(homes, task)
+            found["tasks"][task]["share_in_homes"] = gap.shares(homes, task)
+    found["gap"] = gap.steps(network, homes, photographs, study)
     return found
 
 
@@ -85,12 +86,6 @@ def looks(pictures: Pictures) -> dict[str, float]:
     }
 
 
-def shares(pictures: Pictures, task: str) -> list[float]:
-    """Of the pixels with a class, which share has each."""
-    counts = torch.bincount(pictures.classes(task, slice(None)).flatten().long(), minlength=256)[: HEADS[task]].double()
-    return [round(float(share), 5) for share in counts / counts.sum().clamp(min=1.0)]
-
-
 def lines(found: dict[str, Any]) -> list[str]:
     """What is printed, as Markdown."""
     made = ["| look | homes | photographs |", "|---|---|---|"]
@@ -106,6 +101,11 @@ def lines(found: dict[str, Any]) -> list[str]:
                 true, predicted = (100 * counts.sum(axis)[i] / max(counts.sum(), 1) for axis in (1, 0))
                 made.append(f"| {name} | {iou} | {true:.1f} | {predicted:.1f} | {100 * of['share_in_homes'][i]:.1f} |")
             made += ["", *tables.confusion(counts)]
+    for task in found["tasks"]:
+        titles = [tables.SCORES[name][0] for name in found["tasks"][task]["scores"]]
+        made += ["", f"| {tables.TITLES[task]} of | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
+        for name, of in found["gap"].items():
+            made.append(f"| {name} | {' | '.join(tables.shown(score, value) for score, value in of[task].items())} |")
     return made
 
 

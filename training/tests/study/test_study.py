@@ -128,6 +128,8 @@ class Studies(unittest.TestCase):
         self.assertGreater(sum(map(sum, found["tasks"]["semantics"]["confusion"])), 5 * 214 * 280)
         self.assertAlmostEqual(sum(found["tasks"]["semantics"]["share_in_homes"]), 1.0, places=3)
         self.assertEqual(len(list((self.folder / "seen").glob("*.png"))), 2)
+        self.assertEqual(found["gap"]["photographs"]["depth"], found["tasks"]["depth"]["scores"])
+        self.assertIn("| photographs, by both |", said.getvalue())
 
     def test_what_cannot_be_done_is_said(self) -> None:
         for arguments, said in [
