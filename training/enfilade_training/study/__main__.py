@@ -16,7 +16,7 @@ import torch
 
 from ..common import checkpoints
 from ..common import config as settings
-from . import report
+from . import drawing, report
 from .config import Study
 from .runs import Maker, Run, all_runs
 
@@ -31,7 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
     about = "the nyuv2.json of an earlier report, whose runs are not made again where settings and data are the same"
     parser.add_argument("--scores", type=Path, metavar="FILE", help=about)
     parser.add_argument("--threads", type=int, metavar="N", help="threads of torch, as --set threads=N")
-    parser.add_argument("--report", type=Path, metavar="FOLDER", help="where nyuv2.json, .md and .svg are written; the output unless given")
+    parser.add_argument("--report", type=Path, metavar="FOLDER", help="where nyuv2.json, .md, .svg and .png are written; the output unless given")
     options = parser.parse_args(arguments)
     overrides = options.set + ([f"threads={options.threads}"] if options.threads is not None else [])
     try:
@@ -47,7 +47,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def run(study: Study, chosen: list[Run], earlier: report.Earlier, folder: Path, say: Callable[[str], None] = lambda _: None) -> list[Path]:
-    """Makes the runs, and writes the report of all that are finished."""
+    """Makes the runs, and writes the report of all that are finished; gives the paths of its files."""
     torch.set_num_threads(study.threads)
     maker, results = Maker(study, say), {}
     for one in all_runs(study):
@@ -59,7 +59,7 @@ def run(study: Study, chosen: list[Run], earlier: report.Earlier, folder: Path, 
                 say(f"  {task}: " + ", ".join(f"{name} {value:.4f}" for name, value in of["scores"].items()))
         if known is not None:
             results[one] = known
-    return report.write(study, maker, results, earlier, folder)
+    return report.write(study, maker, results, earlier, folder) + drawing.write(study, maker, folder)
 
 
 def only(runs: list[Run], filters: list[str]) -> list[Run]:

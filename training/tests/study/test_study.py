@@ -10,6 +10,7 @@ from unittest import mock
 from xml.etree import ElementTree
 
 import torch
+from PIL import Image
 
 from enfilade_training.study import dial
 from enfilade_training.study.__main__ import main
@@ -83,6 +84,9 @@ class Studies(unittest.TestCase):
         for name in ("nyuv2.json", "nyuv2.md", "nyuv2.svg"):
             self.assertNotIn(str(self.folder), (self.folder / "out" / name).read_text(encoding="utf-8"))
         ElementTree.parse(self.folder / "out" / "nyuv2.svg")
+        with Image.open(self.folder / "out" / "nyuv2.png") as drawn:
+            # The truth and two arms, of four photographs.
+            self.assertEqual(drawn.size, (4 + 3 * 154, 20 + 4 * (115 + 4) + 44))
 
     def check_that_earlier_scores_count(self) -> None:
         earlier = self.folder / "earlier.json"

@@ -1,0 +1,69 @@
+"""A drawing of the classes that networks predict for some test photographs, beside the true ones. No photograph is in it."""
+
+from pathlib import Path
+
+import enfilade
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from ..common import checkpoints
+from ..segmentation.evaluate import colored, palette
+from .config import HEADS, SEMANTICS, Study
+from .judge import predict
+from .network import UNet
+from .pictures import VOID, Pictures
+from .runs import Maker, Run
+
+# Photographs that are drawn, evenly chosen; width of a map, what is between maps, and the height of a line of text, in pixels.
+COUNT, WIDTH, GAP, LINE = 8, 150, 4, 20
+WHITE, BLACK = (255, 255, 255), (0, 0, 0)
+
+
+def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
+    """Draws what the networks of the largest share of photographs predict, of the first seed of which all are here: nyuv2.png, if any."""
+    fraction = max(study.fractions)
+    for seed in range(study.seeds):
+        files = {arm: maker.folder(Run(arm, fraction, seed)) / "last.pt" for arm in study.arms}
+        if SEMANTICS in study.tasks and all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
+            path = folder / "nyuv2.png"
+            drawing(study, maker.pictures("test"), files).save(path)
+            return [path]
+    return []
+
+
+def drawing(study: Study, pictures: Pictures, files: dict[str, Path]) -> Image.Image:
+    """A row for each photograph, with a column for the truth and each network. files: by title, a run's last checkpoint."""
+    count = min(COUNT, len(pictures))
+    chosen = [(2 * i + 1) * len(pictures) // (2 * count) for i in range(count)]
+    columns = {"truth": [_map(pictures.classes(SEMANTICS, index).numpy()) for index in chosen]}
+    for title, file in files.items():
+        network = UNet(study.heads)
+        network.load_state_dict(checkpoints.load(file)["network"])
+        columns[title] = [_map(predict(network, pictures, slice(index, index + 1), study)[SEMANTICS][0]) for index in chosen]
+    return _sheet(columns)
+
+
+def _map(classes: np.ndarray) -> Image.Image:
+    """Classes in their colours; black where there is none."""
+    height, width = classes.shape
+    image = Image.fromarray(colored(np.where(classes == VOID, -1, classes.astype(np.int64)), HEADS[SEMANTICS]))
+    return image.resize((WIDTH, round(WIDTH * height / width)), Image.Resampling.NEAREST)
+
+
+def _sheet(columns: dict[str, list[Image.Image]]) -> Image.Image:
+    """The maps below the titles of their columns, and the colours of classes below all."""
+    height = columns["truth"][0].height + GAP
+    bottom = LINE + height * len(columns["truth"])
+    sheet = Image.new("RGB", (GAP + len(columns) * (WIDTH + GAP), bottom + 2 * LINE + GAP), WHITE)
+    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
+    for i, (title, maps) in enumerate(columns.items()):
+        x = GAP + i * (WIDTH + GAP)
+        draw.text((x, 3), title, BLACK, font)
+        for row, image in enumerate(maps):
+            sheet.paste(image, (x, LINE + row * height))
+    colors, each = palette(HEADS[SEMANTICS]), -(-HEADS[SEMANTICS] // 2)
+    for i, name in enumerate(enfilade.NYU13):
+        x, y = GAP + i % each * (sheet.width // each), bottom + i // each * LINE + GAP
+        draw.rectangle((x, y, x + 12, y + 12), tuple(int(value) for value in colors[i]))
+        draw.text((x + 17, y - 2), name, BLACK, font)
+    return sheet
