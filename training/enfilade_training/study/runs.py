@@ -10,7 +10,7 @@ import numpy as np
 
 from ..common import checkpoints
 from ..common import config as settings
-from . import homes
+from . import composition, homes
 from .config import HOMES, IMAGENET, RANDOM, SEMANTICS40, Study, meaning
 from .judge import judge
 from .network import UNet
@@ -135,7 +135,11 @@ class Maker:
                 return Trained(network, state["losses"], state["pictures"])
         self.say(f"homes, from {start}, seed {seed}")
         begin = lambda: new_network(study, seed, start)  # noqa: E731
-        return train(study, study.pretraining, seed, key, folder, self.pictures("homes"), begin, camera=study.camera, say=self.say)
+        pictures = self.pictures("homes")
+        if study.composed:
+            pictures = composition.drawn(pictures, self.pictures("train"))
+            self.say(f"  {len(set(pictures.names))} of the frames, drawn as photographs are composed")
+        return train(study, study.pretraining, seed, key, folder, pictures, begin, camera=study.camera, say=self.say)
 
     def pictures(self, name: str) -> Pictures:
         """Of "train", "test" or "homes"."""
@@ -152,8 +156,8 @@ class Maker:
 
     def _homes_key(self, start: str, seed: int) -> str:
         said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
-        pictured = {"camera": settings.to_dict(self.study.camera), "training": meaning(self.study, self.study.pretraining)}
-        return _digest(said | pictured)
+        said |= {"camera": settings.to_dict(self.study.camera), "training": meaning(self.study, self.study.pretraining)}
+        return _digest(said | ({"composed": self.photographs.digest} if self.study.composed else {}))
 
 
 def subset(count: int, fraction: float, seed: int) -> list[int]:

@@ -123,9 +123,10 @@ class Studies(unittest.TestCase):
         said = io.StringIO()
         (self.folder / "homes.toml").write_text(HOMES)
         with contextlib.redirect_stdout(said):
-            arguments = ["--to", str(self.folder / "dial.json"), "--pictures", str(self.folder / "seen"), "--count", "2"]
+            arguments = ["--to", str(self.folder / "dial.json"), "--pictures", str(self.folder / "seen"), "--count", "2", "--set", "composed=true"]
             self.assertEqual(dial.main([*nyu.options(self.folder), *arguments]), 0)
         self.assertIn("| wall |", said.getvalue())
+        self.assertIn("of the frames, drawn as photographs are composed", said.getvalue())
         found = json.loads((self.folder / "dial.json").read_text(encoding="utf-8"))
         # It is of the six photographs to learn from.
         self.assertLess(sum(map(sum, found["tasks"]["semantics"]["confusion"])), 6 * 214 * 280)
