@@ -31,7 +31,8 @@ def main(arguments: list[str] | None = None) -> int:
     about = "the nyuv2.json of an earlier report, whose runs are not made again where settings and data are the same"
     parser.add_argument("--scores", type=Path, metavar="FILE", help=about)
     parser.add_argument("--threads", type=int, metavar="N", help="threads of torch, as --set threads=N")
-    parser.add_argument("--report", type=Path, metavar="FOLDER", help="where nyuv2.json, .md, .svg and .png are written; the output unless given")
+    about = "where nyuv2.json, .md, .svg, .npz and .png are written; the output unless given"
+    parser.add_argument("--report", type=Path, metavar="FOLDER", help=about)
     options = parser.parse_args(arguments)
     overrides = options.set + ([f"threads={options.threads}"] if options.threads is not None else [])
     try:

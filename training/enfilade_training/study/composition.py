@@ -1,12 +1,13 @@
 """Draws pictures so that they are composed as others are: the same classes above, in the middle and below, and at the same distances.
 
 Rendered views look at walls and windows more often than people do who take photographs, and at large furniture less. Each picture gets a
-weight, exp(a linear function of its composition), by which the weighted mean is that of the other pictures: of all such weights those that
-are nearest to equal ones (maximum entropy; Deming and Stephan 1940, Jaynes 1957). Pictures are then drawn by systematic sampling. Of the
-others nothing is used but the mean.
+weight, exp(a linear function of its composition), by which the weighted mean comes near to that of the other pictures: of all weights those
+that are nearest to equal ones for how near it comes (maximum entropy with a quadratic price; Jaynes 1957, Dudík et al. 2004). Pictures are
+then drawn by systematic sampling. Of the others nothing is used but the mean.
 """
 
 import math
+from typing import Callable
 
 import numpy as np
 import torch
@@ -20,12 +21,17 @@ PARTS = 3
 RIDGE = 0.6
 # Of deviations from the mean, in standard deviations, that count in full: a picture that is like no other should not decide.
 FARTHEST = 6.0
+# On all of which it depends what is drawn.
+SETTINGS = (PARTS, RIDGE, FARTHEST)
 
 
-def drawn(pictures: Pictures, others: Pictures) -> Pictures:
-    """As many pictures, of which some are there several times and others not at all, composed in the mean as `others`."""
-    chosen = torch.from_numpy(systematic(weights(composition(pictures), composition(others))))
+def drawn(pictures: Pictures, others: Pictures, say: Callable[[str], None] = lambda _: None) -> Pictures:
+    """As many pictures, of which some are there several times and others not at all, composed in the mean nearly as `others`."""
+    shares = weights(composition(pictures), composition(others))
+    chosen = torch.from_numpy(systematic(shares))
     names = [pictures.names[index] for index in chosen]
+    worth = float(1.0 / shares.square().sum())
+    say(f"  {len(set(names))} of {len(pictures)} frames, drawn as photographs are composed; they are worth {worth:.0f} of equal weights")
     return Pictures(pictures.color[chosen], pictures.classes40[chosen], pictures.depth_m[chosen], names)
 
 

@@ -80,7 +80,8 @@ class Study:
     finetuning: Recipe
     # Those of its scenes that are made and learnt from; `*` stands for any run of characters. "*0" is a tenth of homes that are counted.
     scenes: str = "*"
-    # Draws the frames of homes so that they are composed as the training photographs are, as `composition` says.
+    # Draws the frames of homes so that they are composed nearly as the training photographs are, as `composition` says. Of their labels and
+    # depths the means are used, also in arms that see no photograph.
     composed: bool = False
     # Height and width at which networks see whole frames.
     size: tuple[int, int] = UNIT

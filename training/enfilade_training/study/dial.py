@@ -2,7 +2,8 @@
 
 A network that has seen homes alone is judged on the *training* photographs. That is the dial to watch while homes are changed one thing at a
 time (`--set homes=other.toml`); the test photographs are for the one final run. Beside the scores it says where homes and photographs differ:
-how frequent classes are, what is taken for what, how bright, colourful, busy and deep pictures are, and how much of the loss each explains.
+how frequent classes are, what is taken for what, how bright, colourful, busy and deep pictures are, and what it scores where looks or
+frequencies are taken out.
 """
 
 import argparse
@@ -64,7 +65,7 @@ def report(network: torch.nn.Module, homes: Pictures, photographs: Pictures, stu
             counts = np.array(judged.confusion.counts)
             found["tasks"][task] |= {"iou": judged.confusion.iou, "confusion": counts.tolist()}
             found["tasks"][task]["share_in_homes"] = gap.shares(homes, task)
-    found["gap"] = gap.steps(network, homes, photographs, study)
+    found["gap"] = gap.cases(network, homes, photographs, {task: of["scores"] for task, of in found["tasks"].items()}, study)
     return found
 
 
@@ -105,7 +106,8 @@ def lines(found: dict[str, Any]) -> list[str]:
         titles = [tables.SCORES[name][0] for name in found["tasks"][task]["scores"]]
         made += ["", f"| {tables.TITLES[task]} of | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
         for name, of in found["gap"].items():
-            made.append(f"| {name} | {' | '.join(tables.shown(score, value) for score, value in of[task].items())} |")
+            if task in of:
+                made.append(f"| {name} | {' | '.join(tables.shown(score, value) for score, value in of[task].items())} |")
     return made
 
 

@@ -15,19 +15,21 @@ from .pictures import VOID, Pictures
 from .runs import Maker, Run
 
 # Photographs that are drawn, evenly chosen; width of a map, what is between maps, and the height of a line of text, in pixels.
-COUNT, WIDTH, GAP, LINE = 8, 150, 4, 20
+COUNT, WIDTH, MARGIN, LINE = 8, 150, 4, 20
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 
 
 def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
-    """Draws what the networks of the largest share of photographs predict, of the first seed of which all are here: nyuv2.png, if any."""
-    fraction = max(study.fractions)
-    for seed in range(study.seeds):
+    """Draws what the networks of the largest share of photographs predict, of the first seed of which all are here, as nyuv2.png."""
+    path, fraction = folder / "nyuv2.png", max(study.fractions)
+    for seed in range(study.seeds if SEMANTICS in study.tasks else 0):
         files = {arm: maker.folder(Run(arm, fraction, seed)) / "last.pt" for arm in study.arms}
-        if SEMANTICS in study.tasks and all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
-            path = folder / "nyuv2.png"
+        if all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
             drawing(study, maker.pictures("test"), files).save(path)
             return [path]
+    # One that is there is of other runs.
+    path.unlink(missing_ok=True)
+    maker.say(f"no drawing: the networks of all arms for {100 * fraction:g} % of the photographs are not all below {study.output}")
     return []
 
 
@@ -52,18 +54,18 @@ def _map(classes: np.ndarray) -> Image.Image:
 
 def _sheet(columns: dict[str, list[Image.Image]]) -> Image.Image:
     """The maps below the titles of their columns, and the colours of classes below all."""
-    height = columns["truth"][0].height + GAP
+    height = columns["truth"][0].height + MARGIN
     bottom = LINE + height * len(columns["truth"])
-    sheet = Image.new("RGB", (GAP + len(columns) * (WIDTH + GAP), bottom + 2 * LINE + GAP), WHITE)
+    sheet = Image.new("RGB", (MARGIN + len(columns) * (WIDTH + MARGIN), bottom + 2 * LINE + MARGIN), WHITE)
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
     for i, (title, maps) in enumerate(columns.items()):
-        x = GAP + i * (WIDTH + GAP)
+        x = MARGIN + i * (WIDTH + MARGIN)
         draw.text((x, 3), title, BLACK, font)
         for row, image in enumerate(maps):
             sheet.paste(image, (x, LINE + row * height))
     colors, each = palette(HEADS[SEMANTICS]), -(-HEADS[SEMANTICS] // 2)
     for i, name in enumerate(enfilade.NYU13):
-        x, y = GAP + i % each * (sheet.width // each), bottom + i // each * LINE + GAP
+        x, y = MARGIN + i % each * (sheet.width // each), bottom + i // each * LINE + MARGIN
         draw.rectangle((x, y, x + 12, y + 12), tuple(int(value) for value in colors[i]))
         draw.text((x + 17, y - 2), name, BLACK, font)
     return sheet

@@ -8,45 +8,60 @@ score on homes themselves is in neither: other things, and other shapes of the s
 import copy
 from typing import Any
 
+import numpy as np
 import torch
 from torch import nn
 
+from . import camera as cameras
 from .config import HEADS, SEMANTICS, Study
-from .judge import AT_ONCE, judge
+from .judge import judge
 from .pictures import Pictures
 from .train import device_of
 
 # Of the pixels, the share that a class has at least, so that one which homes lack is not thought to be infinitely more frequent.
 RAREST = 1e-4
+# Pictures of a batch of which statistics are taken, and the most that are.
+BATCH, MOST = 32, 1024
 
 
-def steps(network: nn.Module, homes: Pictures, photographs: Pictures, study: Study) -> dict[str, dict[str, dict[str, float]]]:
-    """Scores by task, of homes and of photographs, as they are and with what differs taken out."""
-    found = {}
+def cases(network: nn.Module, homes: Pictures, photographs: Pictures, plain: dict[str, Any], study: Study) -> dict[str, dict[str, Any]]:
+    """Scores by case and task. plain: those of the photographs as they are."""
+    seen = photographed(homes, study)
     looks = with_looks_of(network, photographs, study)
-    cases: list[tuple[str, nn.Module, Pictures]] = [
-        ("homes, which it has seen", network, homes),
-        ("photographs", network, photographs),
-        ("photographs, by their looks", looks, photographs),
-    ]
+    found = {
+        "homes, as it has learnt from them": _scores(network, seen, study),
+        "the same, with looks taken anew": _scores(with_looks_of(network, seen, study), seen, study),
+        "photographs": plain,
+        "photographs, by their looks": _scores(looks, photographs, study),
+    }
     if SEMANTICS in study.tasks:
-        cases.append(("photographs, by their frequencies", with_frequencies_of(network, homes, photographs), photographs))
-        cases.append(("photographs, by both", with_frequencies_of(looks, homes, photographs), photographs))
-    for name, judged, pictures in cases:
-        found[name] = {task: of.scores for task, of in judge(judged, pictures, study).items()}
+        for name, one in (("photographs, by their frequencies", network), ("photographs, by both", looks)):
+            found[name] = {SEMANTICS: _scores(with_frequencies_of(one, homes, photographs), photographs, study)[SEMANTICS]}
     return found
+
+
+def photographed(homes: Pictures, study: Study) -> Pictures:
+    """The homes as the study's camera makes them in the first epoch."""
+    frames = [cameras.photographed(study.camera, cameras.generator(0, 0, i), frame) for i, frame in enumerate(homes.color)]
+    color = torch.stack(frames).float().round().clamp(0, 255).to(torch.uint8)
+    return Pictures(color, homes.classes40, homes.depth_m, homes.names)
 
 
 def with_looks_of(network: nn.Module, pictures: Pictures, study: Study) -> nn.Module:
     """A copy whose batch normalisation has the means and variances of the pictures."""
-    made, device = copy.deepcopy(network).to(device_of(study)).train(), device_of(study)
+    device = device_of(study)
+    made = copy.deepcopy(network).to(device).train()
     for layer in made.modules():
         if isinstance(layer, nn.BatchNorm2d):
             layer.reset_running_stats()
             layer.momentum = None  # The mean over all batches.
+    # Neighbours are often of one room: batches are drawn, all of one size.
+    order = np.random.Generator(np.random.PCG64(0)).permutation(len(pictures))[:MOST]
+    size = min(BATCH, len(order))
     with torch.no_grad():
-        for first in range(0, len(pictures), AT_ONCE):
-            made((pictures.color[first : first + AT_ONCE].float() / 255.0).to(device, memory_format=torch.channels_last))
+        for first in range(0, len(order) - size + 1, size):
+            images = pictures.color[torch.from_numpy(order[first : first + size])].float() / 255.0
+            made(images.to(device, memory_format=torch.channels_last))
     return made.eval()
 
 
@@ -63,3 +78,7 @@ def shares(pictures: Pictures, task: str) -> list[float]:
     """Of the pixels with a class, which share has each."""
     counts = torch.bincount(pictures.classes(task, slice(None)).flatten().long(), minlength=256)[: HEADS[task]].double()
     return [round(float(share), 5) for share in counts / counts.sum().clamp(min=1.0)]
+
+
+def _scores(network: nn.Module, pictures: Pictures, study: Study) -> dict[str, dict[str, float]]:
+    return {task: of.scores for task, of in judge(network, pictures, study).items()}

@@ -59,7 +59,6 @@ class Maker:
     def __init__(self, study: Study, say: Callable[[str], None]):
         self.study, self.say = study, say
         self.photographs = Photographs(study.photographs_folder(), study.size, study.output / "packed")
-        self._homes_digest = homes.digest(study.homes) if any(arm in HOMES.values() for arm in study.arms) else ""
         self._pictures: dict[str, Pictures] = {}
 
     def key(self, run: Run) -> str:
@@ -135,11 +134,7 @@ class Maker:
                 return Trained(network, state["losses"], state["pictures"])
         self.say(f"homes, from {start}, seed {seed}")
         begin = lambda: new_network(study, seed, start)  # noqa: E731
-        pictures = self.pictures("homes")
-        if study.composed:
-            pictures = composition.drawn(pictures, self.pictures("train"))
-            self.say(f"  {len(set(pictures.names))} of the frames, drawn as photographs are composed")
-        return train(study, study.pretraining, seed, key, folder, pictures, begin, camera=study.camera, say=self.say)
+        return train(study, study.pretraining, seed, key, folder, self.pictures("homes"), begin, camera=study.camera, say=self.say)
 
     def pictures(self, name: str) -> Pictures:
         """Of "train", "test" or "homes"."""
@@ -149,15 +144,17 @@ class Maker:
                 self.say("pictures of homes")
                 there = homes.rendered(self.study.homes, self.study.output, self.study.scenes, self.say)
                 made = homes.read(there, self.study.size, packed)
+                if self.study.composed:
+                    made = composition.drawn(made, self.pictures("train"), self.say)
             else:
                 made = self.photographs.side(name)
             self._pictures[name] = made
         return self._pictures[name]
 
     def _homes_key(self, start: str, seed: int) -> str:
-        said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
+        said = {"format": FORMAT, "start": start, "seed": seed, "homes": homes.digest(self.study.homes), "scenes": self.study.scenes}
         said |= {"camera": settings.to_dict(self.study.camera), "training": meaning(self.study, self.study.pretraining)}
-        return _digest(said | ({"composed": self.photographs.digest} if self.study.composed else {}))
+        return _digest(said | ({"composed": [self.photographs.digest, *composition.SETTINGS]} if self.study.composed else {}))
 
 
 def subset(count: int, fraction: float, seed: int) -> list[int]:

@@ -126,7 +126,7 @@ class Studies(unittest.TestCase):
             arguments = ["--to", str(self.folder / "dial.json"), "--pictures", str(self.folder / "seen"), "--count", "2", "--set", "composed=true"]
             self.assertEqual(dial.main([*nyu.options(self.folder), *arguments]), 0)
         self.assertIn("| wall |", said.getvalue())
-        self.assertIn("of the frames, drawn as photographs are composed", said.getvalue())
+        self.assertIn("of 2 frames, drawn as photographs are composed; they are worth", said.getvalue())
         found = json.loads((self.folder / "dial.json").read_text(encoding="utf-8"))
         # It is of the six photographs to learn from.
         self.assertLess(sum(map(sum, found["tasks"]["semantics"]["confusion"])), 6 * 214 * 280)
