@@ -27,9 +27,7 @@ def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
         if all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
             drawing(study, maker.pictures("test"), files).save(path)
             return [path]
-    # One that is there is of other runs.
-    path.unlink(missing_ok=True)
-    maker.say(f"no drawing: the networks of all arms for {100 * fraction:g} % of the photographs are not all below {study.output}")
+    maker.say(f"{path.name} is not drawn: the networks of all arms for {100 * fraction:g} % of the photographs are not all below {study.output}")
     return []
 
 
