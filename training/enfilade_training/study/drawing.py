@@ -21,8 +21,10 @@ WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 
 def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
     """Draws what the networks of the largest share of photographs predict, of the first seed of which all are here, as nyuv2.png."""
+    if SEMANTICS not in study.tasks:
+        return []
     path, fraction = folder / "nyuv2.png", max(study.fractions)
-    for seed in range(study.seeds if SEMANTICS in study.tasks else 0):
+    for seed in range(study.seeds):
         files = {arm: maker.folder(Run(arm, fraction, seed)) / "last.pt" for arm in study.arms}
         if all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
             drawing(study, maker.pictures("test"), files).save(path)
