@@ -13,7 +13,7 @@ import numpy as np
 import torch
 
 from .config import HEADS, SEMANTICS
-from .pictures import Pictures
+from .pictures import Pictures, shares
 
 # Parts of a picture of which each is compared, one above the other.
 PARTS = 3
@@ -27,10 +27,10 @@ SETTINGS = (PARTS, RIDGE, FARTHEST)
 
 def drawn(pictures: Pictures, others: Pictures, say: Callable[[str], None] = lambda _: None) -> Pictures:
     """As many pictures, of which some are there several times and others not at all, composed in the mean nearly as `others`."""
-    shares = weights(composition(pictures), composition(others))
-    chosen = torch.from_numpy(systematic(shares))
+    found = weights(composition(pictures), composition(others))
+    chosen = torch.from_numpy(systematic(found))
     names = [pictures.names[index] for index in chosen]
-    worth = float(1.0 / shares.square().sum())
+    worth = float(1.0 / found.square().sum())
     say(f"  {len(set(names))} of {len(pictures)} frames, drawn as photographs are composed; they are worth {worth:.0f} of equal weights")
     return Pictures(pictures.color[chosen], pictures.classes40[chosen], pictures.depth_m[chosen], names)
 
@@ -41,9 +41,8 @@ def composition(pictures: Pictures) -> torch.Tensor:
     for i in range(len(pictures)):
         row = []
         for classes, depth in zip(pictures.classes(SEMANTICS, i).tensor_split(PARTS), pictures.depth_m[i].tensor_split(PARTS)):
-            counts = torch.bincount(classes.flatten().long(), minlength=256)[: HEADS[SEMANTICS]].double()
             known = depth[depth > 0].double()
-            row += [counts / counts.sum().clamp(min=1.0), known.log().mean()[None] if len(known) else torch.full((1,), math.nan).double()]
+            row += [shares(classes, HEADS[SEMANTICS]), known.log().mean()[None] if len(known) else torch.full((1,), math.nan).double()]
         found.append(torch.cat(row))
     made = torch.stack(found)
     # Where nothing has a depth, that of the other pictures.
@@ -66,8 +65,8 @@ def weights(found: torch.Tensor, wanted: torch.Tensor) -> torch.Tensor:
     return torch.softmax(apart @ slopes, 0).detach()
 
 
-def systematic(shares: torch.Tensor) -> np.ndarray:
-    """Indices in ascending order, as many as there are shares; each as often as its share says, to within one."""
-    count = len(shares)
-    ends = np.cumsum(shares.numpy() / float(shares.sum()))
+def systematic(parts: torch.Tensor) -> np.ndarray:
+    """Indices in ascending order, as many as there are parts; each as often as its part of the sum says, to within one."""
+    count = len(parts)
+    ends = np.cumsum(parts.numpy() / float(parts.sum()))
     return np.searchsorted(ends, (np.arange(count) + 0.5) / count).clip(0, count - 1)

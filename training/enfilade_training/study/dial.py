@@ -64,7 +64,7 @@ def report(network: torch.nn.Module, homes: Pictures, photographs: Pictures, stu
         if judged.confusion is not None:
             counts = np.array(judged.confusion.counts)
             found["tasks"][task] |= {"iou": judged.confusion.iou, "confusion": counts.tolist()}
-            found["tasks"][task]["share_in_homes"] = gap.shares(homes, task)
+            found["tasks"][task]["share_in_homes"] = gap.rounded_shares(homes, task)
     found["gap"] = gap.cases(network, homes, photographs, {task: of["scores"] for task, of in found["tasks"].items()}, study)
     return found
 

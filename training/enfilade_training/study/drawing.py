@@ -6,7 +6,6 @@ import enfilade
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ..common import checkpoints
 from ..segmentation.evaluate import colored, palette
 from .config import HEADS, SEMANTICS, Study
 from .judge import predict
@@ -25,22 +24,20 @@ def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
         return []
     path, fraction = folder / "nyuv2.png", max(study.fractions)
     for seed in range(study.seeds):
-        files = {arm: maker.folder(Run(arm, fraction, seed)) / "last.pt" for arm in study.arms}
-        if all(maker.finished(Run(arm, fraction, seed)) and file.is_file() for arm, file in files.items()):
-            drawing(study, maker.pictures("test"), files).save(path)
+        runs = [Run(arm, fraction, seed) for arm in study.arms]
+        if all(maker.finished(run) and (maker.folder(run) / "last.pt").is_file() for run in runs):
+            drawing(study, maker.pictures("test"), {run.arm: maker.tuned(run).network for run in runs}).save(path)
             return [path]
     maker.say(f"{path.name} is not drawn: the networks of all arms for {100 * fraction:g} % of the photographs are not all below {study.output}")
     return []
 
 
-def drawing(study: Study, pictures: Pictures, files: dict[str, Path]) -> Image.Image:
-    """A row for each photograph, with a column for the truth and each network. files: by title, a run's last checkpoint."""
+def drawing(study: Study, pictures: Pictures, networks: dict[str, UNet]) -> Image.Image:
+    """A row for each photograph, with a column for the truth and each network, which are given by their titles."""
     count = min(COUNT, len(pictures))
     chosen = [(2 * i + 1) * len(pictures) // (2 * count) for i in range(count)]
     columns = {"truth": [_map(pictures.classes(SEMANTICS, index).numpy()) for index in chosen]}
-    for title, file in files.items():
-        network = UNet(study.heads)
-        network.load_state_dict(checkpoints.load(file)["network"])
+    for title, network in networks.items():
         columns[title] = [_map(predict(network, pictures, slice(index, index + 1), study)[SEMANTICS][0]) for index in chosen]
     return _sheet(columns)
 

@@ -6,6 +6,7 @@ score on homes themselves is in neither: other things, and other shapes of the s
 """
 
 import copy
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from torch import nn
 from . import camera as cameras
 from .config import HEADS, SEMANTICS, Study
 from .judge import judge
-from .pictures import Pictures
+from .pictures import Pictures, shares
 from .train import device_of
 
 # Of the pixels, the share that a class has at least, so that one which homes lack is not thought to be infinitely more frequent.
@@ -35,16 +36,16 @@ def cases(network: nn.Module, homes: Pictures, photographs: Pictures, plain: dic
         "photographs, by their looks": _scores(looks, photographs, study),
     }
     if SEMANTICS in study.tasks:
+        classes = replace(study, tasks=(SEMANTICS,))
         for name, one in (("photographs, by their frequencies", network), ("photographs, by both", looks)):
-            found[name] = {SEMANTICS: _scores(with_frequencies_of(one, homes, photographs), photographs, study)[SEMANTICS]}
+            found[name] = _scores(with_frequencies_of(one, homes, photographs), photographs, classes)
     return found
 
 
 def photographed(homes: Pictures, study: Study) -> Pictures:
     """The homes as the study's camera makes them in the first epoch."""
     frames = [cameras.photographed(study.camera, cameras.generator(0, 0, i), frame) for i, frame in enumerate(homes.color)]
-    color = torch.stack(frames).float().round().clamp(0, 255).to(torch.uint8)
-    return Pictures(color, homes.classes40, homes.depth_m, homes.names)
+    return Pictures(torch.stack(frames).round().to(torch.uint8), homes.classes40, homes.depth_m, homes.names)
 
 
 def with_looks_of(network: nn.Module, pictures: Pictures, study: Study) -> nn.Module:
@@ -68,16 +69,15 @@ def with_looks_of(network: nn.Module, pictures: Pictures, study: Study) -> nn.Mo
 def with_frequencies_of(network: nn.Module, homes: Pictures, photographs: Pictures) -> nn.Module:
     """A copy that expects the 13 classes as often as they are in photographs, where `network` expects them as often as in homes."""
     made: Any = copy.deepcopy(network)
-    here, there = (torch.tensor(shares(pictures, SEMANTICS)).clamp(min=RAREST) for pictures in (homes, photographs))
+    here, there = (torch.tensor(rounded_shares(pictures, SEMANTICS)).clamp(min=RAREST) for pictures in (homes, photographs))
     bias = made.heads[SEMANTICS].bias
     bias.data += (there / here).log().to(bias)
     return made
 
 
-def shares(pictures: Pictures, task: str) -> list[float]:
+def rounded_shares(pictures: Pictures, task: str) -> list[float]:
     """Of the pixels with a class, which share has each."""
-    counts = torch.bincount(pictures.classes(task, slice(None)).flatten().long(), minlength=256)[: HEADS[task]].double()
-    return [round(float(share), 5) for share in counts / counts.sum().clamp(min=1.0)]
+    return [round(float(share), 5) for share in shares(pictures.classes(task, slice(None)), HEADS[task])]
 
 
 def _scores(network: nn.Module, pictures: Pictures, study: Study) -> dict[str, dict[str, float]]:

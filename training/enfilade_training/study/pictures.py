@@ -57,6 +57,12 @@ def nyu13() -> torch.Tensor:
     return table
 
 
+def shares(classes: torch.Tensor, count: int) -> torch.Tensor:
+    """float64: of the pixels with one of `count` classes, which share has each."""
+    counts = torch.bincount(classes.flatten().long(), minlength=256)[:count].double()
+    return counts / counts.sum().clamp(min=1.0)
+
+
 def window(height: int, width: int) -> tuple[slice, slice]:
     """Rows and columns of the part that is taken of a picture of a multiple of UNIT."""
     if height % UNIT[0] or height * UNIT[1] != width * UNIT[0]:

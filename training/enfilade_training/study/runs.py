@@ -3,6 +3,7 @@
 import hashlib
 import json
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable
 
@@ -151,8 +152,12 @@ class Maker:
             self._pictures[name] = made
         return self._pictures[name]
 
+    @cached_property
+    def _homes_digest(self) -> str:
+        return homes.digest(self.study.homes)
+
     def _homes_key(self, start: str, seed: int) -> str:
-        said = {"format": FORMAT, "start": start, "seed": seed, "homes": homes.digest(self.study.homes), "scenes": self.study.scenes}
+        said = {"format": FORMAT, "start": start, "seed": seed, "homes": self._homes_digest, "scenes": self.study.scenes}
         said |= {"camera": settings.to_dict(self.study.camera), "training": meaning(self.study, self.study.pretraining)}
         return _digest(said | ({"composed": [self.photographs.digest, *composition.SETTINGS]} if self.study.composed else {}))
 
