@@ -23,7 +23,7 @@ from ..segmentation.evaluate import colored
 from . import gap, tables
 from .config import DEPTH, HEADS, IMAGENET, RANDOM, SEMANTICS, Study
 from .judge import judge, predict
-from .pictures import FARTHEST_M, LUMA, VOID, Pictures
+from .pictures import FARTHEST_M, LUMA, VOID, Pictures, evenly
 from .runs import Maker
 
 
@@ -114,7 +114,7 @@ def lines(found: dict[str, Any]) -> list[str]:
 def write_pictures(network: torch.nn.Module, pictures: Pictures, study: Study, folder: Path, count: int) -> None:
     """PNG files of evenly chosen pictures: colours, then truth and prediction of each task side by side."""
     folder.mkdir(parents=True, exist_ok=True)
-    for index in range(0, len(pictures), max(1, len(pictures) // max(count, 1))):
+    for index in evenly(len(pictures), count):
         part = slice(index, index + 1)
         predicted = predict(network, pictures, part, study)
         height, width = pictures.depth_m.shape[1:]

@@ -10,7 +10,7 @@ from ..segmentation.evaluate import colored, palette
 from .config import HEADS, SEMANTICS, Study
 from .judge import predict
 from .network import UNet
-from .pictures import VOID, Pictures
+from .pictures import VOID, Pictures, evenly
 from .runs import Maker, Run
 
 # Photographs that are drawn, evenly chosen; width of a map, what is between maps, and the height of a line of text, in pixels.
@@ -34,8 +34,7 @@ def write(study: Study, maker: Maker, folder: Path) -> list[Path]:
 
 def drawing(study: Study, pictures: Pictures, networks: dict[str, UNet]) -> Image.Image:
     """A row for each photograph, with a column for the truth and each network, which are given by their titles."""
-    count = min(COUNT, len(pictures))
-    chosen = [(2 * i + 1) * len(pictures) // (2 * count) for i in range(count)]
+    chosen = evenly(len(pictures), COUNT)
     columns = {"truth": [_map(pictures.classes(SEMANTICS, index).numpy()) for index in chosen]}
     for title, network in networks.items():
         columns[title] = [_map(predict(network, pictures, slice(index, index + 1), study)[SEMANTICS][0]) for index in chosen]

@@ -63,6 +63,12 @@ def shares(classes: torch.Tensor, count: int) -> torch.Tensor:
     return counts / counts.sum().clamp(min=1.0)
 
 
+def evenly(total: int, count: int) -> list[int]:
+    """Indices of `count` of `total` things, or of all where they are fewer: the middles of as many equal parts."""
+    count = min(count, total)
+    return [(2 * i + 1) * total // (2 * count) for i in range(count)]
+
+
 def window(height: int, width: int) -> tuple[slice, slice]:
     """Rows and columns of the part that is taken of a picture of a multiple of UNIT."""
     if height % UNIT[0] or height * UNIT[1] != width * UNIT[0]:

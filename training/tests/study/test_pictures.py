@@ -24,6 +24,14 @@ class Windows(unittest.TestCase):
             pictures.window(100, 160)
 
 
+class Choices(unittest.TestCase):
+    def test_as_many_as_asked_for_are_chosen_evenly(self) -> None:
+        self.assertEqual(pictures.evenly(12, 3), [2, 6, 10])
+        self.assertEqual(len(set(pictures.evenly(795, 16))), 16)
+        self.assertEqual(pictures.evenly(2, 8), [0, 1])
+        self.assertEqual(pictures.evenly(5, 0), [])
+
+
 class Folders(unittest.TestCase):
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
