@@ -54,10 +54,11 @@ class Earlier:
             return
         try:
             with np.load(path, allow_pickle=False) as file:
-                for name in file.files:
-                    key, _, task = name.partition(".")
-                    self._images[key][task] = file[name].astype(np.float64)
-        except (OSError, ValueError, BadZipFile) as error:
+                keys = file["keys"].tolist()
+                for task in set(file.files) - {"keys"}:
+                    for key, values in zip(keys, np.moveaxis(file[task], -1, 0), strict=True):
+                        self._images[key][task] = values.astype(np.float64)
+        except (OSError, ValueError, KeyError, BadZipFile) as error:
             advice = "fetch it again, or move it away to do without: differences that need it have no interval then"
             raise ReportError(f"{path}: is no file of photographs' scores ({error}); {advice}") from error
 
@@ -83,8 +84,7 @@ def write(study: Study, maker: Maker, results: Results, earlier: Earlier, folder
     texts = {"nyuv2.json": _json(found), "nyuv2.md": tables.markdown(found), "nyuv2.svg": svg(_panels(found))}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
-    packed = {f"{results[run]['key']}.{task}": _packed(values) for run, of in images.items() for task, values in of.items()}
-    np.savez_compressed(folder / "nyuv2.npz", allow_pickle=False, **packed)
+    np.savez_compressed(folder / "nyuv2.npz", allow_pickle=False, **_packed(study, results, images))
     return [folder / name for name in (*texts, "nyuv2.npz")]
 
 
@@ -133,11 +133,16 @@ def _images(maker: Maker, results: Results, earlier: Earlier) -> dict[Run, Image
     return {run: images for run, images in found.items() if images is not None}
 
 
-def _packed(values: np.ndarray) -> np.ndarray:
-    """In as few bytes as keep what is meant: counts of pixels as they are, scores of depth in single precision."""
-    if values.ndim == 2:
-        return values.astype(np.float32)
-    return values.astype(np.uint16 if values.max() <= np.iinfo(np.uint16).max else np.uint32)
+def _packed(study: Study, results: Results, images: dict[Run, Images]) -> dict[str, np.ndarray]:
+    """What nyuv2.npz holds: the keys of the runs, and for each task an array whose last axis is these runs, so that what is the same in all of
+    them takes no place. Counts of pixels are whole, scores of depth in single precision."""
+    known = [run for run, of in images.items() if set(study.tasks) <= set(of)]
+    packed = {"keys": np.array([results[run]["key"] for run in known], dtype=str)}
+    for task in study.tasks if known else ():
+        values = np.stack([images[run][task] for run in known], axis=-1)
+        fits = values.max() <= np.iinfo(np.uint16).max
+        packed[task] = values.astype(np.float32 if task == DEPTH else np.uint16 if fits else np.uint32)
+    return packed
 
 
 def _described(study: Study, maker: Maker) -> dict[str, Any]:
