@@ -43,16 +43,16 @@ impl Stage {
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
     pub const fn version(self) -> u32 {
         match self {
-            Self::Import => 14,
+            Self::Import => 15,
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,
-            Self::Render => 18,
+            Self::Render => 19,
             Self::Denoise => 3,
-            Self::Label => 2,
+            Self::Label => 3,
             Self::Boxes => 1,
             Self::Preview => 5,
-            Self::Verify => 10,
+            Self::Verify => 11,
         }
     }
 
