@@ -62,7 +62,7 @@ def page(rows, seconds):
     yield "are not counted, learning, all layers, denoising, and what Cycles prepares for every picture anew, are."
     yield ""
     yield "What the renderers mean different things by is changed in the files: at night window panes, sheets without thickness, are black and keep their"
-    yield "reflection, by day they are left out; so are the sheen of towels, and the colour of thick glass and water."
+    yield "reflection, by day they are left out; so is the colour of thick glass and water. Sheen is that of each: Cycles has another model than glTF's."
     yield ""
     yield from tables.sections("cycles", rows, "Cycles")
     yield from ["## Do they render the same?", "", *same(rows), ""]

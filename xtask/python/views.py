@@ -4,7 +4,8 @@ What a home holds means different things to the renderers, and is changed in the
 
 - A pane without thickness is thin to enfilade and a block of glass to Blender. At night panes become black and keep their reflection; by day
   they are left out, as if the windows stood open.
-- The sheen of towels follows another model in each, and is left out; so is the colour that thick glass and water take by depth.
+- The sheen of cloth stays, though Cycles has another model for it (Zeltner et al. 2022) than glTF's (Estevez & Kulla 2017), which is ours.
+- The colour that thick glass and water take by depth is left out.
 - The sky of the night is left out. That of the day, with the sun in it, stays: `peer_cycles.py` puts it into Blender's world.
 """
 
@@ -19,7 +20,7 @@ VIEWS = {f"home-{seed}-{moment}-{camera}": (seed, moment, camera) for seed, mome
     ("3", "day", "living_3"),
     ("201", "day", "living_1"),
 ]}
-GLASS, VOLUME, SHEEN = "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_sheen"
+GLASS, VOLUME = "KHR_materials_transmission", "KHR_materials_volume"
 
 
 def prepare(program, name, work):
@@ -49,7 +50,6 @@ def simplify(document, moment, camera):
     panes = set()
     for index, material in enumerate(document["materials"]):
         extensions = material.get("extensions", {})
-        extensions.pop(SHEEN, None)
         if VOLUME in extensions:
             extensions[VOLUME] = {"thicknessFactor": 1.0}
         elif extensions.pop(GLASS, None):

@@ -156,4 +156,6 @@ fn fraction(a: Rgb, b: Rgb) -> f32 {
 }
 
 #[cfg(test)]
+mod published;
+#[cfg(test)]
 mod tests;

@@ -206,8 +206,10 @@ fn cover(mixture: &mut Mixture<'_>, p: &Principled, at: &Inputs<'_>, sheen_color
     let sheen_roughness = at.scalar(&p.sheen_roughness).clamp(0.05, 1.0);
     mixture.cover(Layers { clearcoat, sheen: sheen_color.max_component(), sheen_roughness });
     let under_coat = 1.0 - clearcoat * fresnel::dielectric(at.cos_o, CLEARCOAT_ETA).0;
-    let sheen = Lobe::Sheen(Sheen::new(sheen_roughness, sheen_color * under_coat, at.cos_o));
-    mixture.add(sheen, Rgb::BLACK, 1.0, 0.3 * sheen_color.luminance());
+    let sheen = Sheen::new(sheen_roughness, sheen_color * under_coat, at.cos_o);
+    // Seen from above, the albedo may round to nothing.
+    let importance = sheen.albedo(at.cos_o).luminance() + 0.02 * sheen_color.luminance();
+    mixture.add(Lobe::Sheen(sheen), Rgb::BLACK, 1.0, importance);
     if clearcoat > 0.0 {
         let facets = Facets::new(at.unit_scalar(&p.clearcoat_roughness).powi(2), at.cos_o);
         let lobe = Lobe::Reflection { facets, fresnel: Fresnel::Dielectric { eta: CLEARCOAT_ETA }, tint: Rgb::WHITE };

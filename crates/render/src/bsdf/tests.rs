@@ -60,6 +60,13 @@ fn models() -> Vec<(&'static str, Material, bool)> {
         ),
         (
             material(
+                "principled velvet",
+                principled(Principled { sheen_color: Rgb::splat(0.8).into(), sheen_roughness: 0.4.into(), ..Principled::default() }),
+            ),
+            false,
+        ),
+        (
+            material(
                 "principled everything",
                 principled(Principled {
                     metallic: 0.3.into(),
