@@ -97,7 +97,7 @@ pub(crate) mod tests {
         let floor =
             Mesh { positions: triangle.clone(), uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let lamp = Mesh { positions: triangle, normals: vec![Vec3::Z; 3], triangles: vec![[0, 1, 2], [2, 1, 0]], ..Mesh::default() };
-        let part = |name: &str, mesh, world_from_mesh| Part { name: name.into(), mesh, material: mesh, world_from_mesh };
+        let part = |name: &str, mesh, world_from_mesh| Part { name: name.into(), object: None, mesh, material: mesh, world_from_mesh };
         let raised = DAffine3::from_translation(DVec3::Z) * DAffine3::from_scale(DVec3::splat(2.0));
         Scene {
             meshes: vec![floor, lamp],

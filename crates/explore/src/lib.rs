@@ -33,7 +33,7 @@
 //!         ..Mesh::default()
 //!     }],
 //!     materials: vec![Material::diffuse("white", Rgb::WHITE)],
-//!     parts: vec![Part { name: "room".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+//!     parts: vec![Part { name: "room".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 //!     ..Scene::default()
 //! };
 //! let world = WorldMesh::new(&scene);

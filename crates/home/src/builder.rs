@@ -6,7 +6,7 @@ use crate::materials::{Materials, Surfacing};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb};
-use enfilade_scene::{Image, Labels, Material, Part, PartLabel, Scene};
+use enfilade_scene::{Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -60,6 +60,7 @@ pub enum Class {
 #[derive(Clone, Debug)]
 pub struct Object {
     name: String,
+    id: ObjectId,
     label: PartLabel,
     /// Takes the object's own space (x right, y to its front, z up) to the world.
     pub pose: DAffine3,
@@ -129,7 +130,9 @@ impl Builder {
         };
         let name = format!("{family}_{count}");
         self.fronts.insert(name.clone(), pose.transform_vector3(DVec3::Y));
-        Object { name, label: PartLabel { semantic, instance }, pose }
+        let id = self.scene.objects.len() as ObjectId;
+        self.scene.objects.push(enfilade_scene::Object { name: name.clone(), parent: None });
+        Object { name, id, label: PartLabel { semantic, instance }, pose }
     }
 
     /// Adds a part of `object`, its mesh in the object's space.
@@ -151,7 +154,7 @@ impl Builder {
     }
 
     fn push(&mut self, object: &Object, name: &str, mesh: u32, material: u32, world_from_mesh: DAffine3) {
-        self.scene.parts.push(Part { name: format!("{}/{name}", object.name), mesh, material, world_from_mesh });
+        self.scene.parts.push(Part { name: format!("{}/{name}", object.name), object: Some(object.id), mesh, material, world_from_mesh });
         self.labels.parts.push(object.label);
     }
 

@@ -82,9 +82,10 @@ fn number_instances(home: &mut Home) {
     }
 }
 
-/// Drops the meshes, materials and pictures that no part uses any more.
+/// Drops the objects, meshes, materials and pictures that no part uses any more.
 fn drop_unused(home: &mut Home) {
     let scene = &mut home.scene;
+    scene.remove_unused_objects();
     let mesh = retain(&mut scene.meshes, scene.parts.iter().map(|part| part.mesh));
     let material = retain(&mut scene.materials, scene.parts.iter().map(|part| part.material));
     for part in &mut scene.parts {
@@ -127,7 +128,7 @@ mod tests {
         home.scene.meshes.push(bevelled_box(size, 0.01));
         let world_from_mesh = pose(f64::from(at.x), f64::from(at.y), 0.601, way.wall.yaw());
         let mesh = home.scene.meshes.len() as u32 - 1;
-        home.scene.parts.push(Part { name: "crate_1/body".into(), mesh, world_from_mesh, ..home.scene.parts[0].clone() });
+        home.scene.parts.push(Part { name: "crate_1/body".into(), object: None, mesh, world_from_mesh, ..home.scene.parts[0].clone() });
         home.labels.parts.push(home.labels.parts[0]);
         assert_eq!(walk::unreachable(&home), [number]);
         settle(&mut home);

@@ -1,18 +1,10 @@
 //! From a table to the label of every part.
 
-use super::table::{LabelTable, Row, Subject};
-use enfilade_scene::{Labels, PartLabel, Scene, is_stuff};
+use super::rows::{Index, Match, Whole};
+use super::table::{LabelTable, Row};
+use enfilade_scene::{Labels, PartId, PartLabel, Scene, is_stuff};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
-
-/// The names by which a part can be labelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PartNames<'a> {
-    /// Its own name; `object/part` says which object it belongs to.
-    pub part: &'a str,
-    /// Its material's name.
-    pub material: &'a str,
-}
 
 /// What a table did to a scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,35 +41,35 @@ pub struct UnmatchedRow {
     pub name: String,
 }
 
-/// The names of a scene's parts, in order.
-pub fn part_names(scene: &Scene) -> Vec<PartNames<'_>> {
-    scene.parts.iter().map(|part| PartNames { part: &part.name, material: &scene.materials[part.material as usize].name }).collect()
-}
-
 impl LabelTable {
     /// Labels the parts of the scene called `scene_name`.
     ///
-    /// A row about the part beats one about its object, which beats one about its material; within these a row for this scene
-    /// beats one for all. Materials match exactly, else without regard to case, else without Blender's numeric suffix
-    /// (`Oak.001` is Oak). A stated instance counts; every other labelled part that is not wall, floor or ceiling gets one of
-    /// its own, from 1 in the order of parts, where parts `object/…` of one class share theirs.
-    pub fn assign(&self, scene_name: &str, parts: &[PartNames<'_>]) -> (Labels, LabelReport) {
-        let index = Index::new(&self.rows, scene_name);
-        let rows: Vec<Option<&Row>> = parts.iter().map(|names| index.find(names).map(|i| &self.rows[i])).collect();
-        let labels = Labels { parts: number_instances(parts, &rows) };
-        let report = self.report(&index, parts, &labels);
+    /// A row about the part beats one about its object, which beats one about what that lies in, the nearer first; one about the material
+    /// comes last. Within these a row for this scene beats one for all. Objects and what they lie in are called by their names, alone or
+    /// with all parents before them (`World/chair_1`); what a part's name has before its last slash is such a name too. Materials match
+    /// exactly, else without regard to case, else without Blender's numeric suffix (`Oak.001` is Oak).
+    ///
+    /// A stated instance counts; every other labelled part that is not wall, floor or ceiling gets one, from 1 in the order of parts. It is
+    /// shared by the parts of one class that belong to one object ([`Scene::object_of`]), or that a row labels by what they all lie in.
+    pub fn assign(&self, scene_name: &str, scene: &Scene) -> (Labels, LabelReport) {
+        let index = Index::new(&self.rows, scene_name, scene);
+        let found: Vec<Option<Match<'_>>> = (0..scene.parts.len()).map(|part| index.find(part as PartId)).collect();
+        let labels = Labels { parts: number_instances(&self.rows, &found) };
+        let report = self.report(&index, scene, &labels);
         (labels, report)
     }
 
-    fn report(&self, index: &Index<'_>, parts: &[PartNames<'_>], labels: &Labels) -> LabelReport {
+    fn report(&self, index: &Index<'_>, scene: &Scene, labels: &Labels) -> LabelReport {
         let distinct = |value: fn(&PartLabel) -> i16| labels.parts.iter().map(value).filter(|&v| v >= 1).collect::<BTreeSet<_>>().len();
+        let parts = &scene.parts;
         let unlabelled: Vec<_> = parts
             .iter()
             .zip(&labels.parts)
             .filter(|(_, label)| label.semantic == -1)
-            .map(|(names, _)| UnlabelledPart { part: names.part.into(), material: names.material.into() })
+            .map(|(part, _)| UnlabelledPart { part: part.name.clone(), material: scene.materials[part.material as usize].name.clone() })
             .collect();
-        let matched: BTreeSet<usize> = parts.iter().flat_map(|names| index.candidates(names)).collect();
+        let candidates = (0..parts.len()).flat_map(|part| index.candidates(part as PartId));
+        let matched: BTreeSet<usize> = candidates.map(|found| found.row).collect();
         let unmatched = index.rows.iter().filter(|i| !matched.contains(i)).map(|&i| &self.rows[i]);
         LabelReport {
             labelled_parts: parts.len() - unlabelled.len(),
@@ -90,108 +82,53 @@ impl LabelTable {
     }
 }
 
-/// The rows of a table that concern one scene, by name.
-struct Index<'a> {
-    /// All of them, those for this scene only first.
-    rows: Vec<usize>,
-    exact: HashMap<(Subject, &'a str), usize>,
-    /// Material rows by lower-case name.
-    lower: HashMap<String, usize>,
-    /// Material rows by lower-case name without numeric suffix.
-    stem: HashMap<String, usize>,
-}
-
-impl<'a> Index<'a> {
-    fn new(table: &'a [Row], scene_name: &str) -> Self {
-        let with = |scene: Option<&str>| (0..table.len()).filter(move |&i| table[i].scene.as_deref() == scene).collect::<Vec<_>>();
-        let rows = [with(Some(scene_name)), with(None)].concat();
-        let mut index = Self { rows: rows.clone(), exact: HashMap::new(), lower: HashMap::new(), stem: HashMap::new() };
-        for i in rows {
-            let row = &table[i];
-            index.exact.entry((row.subject, row.name.as_str())).or_insert(i);
-            if matches!(row.subject, Subject::Material | Subject::Name) {
-                let lower = row.name.to_lowercase();
-                index.stem.entry(without_numeric_suffix(&lower).to_string()).or_insert(i);
-                index.lower.entry(lower).or_insert(i);
-            }
-        }
-        index
-    }
-
-    /// The row that labels a part.
-    fn find(&self, names: &PartNames<'_>) -> Option<usize> {
-        self.candidates(names).next()
-    }
-
-    /// Every row that speaks of a part, the one that counts first.
-    fn candidates(&self, names: &PartNames<'_>) -> impl Iterator<Item = usize> {
-        let exact = |subject, name| self.exact.get(&(subject, name)).copied();
-        let object = object_of(names.part).unwrap_or(names.part);
-        let lower = names.material.to_lowercase();
-        [
-            exact(Subject::Part, names.part),
-            exact(Subject::Name, names.part),
-            exact(Subject::Object, names.part),
-            exact(Subject::Object, object),
-            exact(Subject::Name, object),
-            exact(Subject::Material, names.material),
-            exact(Subject::Name, names.material),
-            self.lower.get(&lower).copied(),
-            self.stem.get(without_numeric_suffix(&lower)).copied(),
-        ]
-        .into_iter()
-        .flatten()
-    }
-}
-
-/// What stands before the last slash of a part's name.
-fn object_of(part: &str) -> Option<&str> {
-    part.rsplit_once('/').map(|(object, _)| object).filter(|object| !object.is_empty())
-}
-
-/// The name without `.001` or the like.
-fn without_numeric_suffix(name: &str) -> &str {
-    match name.rsplit_once('.') {
-        Some((stem, digits)) if !stem.is_empty() && !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) => stem,
-        _ => name,
-    }
-}
-
-fn number_instances<'a>(parts: &[PartNames<'a>], rows: &[Option<&Row>]) -> Vec<PartLabel> {
-    let stated: BTreeSet<i16> = rows.iter().flatten().filter_map(|row| row.instance).collect();
+/// The labels that rows give to parts.
+fn number_instances<'a>(rows: &[Row], found: &[Option<Match<'a>>]) -> Vec<PartLabel> {
+    let stated: BTreeSet<i16> = found.iter().flatten().filter_map(|found| rows[found.row].instance).collect();
     let mut free = (1..=i16::MAX).filter(|number| !stated.contains(number));
-    let mut of_object: HashMap<(&'a str, i16), i16> = HashMap::new();
-    let mut labels = Vec::with_capacity(parts.len());
-    for (names, row) in parts.iter().zip(rows) {
-        let Some(row) = row else {
-            labels.push(PartLabel::NONE);
-            continue;
+    let mut of_whole: HashMap<(Whole<'a>, i16), i16> = HashMap::new();
+    let label = |found: &Option<Match<'a>>| {
+        let Some(Match { row, whole }) = found else { return PartLabel::NONE };
+        let Row { semantic, instance, .. } = rows[*row];
+        let instance = match instance {
+            Some(instance) => instance,
+            None if semantic == -1 || is_stuff(semantic) => -1,
+            None => *of_whole.entry((*whole, semantic)).or_insert_with(|| free.next().unwrap_or(-1)),
         };
-        let semantic = row.semantic;
-        let mut next = || free.next().unwrap_or(-1);
-        let instance = match (row.instance, object_of(names.part)) {
-            (Some(instance), _) => instance,
-            (None, _) if semantic == -1 || is_stuff(semantic) => -1,
-            (None, Some(object)) => *of_object.entry((object, semantic)).or_insert_with(next),
-            (None, None) => next(),
-        };
-        labels.push(PartLabel { semantic, instance });
-    }
-    labels
+        PartLabel { semantic, instance }
+    };
+    found.iter().map(label).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{join, write_table};
     use super::*;
-    use enfilade_scene::{Material, Part};
+    use enfilade_scene::{Material, Object, Part};
 
     fn table(text: &str) -> LabelTable {
         LabelTable::parse(text.as_bytes(), "t").unwrap()
     }
 
-    fn names<'a>(list: &[(&'a str, &'a str)]) -> Vec<PartNames<'a>> {
-        list.iter().map(|&(part, material)| PartNames { part, material }).collect()
+    /// Parts by their names and those of their materials, which belong to the objects given by index.
+    fn scene(objects: &[(&str, Option<u32>)], parts: &[(&str, &str, Option<u32>)]) -> Scene {
+        let part = |(i, &(name, _, object)): (usize, &(&str, &str, Option<u32>))| Part {
+            name: name.into(),
+            object,
+            mesh: 0,
+            material: i as u32,
+            world_from_mesh: enfilade_math::DAffine3::IDENTITY,
+        };
+        Scene {
+            objects: objects.iter().map(|&(name, parent)| Object { name: name.into(), parent }).collect(),
+            parts: parts.iter().enumerate().map(part).collect(),
+            materials: parts.iter().map(|(_, material, _)| Material::diffuse(*material, enfilade_math::Rgb::WHITE)).collect(),
+            ..Scene::default()
+        }
+    }
+
+    fn names(list: &[(&str, &str)]) -> Scene {
+        scene(&[], &list.iter().map(|&(part, material)| (part, material, None)).collect::<Vec<_>>())
     }
 
     fn pairs(labels: &Labels) -> Vec<(i16, i16)> {
@@ -217,7 +154,40 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_an_object_share_an_instance_per_class_and_stated_numbers_are_kept() {
+    fn siblings_are_instances_of_their_own_and_parts_of_one_object_share_theirs() {
+        let objects = [("World", None), ("chair_1", Some(0)), ("chair_2", Some(0)), ("set", Some(0)), ("a", Some(3)), ("b", Some(3))];
+        let world = scene(
+            &objects,
+            &[
+                ("World/chair_1.wood", "wood", Some(1)),
+                ("World/chair_1.cloth", "cloth", Some(1)),
+                ("World/chair_2", "wood", Some(2)),
+                ("World/set/a", "wood", Some(4)),
+                ("World/set/b", "wood", Some(5)),
+            ],
+        );
+        let labelled = |text: &str| pairs(&table(text).assign("s", &world).0);
+        let apart = [(5, 1), (5, 1), (5, 2), (5, 3), (5, 4)];
+        // By material, by part, by object with and without parents: always the same things.
+        assert_eq!(labelled("material,semantic\nwood,chair\ncloth,chair\n"), apart);
+        let parts = "World/chair_1.wood,chair\nWorld/chair_1.cloth,chair\nWorld/chair_2,chair\nWorld/set/a,chair\nWorld/set/b,chair\n";
+        assert_eq!(labelled(&format!("part,semantic\n{parts}")), apart);
+        assert_eq!(labelled("name,semantic\nchair_1,chair\nWorld/chair_2,chair\na,chair\nb,chair\n"), apart);
+        // A row about what things lie in makes them one, and the nearer row counts.
+        assert_eq!(labelled("name,semantic\nset,sofa\nchair_1,chair\n"), [(5, 1), (5, 1), (-1, -1), (6, 2), (6, 2)]);
+        assert_eq!(labelled("object,semantic\nWorld/set,sofa\nWorld/set/b,lamp\n")[3..], [(6, 1), (35, 2)]);
+        // Another class within an object is another thing.
+        assert_eq!(labelled("object,part,semantic\nchair_1,,chair\n,World/chair_1.cloth,pillow\n")[..2], [(5, 1), (18, 2)]);
+    }
+
+    #[test]
+    fn rows_about_a_part_do_not_speak_of_what_lies_in_an_object_of_that_name() {
+        let kitchen = scene(&[("Table", None), ("Table", Some(0)), ("Vase", Some(0))], &[("Table", "m", Some(1)), ("Vase", "m", Some(2))]);
+        assert_eq!(pairs(&table("name,semantic\nTable,table\n").assign("s", &kitchen).0), [(7, 1), (-1, -1)]);
+    }
+
+    #[test]
+    fn rows_about_what_names_have_before_a_slash_make_one_instance_per_class_and_stated_numbers_are_kept() {
         let t = table("name,semantic,instance\nsofa,sofa,\nsofa/pillow,pillow,\nlamp,lamp,2\nfloor,floor,\nnone,chair,-1\n");
         let list = ["sofa/seat", "sofa/pillow", "sofa/back", "floor", "lamp", "none"];
         let parts = names(&list.map(|p| (p, "m")));
@@ -233,7 +203,8 @@ mod tests {
 
     #[test]
     fn written_tables_give_the_same_labels_back() {
-        let part = |name: &str| Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
+        let part =
+            |name: &str| Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
         let scene = Scene {
             parts: ["wall", "desk \"big\", old", "desk/leg"].map(part).into(),
             materials: vec![Material::diffuse("m", enfilade_math::Rgb::WHITE)],
@@ -243,7 +214,7 @@ mod tests {
         let labels = Labels { parts: vec![label(1, -1), label(14, 4), PartLabel::NONE] };
         let text = write_table(&scene, &labels);
         assert!(text.starts_with("part,nyu40_id,nyu40_name,instance\nwall,1,wall,-1\n"), "{text}");
-        let (again, report) = table(&text).assign("any", &part_names(&scene));
+        let (again, report) = table(&text).assign("any", &scene);
         assert_eq!(again, labels);
         assert!(report.unmatched.is_empty());
         assert_eq!(join(&[2, -1], &again).unwrap().1, [4, -1]);

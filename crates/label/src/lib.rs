@@ -10,11 +10,12 @@ pub mod boxes;
 pub mod instances;
 mod join;
 mod pieces;
+mod rows;
 pub mod split;
 pub mod structure;
 mod table;
 
-pub use assign::{LabelReport, PartNames, UnlabelledPart, UnmatchedRow, part_names};
+pub use assign::{LabelReport, UnlabelledPart, UnmatchedRow};
 pub use join::{JoinError, join};
 pub use pieces::SplitParts;
 pub use table::{LabelTable, Row, Subject, TableError, class_name, write_part_table, write_table};

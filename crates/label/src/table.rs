@@ -7,8 +7,8 @@
 //! |---|---|
 //! | `scene` | optional; the row is for this scene only, or for all when empty or `*` |
 //! | `part` | name of a part |
-//! | `object` | name of an object: all parts `object/…`, or the part of that name |
-//! | `name` | name of a part, an object or a material, whichever there is |
+//! | `object` | name of an object, or of what objects lie in, alone or with its parents before it (`World/chair_1`): all its parts, as one instance; the part of that name; all parts `object/…` |
+//! | `name` | name of a part, an object, what objects lie in, or a material, whichever there is |
 //! | `material` | name of a material: all parts that wear it |
 //! | `nyu40_id` or `semantic` | class by NYU40 number or name; −1, 0 (NYU40's own) or empty for unlabelled |
 //! | `nyu40_name` | optional; checked against the class |

@@ -85,7 +85,7 @@ fn render_copies(triangles: u32, copies: u32, apart: bool) -> Result<()> {
     for i in 0..copies {
         let at = DVec3::new((f64::from(i) % columns).floor(), (f64::from(i) / columns).floor(), 0.0) * 2.5;
         let world_from_mesh = DAffine3 { matrix3: DMat3::from_rotation_z(f64::from(i)), translation: at };
-        scene.parts.push(Part { name: format!("ball {i}"), mesh: if apart { i } else { 0 }, material: 0, world_from_mesh });
+        scene.parts.push(Part { name: format!("ball {i}"), object: None, mesh: if apart { i } else { 0 }, material: 0, world_from_mesh });
     }
     scene.meshes = vec![ball; if apart { copies as usize } else { 1 }];
     let (before, time) = (most_memory_mb()?, Stopwatch::start());

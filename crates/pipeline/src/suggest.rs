@@ -112,18 +112,19 @@ fn quoted(field: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_label::{LabelTable, part_names};
+    use enfilade_label::LabelTable;
     use enfilade_scene::{Material, Part};
 
     #[test]
     fn the_table_is_one_that_label_reads_and_the_unsure_are_not_guessed() {
-        let part = |name: &str| Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
+        let part =
+            |name: &str| Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
         let parts = ["sofa \"big\", red", "Mesh.001", "thing"].map(part).to_vec();
         let scene = Scene { parts, materials: vec![Material::diffuse("grey", enfilade_math::Rgb::WHITE)], ..Scene::default() };
         let suggestion = |class, confidence| Some(Suggestion { class, confidence, alternatives: Vec::new() });
         let text = table(&scene, &[suggestion(6, 0.93), None, suggestion(40, 0.3)], 0.9);
         assert!(text.ends_with("Mesh.001,-1,unlabelled,0.000,\nthing,-1,unlabelled,0.300,otherprop\n"), "{text}");
-        let (labels, report) = LabelTable::parse(text.as_bytes(), "t").unwrap().assign("any", &part_names(&scene));
+        let (labels, report) = LabelTable::parse(text.as_bytes(), "t").unwrap().assign("any", &scene);
         assert_eq!(labels.parts.iter().map(|label| label.semantic).collect::<Vec<_>>(), [6, -1, -1]);
         assert!(report.unmatched.is_empty());
     }

@@ -24,7 +24,7 @@ use std::sync::OnceLock;
 ///
 /// // A triangle in the plane z = 0, seen from 3 m above; no light is needed.
 /// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
-/// let part = Part { name: "triangle".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+/// let part = Part { name: "triangle".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
 /// let scene =
 ///     Scene { meshes: vec![mesh], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
 /// let camera = Camera::from(Intrinsics::from_fov_x(64, 64, 0.6));

@@ -63,7 +63,7 @@ pub fn render_frame(
 /// # let scene = Scene {
 /// #     meshes: vec![mesh],
 /// #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
-/// #     parts: vec![Part { name: "part".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+/// #     parts: vec![Part { name: "part".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 /// #     environment: Some(Environment::Constant { radiance: Rgb::WHITE }),
 /// #     ..Scene::default()
 /// # };

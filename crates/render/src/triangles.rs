@@ -209,7 +209,7 @@ mod tests {
             let size = DMat3::from_diagonal(DVec3::new(1.0 + 0.5 * unit(), 1.0, 1.0 + 0.5 * unit()));
             let world_from_mesh = DAffine3 { matrix3: turn * size, translation: DVec3::new(unit(), unit(), unit()) * 4.0 };
             let material = if i == 7 { 2 } else { u32::from(i % 4 == 1) };
-            scene.parts.push(Part { name: format!("part {i}"), mesh: i % 3, material, world_from_mesh });
+            scene.parts.push(Part { name: format!("part {i}"), object: None, mesh: i % 3, material, world_from_mesh });
         }
         scene.validate().unwrap();
         scene

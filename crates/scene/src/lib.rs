@@ -14,6 +14,7 @@ mod light;
 mod material;
 mod motion;
 mod nesting;
+mod object;
 mod package;
 mod photometry;
 mod pictures;
@@ -36,6 +37,7 @@ pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, 
 pub use light::{Light, SpotFalloff};
 pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
 pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV};
+pub use object::{Object, ObjectId};
 pub use package::{
     PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, to_bytes, to_bytes_with_labels,
 };

@@ -10,7 +10,7 @@
 //! # let scene = Scene {
 //! #     meshes: vec![Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }],
 //! #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
-//! #     parts: vec![Part { name: "floor".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+//! #     parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 //! #     ..Scene::default()
 //! # };
 //! let mut bytes = enfilade_scene::to_bytes(&scene);
@@ -25,7 +25,7 @@ use crate::{Labels, Scene, SceneError};
 /// What packages begin with, before their number.
 const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// More than the first line of any package has: as much as [`is_current_package`] looks at.
 pub const PACKAGE_HEAD_BYTES: u64 = 32;
 
@@ -136,7 +136,7 @@ mod tests {
 
     fn scene() -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
-        let part = Part { name: "triangle".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        let part = Part { name: "triangle".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         Scene { meshes: vec![mesh], parts: vec![part], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], ..Scene::default() }
     }
 
@@ -147,19 +147,19 @@ mod tests {
         assert!(matches!(from_bytes(&bytes[..bytes.len() - 1]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(&bytes[..20]), Err(PackageError::Checksum)));
         assert!(matches!(from_bytes(b"{}"), Err(PackageError::Magic)));
-        assert!(is_current_package(&bytes[..32]) && !is_current_package(b"") && !is_current_package(b"enfilade scene 3"));
+        assert!(is_current_package(&bytes[..32]) && !is_current_package(b"") && !is_current_package(b"enfilade scene 4"));
     }
 
     #[test]
     fn packages_of_other_versions_are_told_by_their_number() {
         for (head, told) in
-            [("2", "found a scene package of version 2, expected 3: it was written by an earlier enfilade"), ("14", "a newer")]
+            [("2", "found a scene package of version 2, expected 4: it was written by an earlier enfilade"), ("14", "a newer")]
         {
             let bytes = format!("enfilade scene {head}\nwhatever follows").into_bytes();
             let message = from_bytes(&bytes).unwrap_err().to_string();
             assert!(message.contains(told) && message.ends_with("import the scene again") && !is_current_package(&bytes), "{message}");
         }
-        for other in ["enfilade scene \n", "enfilade scene x\n", "enfilade scene 3"] {
+        for other in ["enfilade scene \n", "enfilade scene x\n", "enfilade scene 4"] {
             assert!(matches!(from_bytes(other.as_bytes()), Err(PackageError::Magic)), "{other}");
         }
     }

@@ -1,7 +1,7 @@
 //! A scene: meshes, the parts that place them, materials, pictures, lights and cameras as plain data, with the check that it is whole.
 
 use crate::material::Constant;
-use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Parameter, Pixels, StartCamera};
+use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Object, ObjectId, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Bvh, Mesh, MeshError};
 use enfilade_math::{DAffine3, DMat3, Vec3, place};
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,8 @@ pub type PartId = u32;
 pub struct Part {
     /// Unique within the scene.
     pub name: String,
+    /// What it is a part of; `None` where it is a thing by itself.
+    pub object: Option<ObjectId>,
     /// Index into `Scene::meshes`; several parts may share one.
     pub mesh: u32,
     /// Index into `Scene::materials`.
@@ -37,14 +39,14 @@ pub struct Part {
 /// let mut scene = Scene {
 ///     meshes: vec![Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }],
 ///     materials: vec![Material::diffuse("oak", Rgb::new(0.5, 0.3, 0.2))],
-///     parts: vec![Part { name: "floor".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+///     parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 ///     ..Scene::default()
 /// };
 /// assert_eq!(scene.validate(), Ok(()));
 ///
 /// // A second part may share the mesh; what it refers to must exist.
 /// let world_from_mesh = DAffine3::from_translation(DVec3::Z * 2.5);
-/// scene.parts.push(Part { name: "ceiling".into(), mesh: 0, material: 1, world_from_mesh });
+/// scene.parts.push(Part { name: "ceiling".into(), object: None, mesh: 0, material: 1, world_from_mesh });
 /// assert_eq!(scene.validate().unwrap_err().to_string(), "part \"ceiling\" refers to material 1, but there are only 1");
 /// assert_eq!(scene.world_corners(&scene.parts[1], 0)[1], Vec3::new(1.0, 0.0, 2.5));
 /// ```
@@ -54,6 +56,8 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Everything visible.
     pub parts: Vec<Part>,
+    /// What the parts are parts of, and what these lie in; an object's parent stands before it.
+    pub objects: Vec<Object>,
     /// Surfaces.
     pub materials: Vec<Material>,
     /// Decoded pictures of all textures and of the environment.
@@ -96,7 +100,7 @@ pub enum SceneError {
     Dangling {
         /// What holds the index.
         what: String,
-        /// "mesh", "material" or "image".
+        /// "mesh", "material", "object" or "image".
         kind: &'static str,
         /// The index.
         index: u32,
@@ -131,6 +135,7 @@ impl Scene {
             let what = || format!("part {:?}", part.name);
             check_index(what, "mesh", part.mesh, self.meshes.len())?;
             check_index(what, "material", part.material, self.materials.len())?;
+            part.object.map_or(Ok(()), |object| check_index(what, "object", object, self.objects.len()))?;
             let m = part.world_from_mesh;
             if !m.is_finite() || m.matrix3.determinant() == 0.0 {
                 return Err(SceneError::Value { what: what(), problem: format!("its placement cannot be inverted: {m:?}") });
@@ -139,6 +144,9 @@ impl Scene {
                 return Err(SceneError::DuplicateName(part.name.clone()));
             }
             user_of_mesh.entry(part.mesh).or_insert(part.name.as_str());
+        }
+        for (i, object) in self.objects.iter().enumerate() {
+            object.parent.map_or(Ok(()), |parent| check_index(|| format!("object {:?}", object.name), "object", parent, i))?;
         }
         let found = self.parts.iter().map(|part| self.meshes[part.mesh as usize].triangles.len()).sum();
         if found > Bvh::MAX_TRIANGLES {
@@ -270,7 +278,7 @@ mod tests {
 
     fn one_triangle(material: Material) -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
-        let part = Part { name: "a".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        let part = Part { name: "a".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         Scene { meshes: vec![mesh], parts: vec![part], materials: vec![material], ..Scene::default() }
     }
 

@@ -22,7 +22,7 @@ pub struct TriangleSource {
 ///
 /// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
 /// let part = |name: &str, z: f64| {
-///     Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: DAffine3::from_translation(DVec3::Z * z) }
+///     Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::from_translation(DVec3::Z * z) }
 /// };
 /// let scene = Scene {
 ///     meshes: vec![mesh],

@@ -5,8 +5,9 @@
 use enfilade_dataset::hdf5::read_array;
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer, Values};
-use enfilade_label::{LabelTable, PartNames, join};
-use enfilade_scene::{Labels, PartLabel};
+use enfilade_label::{LabelTable, join};
+use enfilade_math::{DAffine3, Rgb};
+use enfilade_scene::{Labels, Material, Part, PartLabel, Scene};
 use enfilade_show::preview::{Subject, preview};
 use std::path::{Path, PathBuf};
 
@@ -105,8 +106,15 @@ fn the_shared_table_of_materials_labels_the_rooms() {
     let bytes = std::fs::read(Path::new(&scenes).join("material_to_nyu40.csv")).unwrap();
     let table = LabelTable::parse(&bytes, "material_to_nyu40.csv").unwrap();
     assert_eq!(table.rows().len(), 323);
-    let parts = ["Sofa", "Walls", "walls.002", "Nothing"].map(|material| PartNames { part: material, material });
-    let (labels, report) = table.assign("grey-white-room", &parts);
+    let names = ["Sofa", "Walls", "walls.002", "Nothing"];
+    let world_from_mesh = DAffine3::IDENTITY;
+    let part = |(name, material): (&str, u32)| Part { name: name.into(), object: None, mesh: 0, material, world_from_mesh };
+    let scene = Scene {
+        parts: names.into_iter().zip(0..).map(part).collect(),
+        materials: names.map(|name| Material::diffuse(name, Rgb::WHITE)).to_vec(),
+        ..Scene::default()
+    };
+    let (labels, report) = table.assign("grey-white-room", &scene);
     assert_eq!(labels.parts.iter().map(|l| (l.semantic, l.instance)).collect::<Vec<_>>(), [(6, 1), (1, -1), (1, -1), (-1, -1)]);
     assert_eq!(report.unmatched.len(), 17, "of the room's 19 materials two are here");
 }

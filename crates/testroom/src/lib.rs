@@ -167,7 +167,7 @@ pub fn pixel_of(frame: &Frame, part: i16) -> usize {
 /// A scene whose parts have the names of the analytic frame's; their shapes do not matter.
 pub fn scene() -> Scene {
     let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Default::default() };
-    let part = |name: &str| Part { name: name.into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+    let part = |name: &str| Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     Scene {
         meshes: vec![mesh],
         parts: PARTS.map(part).into(),
@@ -182,7 +182,7 @@ pub fn box_room(min: DVec3, max: DVec3) -> WorldMesh {
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let mesh = Mesh { positions: (0..8).map(corner).collect(), triangles, ..Mesh::default() };
-    let part = Part { name: "room".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+    let part = Part { name: "room".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
     WorldMesh::new(&Scene { meshes: vec![mesh], parts: vec![part], materials, ..Scene::default() })
 }

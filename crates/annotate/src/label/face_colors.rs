@@ -129,7 +129,8 @@ mod tests {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ZERO, Vec3::X, Vec3::Y];
         let mesh = Mesh { positions, uvs: [corner(0.2), corner(0.7)].concat(), triangles: vec![[0, 1, 2], [3, 4, 5]], ..Mesh::default() };
         let textured = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
-        let part = |name: &str, material: u32| Part { name: name.into(), mesh: 0, material, world_from_mesh: DAffine3::IDENTITY };
+        let part =
+            |name: &str, material: u32| Part { name: name.into(), object: None, mesh: 0, material, world_from_mesh: DAffine3::IDENTITY };
         Scene {
             meshes: vec![mesh],
             images: vec![image],

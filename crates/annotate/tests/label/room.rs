@@ -40,7 +40,8 @@ pub fn scene() -> Scene {
     let at = |x: f64, y: f64, z: f64| DAffine3::from_translation(DVec3::new(x, y, z));
     let places = [DAffine3::IDENTITY, at(0.0, 0.0, 1.0), at(0.0, 2.0, 1.0), at(-2.0, 0.0, 1.0), at(2.0, 0.0, 1.0), at(0.0, 0.0, 3.0)];
     let meshes = [0, 1, 2, 1, 1, 3];
-    let part = |i: usize| Part { name: PARTS[i].into(), mesh: meshes[i], material: u32::from(i > 0), world_from_mesh: places[i] };
+    let part =
+        |i: usize| Part { name: PARTS[i].into(), object: None, mesh: meshes[i], material: u32::from(i > 0), world_from_mesh: places[i] };
     Scene {
         meshes: vec![wall, cube(1.0), cube(0.5), pair],
         parts: (0..PARTS.len()).map(part).collect(),

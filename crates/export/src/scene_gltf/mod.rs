@@ -4,6 +4,8 @@
 //!   share mesh and material share a glTF mesh.
 //! - **Labels**: `extras` of a part's node has `"semantic"`, the name of its NYU40 class, `"semantic_id"` (1 to 40), and, for what people
 //!   count, `"instance"` (from 1). `enfilade import` reads them back.
+//! - **Objects**: `extras.objects` of the scene lists what parts are parts of, each with its `name` and the index of its `parent`; `"object"`
+//!   in the `extras` of a part's node is an index into that list. `enfilade import` reads these back too.
 //! - **Materials** as metallic-roughness with the ratified extensions (clear coat, emissive strength, IOR, sheen, specular,
 //!   transmission, volume). glTF has no complex indices of refraction, no blends of two surfaces and no heights; what replaces them is
 //!   said in `material.rs`, and every replacement that changes the look is among the notes.
@@ -53,7 +55,10 @@ pub fn scene_gltf(scene: &Scene, labels: &Labels) -> SceneGltf {
         "buffers": [{ "byteLength": binary.len() }],
     });
     if let Some(environment) = environment {
-        root["scenes"][0]["extras"] = json!({ "environment": environment });
+        root["scenes"][0]["extras"]["environment"] = environment;
+    }
+    if !scene.objects.is_empty() {
+        root["scenes"][0]["extras"]["objects"] = scene.objects.iter().map(node::object).collect();
     }
     let lists = [
         ("nodes", nodes),

@@ -3,7 +3,7 @@
 use super::document::Document;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Labels, Light, NYU40, PartLabel, Scene, SpotFalloff, StartCamera};
+use enfilade_scene::{Labels, Light, NYU40, Object, PartLabel, Scene, SpotFalloff, StartCamera};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
@@ -30,6 +30,9 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
         place(&mut node, &part.world_from_mesh);
         if let Some(extras) = labels.parts.get(index).and_then(extras) {
             node["extras"] = extras;
+        }
+        if let Some(object) = part.object {
+            node["extras"]["object"] = json!(object);
         }
         document.nodes.push(node);
     }
@@ -69,6 +72,15 @@ fn place(node: &mut Value, world_from_node: &DAffine3) {
         let columns = [column(m.x_axis, 0.0), column(m.y_axis, 0.0), column(m.z_axis, 0.0), column(world_from_node.translation, 1.0)];
         node["matrix"] = json!(columns.concat());
     }
+}
+
+/// An object in the list of the scene's extras.
+pub(super) fn object(object: &Object) -> Value {
+    let mut entry = json!({ "name": object.name });
+    if let Some(parent) = object.parent {
+        entry["parent"] = json!(parent);
+    }
+    entry
 }
 
 /// What the importer reads back; nothing for an unlabelled part.

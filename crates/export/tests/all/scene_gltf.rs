@@ -36,6 +36,7 @@ fn square() -> Mesh {
 fn shelf(materials: Vec<Material>, images: Vec<Image>) -> Scene {
     let part = |i: usize| Part {
         name: format!("square_{i}"),
+        object: None,
         mesh: 0,
         material: i as u32,
         world_from_mesh: DAffine3::from_translation(DVec3::new(3.0 * i as f64, 0.25, 1.5)) * DAffine3::from_rotation_x(0.5),

@@ -43,7 +43,7 @@ pub fn scene() -> Scene {
     };
     Scene {
         meshes: vec![mesh],
-        parts: vec![Part { name: "floor".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+        parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
         materials: vec![Material::diffuse("oak", Rgb::splat(0.5))],
         lights: vec![Light::Point { name: "lamp".into(), position: Vec3::Z, intensity: Rgb::WHITE }],
         ..Scene::default()

@@ -44,7 +44,7 @@ pub fn prepare(folder: &Path, file: &str, scene: &str) -> Run {
 }
 
 /// The line that a package begins with.
-const MAGIC: &[u8] = b"enfilade scene 3\n";
+const MAGIC: &[u8] = b"enfilade scene 4\n";
 
 /// Reads packages. Bytes that do not begin like one are the body of one whose checksum is right, which searching would never find.
 pub fn package(_: &Path) -> Run {

@@ -80,7 +80,7 @@ impl Body {
 
     /// A plain grey block of `size`.
     pub(super) fn block(size: Vec3) -> Result<Self, String> {
-        let part = Part { name: "block".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        let part = Part { name: "block".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let grey = Material::diffuse("block", Rgb::splat(0.5));
         let scene = Scene { meshes: vec![bevelled_box(size, 0.004)], parts: vec![part], materials: vec![grey], ..Scene::default() };
         Self::new(scene, DMat3::IDENTITY, None)
@@ -127,6 +127,7 @@ mod tests {
     fn models_are_turned_scaled_and_put_on_the_floor() {
         let part = |name: &str, mesh, at: [f64; 3]| Part {
             name: name.into(),
+            object: None,
             mesh,
             material: 0,
             world_from_mesh: DAffine3::from_translation(DVec3::from_array(at)),

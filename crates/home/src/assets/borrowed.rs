@@ -111,7 +111,7 @@ mod tests {
         let skin = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
         let scene = Scene {
             meshes: vec![bevelled_box(size, 0.0)],
-            parts: vec![Part { name: "body".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            parts: vec![Part { name: "body".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             materials: vec![Material::new("skin", Bsdf::Diffuse { reflectance: skin })],
             images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3]]) }],
             ..Scene::default()

@@ -3,7 +3,7 @@
 use super::Assembly;
 use crate::{ImportError, Imported};
 use enfilade_math::DAffine3;
-use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, Part, PartLabel, Scene, TextureRef};
+use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, ObjectId, Part, PartLabel, Scene, TextureRef};
 use std::path::Path;
 
 /// One mesh of an adopted model with its material, both as indices into the scene.
@@ -13,6 +13,8 @@ pub(crate) struct Piece {
     pub mesh: u32,
     pub material: u32,
     pub model_from_mesh: DAffine3,
+    /// Its object within the model: that of the part, where the model stands in one place.
+    pub object: Option<ObjectId>,
     /// What the model's own file says of it.
     pub label: PartLabel,
 }
@@ -42,13 +44,19 @@ impl Assembly<'_> {
         for mesh in scene.meshes {
             meshes.push(self.push_mesh(mesh, file, "model")?);
         }
+        let mut objects = Vec::with_capacity(scene.objects.len());
+        for object in &scene.objects {
+            let parent = object.parent.map(|parent| objects[parent as usize]);
+            objects.push(self.push_object(&object.name, parent));
+        }
         // A model that stood far off was moved to its origin; within this scene it stands where its file has it.
         let moved = imported.report.offset_m.map_or(DAffine3::IDENTITY, |offset| DAffine3::from_translation(offset.into()));
         let mut labels = vec![PartLabel::NONE; scene.parts.len()];
         imported.labels.into_iter().flatten().for_each(|l| labels[l.part as usize] = l.label);
         let piece = |(part, label): (Part, PartLabel)| {
             let (mesh, material) = (meshes[part.mesh as usize]?, materials[part.material as usize]);
-            Some(Piece { name: part.name, mesh, material, model_from_mesh: moved * part.world_from_mesh, label })
+            let object = part.object.map(|object| objects[object as usize]);
+            Some(Piece { name: part.name, mesh, material, model_from_mesh: moved * part.world_from_mesh, object, label })
         };
         Ok(scene.parts.into_iter().zip(labels).filter_map(piece).collect())
     }

@@ -1,14 +1,18 @@
 //! Pictures, materials, meshes, parts and cameras of the scene being built.
 
 use super::Assembly;
+use super::names::printable;
 use crate::{ImportError, ImportedLabel, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
-use enfilade_scene::{Material, Part, PartLabel, StartCamera};
+use enfilade_scene::{Material, Object, ObjectId, Part, PartId, PartLabel, StartCamera};
 use std::path::Path;
 
 /// Below this ratio of a placement's determinant to the product of its axes' lengths, it flattens what it places.
 const SINGULAR: f64 = 1e-12;
+
+/// Objects lie in at most so many others: more tell nobody anything.
+const MAX_DEPTH: u8 = 64;
 
 impl Assembly<'_> {
     /// Adds a picture made by the importer.
@@ -84,9 +88,40 @@ impl Assembly<'_> {
         Ok(pushed)
     }
 
-    /// Places a mesh in the world under a unique name made from `name`. Of parts that a placement flattens only what keeps an area
-    /// remains, with a warning. A mirrored placement gets a copy of the mesh with its triangles reversed, so that fronts stay fronts.
-    pub(crate) fn push_part(&mut self, name: &str, mut mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
+    /// Adds what the file names as one thing, or what holds such things: a node, a prim, a group. Those without parts go in the end.
+    pub(crate) fn push_object(&mut self, name: &str, parent: Option<ObjectId>) -> ObjectId {
+        let depth = |object: ObjectId| self.object_depths[object as usize];
+        // What lies too deep stands beside what holds it.
+        let parent =
+            parent.and_then(|parent| if depth(parent) < MAX_DEPTH { Some(parent) } else { self.scene.objects[parent as usize].parent });
+        self.object_depths.push(parent.map_or(1, |parent| depth(parent) + 1));
+        self.scene.objects.push(Object { name: printable(name), parent });
+        (self.scene.objects.len() - 1) as ObjectId
+    }
+
+    /// Makes a part one of an object.
+    pub(crate) fn set_object(&mut self, part: PartId, object: ObjectId) {
+        self.scene.parts[part as usize].object = Some(object);
+    }
+
+    /// Places a mesh that is an object by itself, as [`Self::push_part_of`] does those of objects.
+    pub(crate) fn push_part(&mut self, name: &str, mesh: u32, material: u32, file_from_mesh: DAffine3, label: PartLabel) {
+        let object = self.push_object(name, None);
+        self.push_part_of(object, name, mesh, material, file_from_mesh, label);
+    }
+
+    /// Places a mesh of an object in the world under a unique name made from `name`. Of parts that a placement flattens only what keeps an
+    /// area remains, with a warning. A mirrored placement gets a copy of the mesh with its triangles reversed, so that fronts stay fronts.
+    /// `None` where nothing remains.
+    pub(crate) fn push_part_of(
+        &mut self,
+        object: ObjectId,
+        name: &str,
+        mut mesh: u32,
+        material: u32,
+        file_from_mesh: DAffine3,
+        label: PartLabel,
+    ) -> Option<PartId> {
         let mut world_from_mesh = self.world_from_file * file_from_mesh;
         if let Some(origin) = self.origins.get(&mesh) {
             world_from_mesh *= DAffine3::from_translation(*origin);
@@ -97,7 +132,7 @@ impl Assembly<'_> {
         if !world_from_mesh.is_finite() || !determinant.is_finite() || determinant.abs() <= SINGULAR * size {
             let Some((sheet, placement)) = self.flattened(mesh, world_from_mesh) else {
                 self.warn(format!("part {name:?}"), "its placement flattens it to nothing (a scale of zero), so it was left out");
-                return;
+                return None;
             };
             self.warn(format!("part {name:?}"), "its placement flattens it (a scale of zero); the faces that have an area then were kept");
             (mesh, world_from_mesh) = (sheet, placement);
@@ -105,10 +140,12 @@ impl Assembly<'_> {
             mesh = self.reversed(mesh);
         }
         let name = self.part_names.unique(name);
+        let part = self.scene.parts.len() as PartId;
         if label != PartLabel::NONE {
-            self.labels.push(ImportedLabel { part: self.scene.parts.len() as u32, label });
+            self.labels.push(ImportedLabel { part, label });
         }
-        self.scene.parts.push(Part { name, mesh, material, world_from_mesh });
+        self.scene.parts.push(Part { name, object: Some(object), mesh, material, world_from_mesh });
+        Some(part)
     }
 
     fn reversed(&mut self, mesh: u32) -> u32 {

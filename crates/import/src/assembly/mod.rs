@@ -42,6 +42,8 @@ pub(crate) struct Assembly<'a> {
     missing: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
     part_names: Names,
+    /// In how many objects each object of the scene lies, itself included.
+    object_depths: Vec<u8>,
     camera_names: Names,
     reversed: HashMap<u32, u32>,
     /// The points from which the positions of meshes are told.
@@ -73,6 +75,7 @@ impl<'a> Assembly<'a> {
             missing: Vec::new(),
             images: BTreeMap::new(),
             part_names: Names::default(),
+            object_depths: Vec::new(),
             camera_names: Names::default(),
             reversed: HashMap::new(),
             origins: HashMap::new(),
@@ -180,6 +183,7 @@ impl<'a> Assembly<'a> {
         self.bring_near();
         let mut scene = std::mem::take(&mut self.scene);
         scene.remove_unused_meshes();
+        scene.remove_unused_objects();
         self.finish_scene(scene)
     }
 

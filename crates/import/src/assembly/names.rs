@@ -2,6 +2,11 @@
 
 use std::collections::{HashMap, HashSet};
 
+/// A name without spaces around it, and with underscores for control characters, which would break tables.
+pub(super) fn printable(name: &str) -> String {
+    name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect()
+}
+
 /// Names that are taken.
 #[derive(Default)]
 pub(super) struct Names {
@@ -11,9 +16,9 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// `name`, or `name_2`, `name_3` … when it is taken. Control characters, which would break tables, become underscores.
+    /// `name`, or `name_2`, `name_3` … when it is taken, made [`printable`].
     pub(super) fn unique(&mut self, name: &str) -> String {
-        let name: String = name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect();
+        let name = printable(name);
         let name = if name.is_empty() { "part".to_string() } else { name };
         if self.taken.insert(name.clone()) {
             return name;

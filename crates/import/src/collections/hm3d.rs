@@ -184,12 +184,14 @@ fn place(
         let object = if is_object { Some(objects.next(Some(category), &number.to_string())) } else { None };
         let (name, label) = object.map_or(("unannotated".to_string(), PartLabel::NONE), |object| (object.name, object.label));
         let several = of_parts.len() > 1;
+        let whole = is_object.then(|| a.push_object(&name, None));
         for (i, (part, triangles)) in of_parts.into_iter().enumerate() {
             let Some(piece) = pieces.get(part) else { continue };
             let mesh = taken(a.mesh_at(piece.mesh), &triangles);
             let own = if several { format!("{name}/{i}") } else { name.clone() };
             if let Some(mesh) = a.push_mesh(mesh, &file, &own)? {
-                a.push_part(&own, mesh, piece.material, piece.model_from_mesh, label);
+                let object = whole.unwrap_or_else(|| a.push_object(&own, None));
+                a.push_part_of(object, &own, mesh, piece.material, piece.model_from_mesh, label);
             }
         }
     }

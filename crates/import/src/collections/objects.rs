@@ -104,10 +104,11 @@ impl Objects {
 impl Object {
     /// Adds the parts of the object. Where it has no class, its pieces have those that the model's own file gives them.
     pub fn place(&self, pieces: &[Piece], file_from_model: DAffine3, a: &mut Assembly) {
+        let object = a.push_object(&self.name, None);
         for piece in pieces {
             let name = if pieces.len() > 1 { format!("{}/{}", self.name, piece.name) } else { self.name.clone() };
             let label = if self.label == PartLabel::NONE { piece.label } else { self.label };
-            a.push_part(&name, piece.mesh, piece.material, file_from_model * piece.model_from_mesh, label);
+            a.push_part_of(object, &name, piece.mesh, piece.material, file_from_model * piece.model_from_mesh, label);
         }
     }
 }

@@ -7,7 +7,7 @@ use super::reader::affine;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;
-use enfilade_scene::PartLabel;
+use enfilade_scene::{ObjectId, PartLabel};
 use std::collections::{HashMap, HashSet};
 use ufbx::{ElementType, Node, Scene};
 
@@ -19,20 +19,22 @@ pub(super) fn place(scene: &Scene, a: &mut Assembly) -> Result<(), ImportError> 
     let hidden_layers = scene.display_layers.as_ref().iter().filter(|l| !l.visible);
     let hidden: HashSet<u32> = hidden_layers.flat_map(|l| l.nodes.as_ref().iter().map(|n| n.element.element_id)).collect();
     let mut placer = Placer { materials: Materials::default(), meshes: HashMap::new() };
-    let mut stack: Vec<(&Node, bool)> = vec![(&scene.root_node, true)];
+    let mut stack: Vec<(&Node, bool, Option<ObjectId>)> = vec![(&scene.root_node, true, None)];
     let mut done = 0;
-    while let Some((node, inherited)) = stack.pop() {
+    while let Some((node, inherited, parent)) = stack.pop() {
         done += 1;
         a.progress(done, scene.nodes.count);
         let follows = ufbx::find_prop(&node.element.props, "Visibility Inheritance").is_none_or(|p| p.value_int != 0);
         let visible = node.visible && !hidden.contains(&node.element.element_id) && (inherited || !follows);
-        placer.node(node, visible, a)?;
+        let named = node.mesh.is_some() || !node.element.name.trim().is_empty();
+        let object = if named { Some(a.push_object(&name(node), parent)) } else { parent };
+        placer.node(node, object, visible, a)?;
         let levels = node.attrib_type == ElementType::LodGroup;
         if levels && node.children.count > 1 {
             a.warn(place_of(node), "only the first of its levels of detail was used");
         }
         let wanted = if levels { &node.children.as_ref()[..node.children.count.min(1)] } else { node.children.as_ref() };
-        stack.extend(wanted.iter().rev().map(|child| (child.as_ref(), visible)));
+        stack.extend(wanted.iter().rev().map(|child| (child.as_ref(), visible, object)));
     }
     Ok(())
 }
@@ -44,11 +46,11 @@ struct Placer {
 }
 
 impl Placer {
-    fn node(&mut self, node: &Node, visible: bool, a: &mut Assembly) -> Result<(), ImportError> {
+    fn node(&mut self, node: &Node, object: Option<ObjectId>, visible: bool, a: &mut Assembly) -> Result<(), ImportError> {
         let name = name(node);
         if let Some(mesh) = &node.mesh {
             if visible {
-                self.mesh(node, mesh, &name, a)?;
+                self.mesh(node, mesh, object, &name, a)?;
             } else {
                 a.warn(place_of(node), "hidden, and left out");
             }
@@ -78,7 +80,8 @@ impl Placer {
         Ok(())
     }
 
-    fn mesh(&mut self, node: &Node, mesh: &ufbx::Mesh, name: &str, a: &mut Assembly) -> Result<(), ImportError> {
+    fn mesh(&mut self, node: &Node, mesh: &ufbx::Mesh, object: Option<ObjectId>, name: &str, a: &mut Assembly) -> Result<(), ImportError> {
+        let object = object.unwrap_or_else(|| a.push_object(name, None));
         report_dropped(node, mesh, a);
         // Skinned meshes may stand in the world already.
         let placement = if mesh.skinned_is_local { affine(&node.geometry_to_world) } else { DAffine3::IDENTITY };
@@ -106,7 +109,7 @@ impl Placer {
             if let Some(index) = index {
                 let own = wanted.map_or("default".to_string(), material::name);
                 let part = if filled > 1 { format!("{name}.{own}") } else { name.to_string() };
-                a.push_part(&part, index, material, placement, PartLabel::NONE);
+                a.push_part_of(object, &part, index, material, placement, PartLabel::NONE);
             }
         }
         Ok(())

@@ -50,6 +50,7 @@ mod materials;
 mod meshopt;
 mod morph;
 mod node;
+mod objects;
 mod omissions;
 mod painted;
 mod parts;

@@ -1,12 +1,13 @@
 //! The node tree: parts, cameras and lights with their placements.
 
 use super::container::Document;
+use super::objects::{self, Objects};
 use super::parts::{Parts, Stand};
 use super::{instancing, light, profile};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;
-use enfilade_scene::{NYU40, PartLabel};
+use enfilade_scene::{NYU40, ObjectId, PartLabel};
 use gltf::json::scene::Node;
 
 /// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
@@ -42,6 +43,7 @@ struct Visit {
     node: usize,
     file_from_parent: DAffine3,
     label: PartLabel,
+    parent: Option<ObjectId>,
 }
 
 /// Walks the tree from `roots`, depth first in the order of the file, and adds all that the nodes carry.
@@ -51,11 +53,12 @@ struct Visit {
 pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembly) -> Result<(), ImportError> {
     let nodes = &document.root.nodes;
     let mut placer = Placer { document, parts: Parts::new(document) };
-    let visit = |file_from_parent, label| move |&node: &usize| Visit { node, file_from_parent, label };
-    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, PartLabel::NONE)).collect();
+    let objects = Objects::new(document, assembly);
+    let visit = |file_from_parent, label, parent| move |&node: &usize| Visit { node, file_from_parent, label, parent };
+    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, PartLabel::NONE, None)).collect();
     let mut seen = vec![false; nodes.len()];
     let mut done = 0;
-    while let Some(Visit { node: index, file_from_parent, label }) = stack.pop() {
+    while let Some(Visit { node: index, file_from_parent, label, parent }) = stack.pop() {
         let Some(node) = nodes.get(index) else {
             return Err(assembly.malformed("nodes", format!("there is a reference to node {index}, but there are only {}", nodes.len())));
         };
@@ -71,9 +74,10 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         }
         let file_from_node = file_from_parent * document.local_transform(index);
         let label = label_of(node, index, label, assembly);
-        placer.node(node, index, file_from_node, label, assembly)?;
+        let object = objects.of(document, node, index, parent, assembly);
+        placer.node(node, index, file_from_node, (object, parent), label, assembly)?;
         let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();
-        stack.extend(children.iter().rev().map(visit(file_from_node, label)));
+        stack.extend(children.iter().rev().map(visit(file_from_node, label, object)));
     }
     placer.parts.finish(assembly);
     Ok(())
@@ -85,15 +89,28 @@ struct Placer<'d> {
 }
 
 impl Placer<'_> {
-    fn node(&mut self, node: &Node, index: usize, file_from_node: DAffine3, label: PartLabel, a: &mut Assembly) -> Result<(), ImportError> {
+    /// Adds what a node carries. With it come its own object and its parent's: where its mesh stands in many places, each is an object.
+    fn node(
+        &mut self,
+        node: &Node,
+        index: usize,
+        file_from_node: DAffine3,
+        (object, parent): (Option<ObjectId>, Option<ObjectId>),
+        label: PartLabel,
+        a: &mut Assembly,
+    ) -> Result<(), ImportError> {
         let fallback = || format!("node_{index}");
         let name = node.name.clone().filter(|n| !n.trim().is_empty());
         if let Some(mesh) = node.mesh {
+            let own = objects::name(self.document, node, index);
             let places = match node.extensions.as_ref().and_then(|e| e.others.get(instancing::NAME)) {
-                Some(extension) => instancing::places(self.document, extension, index, file_from_node, a)?,
-                None => vec![file_from_node],
+                Some(extension) => {
+                    let places = instancing::places(self.document, extension, index, file_from_node, a)?;
+                    places.into_iter().map(|place| (a.push_object(&own, parent), place)).collect()
+                }
+                None => vec![(object.unwrap_or_else(|| a.push_object(&own, parent)), file_from_node)],
             };
-            self.parts.add(mesh.value(), &Stand { node, index, name: name.as_deref(), label }, &places, a)?;
+            self.parts.add(mesh.value(), &Stand { node, index, name: own, label }, &places, a)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.root.cameras.get(camera.value());

@@ -12,7 +12,7 @@ use super::skin::{self, Skins};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, Rgb};
-use enfilade_scene::PartLabel;
+use enfilade_scene::{ObjectId, PartLabel};
 use gltf::json::mesh::Primitive;
 use gltf::json::scene::Node;
 use std::collections::{BTreeSet, HashMap};
@@ -21,7 +21,7 @@ use std::collections::{BTreeSet, HashMap};
 pub(super) struct Stand<'n> {
     pub node: &'n Node,
     pub index: usize,
-    pub name: Option<&'n str>,
+    pub name: String,
     pub label: PartLabel,
 }
 
@@ -62,25 +62,24 @@ impl<'d> Parts<'d> {
         Self { document, materials: Materials::default(), skins: Skins::new(document), shapes: HashMap::new(), varied: BTreeSet::new() }
     }
 
-    /// Adds mesh `mesh` of the file at every one of `places`.
+    /// Adds mesh `mesh` of the file at every one of `places`, each with the object that it is there.
     ///
     /// # Errors
     /// When the mesh or its material cannot be read.
-    pub(super) fn add(&mut self, mesh: usize, stand: &Stand, places: &[DAffine3], a: &mut Assembly) -> Result<(), ImportError> {
+    pub(super) fn add(&mut self, mesh: usize, stand: &Stand, places: &[(ObjectId, DAffine3)], a: &mut Assembly) -> Result<(), ImportError> {
         let meshes = &self.document.root.meshes;
         let Some(json) = meshes.get(mesh) else {
             let problem = format!("it refers to mesh {mesh}, but there are only {}", meshes.len());
             return Err(a.malformed(format!("nodes[{}]", stand.index), problem));
         };
-        let mesh_name = json.name.as_deref().filter(|n| !n.trim().is_empty());
-        let name = stand.name.or(mesh_name).map_or_else(|| format!("node_{}", stand.index), str::to_string);
+        let name = &stand.name;
         let weights = morph::weights(stand.node, json);
         for (i, primitive) in json.primitives.iter().enumerate() {
             let place = format!("meshes[{mesh}].primitives[{i}]");
             let packed = self.document.is_unpacked(mesh, i);
             packed.map_err(|problem| a.malformed(format!("{place}.extensions.{}", draco::NAME), format!("it {problem}")))?;
             let material = self.materials.read(self.document, primitive.material.map(|m| m.value()), &place, a)?;
-            let skin = self.skin(stand, primitive, places, &place, a);
+            let skin = self.skin(stand, primitive, places.len(), &place, a);
             let key = Key { mesh, primitive: i, skin, weights: weights.iter().map(|w| w.to_bits()).collect() };
             let shape = match self.shapes.get(&key) {
                 Some(&known) => known,
@@ -99,22 +98,22 @@ impl<'d> Parts<'d> {
             let material = self.materials.tinted(&material, shape.tint, shape.picture, a);
             let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
             // Joints place a skinned mesh in the file by themselves.
-            let places = if skin.is_some() { &[DAffine3::IDENTITY] } else { places };
-            for &file_from_mesh in places {
-                a.push_part(&part, shape.mesh, material, file_from_mesh, stand.label);
+            for &(object, file_from_mesh) in places.iter().take(if skin.is_some() { 1 } else { places.len() }) {
+                let file_from_mesh = if skin.is_some() { DAffine3::IDENTITY } else { file_from_mesh };
+                a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, stand.label);
             }
         }
         Ok(())
     }
 
     /// The skin of the node, where the primitive is bound to one.
-    fn skin(&self, stand: &Stand, primitive: &Primitive, places: &[DAffine3], place: &str, a: &mut Assembly) -> Option<usize> {
+    fn skin(&self, stand: &Stand, primitive: &Primitive, places: usize, place: &str, a: &mut Assembly) -> Option<usize> {
         let skin = stand.node.skin?.value();
         if !skin::is_bound(primitive) {
             a.warn(place, "a node has a skin for it, but it has neither joints nor weights; it stands where the node does");
             return None;
         }
-        if places.len() > 1 {
+        if places > 1 {
             a.warn(format!("nodes[{}]", stand.index), "instances of a mesh with a skin have no meaning; it was placed once");
         }
         Some(skin)

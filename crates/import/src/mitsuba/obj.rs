@@ -11,6 +11,8 @@ use crate::ImportError;
 use crate::obj::{self, ObjFile};
 use enfilade_math::{DAffine3, Rgb};
 use enfilade_scene::Material;
+use enfilade_scene::ObjectId;
+use std::collections::HashMap;
 use std::rc::Rc;
 
 impl<'n> Reader<'n, '_> {
@@ -32,6 +34,7 @@ impl<'n> Reader<'n, '_> {
         let stray = self.stray(node, &bsdfs, &file);
         let file_from_mesh = self.placement(node, outer)?;
         let chosen = file.meshes.iter().enumerate().filter(|(i, _)| only.is_none_or(|only| only == *i));
+        let mut objects: HashMap<&str, ObjectId> = HashMap::new();
         for part in chosen.map(|(_, part)| part) {
             let Some(mesh) = part.mesh else { continue };
             let material = part.material.as_deref();
@@ -53,7 +56,9 @@ impl<'n> Reader<'n, '_> {
             };
             let name = node.id.clone().unwrap_or_else(|| format!("{title}_{}", shape::stem(path)));
             let name = if file.meshes.len() > 1 { format!("{name}.{}", part.name) } else { name };
-            self.place(node, &format!("{prefix}{name}"), mesh, material, file_from_mesh)?;
+            let own = node.id.as_deref().filter(|_| file.meshes.len() == 1).unwrap_or(&part.name);
+            let object = *objects.entry(&part.name).or_insert_with(|| self.a.push_object(own, None));
+            self.place(node, Some(object), &format!("{prefix}{name}"), mesh, material, file_from_mesh)?;
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use super::made::{Attributes, MaterialKey, MeshKey, ObjFiles};
 use super::xml::Node;
 use crate::ImportError;
 use crate::assembly::Assembly;
+use enfilade_scene::ObjectId;
 use std::collections::{HashMap, HashSet};
 
 /// References to references deeper than this are taken for a cycle.
@@ -35,6 +36,8 @@ pub(super) struct Reader<'n, 'a> {
     pub elements: usize,
     /// Parts so far.
     pub parts: usize,
+    /// The instance whose shapes are being placed.
+    pub instance: Option<ObjectId>,
     /// How often references within references led to shapes and bsdfs so far.
     pub visits: usize,
 }
@@ -55,6 +58,7 @@ impl<'n, 'a> Reader<'n, 'a> {
             obj: ObjFiles::default(),
             elements: 0,
             parts: 0,
+            instance: None,
             visits: 0,
         }
     }

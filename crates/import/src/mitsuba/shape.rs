@@ -10,7 +10,7 @@ use crate::ply::{self, Means};
 use crate::primitives;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Vec2, Vec3};
-use enfilade_scene::PartLabel;
+use enfilade_scene::{ObjectId, PartLabel};
 use std::path::{Path, PathBuf};
 
 impl<'n> Reader<'n, '_> {
@@ -49,7 +49,7 @@ impl<'n> Reader<'n, '_> {
         };
         let file_from_mesh = self.placement(node, outer)? * in_shape;
         let name = node.id.clone().unwrap_or_else(|| format!("{}_{stem}", bsdf::name(bsdf)));
-        self.place(node, &format!("{prefix}{name}"), mesh, material, file_from_mesh)
+        self.place(node, None, &format!("{prefix}{name}"), mesh, material, file_from_mesh)
     }
 
     /// Where a shape stands under the placement of its instance, at the first moment.
@@ -60,10 +60,11 @@ impl<'n> Reader<'n, '_> {
         Ok(outer * transform::of(node, "to_world")?)
     }
 
-    /// Adds a part of a shape.
+    /// Adds a part of a shape. It belongs to the instance, where it is of one, else to `object`, else it is an object by itself.
     pub(super) fn place(
         &mut self,
         node: &'n Node,
+        object: Option<ObjectId>,
         name: &str,
         mesh: u32,
         material: u32,
@@ -73,7 +74,8 @@ impl<'n> Reader<'n, '_> {
         if self.parts > MAX_PARTS {
             return Err(node.error(format!("the scene has more than {MAX_PARTS} parts; check the instances")));
         }
-        self.a.push_part(name, mesh, material, file_from_mesh, PartLabel::NONE);
+        let object = self.instance.or(object).unwrap_or_else(|| self.a.push_object(name, None));
+        self.a.push_part_of(object, name, mesh, material, file_from_mesh, PartLabel::NONE);
         Ok(())
     }
 
@@ -84,9 +86,12 @@ impl<'n> Reader<'n, '_> {
         let placement = outer * transform::of(node, "to_world")?;
         let name = node.id.as_deref().or(group.id.as_deref()).unwrap_or("instance");
         let prefix = format!("{prefix}{name}_");
+        let outermost = self.instance;
+        self.instance = Some(outermost.unwrap_or_else(|| self.a.push_object(name, None)));
         for shape in self.objects(group, "shape")? {
             self.placed_shape(shape, placement, &prefix, depth + 1)?;
         }
+        self.instance = outermost;
         Ok(())
     }
 

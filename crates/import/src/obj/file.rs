@@ -32,6 +32,8 @@ pub(crate) struct ObjFile {
 pub(crate) struct Group {
     /// Number of the object; each `o` begins one, also of a name that occurred before.
     pub(crate) object: usize,
+    /// Name of the object, where an `o` stands before it.
+    pub(crate) object_name: Option<String>,
     /// Name of the object or group, whichever was set last.
     pub(crate) name: Option<String>,
     /// Name of the material.

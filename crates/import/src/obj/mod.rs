@@ -29,6 +29,7 @@ mod file;
 mod library;
 mod map;
 mod mtl;
+mod objects;
 mod reader;
 mod smooth;
 mod text;
@@ -41,6 +42,7 @@ use crate::{ImportError, Imported};
 use enfilade_math::{DAffine3, Rgb, linear_from_srgb};
 use enfilade_scene::{Material, PartLabel};
 use mtl::GREY;
+use objects::Objects;
 use std::collections::HashMap;
 
 /// Imports an OBJ file.
@@ -66,6 +68,7 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
     let mut materials: HashMap<(Option<&str>, Option<[u8; 3]>), u32> = HashMap::new();
     let mut sharing: HashMap<(usize, Option<&str>), usize> = HashMap::new();
     obj.groups.iter().for_each(|group| *sharing.entry((group.object, group.name.as_deref())).or_default() += 1);
+    let mut objects = Objects::new(&obj);
     for (i, group) in obj.groups.iter().enumerate() {
         assembly.progress(i + 1, obj.groups.len());
         let wanted = group.material.as_deref();
@@ -91,7 +94,8 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
         };
         let mesh = assembly.push_mesh_from(obj.origin, obj.mesh(std::iter::once(group)), &file, &format!("part {name:?}"))?;
         if let Some(mesh) = mesh {
-            assembly.push_part(&name, mesh, material, DAffine3::IDENTITY, PartLabel::NONE);
+            let object = objects.of(group, &name, &mut assembly);
+            assembly.push_part_of(object, &name, mesh, material, DAffine3::IDENTITY, PartLabel::NONE);
         }
     }
     assembly.finish()

@@ -22,6 +22,7 @@ impl ObjFile {
             obj: Self::default(),
             by_key: HashMap::new(),
             object: 0,
+            object_name: None,
             name: None,
             material: None,
             smoothing: 0,
@@ -59,6 +60,7 @@ struct Parser<'p> {
     obj: ObjFile,
     by_key: HashMap<(usize, Option<String>, Option<String>), usize>,
     object: usize,
+    object_name: Option<String>,
     name: Option<String>,
     material: Option<String>,
     smoothing: u32,
@@ -102,8 +104,11 @@ impl Parser<'_> {
             }
             "f" | "fo" => self.face(rest, number)?,
             "o" | "g" => {
-                self.object += usize::from(keyword == "o");
                 self.name = text();
+                if keyword == "o" {
+                    self.object += 1;
+                    self.object_name = self.name.clone();
+                }
                 self.current = None;
             }
             "usemtl" => {
@@ -141,7 +146,14 @@ impl Parser<'_> {
         let key = (self.object, self.name.clone(), self.material.clone());
         let groups = &mut self.obj.groups;
         let index = *self.by_key.entry(key.clone()).or_insert_with(|| {
-            groups.push(Group { object: key.0, name: key.1, material: key.2, corners: Vec::new(), faces: Vec::new() });
+            groups.push(Group {
+                object: key.0,
+                object_name: self.object_name.clone(),
+                name: key.1,
+                material: key.2,
+                corners: Vec::new(),
+                faces: Vec::new(),
+            });
             groups.len() - 1
         });
         self.current = Some(index);

@@ -13,7 +13,7 @@ use crate::mesh;
 use crate::ply;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Vec2, Vec3};
-use enfilade_scene::{Alpha, PartLabel, ScalarParam};
+use enfilade_scene::{Alpha, ObjectId, PartLabel, ScalarParam};
 use std::path::Path;
 
 /// A scene has at most this many parts, instances counted one by one.
@@ -54,18 +54,21 @@ impl Reader<'_> {
         let placed = Placed { name, mesh: shape.mesh, material, object_from_mesh: self.state.ctm };
         match &mut self.object {
             Some((_, shapes)) => shapes.push(placed),
-            None => self.place(&placed, DAffine3::IDENTITY, &params.place)?,
+            None => {
+                let object = self.a.push_object(&placed.name, None);
+                self.place(object, &placed, DAffine3::IDENTITY, &params.place)?;
+            }
         }
         Ok(())
     }
 
-    fn place(&mut self, placed: &Placed, world_from_object: DAffine3, place: &Place) -> Result<(), ImportError> {
+    fn place(&mut self, object: ObjectId, placed: &Placed, world_from_object: DAffine3, place: &Place) -> Result<(), ImportError> {
         self.parts += 1;
         if self.parts > MAX_PARTS {
             return Err(place.error(format!("the scene has more than {MAX_PARTS} parts; check the instances")));
         }
         let file_from_mesh = self.file_from_world * world_from_object * placed.object_from_mesh;
-        self.a.push_part(&placed.name, placed.mesh, placed.material, file_from_mesh, PartLabel::NONE);
+        self.a.push_part_of(object, &placed.name, placed.mesh, placed.material, file_from_mesh, PartLabel::NONE);
         Ok(())
     }
 
@@ -94,7 +97,8 @@ impl Reader<'_> {
             return Err(place.error("instances cannot be within objects"));
         }
         let shapes = self.objects.remove(name).ok_or_else(|| place.error("no object before it has this name"))?;
-        shapes.iter().try_for_each(|placed| self.place(placed, self.state.ctm, place))?;
+        let object = self.a.push_object(name, None);
+        shapes.iter().try_for_each(|placed| self.place(object, placed, self.state.ctm, place))?;
         self.objects.insert(name.to_string(), shapes);
         Ok(())
     }

@@ -203,9 +203,10 @@ pub(super) fn load(archive: &Archive, mut a: Assembly) -> Result<Imported, Impor
         let placement =
             DAffine3::from_scale_rotation_translation(size, Default::default(), middle) * model.normalized(piece.rotation, true, &a);
         let title = piece.id.as_ref().map_or(piece.title.clone(), |id| format!("{} ({id})", piece.title));
+        let object = a.push_object(&title, None);
         for part in &model.parts {
             let name = if model.parts.len() > 1 { format!("{title}.{}", part.name) } else { title.clone() };
-            a.push_part(&name, part.mesh, part.material, placement * part.file_from_mesh, PartLabel::NONE);
+            a.push_part_of(object, &name, part.mesh, part.material, placement * part.file_from_mesh, PartLabel::NONE);
         }
     }
     let depth = corner.z + row_depth;

@@ -90,11 +90,12 @@ pub(super) fn add(piece: &Piece, root: &Element, home: &mut Home) -> Result<(), 
     let placement = placement(piece, size, &model, normal, home)?;
     let shared = model.parts.len() > 1;
     let is_light = element.tag() == "light";
+    let object = home.a.push_object(&name, None);
     for part in model.parts.iter().filter(|p| !(is_light && p.is_light_mark())) {
         let Some((material, covered)) = material_of(element, part, home)? else { continue };
         let mesh = if covered { mapped(part.mesh, normal * part.file_from_mesh, size, home)? } else { part.mesh };
         let part_name = if shared { format!("{name}.{}", part.name) } else { name.clone() };
-        home.a.push_part(&part_name, mesh, material, placement * normal * part.file_from_mesh, PartLabel::NONE);
+        home.a.push_part_of(object, &part_name, mesh, material, placement * normal * part.file_from_mesh, PartLabel::NONE);
     }
     if is_light {
         add_lamps(element, &name, placement, root, home)?;

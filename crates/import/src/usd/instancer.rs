@@ -5,6 +5,7 @@ use super::constants::Constants;
 use super::label::{self, Unknown};
 use super::layer::field;
 use super::stage::Prim;
+use super::things::Thing;
 use super::walk::{State, Walk, is_aside};
 use super::xform::rotation;
 use crate::ImportError;
@@ -56,9 +57,13 @@ impl Walk<'_> {
                 |list: &[f64], default: f64| list.as_chunks::<3>().0.get(i).map_or(DVec3::splat(default), |v| DVec3::from_array(*v));
             let turn = orientations.as_chunks::<4>().0.get(i).map_or(DMat3::IDENTITY, |q| rotation(*q));
             let placed = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(vector(&scales, 1.0)), vector(&positions, 0.0));
+            let own = format!("{}[{i}]", prim.name());
+            let object = a.push_object(&own, state.object);
             let state = State {
                 file_from_parent: state.file_from_parent * placed,
-                prefix: format!("{}{}[{i}]/", state.prefix, prim.name()),
+                prefix: format!("{}{own}/", state.prefix),
+                object: Some(object),
+                thing: Thing::placed(object, state.thing),
                 ..inherited.clone()
             };
             self.visit(&prototype.clone(), &state, a)?;

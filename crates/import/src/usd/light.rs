@@ -17,7 +17,7 @@ use crate::spectrum::black_body;
 use crate::{ImportError, ies};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
-use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, PartLabel, SpotFalloff, TextureRef};
+use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, ObjectId, PartLabel, SpotFalloff, TextureRef};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
@@ -34,6 +34,7 @@ const BLENDERS_ANGLE: f64 = 0.5;
 pub(super) struct Lamp<'l> {
     pub prim: &'l Prim,
     pub file_from_prim: DAffine3,
+    pub object: ObjectId,
     pub label: PartLabel,
     pub baked: &'l mut HashMap<String, u32>,
     /// True where z is up in the file.
@@ -140,7 +141,7 @@ impl Lamp<'_> {
         let file = a.file().to_path_buf();
         if let Some(mesh) = a.push_mesh(mesh, &file, &self.prim.path)? {
             let material = a.push_material(material);
-            a.push_part(&name, mesh, material, self.file_from_prim, self.label);
+            a.push_part_of(self.object, &name, mesh, material, self.file_from_prim, self.label);
         }
         Ok(())
     }

@@ -48,6 +48,7 @@ mod stage;
 mod surface;
 mod text;
 mod texture;
+mod things;
 mod value;
 mod walk;
 mod xform;

@@ -104,7 +104,11 @@ impl Walk<'_> {
             }
             let own = name(prim);
             let suffix = if piece.name.is_empty() { String::new() } else { format!(".{}", piece.name) };
-            a.push_part(&format!("{}{own}{suffix}", state.prefix), piece.mesh, material, state.file_from_parent, state.label);
+            let part = format!("{}{own}{suffix}", state.prefix);
+            let object = state.object.unwrap_or_else(|| a.push_object(&own, None));
+            if let Some(part) = a.push_part_of(object, &part, piece.mesh, material, state.file_from_parent, state.label) {
+                self.things.part(state.thing, object, part);
+            }
         }
         Ok(())
     }

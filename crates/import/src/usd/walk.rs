@@ -9,11 +9,12 @@ use super::material::Materials;
 use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
+use super::things::{Thing, Things};
 use super::xform;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;
-use enfilade_scene::PartLabel;
+use enfilade_scene::{ObjectId, PartLabel};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -29,6 +30,10 @@ pub(super) struct State {
     pub hidden: bool,
     /// Goes before the names of parts, so that instances of one prototype have different names.
     pub prefix: String,
+    /// The object that it is in.
+    pub object: Option<ObjectId>,
+    /// The thing that it is a piece of.
+    pub thing: Option<Thing>,
 }
 
 /// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
@@ -57,6 +62,7 @@ pub(super) struct Walk<'s> {
     pub z_up: bool,
     pub(super) materials: Materials,
     pub(super) pieces: HashMap<String, Shape>,
+    pub(super) things: Things,
     visited: usize,
     unknown_labels: Unknown,
     /// Of what was noted more than once: how often.
@@ -79,6 +85,7 @@ impl<'s> Walk<'s> {
             z_up,
             materials: Materials::default(),
             pieces: HashMap::new(),
+            things: Things::default(),
             visited: 0,
             unknown_labels: Unknown::default(),
             hidden: 0,
@@ -100,6 +107,8 @@ impl<'s> Walk<'s> {
             constants: Constants::default(),
             hidden: false,
             prefix: String::new(),
+            object: None,
+            thing: None,
         };
         let names = root.children();
         for (i, name) in names.iter().enumerate() {
@@ -107,6 +116,7 @@ impl<'s> Walk<'s> {
             let prim = self.stage.child(&root, name, a)?;
             self.visit(&prim, &state, a)?;
         }
+        std::mem::take(&mut self.things).settle(a);
         self.report(a);
         Ok(())
     }
@@ -156,6 +166,7 @@ impl<'s> Walk<'s> {
         if is_invisible {
             return Ok(());
         }
+        let object = a.push_object(prim.name(), state.object);
         let (local, reset) = xform::local(prim, a);
         let state = State {
             file_from_parent: if reset { local } else { state.file_from_parent * local },
@@ -164,6 +175,8 @@ impl<'s> Walk<'s> {
             constants: state.constants.below(prim),
             hidden,
             prefix: state.prefix.clone(),
+            object: Some(object),
+            thing: Thing::at(prim, object, state.thing),
         };
         match prim.kind() {
             // Their shaders are read where they are bound.
@@ -178,7 +191,8 @@ impl<'s> Walk<'s> {
                 self.panels += usize::from(matches!(kind, "RectLight" | "DiskLight"));
                 self.skies += usize::from(matches!(kind, "DistantLight" | "DomeLight" | "DomeLight_1"));
                 let baked = &mut self.materials.baked;
-                Lamp { prim, file_from_prim: state.file_from_parent, label: state.label, baked, z_up: self.z_up }.add(self.stage, a)?;
+                Lamp { prim, file_from_prim: state.file_from_parent, object, label: state.label, baked, z_up: self.z_up }
+                    .add(self.stage, a)?;
             }
             kind => match shapes::mesh(prim) {
                 Some(mesh) => self.shape(prim, mesh, &state, a)?,

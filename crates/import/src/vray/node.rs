@@ -34,6 +34,7 @@ impl<'n> Reader<'n, '_> {
         let by_id = materials.len() > 1;
         // Materials without textures take any channel.
         let channel = materials.iter().find_map(|(_, made)| made.channel).unwrap_or(1);
+        let object = self.a.push_object(&node.name(), None);
         for (id, mesh) in self.geometry(geometry, channel, by_id)? {
             // Ids beyond the list begin it anew, as in 3ds Max.
             let found = materials.iter().find(|(own, _)| *own == id || !by_id);
@@ -47,7 +48,7 @@ impl<'n> Reader<'n, '_> {
                 }
             };
             let name = if by_id { format!("{}_{}", node.name(), made.name) } else { node.name() };
-            self.a.push_part(&name, mesh, made.index, placement, PartLabel::NONE);
+            self.a.push_part_of(object, &name, mesh, made.index, placement, PartLabel::NONE);
         }
         Ok(())
     }

@@ -162,7 +162,7 @@ mod tests {
     fn scene(mesh: Mesh, image: Option<Image>) -> Scene {
         Scene {
             meshes: vec![mesh],
-            parts: vec![Part { name: "vase".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            parts: vec![Part { name: "vase".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             materials: vec![Material::diffuse("clay", Rgb::splat(0.5))],
             images: image.into_iter().collect(),
             ..Scene::default()

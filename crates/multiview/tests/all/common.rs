@@ -24,7 +24,13 @@ pub fn scene(parts: &[Vec<[Vec3; 3]>]) -> Scene {
         let corners = triangles.as_flattened().to_vec();
         let triangles = (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         scene.meshes.push(Mesh { positions: corners, triangles, ..Mesh::default() });
-        scene.parts.push(Part { name: format!("part {i}"), mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY });
+        scene.parts.push(Part {
+            name: format!("part {i}"),
+            object: None,
+            mesh: i as u32,
+            material: 0,
+            world_from_mesh: DAffine3::IDENTITY,
+        });
     }
     scene.validate().unwrap();
     scene

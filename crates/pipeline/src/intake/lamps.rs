@@ -57,8 +57,20 @@ fn add(scene: &mut Scene, number: usize, lamp: &LampPlace, frame: u32) {
     let world_from_mesh = DAffine3::from_translation(lamp.top.as_dvec3() - DVec3::Z * f64::from(BELOW_M));
     let panel = push(&mut scene.meshes, panel(side_m));
     let rest = push(&mut scene.meshes, housing(lamp.side_m));
-    scene.parts.push(Part { name: unused(scene, &format!("ceiling_lamp_{number}")), mesh: panel, material: light, world_from_mesh });
-    scene.parts.push(Part { name: unused(scene, &format!("ceiling_lamp_{number}_frame")), mesh: rest, material: frame, world_from_mesh });
+    scene.parts.push(Part {
+        name: unused(scene, &format!("ceiling_lamp_{number}")),
+        object: None,
+        mesh: panel,
+        material: light,
+        world_from_mesh,
+    });
+    scene.parts.push(Part {
+        name: unused(scene, &format!("ceiling_lamp_{number}_frame")),
+        object: None,
+        mesh: rest,
+        material: frame,
+        world_from_mesh,
+    });
 }
 
 fn push<T>(list: &mut Vec<T>, item: T) -> u32 {

@@ -162,8 +162,13 @@ mod tests {
             let triangles = if down { vec![[0, 2, 1], [0, 3, 2]] } else { vec![[0, 1, 2], [0, 2, 3]] };
             Mesh { positions: corners.map(Vec3::from).to_vec(), triangles, ..Mesh::default() }
         };
-        let part =
-            |number: u32| Part { name: format!("part {number}"), mesh: number, material: number, world_from_mesh: DAffine3::IDENTITY };
+        let part = |number: u32| Part {
+            name: format!("part {number}"),
+            object: None,
+            mesh: number,
+            material: number,
+            world_from_mesh: DAffine3::IDENTITY,
+        };
         let scene = Scene {
             meshes: vec![square(3.0, 0.0, false), square(0.01, 0.01, true)],
             materials: vec![

@@ -124,7 +124,7 @@ mod tests {
         let of = |emits_both_sides| Scene {
             meshes: vec![mesh.clone()],
             materials: vec![Material { emission: Rgb::splat(4.0).into(), emits_both_sides, ..Material::diffuse("lamp", Rgb::BLACK) }],
-            parts: vec![Part { name: "lamp".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            parts: vec![Part { name: "lamp".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             ..Scene::default()
         };
         let (one, up) = flux(&of(false), 1000);

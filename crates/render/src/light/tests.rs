@@ -14,7 +14,7 @@ fn scene_of(parts: Vec<(Mesh, Material)>) -> Scene {
     for (index, (mesh, material)) in parts.into_iter().enumerate() {
         let (mesh_index, material_index) = (index as u32, index as u32);
         let name = format!("part {index}");
-        scene.parts.push(Part { name, mesh: mesh_index, material: material_index, world_from_mesh: DAffine3::IDENTITY });
+        scene.parts.push(Part { name, object: None, mesh: mesh_index, material: material_index, world_from_mesh: DAffine3::IDENTITY });
         scene.meshes.push(mesh);
         scene.materials.push(material);
     }
@@ -139,7 +139,13 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
     let wall = quad(Vec3::new(0.0, 19.0, 0.2), Vec3::X * 4.0, Vec3::Z * 2.0);
     for (mesh, material) in [(ball, glow), (wall, screen)] {
         let (mesh_index, material_index) = (scene.meshes.len() as u32, scene.materials.len() as u32);
-        scene.parts.push(Part { name: "x".into(), mesh: mesh_index, material: material_index, world_from_mesh: DAffine3::IDENTITY });
+        scene.parts.push(Part {
+            name: "x".into(),
+            object: None,
+            mesh: mesh_index,
+            material: material_index,
+            world_from_mesh: DAffine3::IDENTITY,
+        });
         scene.meshes.push(mesh);
         scene.materials.push(material);
     }

@@ -17,7 +17,13 @@ fn scene(parts: Vec<(Mesh, Material)>) -> Scene {
     let mut s = Scene::default();
     for (i, (mesh, material)) in parts.into_iter().enumerate() {
         let (mesh_id, material_id) = (i as u32, i as u32);
-        s.parts.push(Part { name: format!("part {i}"), mesh: mesh_id, material: material_id, world_from_mesh: DAffine3::IDENTITY });
+        s.parts.push(Part {
+            name: format!("part {i}"),
+            object: None,
+            mesh: mesh_id,
+            material: material_id,
+            world_from_mesh: DAffine3::IDENTITY,
+        });
         s.meshes.push(mesh);
         s.materials.push(material);
     }

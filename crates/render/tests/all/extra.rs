@@ -22,7 +22,13 @@ fn board(x: f32, low: f32, high: f32) -> Mesh {
 fn scene(things: Vec<(Mesh, Material)>) -> Scene {
     let mut s = Scene { environment: Some(Environment::Constant { radiance: Rgb::WHITE }), ..Scene::default() };
     for (i, (mesh, material)) in things.into_iter().enumerate() {
-        s.parts.push(Part { name: format!("part {i}"), mesh: i as u32, material: i as u32, world_from_mesh: DAffine3::IDENTITY });
+        s.parts.push(Part {
+            name: format!("part {i}"),
+            object: None,
+            mesh: i as u32,
+            material: i as u32,
+            world_from_mesh: DAffine3::IDENTITY,
+        });
         s.meshes.push(mesh);
         s.materials.push(material);
     }

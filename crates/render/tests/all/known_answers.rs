@@ -66,6 +66,7 @@ fn scene(parts: Vec<(&str, Mesh, Material)>) -> Scene {
     for (name, mesh, material) in parts {
         let part = Part {
             name: name.into(),
+            object: None,
             mesh: scene.meshes.len() as u32,
             material: scene.materials.len() as u32,
             world_from_mesh: DAffine3::IDENTITY,

@@ -21,7 +21,7 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
     let mut s = Scene { environment: Some(Environment::Constant { radiance: Rgb::WHITE }), ..Scene::default() };
     s.materials.push(Material::diffuse("grey", Rgb::splat(0.5)));
     for (i, mesh) in meshes.into_iter().enumerate() {
-        s.parts.push(Part { name: format!("part {i}"), mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY });
+        s.parts.push(Part { name: format!("part {i}"), object: None, mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY });
         s.meshes.push(mesh);
     }
     s.validate().unwrap();

@@ -32,7 +32,7 @@ fn scene() -> Scene {
     s.meshes.push(quad(Vec3::new(-2.0, -2.0, 0.0), Vec3::X * 4.0, Vec3::Y * 4.0));
     s.meshes.push(quad(Vec3::new(1.0, -1.0, 1.0), Vec3::X * -2.0, Vec3::Y * 2.0));
     for mesh in 0..2 {
-        s.parts.push(Part { name: format!("part {mesh}"), mesh, material: mesh, world_from_mesh: DAffine3::IDENTITY });
+        s.parts.push(Part { name: format!("part {mesh}"), object: None, mesh, material: mesh, world_from_mesh: DAffine3::IDENTITY });
     }
     s.validate().unwrap();
     s

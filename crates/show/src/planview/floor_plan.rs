@@ -47,7 +47,7 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
             ..Mesh::default()
         };
-        let part = |name: &str, mesh| Part { name: name.into(), mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        let part = |name: &str, mesh| Part { name: name.into(), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let scene = Scene {
             meshes: vec![mesh(wall), mesh(floor)],
             materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],

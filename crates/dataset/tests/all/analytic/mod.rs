@@ -17,7 +17,7 @@ pub fn scene() -> Scene {
     let corners = vec![Vec3::new(-h, -h, 0.0), Vec3::new(h, -h, 0.0), Vec3::new(h, h, 0.0), Vec3::new(-h, h, 0.0)];
     let floor = Mesh { positions: corners, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
     let ball = Mesh { positions: vec![Vec3::X, Vec3::Y, Vec3::Z], triangles: vec![[0, 1, 2]], ..Mesh::default() };
-    let part = |name: &str, mesh| Part { name: name.into(), mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
+    let part = |name: &str, mesh| Part { name: name.into(), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
     Scene {
         meshes: vec![floor, ball],
         parts: vec![part("floor", 0), part("ball", 1)],

@@ -110,8 +110,13 @@ fn scene() -> Scene {
     let [first, second] = BOXES;
     let shapes = [[[-3.0, -3.0, -0.1], [3.0, 2.0, 0.0]], [[-3.0, 2.0, 0.0], [3.0, 2.1, 1.4]], first, second];
     let names = ["floor", "wall", "table", "chair"];
-    let part =
-        |(i, name): (usize, &&str)| Part { name: name.to_string(), mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY };
+    let part = |(i, name): (usize, &&str)| Part {
+        name: name.to_string(),
+        object: None,
+        mesh: i as u32,
+        material: 0,
+        world_from_mesh: DAffine3::IDENTITY,
+    };
     Scene {
         meshes: shapes.map(block).into(),
         parts: names.iter().enumerate().map(part).collect(),

@@ -115,7 +115,10 @@ impl<'s> Placer<'s> {
         for piece in &model.pieces {
             match class_in_stage(&piece.name) {
                 Some(class) => self.objects.of_class(class, &piece.name).place(std::slice::from_ref(piece), placement, a),
-                None => a.push_part(&piece.name, piece.mesh, piece.material, placement * piece.model_from_mesh, piece.label),
+                None => {
+                    let object = piece.object.unwrap_or_else(|| a.push_object(&piece.name, None));
+                    a.push_part_of(object, &piece.name, piece.mesh, piece.material, placement * piece.model_from_mesh, piece.label);
+                }
             }
         }
         Ok(())

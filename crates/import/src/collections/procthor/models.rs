@@ -129,7 +129,14 @@ impl Library {
             let file = a.file().to_path_buf();
             let material = a.push_material(Material::diffuse("box", Rgb::splat(0.5)));
             let mesh = a.push_mesh(primitives::cube(), &file, "box")?;
-            let piece = |mesh| Piece { name: "box".into(), mesh, material, model_from_mesh: DAffine3::IDENTITY, label: PartLabel::NONE };
+            let piece = |mesh| Piece {
+                name: "box".into(),
+                mesh,
+                material,
+                model_from_mesh: DAffine3::IDENTITY,
+                object: None,
+                label: PartLabel::NONE,
+            };
             self.cube = mesh.map(piece);
         }
         Ok(self.cube.iter().cloned().collect())
