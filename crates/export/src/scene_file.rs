@@ -1,11 +1,11 @@
 //! A scene with its labels as one file, in the form that the file's name calls for.
 
 use crate::{ExportError, SceneGltf, scene_gltf};
-use enfilade_scene::{Labels, Scene, to_bytes, to_bytes_with_labels};
+use enfilade_scene::{Labels, PictureFiles, Scene, to_bytes, to_bytes_with_labels};
 use std::path::Path;
 
-/// Gives the bytes of a scene with its labels, and what they cannot hold.
-pub type SceneEncoder = fn(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>);
+/// Gives the bytes of a scene with its labels, and what they cannot hold; pictures whose files are at hand may be passed on as they are.
+pub type SceneEncoder = fn(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>);
 
 /// How a scene is written to a file of this name: as a package (`.scene`), or as binary glTF (`.glb`).
 ///
@@ -15,10 +15,10 @@ pub fn scene_encoder(output: &Path) -> Result<SceneEncoder, ExportError> {
     let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
         Some("scene") => {
-            Ok(|scene, labels| (labels.map_or_else(|| to_bytes(scene), |labels| to_bytes_with_labels(scene, labels)), Vec::new()))
+            Ok(|scene, labels, _| (labels.map_or_else(|| to_bytes(scene), |labels| to_bytes_with_labels(scene, labels)), Vec::new()))
         }
-        Some("glb") => Ok(|scene, labels| {
-            let SceneGltf { glb, notes } = scene_gltf(scene, labels.unwrap_or(&Labels::default()));
+        Some("glb") => Ok(|scene, labels, files| {
+            let SceneGltf { glb, notes } = scene_gltf(scene, labels.unwrap_or(&Labels::default()), files);
             (glb, notes)
         }),
         _ => {

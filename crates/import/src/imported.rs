@@ -1,7 +1,7 @@
 //! What an import gives: the scene, its labels, the files it was made of, and the report.
 
 use crate::ImportReport;
-use enfilade_scene::{PartId, PartLabel, Scene};
+use enfilade_scene::{PartId, PartLabel, PictureFiles, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -21,6 +21,8 @@ pub struct Imported {
     pub scene: Scene,
     /// Labels from the file, if it carries any, in the order of parts; see [`gltf`] for the convention.
     pub labels: Option<Vec<ImportedLabel>>,
+    /// The files of pictures of the scene that are still as they came.
+    pub picture_files: PictureFiles,
     /// Every file that was read, in order of first use, for hashing.
     pub inputs: Vec<PathBuf>,
     /// Files that were looked for and not found, in that order: with them the scene would be a different one.

@@ -17,7 +17,7 @@ use enfilade_home::HomeConfig;
 use enfilade_import::scene_name;
 use enfilade_label::join;
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
-use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, Pose, Scene, StartCamera, Warning, WorldMesh};
+use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, PictureFiles, Pose, Scene, StartCamera, Warning, WorldMesh};
 use enfilade_show::planview::floor_plan_svg;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -36,6 +36,7 @@ pub struct LoadedScene {
     name: String,
     scene: Arc<Scene>,
     labels: Labels,
+    picture_files: PictureFiles,
     warnings: Vec<Warning>,
     report: serde_json::Value,
     /// Made for the first picture.
@@ -79,7 +80,8 @@ impl LoadedScene {
             (None, None) => Labels { parts: vec![PartLabel::NONE; scene.parts.len()] },
         };
         let report = serde_json::to_value(&imported.report).unwrap_or_default();
-        Ok(Self::new(scene_name(file), scene, labels, imported.report.warnings, report))
+        let read = Self::new(scene_name(file), scene, labels, imported.report.warnings, report);
+        Ok(Self { picture_files: imported.picture_files, ..read })
     }
 
     /// Makes the home of `config`, whose libraries are paths as they stand.
@@ -97,7 +99,16 @@ impl LoadedScene {
     }
 
     fn new(name: String, scene: Scene, labels: Labels, warnings: Vec<Warning>, report: serde_json::Value) -> Self {
-        Self { name, scene: Arc::new(scene), labels, warnings, report, prepared: Mutex::default(), found: OnceLock::new() }
+        Self {
+            name,
+            scene: Arc::new(scene),
+            labels,
+            picture_files: PictureFiles::new(),
+            warnings,
+            report,
+            prepared: Mutex::default(),
+            found: OnceLock::new(),
+        }
     }
 
     /// Its name: that of the file, without what tells the format.
@@ -200,9 +211,9 @@ impl LoadedScene {
     pub fn save(
         &self,
         output: &Path,
-        encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+        encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
     ) -> Result<Vec<String>, Error> {
-        let (bytes, lost) = encode(&self.scene, Some(&self.labels));
+        let (bytes, lost) = encode(&self.scene, Some(&self.labels), &self.picture_files);
         write_output(output, &bytes)?;
         Ok(lost)
     }

@@ -8,7 +8,7 @@ use crate::stages::{describe, labels_by_part};
 use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{scene_in_folder, scene_name};
-use enfilade_scene::{Cx, Labels, Scene, Warning};
+use enfilade_scene::{Cx, Labels, PictureFiles, Scene, Warning};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -55,7 +55,7 @@ pub fn holds_scene(folder: &Path) -> Result<bool, Error> {
 pub fn import_file(
     source: &FileSource,
     output: &Path,
-    encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
     let held = Held::over(cx);
@@ -65,7 +65,7 @@ pub fn import_file(
     drop(held);
     let summary = describe(&imported.scene);
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
-    let (bytes, lost) = encode(&imported.scene, labels.as_ref());
+    let (bytes, lost) = encode(&imported.scene, labels.as_ref(), &imported.picture_files);
     write_output(output, &bytes)?;
     let report = output.with_extension("report.json");
     write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
@@ -133,11 +133,11 @@ pub struct MadeHome {
 pub fn make_home(
     config: &HomeConfig,
     output: &Path,
-    encode: impl FnOnce(&Scene, Option<&Labels>) -> (Vec<u8>, Vec<String>),
+    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
     cx: &dyn Cx,
 ) -> Result<MadeHome, Error> {
     let home = assets::home(config, &|path| Ok(path.into()), cx)?;
-    let (bytes, lost) = encode(&home.scene, Some(&home.labels));
+    let (bytes, lost) = encode(&home.scene, Some(&home.labels), &PictureFiles::new());
     write_output(output, &bytes)?;
     let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
     Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })

@@ -17,6 +17,7 @@ mod nesting;
 mod object;
 mod package;
 mod photometry;
+mod picture_files;
 mod pictures;
 mod scene;
 pub mod sky;
@@ -42,6 +43,7 @@ pub use package::{
     PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, to_bytes, to_bytes_with_labels,
 };
 pub use photometry::PhotometricWeb;
+pub use picture_files::{PictureFile, PictureFiles};
 pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureFit, StructureRoom, StructureThing, WallFace, WallOpening};

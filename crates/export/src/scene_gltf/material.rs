@@ -28,8 +28,8 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene) {
     }
 }
 
-struct Writer<'d, 's> {
-    document: &'d mut Document,
+struct Writer<'d, 'f, 's> {
+    document: &'d mut Document<'f>,
     scene: &'s Scene,
     user: String,
 }
@@ -41,7 +41,7 @@ struct Body {
     extensions: Map<String, Value>,
 }
 
-impl Writer<'_, '_> {
+impl Writer<'_, '_, '_> {
     fn material(&mut self, index: u32, material: &Material) -> Value {
         let (principled, roughness_is_alpha) = self.nearest(&material.bsdf);
         let emits = !material.emission.factor.is_black();

@@ -19,7 +19,7 @@ mod node;
 mod picture;
 
 use document::Document;
-use enfilade_scene::{Labels, Scene};
+use enfilade_scene::{Labels, PictureFiles, Scene};
 use serde_json::{Value, json};
 
 /// A scene as glTF.
@@ -31,18 +31,19 @@ pub struct SceneGltf {
     pub notes: Vec<String>,
 }
 
-/// The scene as glTF; `labels` are joined to the parts in their order, and may be empty.
+/// The scene as glTF; `labels` are joined to the parts in their order, and may be empty. Pictures that are in `files` and are used as they
+/// are go into it unchanged, others as PNG.
 ///
 /// The scene must be valid ([`Scene::validate`]).
 ///
 /// ```
 /// use enfilade_export::scene_gltf;
-/// use enfilade_scene::{Labels, Scene};
-/// let gltf = scene_gltf(&Scene::default(), &Labels::default());
+/// use enfilade_scene::{Labels, PictureFiles, Scene};
+/// let gltf = scene_gltf(&Scene::default(), &Labels::default(), &PictureFiles::new());
 /// assert!(gltf.glb.starts_with(b"glTF") && gltf.notes.is_empty());
 /// ```
-pub fn scene_gltf(scene: &Scene, labels: &Labels) -> SceneGltf {
-    let mut document = Document::default();
+pub fn scene_gltf(scene: &Scene, labels: &Labels, files: &PictureFiles) -> SceneGltf {
+    let mut document = Document::new(files);
     material::add_all(&mut document, scene);
     node::add_all(&mut document, scene, labels);
     let environment = picture::environment(&mut document, scene);

@@ -1,4 +1,5 @@
-//! Textures as PNG pictures in the file, as they are or computed texel by texel, and the surroundings as OpenEXR.
+//! Textures as pictures in the file: those that came as PNG or JPEG unchanged, others and those computed texel by texel as PNG; and the
+//! surroundings as OpenEXR.
 
 use super::document::{Document, TextureUse};
 use enfilade_math::{Rgb, linear_from_srgb, srgb_from_linear};
@@ -19,7 +20,10 @@ pub(super) fn reference(document: &mut Document, scene: &Scene, texture: &Textur
         if matches!(image.pixels, Pixels::RgbF32(_)) {
             document.notes.push(format!("{user}: the picture {:?} was rounded to 8 bits and cut off at 1", image.name));
         }
-        add_picture(document, &image.name, image, &texels(image, usage))
+        match document.files.get(&texture.image).filter(|_| is_as_stored(image, usage)) {
+            Some(file) => add_file(document, &image.name, &file.bytes, file.media_type),
+            None => add_picture(document, &image.name, image, &texels(image, usage)),
+        }
     });
     document.pictures.insert((texture.image, usage), source);
     referring(document, source, texture, user)
@@ -45,9 +49,21 @@ pub(super) fn computed(
 }
 
 fn add_picture(document: &mut Document, name: &str, size: &Image, texels: &[[u8; 4]]) -> usize {
-    let view = document.buffer.view(&smallest_png([size.width, size.height], texels, PngEffort::Balanced));
-    document.images.push(json!({ "name": name, "bufferView": view, "mimeType": "image/png" }));
+    add_file(document, name, &smallest_png([size.width, size.height], texels, PngEffort::Balanced), "image/png")
+}
+
+fn add_file(document: &mut Document, name: &str, file: &[u8], media_type: &str) -> usize {
+    let view = document.buffer.view(file);
+    document.images.push(json!({ "name": name, "bufferView": view, "mimeType": media_type }));
     document.images.len() - 1
+}
+
+/// True where glTF reads a picture's stored bytes as the scene does.
+fn is_as_stored(image: &Image, usage: TextureUse) -> bool {
+    matches!(
+        (&image.pixels, usage),
+        (Pixels::Rgba8 { srgb: true, .. }, TextureUse::Color) | (Pixels::Rgba8 { srgb: false, .. }, TextureUse::Data)
+    )
 }
 
 /// Texels as glTF understands them at this place.

@@ -6,8 +6,8 @@ use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_import::{ImportOptions, Imported, ImportedLabel, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{
-    Alpha, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Part, PartLabel, Pixels, Principled, Quiet,
-    ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef, Wrap,
+    Alpha, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Part, PartLabel, PictureFile, PictureFiles,
+    Pixels, Principled, Quiet, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef, Wrap,
 };
 
 /// The scene, written and read.
@@ -15,8 +15,8 @@ fn round_trip(scene: &Scene, labels: &Labels) -> (Imported, Vec<String>) {
     assert_eq!(scene.validate(), Ok(()));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("room.glb");
-    let SceneGltf { glb, notes } = scene_gltf(scene, labels);
-    assert_eq!(glb, scene_gltf(scene, labels).glb, "the same bytes every time");
+    let SceneGltf { glb, notes } = scene_gltf(scene, labels, &PictureFiles::new());
+    assert_eq!(glb, scene_gltf(scene, labels, &PictureFiles::new()).glb, "the same bytes every time");
     std::fs::write(&path, glb).unwrap();
     (load(&path, &ImportOptions::default(), &Quiet).unwrap(), notes)
 }
@@ -47,6 +47,23 @@ fn shelf(materials: Vec<Material>, images: Vec<Image>) -> Scene {
 
 fn picture(srgb: bool, texels: Vec<[u8; 4]>) -> Image {
     Image { name: "picture".into(), width: 2, height: 2, pixels: Pixels::Rgba8 { srgb, texels } }
+}
+
+#[test]
+fn pictures_that_came_as_files_are_passed_on_where_they_mean_what_they_meant() {
+    let texture = |image| ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(image)) };
+    let colored = |image| Material { bsdf: Bsdf::Diffuse { reflectance: texture(image) }, ..Material::diffuse("m", Rgb::WHITE) };
+    let images = vec![picture(true, vec![[9; 4]; 4]), picture(false, vec![[9; 4]; 4]), picture(true, vec![[7; 4]; 4])];
+    let scene = shelf((0..3).map(colored).collect(), images);
+    let file = |text: &str| PictureFile { media_type: "image/jpeg", bytes: format!("JPEG of {text}").into_bytes() };
+    // The second is linear, which glTF's colours are not; the third has no file.
+    let files = PictureFiles::from([(0, file("the first")), (1, file("the second"))]);
+    let SceneGltf { glb, .. } = scene_gltf(&scene, &Labels::default(), &files);
+    let holds = |text: &str| glb.windows(text.len()).any(|w| w == text.as_bytes());
+    assert!(holds("JPEG of the first") && !holds("JPEG of the second"));
+    let count = |text: &str| glb.windows(text.len()).filter(|w| *w == text.as_bytes()).count();
+    assert_eq!((count("\"image/jpeg\""), count("\"image/png\"")), (1, 2));
+    assert_eq!(glb.windows(4).filter(|w| *w == [0x89, b'P', b'N', b'G']).count(), 2);
 }
 
 #[test]

@@ -32,9 +32,12 @@ impl Assembly<'_> {
         let mut scene = imported.scene;
         turn_mirrored_back(&mut scene);
         let first_image = self.next_image();
+        let images = scene.images.len() as u32;
         for image in scene.images {
             self.push_image(image);
         }
+        let files = imported.picture_files.into_iter().filter(|(index, _)| *index < images);
+        self.picture_files.extend(files.map(|(index, file)| (first_image + index, file)));
         let mut materials = Vec::with_capacity(scene.materials.len());
         for mut material in scene.materials {
             each_texture(&mut material, &mut |t| t.image += first_image);

@@ -152,6 +152,7 @@ impl Assembly<'_> {
             self.warn(user, format!("texture {key}: {note}"));
         }
         let index = self.push_image(decoded.image);
+        self.picture_files.extend(decoded.file.map(|file| (index, file)));
         self.images.insert((key, usage), Some(index));
         Ok(Ok(index))
     }

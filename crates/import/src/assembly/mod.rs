@@ -23,7 +23,7 @@ use crate::images::{self, Use};
 use crate::report::Warnings;
 use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
-use enfilade_scene::{Cx, Labels, PartLabel, Scene};
+use enfilade_scene::{Cx, Labels, PartLabel, PictureFiles, Scene};
 use names::Names;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -41,6 +41,7 @@ pub(crate) struct Assembly<'a> {
     inputs: Vec<PathBuf>,
     missing: Vec<PathBuf>,
     images: BTreeMap<(String, Use), Option<u32>>,
+    picture_files: PictureFiles,
     part_names: Names,
     /// In how many objects each object of the scene lies, itself included.
     object_depths: Vec<u8>,
@@ -74,6 +75,7 @@ impl<'a> Assembly<'a> {
             inputs: Vec::new(),
             missing: Vec::new(),
             images: BTreeMap::new(),
+            picture_files: PictureFiles::new(),
             part_names: Names::default(),
             object_depths: Vec::new(),
             camera_names: Names::default(),
@@ -204,7 +206,8 @@ impl<'a> Assembly<'a> {
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
-        Ok(Imported { scene: self.scene, labels, inputs: self.inputs, missing: self.missing, report })
+        let picture_files = self.picture_files;
+        Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, report })
     }
 
     /// Puts the surroundings of the options in place of the file's own.

@@ -5,7 +5,7 @@ use super::layout::Surface;
 use super::{dds, exr, ktx2, pfm, tiff};
 use ::image::codecs::hdr::HdrDecoder;
 use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
-use enfilade_scene::{Image, Pixels};
+use enfilade_scene::{Image, PictureFile, Pixels};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -24,6 +24,8 @@ pub(crate) struct Decoded {
     pub image: Image,
     /// What was changed, for the report.
     pub note: Option<String>,
+    /// The file, where it is of a kind that every program reads.
+    pub file: Option<PictureFile>,
 }
 
 /// What is read, for messages.
@@ -63,7 +65,34 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
             let texels = picture.into_rgba8().pixels().map(|p| p.0).collect();
             let pixels = Pixels::Rgba8 { srgb: usage == Use::Color, texels };
             let note = sixteen.then(|| "16 bits a channel were rounded to 8".to_string());
-            finish(Image { name: name.to_string(), width, height, pixels }, note)
+            let decoded = finish(Image { name: name.to_string(), width, height, pixels }, note)?;
+            Ok(Decoded { file: to_pass_on(format, bytes), ..decoded })
+        }
+    }
+}
+
+/// A PNG or JPEG file as it is. JPEG files of four channels (inks) are none that others read.
+fn to_pass_on(format: ImageFormat, bytes: &[u8]) -> Option<PictureFile> {
+    let media_type = match format {
+        ImageFormat::Png => "image/png",
+        ImageFormat::Jpeg if matches!(jpeg_channels(bytes), Some(1 | 3)) => "image/jpeg",
+        _ => return None,
+    };
+    Some(PictureFile { media_type, bytes: bytes.to_vec() })
+}
+
+/// The number of channels that the header of a JPEG file's frame states (ISO/IEC 10918-1, B.2.2).
+fn jpeg_channels(bytes: &[u8]) -> Option<u8> {
+    let mut at = 2;
+    loop {
+        let [mark, kind, high, low] = *bytes.get(at..)?.first_chunk::<4>()?;
+        if mark != 0xff {
+            return None;
+        }
+        match kind {
+            0xff => at += 1,
+            0xc0..=0xcf if !matches!(kind, 0xc4 | 0xc8 | 0xcc) => return bytes.get(at + 9).copied(),
+            _ => at += 2 + usize::from(u16::from_be_bytes([high, low])),
         }
     }
 }
@@ -155,7 +184,7 @@ fn finish(image: Image, note: Option<String>) -> Result<Decoded, String> {
     if image.width == 0 || image.height == 0 {
         return Err("has no pixels".into());
     }
-    Ok(Decoded { image, note })
+    Ok(Decoded { image, note, file: None })
 }
 
 #[cfg(test)]
