@@ -1,13 +1,16 @@
 //! Analytic shapes as meshes, as Mitsuba defines them. Texture coordinates have v downward here.
 //!
-//! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one.
+//! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one, but for lamps.
 
+use crate::mesh::area;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
 /// Sides of a full circle.
 const SEGMENTS: u32 = 96;
+/// Sides of a full circle of spheres that are lights.
+const LAMP_SEGMENTS: u32 = 24;
 
 /// [−1,1]² in the plane z = 0, facing +z.
 pub(crate) fn rectangle() -> Mesh {
@@ -36,19 +39,31 @@ pub(crate) fn disk() -> Mesh {
 
 /// The unit sphere around the origin; u is the azimuth about z, v the angle from +z.
 pub(crate) fn sphere() -> Mesh {
-    let rings = SEGMENTS / 2;
+    sphere_of(SEGMENTS)
+}
+
+/// The unit sphere as a light: of few triangles, each of which is a light to choose from, and with the area and so the power of the true one.
+pub(crate) fn lamp() -> Mesh {
+    let mut mesh = sphere_of(LAMP_SEGMENTS);
+    let grown = (4.0 * std::f64::consts::PI / area(&mesh, DAffine3::IDENTITY)).sqrt() as f32;
+    mesh.positions.iter_mut().for_each(|p| *p *= grown);
+    mesh
+}
+
+fn sphere_of(segments: u32) -> Mesh {
+    let rings = segments / 2;
     let mut mesh = Mesh::default();
     for j in 0..=rings {
-        for i in 0..=SEGMENTS {
-            let uv = Vec2::new(i as f32 / SEGMENTS as f32, j as f32 / rings as f32);
+        for i in 0..=segments {
+            let uv = Vec2::new(i as f32 / segments as f32, j as f32 / rings as f32);
             let ((sin_phi, cos_phi), (sin_theta, cos_theta)) = ((uv.x * TAU).sin_cos(), (uv.y * PI).sin_cos());
             mesh.positions.push(Vec3::new(cos_phi * sin_theta, sin_phi * sin_theta, cos_theta));
             mesh.uvs.push(uv);
         }
     }
     mesh.normals = mesh.positions.clone();
-    let row = SEGMENTS + 1;
-    for (j, i) in (0..rings).flat_map(|j| (0..SEGMENTS).map(move |i| (j, i))) {
+    let row = segments + 1;
+    for (j, i) in (0..rings).flat_map(|j| (0..segments).map(move |i| (j, i))) {
         let (above, below) = (j * row + i, (j + 1) * row + i);
         // At the poles one of both triangles has no area.
         if j > 0 {

@@ -112,7 +112,7 @@ impl Lamp<'_> {
             "RectLight" => {
                 let (width, height) = (number(self.prim, "width", 1.0), number(self.prim, "height", 1.0));
                 let picture = self.picture("texture:file", stage, a)?;
-                self.surface(backward(shapes::plane(width as f32, height as f32)), width * height, picture, a)?;
+                self.surface(panel(width as f32, height as f32), width * height, picture, a)?;
             }
             "DiskLight" => {
                 let radius = number(self.prim, "radius", 0.5);
@@ -149,7 +149,7 @@ impl Lamp<'_> {
     /// A sphere; a point where it is to be one, or shines into a cone or by a profile, which surfaces cannot here.
     fn sphere(&self, stage: &Stage, a: &mut Assembly) -> Result<(), ImportError> {
         let radius = number(self.prim, "radius", 0.5);
-        let mesh = shapes::sphere(radius as f32);
+        let mesh = shapes::lamp(radius as f32);
         let exact = 4.0 * PI * radius * radius;
         let (cone, softness) = (number(self.prim, "shaping:cone:angle", 90.0), number(self.prim, "shaping:cone:softness", 0.0));
         let profile = input(self.prim, "shaping:ies:file").and_then(Value::as_text).filter(|t| !t.is_empty()).map(str::to_string);
@@ -296,6 +296,14 @@ impl Lamp<'_> {
         let user = format!("light <{}>", self.prim.path);
         Textures { stage, a, user, uv_name: None, color_name: None, baked: self.baked }.picture(&asset, &layer, Use::Color)
     }
+}
+
+/// The rectangle of a `RectLight`. Seen from where it shines, +x is to the left, and so is the left edge of its picture: "a texture file's
+/// min coordinates should be at (+X, +Y) and max coordinates at (-X, -Y)" (OpenUSD, `RectLight`).
+fn panel(width: f32, height: f32) -> Mesh {
+    let mut mesh = backward(shapes::plane(width, height));
+    mesh.uvs.iter_mut().for_each(|uv| uv.x = 1.0 - uv.x);
+    mesh
 }
 
 /// A mesh that faces +z turned round to −z, where these lights shine.

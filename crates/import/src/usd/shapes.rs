@@ -1,15 +1,18 @@
 //! The intrinsic shapes: cubes, spheres, cylinders, cones, capsules and planes as meshes.
 //!
-//! Round shapes are surfaces of revolution with [`SEGMENTS`] sides. Texture coordinates go round once along u and along the outline
+//! Round shapes are surfaces of revolution with [`SEGMENTS`] sides, spheres that are lights with [`LAMP_SEGMENTS`]. Texture coordinates go round once along u and along the outline
 //! in v: USD defines none for them.
 
 use super::stage::Prim;
+use crate::mesh::area;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{DAffine3, Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
 /// Sides of a full circle.
 const SEGMENTS: u32 = 96;
+/// Sides of a full circle of spheres that are lights: each triangle is a light of its own to choose from.
+const LAMP_SEGMENTS: u32 = 24;
 
 /// The mesh of a prim of a shape's type; `None` for other types.
 pub(super) fn mesh(prim: &Prim) -> Option<Mesh> {
@@ -71,6 +74,16 @@ pub(super) fn sphere(radius: f32) -> Mesh {
     revolution(&[outline])
 }
 
+/// A sphere of few triangles about the origin, with the area of the true one: it has the light's power, and from all sides together shows
+/// as much of it.
+pub(super) fn lamp(radius: f32) -> Mesh {
+    let outline = arc(-0.5 * PI, 0.5 * PI, 1.0, 0.0, LAMP_SEGMENTS / 2);
+    let mut mesh = revolution_of(&[outline], LAMP_SEGMENTS);
+    let grown = (4.0 * std::f64::consts::PI / area(&mesh, DAffine3::IDENTITY)).sqrt() as f32;
+    mesh.positions.iter_mut().for_each(|p| *p *= radius * grown);
+    mesh
+}
+
 /// A disk that faces +z.
 pub(super) fn disk(radius: f32) -> Mesh {
     revolution(&[vec![flat(radius, 0.0, Vec2::Y), flat(0.0, 0.0, Vec2::Y)]])
@@ -126,23 +139,27 @@ fn arc(from: f32, to: f32, radius: f32, z: f32, steps: u32) -> Vec<Outline> {
 
 /// Outlines, from the bottom up, turned about the z axis.
 fn revolution(outlines: &[Vec<Outline>]) -> Mesh {
+    revolution_of(outlines, SEGMENTS)
+}
+
+fn revolution_of(outlines: &[Vec<Outline>], segments: u32) -> Mesh {
     let rows: usize = outlines.iter().map(Vec::len).sum();
     let mut mesh = Mesh::default();
     let mut row = 0;
     for outline in outlines {
         for (i, &(radius, z, normal)) in outline.iter().enumerate() {
             let base = mesh.positions.len() as u32;
-            for k in 0..=SEGMENTS {
-                let u = k as f32 / SEGMENTS as f32;
+            for k in 0..=segments {
+                let u = k as f32 / segments as f32;
                 // The seam closes exactly.
-                let (sin, cos) = ((k % SEGMENTS) as f32 / SEGMENTS as f32 * TAU).sin_cos();
+                let (sin, cos) = ((k % segments) as f32 / segments as f32 * TAU).sin_cos();
                 mesh.positions.push(Vec3::new(radius * cos, radius * sin, z));
                 mesh.normals.push(Vec3::new(normal.x * cos, normal.x * sin, normal.y));
                 mesh.uvs.push(Vec2::new(u, row as f32 / (rows - 1) as f32));
             }
             if i > 0 {
-                let below = base - SEGMENTS - 1;
-                for k in 0..SEGMENTS {
+                let below = base - segments - 1;
+                for k in 0..segments {
                     // On the axis one of both triangles has no area.
                     if outline[i - 1].0 > 0.0 {
                         mesh.triangles.push([below + k, below + k + 1, base + k + 1]);
@@ -169,6 +186,7 @@ mod tests {
             ("plane", plane(2.0, 3.0), 6.0),
             ("cube", cuboid(1.0), 24.0),
             ("sphere", sphere(2.0), 16.0 * PI),
+            ("lamp", lamp(2.0), 16.0 * PI),
             ("disk", disk(1.0), PI),
             ("tube", tube_along_x(1.0, 3.0), 6.0 * PI),
             ("cylinder", cylinder(1.0, 1.0, 2.0), 6.0 * PI),

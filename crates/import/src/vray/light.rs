@@ -115,7 +115,7 @@ impl<'n> Reader<'n, '_> {
         let radius = light.number("radius", 1.0)?;
         let placement = light.transform("transform")? * DAffine3::from_scale(DVec3::splat(radius));
         let size = placement.matrix3.determinant().abs().cbrt();
-        self.surface_light(light, primitives::sphere(), placement, 4.0 * PI * size * size, None)
+        self.surface_light(light, primitives::lamp(), placement, 4.0 * PI * size * size, None)
     }
 
     fn mesh_light(&mut self, light: Handle<'n>) -> Result<(), ImportError> {

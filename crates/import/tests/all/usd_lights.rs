@@ -2,8 +2,8 @@
 
 use crate::common::{Folder, png, warnings};
 use enfilade_import::Imported;
-use enfilade_math::{DVec3, Rgb, Vec3};
-use enfilade_scene::{Environment, Light, Scene, SpotFalloff, uv_from_direction};
+use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
+use enfilade_scene::{Environment, Filter, Light, Scene, SpotFalloff, TextureRef, uv_from_direction};
 use std::f32::consts::PI;
 
 /// 10 candela in every direction of the lower half, 20π lumens.
@@ -14,6 +14,14 @@ fn load(body: &str) -> Imported {
     folder.write("sky.png", png(8, 4, [255; 4])).write("half.ies", HALF).write("dark.ies", HALF.replace("10 10", "0 0"));
     folder.write("a.usda", format!("#usda 1.0\n( metersPerUnit = 0.5 upAxis = \"Z\" )\ndef Cube \"Box\" {{ }}\n{body}"));
     folder.load("a.usda").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A PNG of these pixels, row by row.
+fn picture_of(width: u32, height: u32, pixels: &[[u8; 4]]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let picture = image::RgbaImage::from_raw(width, height, pixels.concat()).unwrap();
+    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner()
 }
 
 fn radiance(scene: &Scene, name: &str) -> Rgb {
@@ -52,6 +60,64 @@ fn surfaces_emit_what_intensity_exposure_and_area_say() {
     let disk = scene.parts.iter().find(|p| p.name == "Disk").unwrap();
     let [a, b, c] = scene.world_corners(disk, 0);
     assert!((b - a).cross(c - a).z < 0.0 && (a.z - 2.0).abs() < 1e-6);
+}
+
+/// The luminous power of a part's light: ∫ π L dA.
+fn power(scene: &Scene, name: &str) -> f64 {
+    let part = scene.parts.iter().find(|p| p.name == name).unwrap();
+    let triangles = scene.meshes[part.mesh as usize].triangles.len();
+    let area = |t| {
+        let [a, b, c] = scene.world_corners(part, t);
+        f64::from((b - a).cross(c - a).length()) / 2.0
+    };
+    (0..triangles).map(area).sum::<f64>() * std::f64::consts::PI * f64::from(radiance(scene, name).r)
+}
+
+#[test]
+fn spheres_have_few_triangles_and_the_power_of_true_ones() {
+    let scene = load(
+        r#"def SphereLight "Ball" { float inputs:intensity = 3
+            float inputs:radius = 0.5 }
+        def SphereLight "Egg" { float inputs:intensity = 3
+            bool inputs:normalize = true
+            float inputs:radius = 1
+            float3 xformOp:scale = (1, 2, 3)
+            uniform token[] xformOpOrder = ["xformOp:scale"] }"#,
+    )
+    .scene;
+    // 4πr²·π·L with r = 0.5 units of 0.5 m; normalized, π·L over the units' area, which metres make a quarter.
+    let exact = 4.0 * std::f64::consts::PI.powi(2) * 0.0625 * 3.0;
+    assert!((power(&scene, "Ball") / exact - 1.0).abs() < 1e-5, "{} {exact}", power(&scene, "Ball"));
+    let exact = std::f64::consts::PI * 3.0 * 0.25;
+    assert!((power(&scene, "Egg") / exact - 1.0).abs() < 1e-5, "{} {exact}", power(&scene, "Egg"));
+    assert!(scene.meshes.iter().all(|mesh| mesh.triangles.len() < 600), "{:?}", scene.meshes.iter().map(|m| m.triangles.len()).max());
+}
+
+#[test]
+fn pictures_of_panels_have_their_minimum_at_plus_x_plus_y() {
+    // Red and green above, blue and white below; UsdLux: "min coordinates should be at (+X, +Y) and max coordinates at (-X, -Y)".
+    let folder = Folder::new();
+    let colors = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 255]];
+    folder.write("four.png", picture_of(2, 2, &colors));
+    folder.write(
+        "a.usda",
+        "#usda 1.0\n( metersPerUnit = 1 upAxis = \"Z\" )\ndef RectLight \"Panel\" { asset inputs:texture:file = @four.png@\n\
+         float inputs:width = 4\nfloat inputs:height = 2 }",
+    );
+    let scene = folder.load("a.usda").unwrap_or_else(|e| panic!("{e}")).scene;
+    let part = scene.parts.iter().find(|p| p.name == "Panel").unwrap();
+    let texture = scene.materials[part.material as usize].emission.texture.unwrap();
+    let mesh = &scene.meshes[part.mesh as usize];
+    let at = |x: f32, y: f32| {
+        let corner = mesh.positions.iter().position(|p| (p.x, p.y) == (x, y)).unwrap();
+        let inward = 0.25 * (Vec2::splat(0.5) - mesh.uvs[corner]);
+        scene.images[texture.image as usize]
+            .sample(&TextureRef { filter: Filter::Nearest, ..texture }, mesh.uvs[corner] + inward)
+            .0
+            .to_array()
+    };
+    assert_eq!([at(2.0, 1.0), at(-2.0, 1.0)], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!([at(2.0, -1.0), at(-2.0, -1.0)], [[0.0, 0.0, 1.0], [1.0; 3]]);
 }
 
 #[test]
