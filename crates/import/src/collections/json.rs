@@ -1,8 +1,10 @@
 //! JSON of collections: one file into one description, with errors that name line and column.
 
 use crate::ImportError;
+use enfilade_math::DVec3;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 use std::path::Path;
 
 /// The description in the bytes of `file`; `what` says what it should be.
@@ -24,6 +26,38 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) 
 /// When it is another value of another type.
 pub(super) fn or_default<'de, D: Deserializer<'de>, T: Default + Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
     Option::<T>::deserialize(deserializer).map(Option::unwrap_or_default)
+}
+
+/// The number under the first of these names that has one, also where it is written as text.
+pub(super) fn number(object: &Value, names: &[&str]) -> Option<f64> {
+    names.iter().find_map(|name| as_number(object.get(name)?))
+}
+
+fn as_number(value: &Value) -> Option<f64> {
+    value.as_f64().or_else(|| value.as_str()?.trim().parse().ok()).filter(|v| v.is_finite())
+}
+
+/// The text under the first of these names that has one.
+pub(super) fn text<'v>(object: &'v Value, names: &[&str]) -> Option<&'v str> {
+    names.iter().find_map(|name| object.get(name)?.as_str())
+}
+
+/// The truth under the first of these names that has one: true, "true", or a number that is not 0.
+pub(super) fn flag(object: &Value, names: &[&str]) -> Option<bool> {
+    let truth = |value: &Value| {
+        let word = value.as_str().and_then(|text| text.trim().to_ascii_lowercase().parse().ok());
+        value.as_bool().or(word).or_else(|| Some(as_number(value)? != 0.0))
+    };
+    names.iter().find_map(|name| truth(object.get(name)?))
+}
+
+/// The vector under the first of these names that has three numbers.
+pub(super) fn vector(object: &Value, names: &[&str]) -> Option<DVec3> {
+    let vector = |value: &Value| {
+        let [x, y, z] = value.as_array()?.as_slice().first_chunk::<3>()?;
+        Some(DVec3::new(as_number(x)?, as_number(y)?, as_number(z)?))
+    };
+    names.iter().find_map(|name| vector(object.get(name)?))
 }
 
 /// The text without a byte order mark.

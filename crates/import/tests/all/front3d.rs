@@ -117,3 +117,52 @@ fn lists_of_wrong_lengths_are_refused_with_their_mesh() {
     let message = folder.write("house.json", house.to_string()).error("house.json");
     assert!(message.contains("mesh \"w\"") && message.contains('7'), "{message}");
 }
+
+#[test]
+fn lamps_and_suns_of_a_house_shine_as_strong_and_as_white_as_it_says() {
+    let pi = std::f32::consts::PI;
+    let folder = Folder::new();
+    let mut house = house();
+    // The form of a program that writes such houses: a panel of 1500 lm on the ceiling, a portal, a dome, and a sun at 45 degrees.
+    house["lights"] = json!([
+        {"uid": "0/model", "nodeType": "VRayLight", "type": 0, "enabled": true, "DoubleSided": false, "color_temperature": 4000,
+            "direction": [0, -1, 0], "up_vector": [-1, 0, 0], "multiplier": 1500, "units": 1, "roomId": "LivingRoom-1", "size0": "1.5", "size1": 0.5,
+            "skylightPortal": false, "src_position": [2, 2.4, 1]},
+        {"uid": "1/model", "nodeType": "VRayLight", "type": 0, "skylightPortal": true, "size0": 1, "size1": 1, "src_position": [0, 1, 0]},
+        {"uid": "2/model", "nodeType": "VRayLight", "type": 0, "enabled": false, "size0": 1, "size1": 1, "src_position": [0, 1, 0]},
+        {"uid": "3/model", "nodeType": "VrayLightDome", "multiplier": 0.1, "units": 0},
+        {"uid": "4/model", "nodeType": "VraySun", "enabled": true, "intensity_multiplier": 0.1, "size_multiplier": 6, "turbidity": 4,
+            "src_position": [10, 10, 0], "target_position": [0, 0, 0], "filter_Color": [1, 1, 1]}
+    ]);
+    folder.write("3D-FRONT/house.json", house.to_string());
+    let imported = folder.load("3D-FRONT/house.json").unwrap_or_else(|e| panic!("{e}"));
+    let scene = &imported.scene;
+    // Centred below the ceiling, 1.5 m along z (across `up`) and 0.5 m along x, facing down; z is up here and the file's z is minus y.
+    let panel = points(&imported, "light (LivingRoom-1)");
+    let corner = |x: f32, y: f32| panel.iter().any(|p| p.distance(Vec3::new(x, y, 2.4)) < 1e-5);
+    assert!(corner(1.75, -0.25) && corner(2.25, -1.75) && panel.len() == 4, "{panel:?}");
+    let part = scene.parts.iter().find(|p| p.name == "light (LivingRoom-1)").unwrap();
+    let [a, b, c] = scene.world_corners(part, 0);
+    assert!((b - a).cross(c - a).z < 0.0);
+    // V-Ray: lumens over pi times the area, times the photometric scale.
+    let radiance = scene.materials[part.material as usize].emission.factor;
+    assert!((radiance.luminance() / (1500.0 / (pi * 0.75) * 0.002) - 1.0).abs() < 1e-4, "{radiance:?}");
+    assert!(radiance.r > 1.5 * radiance.b, "4000 K is warmer than white: {radiance:?}");
+    let [enfilade_scene::Light::Directional { direction, angular_radius_rad, irradiance, .. }] = scene.lights.as_slice() else {
+        panic!("{:?}", scene.lights)
+    };
+    assert!(direction.distance(Vec3::new(-1.0, 0.0, -1.0).normalize()) < 1e-6, "{direction}");
+    assert!((angular_radius_rad / (6.0 * 0.2665_f32.to_radians()) - 1.0).abs() < 0.01, "{angular_radius_rad}");
+    // A clear sun of some 60 to 100 klx, a tenth of it, in units of 1/500 lx.
+    assert!((0.1 * 120.0..0.1 * 200.0).contains(&irradiance.luminance()), "{irradiance:?}");
+    assert!(scene.environment.is_some());
+    let told = warnings(&imported);
+    for expected in [
+        "1 lights are portals, which give no light of their own, such as 1/model",
+        "1 lights are of a kind that is not read, such as 3/model",
+        "that their sizes are whole sides is guessed",
+        "its sky is guessed",
+    ] {
+        assert!(told.contains(expected), "{expected}: {told}");
+    }
+}

@@ -12,6 +12,8 @@ pub(super) struct House {
     pub mesh: Vec<Surface>,
     #[serde(default, deserialize_with = "or_default")]
     pub material: Vec<Paint>,
+    #[serde(default, deserialize_with = "or_default")]
+    pub lights: Vec<serde_json::Value>,
     pub scene: Rooms,
 }
 

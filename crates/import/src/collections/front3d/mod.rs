@@ -10,9 +10,11 @@
 //! | `furniture` | the model `<jid>/raw_model.obj`, if it is `valid`; its category is `category` of `model_info.json`, else the `super-category` there, else the house's own |
 //! | `mesh` | `xyz`, `normal`, `uv`, `faces`, as `<type> (<room>)`; the class by its type: walls, floors, ceilings, doors, windows and what is built in |
 //! | `material` | the picture `<jid>/texture.png` with the linear part of `UVTransform`, as in the toolbox; where that is not at hand, `color`; else grey |
-//! | `extension`, `lights`, `groups` | not used; houses have no lights of their own |
+//! | `lights` | rectangles and spheres (`VRayLight`) with place, size, strength and temperature, and the sun (`VraySun`) with a sky; others are left out, and told |
+//! | `extension`, `groups` | not used |
 
 mod house;
+mod lights;
 mod surface;
 
 use super::assets::Models;
@@ -68,6 +70,7 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
             placer.child(child, &room.instanceid, &mut a)?;
         }
     }
+    lights::add(&house.lights, &mut a)?;
     placer.finish(&mut a);
     a.finish()
 }
