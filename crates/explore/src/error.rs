@@ -115,8 +115,9 @@ pub enum ExploreError {
     /// No next pose, even with more samples and smaller steps.
     #[error(
         "trajectory {trajectory} is stuck at frame {frame}, position {position}: of {queries} sampled positions {look_from} are free, \
-         clear and visible, of {queries} sampled targets {look_at} are free and visible, and no pair of them sees each other at the \
-         distance asked for; lower clearance_m or min_look_distance_m, ask for fewer frames, or move the start camera"
+         clear and visible, of {queries} sampled targets {look_at} are free and visible, and no pair of them is a view that shows a \
+         surface and, unless a preset says otherwise, sees its target at the distance asked for; lower clearance_m or \
+         min_look_distance_m, ask for fewer frames, or move the start camera"
     )]
     Stuck {
         /// Name of the trajectory.

@@ -37,7 +37,7 @@ pub enum Preset {
     /// The paper's rules and ours: nothing leaks, and no view is one that nobody would use.
     #[default]
     Default,
-    /// The rules that the paper's supplement states, and no others.
+    /// The rules that the paper's supplement states, and no others; start cameras in walls are left out all the same.
     Paper,
     /// What the published programs do, to the letter.
     Hypersim,

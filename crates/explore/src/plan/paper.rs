@@ -4,11 +4,11 @@
 //! around the first (equation 2), whose t does so around the last and the first t (equation 3), with p and t in free space, p seen from the
 //! last p, t from the last t, and a roll of at most 5 degrees; in proportion to how salient the view is (equation 1 of the paper).
 
-use super::planner::{Draft, Planner};
+use super::planner::{Draft, Planner, by_score};
 use super::rules::rolled;
 use super::walk::{points, steps};
 use crate::{ExploreError, ViewStats};
-use enfilade_math::{DVec3, Distribution1, Rng};
+use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
 
 /// How often points of one step are drawn before the set counts as empty: it is sampled by rejection, and may be small.
@@ -33,16 +33,9 @@ fn step(planner: &Planner, first: &Pose, last: &Pose, frame: u32, mut rng: Rng) 
         }
 
         // Candidates uniform in the set, and a choice in proportion to their saliency.
-        let pair = |_| {
-            let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
-            rolled(frame, position, look_at, rules.draw_roll_rad(&mut rng)).filter(|pose| rules.has_room_beside(pose))
-        };
-        let candidates: Vec<Pose> = (0..config.candidates).filter_map(pair).collect();
-        let views = planner.views(&candidates);
-        let weights: Vec<f32> = views.iter().map(|view| planner.score(view) as f32).collect();
-        if let Some(distribution) = Distribution1::new(&weights) {
-            let chosen = distribution.sample(rng.next_f32()).0;
-            return Ok((candidates[chosen], views[chosen]));
+        let candidates = candidates(planner, &positions, &targets, frame, &mut rng);
+        if let Some(chosen) = choose(planner, &candidates, &mut rng) {
+            return Ok(chosen);
         }
     }
     Err(ExploreError::Stuck {
@@ -53,4 +46,22 @@ fn step(planner: &Planner, first: &Pose, last: &Pose, frame: u32, mut rng: Rng) 
         look_from: positions.len(),
         look_at: targets.len(),
     })
+}
+
+/// Random pairs of a position and a target, each with a roll of its own.
+pub(super) fn candidates(planner: &Planner, positions: &[DVec3], targets: &[DVec3], frame: u32, rng: &mut Rng) -> Vec<Pose> {
+    let rules = planner.rules;
+    let pair = |_| {
+        let (position, look_at) = (positions[rng.below(positions.len())], targets[rng.below(targets.len())]);
+        rolled(frame, position, look_at, rules.draw_roll_rad(rng)).filter(|pose| rules.has_room_beside(pose))
+    };
+    (0..planner.config.candidates).filter_map(pair).collect()
+}
+
+/// One of the candidates, drawn in proportion to its saliency, and what it shows; `None` when none shows anything.
+pub(super) fn choose(planner: &Planner, candidates: &[Pose], rng: &mut Rng) -> Option<(Pose, ViewStats)> {
+    let views = planner.views(candidates);
+    let scores: Vec<f64> = views.iter().map(|view| planner.score(view)).collect();
+    let chosen = by_score(&scores)?.sample(rng.next_f32()).0;
+    Some((candidates[chosen], views[chosen]))
 }

@@ -10,8 +10,8 @@ use enfilade_math::{Distribution1, Rng};
 use enfilade_scene::{Cx, Intrinsics, Pose, StartCamera, WorldMesh};
 use rayon::prelude::*;
 
-/// Scores above this are scaled down together.
-const MAX_SCORE: f64 = 1e30;
+/// Scores whose greatest is not between these are scaled together, because choices are made in single precision.
+const SCORES: [f64; 2] = [1e-30, 1e30];
 
 /// What every mode works with.
 pub(super) struct Planner<'a> {
@@ -69,23 +69,19 @@ impl<'a> Planner<'a> {
         rejected: &mut RejectedCounts,
         rng: &mut Rng,
     ) -> Option<usize> {
-        // Weights in proportion to the scores; none for views of too little.
+        // Views of too little have no score.
         let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) };
-        let scores: Vec<f64> = views.iter().map(score).collect();
-        let greatest = scores.iter().fold(0.0, |max: f64, score| max.max(*score));
-        // Sums are in single precision: scores too large for that are all divided by the largest one.
-        let unit = if greatest > MAX_SCORE { greatest } else { 1.0 };
-        let mut weights: Vec<f32> = scores.into_iter().map(|score| (score / unit) as f32).collect();
+        let mut scores: Vec<f64> = views.iter().map(score).collect();
         views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
 
         // Draw until a view has no fault.
-        while let Some(distribution) = Distribution1::new(&weights) {
+        while let Some(distribution) = by_score(&scores) {
             let chosen = distribution.sample(rng.next_f32()).0;
             let pose = &candidates[chosen];
             let fault = self.gates.fault(pose, before).or_else(|| (!(self.accepts)(pose)).then_some(Fault::Refused));
             let Some(fault) = fault else { return Some(chosen) };
             rejected.add(fault);
-            weights[chosen] = 0.0;
+            scores[chosen] = 0.0;
         }
         None
     }
@@ -97,4 +93,12 @@ impl<'a> Planner<'a> {
     pub fn warn(&self, message: String) {
         self.cx.warn(enfilade_scene::Warning { place: self.name.to_string(), message });
     }
+}
+
+/// Draws indices in proportion to scores, however large or small those are; `None` when all are 0.
+pub(super) fn by_score(scores: &[f64]) -> Option<Distribution1> {
+    let greatest = scores.iter().fold(0.0, |max: f64, score| max.max(*score));
+    let unit = if (SCORES[0]..=SCORES[1]).contains(&greatest) || greatest == 0.0 { 1.0 } else { greatest };
+    let weights: Vec<f32> = scores.iter().map(|score| (score / unit) as f32).collect();
+    Distribution1::new(&weights)
 }

@@ -590,6 +590,17 @@ fn a_preset_is_one_word_for_rules_gates_and_camera_over_which_every_key_wins() {
 }
 
 #[test]
+fn the_papers_preset_has_the_supplements_numbers() {
+    let scene = config(&format!("preset = \"paper\"\n{SCENE}")).scenes.remove(0);
+    let plan = &scene.plan;
+    assert_eq!((plan.frames, plan.queries, plan.candidates), (100, 1000, 20));
+    assert_eq!((plan.step_m, plan.height_range_m, plan.roll_limit_deg), ([1.5, 1.5, 0.25], 0.25, 5.0));
+    assert_eq!(plan.saliency, enfilade_explore::Saliency::Triangles { alpha: 1.0, beta: 2.0 });
+    assert_eq!((plan.test_width, plan.test_height), (256, 192));
+    assert_eq!((scene.carve.rays, scene.size, scene.fov_x_deg), (262_144, [1024, 768], Some(60.0)));
+}
+
+#[test]
 fn keys_of_rules_that_a_preset_does_not_have_are_refused_where_they_stand() {
     let text = error(&format!("preset = \"paper\"\n{SCENE}[scene.plan]\nclearance_m = 0.4\n"));
     assert!(text.contains("preset \"paper\" has no rule for `clearance_m`") && text.contains("dataset.toml:6"), "{text}");

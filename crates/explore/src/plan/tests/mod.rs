@@ -3,6 +3,7 @@
 mod gates;
 mod keyframes;
 mod modes;
+mod supplement;
 mod walk;
 
 use super::*;
