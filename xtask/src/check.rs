@@ -2,13 +2,13 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{circles, dependencies, floors, pictures, workflows};
+use crate::{circles, dependencies, floors, pictures, seed, workflows};
 
 /// The last and slowest step, left out by `--no-tests` where all tests follow anyway.
 const QUICK_TESTS: &str = "tests";
 
 /// All steps.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     Step {
         name: "format",
         about: "files are formatted",
@@ -44,6 +44,12 @@ const STEPS: [Step; 9] = [
         about: "the forge's workflows and the scripts that they call are sound",
         remedy: "fix what the messages above show; https://github.com/rhysd/actionlint and https://www.shellcheck.net explain each",
         run: workflows::check,
+    },
+    Step {
+        name: "seed",
+        about: "what docs/seed.md names is there",
+        remedy: "correct the row: files, the symbols they declare, tests with their crate, laws of crates/verify/src/law.rs",
+        run: seed::check,
     },
     Step {
         name: "lints",

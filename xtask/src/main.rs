@@ -27,6 +27,7 @@ mod pictures;
 mod products;
 mod python;
 mod readers;
+mod seed;
 mod simulate;
 mod spdx;
 mod step;
