@@ -36,6 +36,8 @@ pub enum Format {
     Wai,
     Points,
     Dust3r,
+    Marigold,
+    Moge,
 }
 
 /// A row of the table of formats.
@@ -66,7 +68,7 @@ const LABELLED: &[Layer] =
 const POSED: &[Layer] = &[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters];
 
 /// The table of formats; `FORMATS[format as usize].format == format`.
-pub const FORMATS: [FormatSpec; 22] = [
+pub const FORMATS: [FormatSpec; 24] = [
     FormatSpec {
         format: Format::Coco,
         name: "coco",
@@ -249,6 +251,22 @@ pub const FORMATS: [FormatSpec; 22] = [
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
         readme: include_str!("readmes/dust3r.md"),
+    },
+    FormatSpec {
+        format: Format::Marigold,
+        name: "marigold",
+        about: "Hypersim as Marigold prepares it: colour, planar depth in millimetres, normals, and lists of them by side of the split",
+        needs: &[COLOR, DEPTH],
+        takes: Some(&[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters, Layer::NormalCam]),
+        readme: include_str!("readmes/marigold.md"),
+    },
+    FormatSpec {
+        format: Format::Moge,
+        name: "moge",
+        about: "MoGe: a folder per frame with its image, depth by logarithm and K over the image's size",
+        needs: &[COLOR, DEPTH],
+        takes: Some(POSED),
+        readme: include_str!("readmes/moge.md"),
     },
 ];
 

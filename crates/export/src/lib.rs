@@ -89,6 +89,8 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Panoptic => formats::panoptic::write(&selected, &out),
         Format::Wai => formats::wai::write(&selected, &out),
         Format::Dust3r => formats::dust3r::write(&selected, &out),
+        Format::Marigold => formats::marigold::write(&selected, &out),
+        Format::Moge => formats::moge::write(&selected, &out),
         Format::Points => formats::points::write(&selected, &out),
         Format::Huggingface => formats::huggingface::write(&selected, &out, config.shard_bytes),
         Format::Spatiallm => formats::spatiallm::write(&selected, &out),

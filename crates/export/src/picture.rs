@@ -41,15 +41,34 @@ pub(crate) fn grey8_png(width: u32, height: u32, values: &[u8]) -> Vec<u8> {
 
 /// The bytes of a grey PNG file of 16 bits.
 pub(crate) fn grey16_png(width: u32, height: u32, values: &[u16]) -> Vec<u8> {
+    grey16_png_with_text(width, height, values, &[])
+}
+
+/// The bytes of a grey PNG file of 16 bits with these keywords and their texts, both plain ASCII.
+pub(crate) fn grey16_png_with_text(width: u32, height: u32, values: &[u16], texts: &[(&str, String)]) -> Vec<u8> {
     let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
-    encode(width, height, png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes)
+    encode_with_text(width, height, png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes, texts)
 }
 
 fn encode(width: u32, height: u32, color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
+    encode_with_text(width, height, color, depth, data, &[])
+}
+
+fn encode_with_text(
+    width: u32,
+    height: u32,
+    color: png::ColorType,
+    depth: png::BitDepth,
+    data: &[u8],
+    texts: &[(&str, String)],
+) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(color);
     encoder.set_depth(depth);
+    for (keyword, text) in texts {
+        encoder.add_text_chunk((*keyword).to_string(), text.clone()).expect("there is no header yet");
+    }
     let mut writer = encoder.write_header().expect("writing to memory cannot fail");
     writer.write_image_data(data).expect("as many pixels as the header says");
     writer.finish().expect("writing to memory cannot fail");

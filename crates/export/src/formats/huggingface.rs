@@ -54,7 +54,7 @@ fn classes(selected: &SelectedFrames<'_>) -> Result<BTreeMap<String, BTreeMap<i1
 }
 
 /// The frames of each side that has some, in order. Those that the split does not place are left out, with a warning.
-fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Partition, Vec<View<'s>>>, ExportError> {
+pub(crate) fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Partition, Vec<View<'s>>>, ExportError> {
     let mut sides: BTreeMap<Partition, Vec<View<'s>>> = BTreeMap::new();
     let rows: Vec<SplitRow> = match selected.dataset.read_split() {
         Err(error) if DatasetError::is_not_found(&error) => {

@@ -10,6 +10,8 @@ pub(crate) mod depth_png;
 pub(crate) mod dust3r;
 pub(crate) mod euroc;
 pub(crate) mod huggingface;
+pub(crate) mod marigold;
+pub(crate) mod moge;
 pub(crate) mod nerfstudio;
 pub(crate) mod opencv;
 pub(crate) mod openexr;

@@ -9,6 +9,7 @@ mod export_folder;
 mod huggingface;
 mod incomplete;
 mod layouts;
+mod marigold;
 mod pix3d;
 mod readers;
 mod round_trips;

@@ -392,6 +392,58 @@ def dust3r():
     return f"{len(seen)} frames, {len(pairs)} pairs"
 
 
+def marigold():
+    """By the rules of its `HypersimDepthDataset`: a list of a side, names from the side's folder on, depth / 1000."""
+    found = []
+    for side in ("train", "val", "test"):
+        if not os.path.isdir(f"{EXPORT}/{side}"):
+            continue
+        with open(f"{EXPORT}/{side}/filename_list_{side}.txt") as file:
+            lines = [line.split() for line in file.readlines()]
+        for rgb, depth in lines:
+            scene, name = rgb.split("/")
+            camera, frame = name.removeprefix("rgb_").removesuffix(".png").rsplit("_fr", 1)
+            assert depth == f"{scene}/depth_plane_{camera}_fr{frame}.png"
+            found.append((scene, camera, int(frame)))
+            colour, metres_z = picture(f"{EXPORT}/{side}/{rgb}"), picture(f"{EXPORT}/{side}/{depth}") / 1000.0
+            distance, z = (layer(*found[-1], name) for name in ("depth_meters", "depth_z_meters"))
+            seen = np.isfinite(distance)
+            assert colour.shape == (*distance.shape, 3) and colour.dtype == np.uint8
+            assert np.array_equal(metres_z > 0, seen) and np.all(metres_z[seen] <= distance[seen] * (1 + 1e-3) + 0.0006)
+            if z is not None:
+                assert np.all(np.abs(metres_z - z)[seen] <= 0.00051)
+    assert sorted(found) == sorted(record())
+    return f"{len(found)} frames"
+
+
+def moge():
+    """By the rules of its `read_depth` and of its loader of training data."""
+    from PIL import Image
+
+    with open(f"{EXPORT}/.index.txt") as file:
+        names = file.read().splitlines()
+    found = []
+    for name in names:
+        scene, stem = name.split("/")
+        camera, frame = stem.rsplit("_", 1)
+        found.append((scene, camera, int(frame)))
+        with open(f"{EXPORT}/{name}/meta.json") as file:
+            K = np.array(json.load(file)["intrinsics"])
+        image, png = picture(f"{EXPORT}/{name}/image.jpg"), Image.open(f"{EXPORT}/{name}/depth.png")
+        near, far, values = float(png.info["near"]), float(png.info["far"]), np.array(png)
+        depth = (values.astype(np.float32) - 1) / 65533
+        depth = near ** (1 - depth) * far**depth
+        assert image.shape[:2] == values.shape and np.array_equal(values == 65535, layer(*found[-1], "render_entity_id") == -1)
+        depth[(values == 0) | (values == 65535)] = 0
+        K = np.diag([values.shape[1], values.shape[0], 1.0]) @ K
+        origin, rotation = pose(*found[-1])
+        world_from_opencv = np.eye(4)
+        world_from_opencv[:3, :3], world_from_opencv[:3, 3] = rotation @ FLIP, origin
+        check_points(*found[-1], depth * 1000.0, K, world_from_opencv, corner=0.5)
+    assert sorted(found) == sorted(record())
+    return f"{len(names)} frames"
+
+
 def points():
     """Points lie on the surface of some pixel, with its labels, and no two in one cube."""
     total = 0
