@@ -89,6 +89,7 @@ fn flag_of_files(args: &ImportArgs) -> Option<&'static str> {
         ("--environment", choices.environment.is_some()),
         ("--lamps", choices.lamps.is_some()),
         ("--drop-doubled-faces", choices.drop_doubled_faces),
+        ("--panes", !choices.panes.is_empty()),
         ("--allow-missing-textures", choices.allow_missing_textures),
     ];
     given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)

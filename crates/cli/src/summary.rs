@@ -27,6 +27,20 @@ pub fn print_table(summary: &Summary) {
     }
 }
 
+/// Failed scenes that the last lines name.
+const NAMED: usize = 3;
+
+/// The last lines of a run that is not as it should be: which scenes failed, and why.
+pub fn print_failures(summary: &Summary) {
+    let failed: Vec<_> = summary.scenes.iter().filter_map(|scene| Some((&scene.name, scene.failure.as_ref()?))).collect();
+    for (name, failure) in failed.iter().take(NAMED) {
+        say(&format!("NOT OK: {name}: {}: {}", failure.stage.name(), failure.message));
+    }
+    if failed.len() > NAMED {
+        say(&format!("NOT OK: and {} more scenes", failed.len() - NAMED));
+    }
+}
+
 /// What concerns the dataset as a whole, a line each.
 pub fn print_warnings(summary: &Summary) {
     summary.warnings.iter().for_each(|warning| say(&format!("warning: {warning}")));

@@ -31,6 +31,7 @@ pub fn run(args: &RunArgs, quiet: bool) -> Result<Verdict, Problem> {
     if args.demo.is_some() && result.ok() {
         summary::print_after_demo();
     }
+    summary::print_failures(&result);
     Ok(Verdict::of(result.ok()))
 }
 

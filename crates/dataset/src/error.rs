@@ -53,7 +53,7 @@ pub enum DatasetError {
     },
     /// A name that cannot be part of a path.
     #[error(
-        "{what} {name:?} cannot be used: names consist of 1 to 200 letters, digits, '_', '-' and '.', and do not begin with '.'; rename it"
+        "{what} {name:?} cannot be used: names consist of 1 to 200 of a to z, A to Z, 0 to 9, '_', '-' and '.', and do not begin with '.'; rename it"
     )]
     Name {
         /// "scene name" or "camera name".

@@ -49,7 +49,8 @@ const MAX_NAME: usize = 200;
 /// Checks that `name` can be part of a path on every system.
 ///
 /// # Errors
-/// When it is empty, longer than 200 characters, begins with a dot, or has characters other than letters, digits, `_`, `-` and `.`.
+/// When it is empty, longer than 200 characters, begins with a dot, or has characters other than `a` to `z`, `A` to `Z`, digits, `_`,
+/// `-` and `.`.
 ///
 /// ```
 /// use enfilade_dataset::check_name;

@@ -207,8 +207,10 @@ impl<'d> SelectedFrames<'d> {
     /// Rooms, walls, doors and windows of a scene, for formats that are about these.
     pub fn structure(&self, scene: &str) -> Result<Structure, ExportError> {
         let unknown = || {
-            let problem = "it has no _detail/layout.json, which only generated homes have; leave the scene out";
-            self.unsuitable(scene, format!("{problem}, or, if it is a home of an older version, see docs/structure.md"))
+            let problem = "it has no _detail/layout.json, which generated homes come with";
+            let remedy =
+                format!("`enfilade layout {}` makes it of scenes with labelled walls, floors and ceilings", self.dataset.root().display());
+            self.unsuitable(scene, format!("{problem}; {remedy}"))
         };
         self.dataset.read_structure(scene)?.ok_or_else(unknown)
     }

@@ -91,6 +91,8 @@ fn remedy(problem: &str) -> &'static str {
         "put the file there, beside the scene or into a folder textures beside it, or correct the path in the scene"
     } else if problem.contains(GIT_LFS_POINTER) {
         "import again then"
+    } else if problem.ends_with("not a picture") {
+        "download or copy the picture again"
     } else {
         "save the picture as PNG or JPEG, under this name or with the new one in the scene"
     }

@@ -49,6 +49,23 @@ impl Format {
     /// Ends of names that consist of several extensions, in lower case.
     const LONG: [&str; 3] = ["pbrt.gz", "scene_instance.json", "semantic.txt"];
 
+    /// What scenes of the format are called in messages.
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Self::Gltf => "a glTF",
+            Self::Obj => "an OBJ",
+            Self::Mitsuba => "a scene of Mitsuba",
+            Self::Pbrt => "a scene of pbrt",
+            Self::Ply => "a PLY",
+            Self::Usd => "USD",
+            Self::Fbx => "an FBX",
+            Self::SweetHome => "a home of Sweet Home 3D",
+            Self::VRay => "a scene of V-Ray",
+            Self::Collection => "a scene of a collection",
+            Self::Package => "a scene package",
+        }
+    }
+
     /// All extensions as they stand in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
     pub fn extensions() -> String {
         Self::ALL.iter().flat_map(|(_, extensions)| *extensions).map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")

@@ -1,6 +1,7 @@
 //! What an import gives: the scene, its labels, the files it was made of, and the report.
 
 use crate::ImportReport;
+use enfilade_math::DMat3;
 use enfilade_scene::{PartId, PartLabel, PictureFiles, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -27,6 +28,8 @@ pub struct Imported {
     pub inputs: Vec<PathBuf>,
     /// Files that were looked for and not found, in that order: with them the scene would be a different one.
     pub missing: Vec<PathBuf>,
+    /// The rotation, or reflection, from the file's axes to the world's; of no meaning for packages, which have the world's.
+    pub axes: DMat3,
     /// What the scene contains, and what was dropped or guessed.
     pub report: ImportReport,
 }

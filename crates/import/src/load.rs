@@ -2,7 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::{Format, ImportError, ImportOptions, Imported, UpAxis};
-use crate::{collections, fbx, gltf, mitsuba, obj, package, pbrt, ply, sweethome, usd, vray};
+use crate::{collections, disguise, fbx, gltf, mitsuba, obj, package, pbrt, ply, sweethome, usd, vray};
 use enfilade_scene::Cx;
 use std::path::Path;
 
@@ -17,6 +17,7 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     let within = if is_folder { Some(collections::the_scene_in_folder(path)?) } else { None };
     let path = within.as_deref().unwrap_or(path);
     let format = Format::of(path)?;
+    disguise::refuse(path, format)?;
     let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
     match format {
         Format::Gltf => gltf::load(assembly),

@@ -1,16 +1,73 @@
 //! What the user knows about a scene file that the file does not say: unit, upward axis, environment.
 
 use crate::{EnvironmentOverride, ImportError};
+use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// The axis of the file that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
 pub enum UpAxis {
+    /// Of a room that lies on its side.
+    #[serde(rename = "x")]
+    X,
     /// As in glTF.
+    #[serde(rename = "y")]
     Y,
     /// As in this workspace.
+    #[serde(rename = "z")]
     Z,
+    /// Against x.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Against y.
+    #[serde(rename = "-y")]
+    MinusY,
+    /// Against z.
+    #[serde(rename = "-z")]
+    MinusZ,
+}
+
+impl UpAxis {
+    /// Every one, the usual ones first.
+    pub const ALL: [Self; 6] = [Self::Y, Self::Z, Self::X, Self::MinusX, Self::MinusY, Self::MinusZ];
+
+    /// As it is written in `dataset.toml` and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+            Self::MinusX => "-x",
+            Self::MinusY => "-y",
+            Self::MinusZ => "-z",
+        }
+    }
+
+    /// The one that is nearest to a direction in the file's axes.
+    pub fn nearest(direction: DVec3) -> Self {
+        let [x, y, z] = direction.abs().to_array();
+        match (x > y.max(z), y > z) {
+            (true, _) if direction.x < 0.0 => Self::MinusX,
+            (true, _) => Self::X,
+            (_, true) if direction.y < 0.0 => Self::MinusY,
+            (_, true) => Self::Y,
+            _ if direction.z < 0.0 => Self::MinusZ,
+            _ => Self::Z,
+        }
+    }
+
+    /// The rotation that turns this axis to z.
+    pub(crate) fn world_from_file(self) -> DMat3 {
+        let [x, y, z] = match self {
+            Self::X => [DVec3::Z, DVec3::Y, DVec3::NEG_X],
+            Self::Y => [DVec3::X, DVec3::Z, DVec3::NEG_Y],
+            Self::Z => [DVec3::X, DVec3::Y, DVec3::Z],
+            Self::MinusX => [DVec3::NEG_Z, DVec3::Y, DVec3::X],
+            Self::MinusY => [DVec3::X, DVec3::NEG_Z, DVec3::Y],
+            Self::MinusZ => [DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z],
+        };
+        DMat3::from_cols(x, y, z)
+    }
 }
 
 /// What the user knows about a scene file that the file does not say.
@@ -69,5 +126,22 @@ impl ImportOptions {
             Some(problem) => Err(ImportError::Option { option: "environment", problem }),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_axis_is_turned_upward_by_a_rotation_and_is_called_alike_everywhere() {
+        for axis in UpAxis::ALL {
+            let turned = axis.world_from_file();
+            assert_eq!(turned.determinant(), 1.0, "{axis:?}");
+            assert_eq!(UpAxis::nearest(turned.transpose() * DVec3::new(0.1, -0.2, 0.9)), axis);
+            assert_eq!(serde_json::to_string(&axis).unwrap(), format!("{:?}", axis.name()));
+        }
+        let quarter = UpAxis::Y.world_from_file();
+        assert_eq!(quarter * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -3.0, 2.0));
     }
 }

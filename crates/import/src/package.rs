@@ -28,8 +28,8 @@ fn check_space(file: &Path, options: &ImportOptions) -> Result<(), ImportError> 
     };
     match options.up_axis {
         _ if options.meters_per_unit != 1.0 => refused("meters_per_unit", &options.meters_per_unit.to_string(), "1"),
-        Some(UpAxis::Y) => refused("up_axis", "y", "z"),
         Some(UpAxis::Z) | None => Ok(()),
+        Some(other) => refused("up_axis", other.name(), "z"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The report of an import: counts of what the scene contains, and warnings for all that was dropped or guessed.
 
 use crate::Format;
+use crate::kinds::by_kind;
 use enfilade_scene::{Cx, Scene, Warning};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -59,7 +60,7 @@ pub struct ImportReport {
     /// maps. Adding it gives the file's positions in metres with z up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset_m: Option<[f64; 3]>,
-    /// What was dropped, guessed or fixed, with its place; in the order of the file, each once.
+    /// What was dropped, guessed or fixed, with its place; in the order of the file, one for all of a kind.
     pub warnings: Vec<Warning>,
 }
 
@@ -109,7 +110,7 @@ impl fmt::Display for ImportReport {
     }
 }
 
-/// Warnings of one import: passed on as they come, and kept for the report, each once.
+/// Warnings of one import, each once. They are told, and kept for the report, when the import ends: one for all of a kind.
 pub(crate) struct Warnings<'a> {
     cx: &'a dyn Cx,
     seen: HashSet<(String, String)>,
@@ -124,13 +125,25 @@ impl<'a> Warnings<'a> {
     /// Records a warning, unless the same was recorded before.
     pub(crate) fn push(&mut self, place: String, message: String) {
         if self.seen.insert((place.clone(), message.clone())) {
-            let warning = Warning { place, message };
-            self.cx.warn(warning.clone());
-            self.list.push(warning);
+            self.list.push(Warning { place, message });
         }
     }
 
-    pub(crate) fn into_list(self) -> Vec<Warning> {
-        self.list
+    /// Tells what was recorded, and gives it.
+    pub(crate) fn into_list(mut self) -> Vec<Warning> {
+        self.tell()
+    }
+
+    fn tell(&mut self) -> Vec<Warning> {
+        let list = by_kind(std::mem::take(&mut self.list));
+        list.iter().for_each(|warning| self.cx.warn(warning.clone()));
+        list
+    }
+}
+
+/// Of an import that ends with an error the warnings are told as well: they may say why.
+impl Drop for Warnings<'_> {
+    fn drop(&mut self) {
+        self.tell();
     }
 }

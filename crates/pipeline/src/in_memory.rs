@@ -146,8 +146,8 @@ impl LoadedScene {
         floor_plan_svg(&WorldMesh::new(&self.scene), width)
     }
 
-    /// The camera of that name; without one, the view that `look` takes: a camera of the file that stands in a room, else a place that is
-    /// found, which takes seconds the first time. Says in words which.
+    /// The camera of that name; without one, the view that `look` takes: a camera of the file that stands in a room or sees something, else a
+    /// place that is found, which takes seconds the first time. Says in words which.
     ///
     /// # Errors
     /// When there is no camera of that name.

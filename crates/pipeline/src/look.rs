@@ -1,7 +1,7 @@
 //! `look`: the first picture of a scene file, in one step.
 //!
 //! The file is imported and looked at; it gets light if it has none, and a place to stand is found if none of its cameras stands in a
-//! room. Then one picture is rendered, denoised and shown as people see it.
+//! room or sees something from where it is. Then one picture is rendered, denoised and shown as people see it.
 
 use crate::config::{FileSource, Lamps, closest};
 use crate::error::Error;
@@ -40,6 +40,10 @@ const TILT_RAD: f64 = 0.08;
 const FAR_M: f64 = 6.0;
 /// Test images of them.
 const TEST_SIZE: [u32; 2] = [64, 48];
+/// Least share of a camera's pixels that show something, and the distance over the scene's diagonal from which on something is seen and not
+/// only in the way.
+const SEES_SHARE: f64 = 0.2;
+const IN_THE_WAY: f32 = 0.002;
 
 /// What a look showed.
 #[derive(Clone, Debug)]
@@ -127,9 +131,13 @@ pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx)
     if let Some(inside) = scene.cameras.iter().find(|camera| camera.position.is_finite() && is_indoors(&look.bvh, camera.position)) {
         return Ok(of_file(inside));
     }
+    if let Some(outside) = scene.cameras.iter().find(|camera| sees_something(look, camera)) {
+        let (camera, words) = of_file(outside);
+        return Ok((camera, format!("{words}, which stands in no room")));
+    }
     let places = find_starts(&look.world, &look.bvh, &StartsConfig::default(), cx);
     if let Some(best) = best_view(look, &places) {
-        let instead = if scene.cameras.is_empty() { "the file has no camera" } else { "no camera of the file stands in a room" };
+        let instead = if scene.cameras.is_empty() { "the file has no camera" } else { "no camera of the file sees anything" };
         return Ok((best, format!("a place that was found, since {instead}")));
     }
     if let Some(outside) = scene.cameras.first() {
@@ -137,6 +145,24 @@ pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx)
     }
     cx.warn(Warning { place: "look".into(), message: "it is seen from outside".into() });
     Ok((from_outside(look), "outside, since no place in it was found where one could stand".into()))
+}
+
+/// Whether enough of a camera's pixels show something, wherever it stands.
+fn sees_something(look: &Look, camera: &StartCamera) -> bool {
+    if !camera.position.is_finite() || look.world.bounds.is_empty() {
+        return false;
+    }
+    let test = Intrinsics::from_fov_x(TEST_SIZE[0], TEST_SIZE[1], with_usable_view(camera).fov_x_rad);
+    let camera_view = Camera::from(test);
+    let nearest = IN_THE_WAY * look.world.bounds.extent().length();
+    let sees = |pixel: usize| {
+        let (x, y) = (pixel as u32 % TEST_SIZE[0], pixel as u32 / TEST_SIZE[0]);
+        let direction = camera_view.projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).map(|ray| camera.world_from_camera * ray);
+        let ray = direction.map(|direction| Ray::new(camera.position.as_vec3(), direction.normalize_or_zero().as_vec3()));
+        ray.and_then(|ray| look.bvh.closest(&ray)).is_some_and(|hit| hit.t > nearest)
+    };
+    let pixels = (TEST_SIZE[0] * TEST_SIZE[1]) as usize;
+    (0..pixels).filter(|pixel| sees(*pixel)).count() as f64 >= SEES_SHARE * pixels as f64
 }
 
 /// The camera with a field of view that a picture can have.

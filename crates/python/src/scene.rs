@@ -29,7 +29,7 @@ impl Scene {
     /// label_scene: the name of the scene in the table's column `scene`; that of the file, without its extension, unless given.
     /// progress: shows how far it has come; unless given, in notebooks and terminals.
     #[staticmethod]
-    #[pyo3(signature = (file, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
+    #[pyo3(signature = (file, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
         allow_missing_textures=false, labels=None, label_scene=None, progress=None))]
     fn read(
         py: Python<'_>,
@@ -39,12 +39,13 @@ impl Scene {
         environment: Option<PathBuf>,
         lamps: Option<&str>,
         drop_doubled_faces: bool,
+        panes: Option<Names>,
         allow_missing_textures: bool,
         labels: Option<PathBuf>,
         label_scene: Option<String>,
         progress: Option<bool>,
     ) -> PyResult<Self> {
-        let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
+        let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
         let own_name = || enfilade_pipeline::scene_file_of(&file).with_extension("").to_string_lossy().into_owned();
         let labels =
             labels.map(|table| LabelSource { table: table.to_string_lossy().into_owned(), scene: label_scene.unwrap_or_else(own_name) });
@@ -76,8 +77,8 @@ impl Scene {
         watched(py, &Bar::none(), |cx: &Interrupt| LoadedScene::home(&config, cx)).map(Self)
     }
 
-    /// A camera at a good place: the file's camera `name`, or, without a name, the first of the file's cameras that stands in a room, else the
-    /// view from a place in a room that shows most, which takes seconds to find the first time. Where there is no room, from outside.
+    /// A camera at a good place: the file's camera `name`, or, without a name, the first of the file's cameras that stands in a room or else
+    /// sees something, else the view from a place in a room that shows most, which takes seconds to find the first time. Where there is no room, from outside.
     ///
     /// size: width and height of pictures, pixels. fov_x_deg: horizontal field of view, degrees; that of the file's camera, or 75, unless given.
     #[pyo3(signature = (name=None, *, size=[640, 480], fov_x_deg=None))]

@@ -16,16 +16,17 @@ use std::path::{Path, PathBuf};
 ///
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.
 /// meters_per_unit: metres per unit of the file.
-/// up_axis: "y" or "z"; as its format says unless given.
+/// up_axis: "y", "z", "x", "-x", "-y" or "-z"; as its format says unless given.
 /// environment: an equirectangular picture that lights the scene instead of the file's own surroundings, or "sky" or "overcast".
 /// lamps: "ceiling" hangs lamps from the ceiling of every room.
 /// drop_doubled_faces: of faces with the same corners keeps the first.
+/// panes: makes clear panes of parts or materials of these names, in which `*` stands for any characters.
 /// allow_missing_textures: goes on with plain grey where a texture is missing.
 ///
 /// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or fixed), `lost` (what the output cannot hold).
 /// The scenes of a dataset are imported by `enfilade.stage("import", dataset)`.
 #[pyfunction]
-#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
+#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
     allow_missing_textures=false))]
 pub fn import_scene<'py>(
     py: Python<'py>,
@@ -36,10 +37,11 @@ pub fn import_scene<'py>(
     environment: Option<PathBuf>,
     lamps: Option<&str>,
     drop_doubled_faces: bool,
+    panes: Option<Names>,
     allow_missing_textures: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let output = output.unwrap_or_else(|| scene_file_of(&file));
-    let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
+    let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
     let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
     let imported = interruptible(py, |cx: &Interrupt| enfilade_pipeline::import_file(&source, &output, encode, cx))?;
     let done = json!({ "scene": output, "report": imported.report, "summary": imported.summary, "warnings": imported.warnings, "lost": imported.lost });
@@ -93,13 +95,18 @@ pub fn file_source(
     environment: Option<PathBuf>,
     lamps: Option<&str>,
     drop_doubled_faces: bool,
+    panes: Option<Names>,
     allow_missing_textures: bool,
 ) -> PyResult<FileSource> {
     let up_axis = match up_axis {
         None => None,
-        Some("y") => Some(UpAxis::Y),
-        Some("z") => Some(UpAxis::Z),
-        Some(other) => return Err(PyValueError::new_err(format!("up_axis is {other:?}; expected \"y\" or \"z\""))),
+        Some(name) => match UpAxis::ALL.into_iter().find(|axis| axis.name() == name) {
+            Some(axis) => Some(axis),
+            None => {
+                let known = UpAxis::ALL.map(|axis| format!("{:?}", axis.name())).join(", ");
+                return Err(PyValueError::new_err(format!("up_axis is {name:?}; expected one of {known}")));
+            }
+        },
     };
     let lamps = match lamps {
         None => None,
@@ -107,8 +114,9 @@ pub fn file_source(
         Some(other) => return Err(PyValueError::new_err(format!("lamps is {other:?}; expected \"ceiling\""))),
     };
     let environment = environment.map(|written| EnvironmentOverride::named(&written.to_string_lossy()));
+    let panes = panes.map_or_else(Vec::new, |names| names.list());
     let file = FileSource::of(file.to_string_lossy());
-    Ok(FileSource { meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures, ..file })
+    Ok(FileSource { meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures, ..file })
 }
 
 /// What a home is made by; `seeds` are those of layout, furniture, materials and light.

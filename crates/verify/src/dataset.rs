@@ -14,6 +14,7 @@ use super::trajectory::PlanRules;
 use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
+use super::worth;
 use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, plane_ids, structure, surfaces};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
@@ -22,6 +23,7 @@ use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Structure, Trajectory};
+use std::collections::BTreeMap;
 
 /// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a
 /// violation, not as an error.
@@ -55,6 +57,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
         values.extend(frame.values);
         pairs.extend(frame.pairs);
     }
+    worth::check_light(scene, &values, &mut card);
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
@@ -192,11 +195,14 @@ impl SceneFacts {
         let name = &self.name;
         let rendered: usize = self.filmed.iter().map(|filmed| filmed.frames.len()).sum();
         card.observe(Law::HasFrames, if rendered == 0 { 1.0 } else { 0.0 }, || format!("{name}: no rendered frame"));
+        let (mut planned, mut faults) = (0, BTreeMap::new());
         for filmed in &self.filmed {
             let Filmed { trajectory, stored, frames, camera, rules, .. } = filmed;
             let place = format!("{name}/{}", trajectory.name);
             card.merge(check_trajectory(stored, rules, &place));
             let rejected = readable(card, dataset.rejected_views(name, &trajectory.name)).unwrap_or_default();
+            planned += trajectory.poses.len();
+            rejected.values().for_each(|fault| *faults.entry(fault.gate.clone()).or_default() += 1);
             let there = |frame: &u32| frames.contains(frame) || rejected.contains_key(frame);
             let missing: Vec<u32> = trajectory.poses.iter().map(|pose| pose.frame).filter(|frame| !there(frame)).collect();
             card.observe(Law::FramesComplete, missing.len() as f64, || format!("{place}: frames {missing:?} are missing"));
@@ -209,6 +215,7 @@ impl SceneFacts {
                 }
             }
         }
+        worth::check_views(name, planned, &faults, card);
     }
 
     /// What Hypersim's loaders make of the cameras; its own are as they expect them.
@@ -391,7 +398,9 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
 mod tests {
     use super::*;
     use enfilade_dataset::hdf5::{Storage, read_array, write_array};
-    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, ManifestInfo, Partition, write_bytes};
+    use enfilade_dataset::{
+        Array, Elements, FrameInfo, FrameTime, JudgedView, ManifestInfo, Partition, ViewFault, ViewVerdict, write_bytes,
+    };
     use enfilade_frame::f16;
     use enfilade_geometry::Voxel;
     use enfilade_label::structure::write_planes;
@@ -428,6 +437,34 @@ mod tests {
         assert_eq!((report.frames, report.scenes), (2, 1));
         assert_eq!(report.laws.len(), super::super::LAWS.len());
         assert!(report.to_text().contains("laws hold over 2 frames of 1 scene\n"));
+    }
+
+    #[test]
+    fn black_frames_and_views_that_gates_reject_are_found_where_they_are_most() {
+        let black = |dataset: &Dataset, frames: &[u32]| {
+            for &frame in frames {
+                let path = dataset.layout().layer("room", "cam_00", frame, Layer::Color);
+                let color = read_array(&path).unwrap();
+                let values = Elements::F16(vec![f16::ZERO; color.shape.iter().product()]);
+                write_array(&path, &Array { values, ..color }, Storage::Compressed, &[]).unwrap();
+            }
+        };
+        let lit = |frames: &[u32]| failures(|dataset| black(dataset, frames)).0.contains(&Law::Lit);
+        assert!(!lit(&[]) && !lit(&[0]) && lit(&[0, 1]));
+        let rejected = |frames: &[u32]| {
+            let (laws, text) = failures(|dataset| {
+                let view = |frame: u32| {
+                    let fault = frames.contains(&frame).then(|| ViewFault { gate: "buried".into(), value: 1.0, limit: 0.5 });
+                    let verdict = if fault.is_some() { ViewVerdict::Rejected } else { ViewVerdict::Passed };
+                    (JudgedView { frame, verdict, fault }, Vec::new())
+                };
+                dataset.write_view_gates("room", "cam_00", &[], &[view(0), view(1)]).unwrap();
+            });
+            (laws.contains(&Law::Worthwhile), text)
+        };
+        assert!(!rejected(&[1]).0);
+        let (is_found, text) = rejected(&[0, 1]);
+        assert!(is_found && text.contains("room: 2 of 2 views: 2 buried"), "{text}");
     }
 
     /// Shows the frames to a sensor.

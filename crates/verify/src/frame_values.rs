@@ -2,11 +2,14 @@
 
 use crate::frame_gates::{Gate, gate_values};
 use enfilade_dataset::FrameRecord;
-use enfilade_frame::tonemap::ToneMap;
+use enfilade_frame::tonemap::{ToneMap, brightness};
 use enfilade_frame::{Frame, Layer, Validity, Values, traits};
 use enfilade_scene::Camera;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// The largest finite half float.
+const LARGEST_HALF: f64 = 65_504.0;
 
 /// Values of one frame. `None` and absent entries stand for layers that the frame lacks; shares are of 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -31,6 +34,9 @@ pub struct FrameValues {
     pub samples: Option<f64>,
     /// What radiance is multiplied with before the gamma curve of the tone map.
     pub tone_map_scale: Option<f64>,
+    /// Mean luminance of the pixels that see the scene, W/(sr m²); those beyond float16 count as its largest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_luminance: Option<f64>,
     /// Share of the pixels with a channel that the tone map shows as 255.
     pub clipped_share: Option<f64>,
     /// Share of the pixels that the tone map shows as black.
@@ -69,6 +75,7 @@ impl FrameValues {
             noise_target,
             samples: sampling.map(|sampling| sampling.samples_taken),
             tone_map_scale: tone.map(|tone| tone.scale),
+            mean_luminance: mean_luminance(frame),
             clipped_share,
             black_share,
             labelled_share,
@@ -98,6 +105,14 @@ fn seeing(frame: &Frame, camera: Option<&Camera>) -> usize {
 /// Share of `all` for which `holds`.
 fn share(all: usize, holds: impl Fn(usize) -> bool) -> f64 {
     (0..all).filter(|&i| holds(i)).count() as f64 / all.max(1) as f64
+}
+
+/// Mean luminance of the pixels that see the scene; `None` without colour or where nothing is seen.
+fn mean_luminance(frame: &Frame) -> Option<f64> {
+    let (color, ids) = (frame.get(Layer::Color)?, frame.get(Layer::RenderEntityId)?);
+    let luminance = |i: usize| brightness([0, 1, 2].map(|c| color.get(3 * i + c))).min(LARGEST_HALF);
+    let seen: Vec<f64> = (0..frame.pixels()).filter(|&i| ids.get(i) != -1.0).map(luminance).filter(|v| !v.is_nan()).collect();
+    (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
 }
 
 /// Shares of clipped and of black pixels.

@@ -18,6 +18,8 @@ pub enum Law {
     Stereo,
     LabelTables,
     HasFrames,
+    Lit,
+    Worthwhile,
     FrameNumbers,
     PosesFinite,
     Orthonormal,
@@ -102,7 +104,7 @@ macro_rules! laws {
 }
 
 /// The table of laws; `LAWS[law as usize].law == law`.
-pub const LAWS: [LawSpec; 71] = laws![
+pub const LAWS: [LawSpec; 73] = laws![
     Readable 0.0 "files", "every file can be read and has the shape and type its name promises",
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
@@ -117,6 +119,10 @@ pub const LAWS: [LawSpec; 71] = laws![
     Stereo 1e-9 "m", "the cameras of a stereo rig keep their baseline and look the same way", "one of the two was planned again or edited: plan again";
     LabelTables 0.0 "tables", "the label tables are there and have one row per part", "the scene was not labelled: run the label stage";
     HasFrames 0.0 "", "every scene has a trajectory with rendered frames", "a stage of the scene failed, or planning or rendering found nothing: see the run's summary";
+    Lit 0.5 "share", "no more than half of a scene's frames are black (mean luminance of what is seen below 1e-5 W/(sr m^2))",
+        "no light comes to what the frames show, as in a room without windows under a sky: light it from within (lamps = \"ceiling\"), or open it";
+    Worthwhile 0.5 "share", "gates reject no more than half of a scene's planned views",
+        "most cameras stand in things, outside, or before a wall: place them elsewhere, or set other limits in [gate]";
     FrameNumbers 0.0 "frames", "frames are numbered 0, 1, 2, ... without a gap", "the trajectory was cut or edited: plan it again";
     PosesFinite 0.0 "poses", "poses hold no NaN or infinity", "planning went wrong: plan again";
     Orthonormal 1e-9 "", "orientations are orthonormal (largest entry of |R R^T - 1|)", "an artist's camera with scale was passed through: plan again";

@@ -39,6 +39,7 @@ mod view;
 pub mod view_gates;
 mod walk;
 mod whole;
+mod worth;
 
 pub use card::Card;
 pub use dataset::{FrameVerifier, verify_listed_scene, verify_scene};

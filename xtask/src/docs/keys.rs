@@ -61,6 +61,7 @@ const GROUPS: [Group; 19] = [
             "environment",
             "lamps",
             "drop_doubled_faces",
+            "panes",
             "allow_missing_textures",
             "render",
             "camera",

@@ -46,7 +46,7 @@ pub struct AnnotateArgs {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub meters_per_unit: Option<f64>,
     /// Which way is up in a scene file [default: as its format says]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub up_axis: Option<UpAxisArg>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]

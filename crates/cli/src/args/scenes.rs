@@ -1,5 +1,6 @@
 //! The verbs that make scene files and what belongs to them.
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use enfilade_pipeline::{EnvironmentOverride, FileSource, Lamps, SceneFormat};
 use std::path::{Path, PathBuf};
@@ -111,7 +112,7 @@ pub struct FileChoices {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub meters_per_unit: Option<f64>,
     /// Which way is up in the file [default: as its format says; in packages always z]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub up_axis: Option<UpAxisArg>,
     /// Light the scene with this equirectangular picture instead of the file's own surroundings, or with a sky that needs no file:
     /// "sky" (clear, with the sun of a summer afternoon) or "overcast"
@@ -123,6 +124,9 @@ pub struct FileChoices {
     /// Of faces with the same corners keep the first
     #[arg(long)]
     pub drop_doubled_faces: bool,
+    /// Make clear panes of parts or materials of these names ("glass*,window pane"), where glass has lost that it lets light through
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    pub panes: Vec<String>,
     /// Go on with plain grey where a texture is missing
     #[arg(long)]
     pub allow_missing_textures: bool,
@@ -137,6 +141,7 @@ impl FileChoices {
             environment: self.environment.as_deref().map(EnvironmentOverride::named),
             lamps: self.lamps.map(|LampsArg::Ceiling| Lamps::Ceiling),
             drop_doubled_faces: self.drop_doubled_faces,
+            panes: self.panes.clone(),
             allow_missing_textures: self.allow_missing_textures,
             ..FileSource::of(file.to_string_lossy())
         }
@@ -153,7 +158,7 @@ pub enum LampsArg {
 /// `look`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade look room.glb\n  enfilade look room.obj --meters-per-unit 0.01 --up-axis z -o room.png\n\n\
-    The view is the file's first camera that stands in a room, or a place that is found. A file without light is lit by lamps below\n\
+    The view is the file's first camera that stands in a room, or else the first that sees something, or a place that is found. A file without light is lit by lamps below\n\
     its ceilings and an overcast sky. Samples are taken for about 8 s; the picture is denoised. For a dataset: enfilade run.")]
 pub struct LookArgs {
     /// A scene file
@@ -187,7 +192,7 @@ pub struct SuggestArgs {
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub min_confidence: Option<f32>,
     /// Which way is up in the file [default: as its format says; in packages always z]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub up_axis: Option<UpAxisArg>,
     /// Replace a table that is there, also one that was corrected since
     #[arg(long)]
@@ -195,20 +200,31 @@ pub struct SuggestArgs {
 }
 
 /// `--up-axis`.
-#[derive(Clone, Copy, ValueEnum)]
-pub enum UpAxisArg {
-    /// +y
-    Y,
-    /// +z
-    Z,
+#[derive(Clone, Copy)]
+pub struct UpAxisArg(enfilade_pipeline::UpAxis);
+
+impl ValueEnum for UpAxisArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        use enfilade_pipeline::UpAxis;
+        const ALL: [UpAxisArg; UpAxis::ALL.len()] = [
+            UpAxisArg(UpAxis::Y),
+            UpAxisArg(UpAxis::Z),
+            UpAxisArg(UpAxis::X),
+            UpAxisArg(UpAxis::MinusX),
+            UpAxisArg(UpAxis::MinusY),
+            UpAxisArg(UpAxis::MinusZ),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()))
+    }
 }
 
 impl From<UpAxisArg> for enfilade_pipeline::UpAxis {
     fn from(axis: UpAxisArg) -> Self {
-        match axis {
-            UpAxisArg::Y => Self::Y,
-            UpAxisArg::Z => Self::Z,
-        }
+        axis.0
     }
 }
 

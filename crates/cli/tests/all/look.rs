@@ -54,3 +54,37 @@ fn a_check_tells_what_an_import_would_and_writes_nothing() {
     succeed(d, &["import", "room.obj", "--environment", "overcast"]);
     assert!(fs::metadata(d.join("room.scene")).unwrap().len() > 1_000_000);
 }
+
+/// A box of 2 m without its front, seen from 4 m away through its open side, as the Cornell box is.
+#[test]
+fn the_files_own_camera_is_kept_where_it_sees_something_wherever_it_stands() {
+    let dir = folder();
+    let d = dir.path();
+    let wall = |turn: &str| {
+        format!(
+            "<shape type=\"rectangle\"><transform name=\"to_world\">{turn}</transform><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>"
+        )
+    };
+    let walls: String = [
+        "<rotate x=\"1\" angle=\"-90\"/><translate y=\"-1\"/>",
+        "<rotate x=\"1\" angle=\"90\"/><translate y=\"1\"/>",
+        "<translate z=\"-1\"/>",
+        "<rotate y=\"1\" angle=\"90\"/><translate x=\"-1\"/>",
+        "<rotate y=\"1\" angle=\"-90\"/><translate x=\"1\"/>",
+    ]
+    .map(wall)
+    .concat();
+    let scene = |target: &str| {
+        let sensor = format!(
+            "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"0,0,4\" target=\"{target}\" up=\"0,1,0\"/></transform></sensor>"
+        );
+        format!("<scene version=\"3.0.0\">{sensor}{walls}<emitter type=\"point\"><point name=\"position\" y=\"0.8\"/></emitter></scene>")
+    };
+    fs::write(d.join("box.xml"), scene("0,0,0")).unwrap();
+    let text = succeed(d, &["look", "box.xml"]);
+    assert!(text.contains("view     camera") && text.contains("of the file, which stands in no room"), "{text}");
+    // One that looks away shows nothing.
+    fs::write(d.join("away.xml"), scene("0,0,8")).unwrap();
+    let text = succeed(d, &["look", "away.xml"]);
+    assert!(!text.contains("which stands in no room"), "{text}");
+}

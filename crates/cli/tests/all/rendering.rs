@@ -177,3 +177,25 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
     fail(d, &["run", "--demo", "other", "--samples", "3", "--quality", "high"], 2, &["--quality"]);
     assert!(!d.join("other").exists());
 }
+
+#[test]
+fn a_dataset_of_black_pictures_is_not_ok_and_the_last_line_says_why() {
+    let dir = folder();
+    let d = dir.path();
+    write_room(d, "room", Lamp::Off);
+    write_config(d, &[format!("{}environment = \"sky\"\n", scene("room"))]);
+    for _ in 0..2 {
+        let (code, out, err) = crate::common::run(d, &["run", "dataset.toml", "-o", "out"]);
+        assert_eq!(code, 1, "{out}\n{err}");
+        let last = out.lines().last().unwrap_or_default();
+        assert!(
+            last.starts_with("NOT OK: room: verify: ") && last.contains("are black") && last.contains("all light comes from outside"),
+            "{out}"
+        );
+        assert!(err.contains("hang lamps by lamps = \"ceiling\""), "{err}");
+    }
+    fail(d, &["verify", "out"], 1, &["no more than half of a scene's frames are black"]);
+    write_config(d, &[format!("{}lamps = \"ceiling\"\n", scene("room"))]);
+    let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
+    assert!(!text.contains("NOT OK"), "{text}");
+}

@@ -57,6 +57,7 @@ pub(crate) struct Assembly<'a> {
     flattened: usize,
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
+    axes: DMat3,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -86,6 +87,7 @@ impl<'a> Assembly<'a> {
             flattened: 0,
             labels: Vec::new(),
             meters_per_unit: 1.0,
+            axes: DMat3::IDENTITY,
             world_from_file: DAffine3::IDENTITY,
             scene: Scene::default(),
         };
@@ -96,14 +98,14 @@ impl<'a> Assembly<'a> {
     /// Sets the unit and the upward axis that the file itself states, before anything is placed. The options' unit multiplies the
     /// file's, their axis replaces it.
     pub(crate) fn set_units(&mut self, file_meters_per_unit: f64, file_up: UpAxis) {
-        self.state_space(file_meters_per_unit, world_from_up(file_up));
+        self.state_space(file_meters_per_unit, file_up.world_from_file());
     }
 
     /// As [`Assembly::set_units`] for any axes: `world_from_axes` is a rotation or a reflection.
     pub(crate) fn state_space(&mut self, file_meters_per_unit: f64, world_from_axes: DMat3) {
-        let axes = self.options.up_axis.map_or(world_from_axes, world_from_up);
+        self.axes = self.options.up_axis.map_or(world_from_axes, UpAxis::world_from_file);
         self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
-        self.world_from_file = DAffine3::from_mat3(axes * self.meters_per_unit);
+        self.world_from_file = DAffine3::from_mat3(self.axes * self.meters_per_unit);
     }
 
     /// An empty scene from the file `entry` within an archive, with the same options.
@@ -167,11 +169,6 @@ impl<'a> Assembly<'a> {
         self.inputs.extend(files.iter().filter(|file| !self.inputs.contains(file)).cloned().collect::<Vec<_>>());
     }
 
-    /// True unless the options say which axis is up.
-    pub(crate) fn has_default_axes(&self) -> bool {
-        self.options.up_axis.is_none()
-    }
-
     /// The rotation (and scale) from file axes to world axes.
     pub(crate) fn world_from_file(&self) -> DAffine3 {
         self.world_from_file
@@ -206,8 +203,8 @@ impl<'a> Assembly<'a> {
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
-        let picture_files = self.picture_files;
-        Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, report })
+        let (picture_files, axes) = (self.picture_files, self.axes);
+        Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, report })
     }
 
     /// Puts the surroundings of the options in place of the file's own.
@@ -222,14 +219,6 @@ impl<'a> Assembly<'a> {
             self.scene.environment = Some(environment.of_picture(image));
         }
         Ok(())
-    }
-}
-
-/// The rotation that turns `up` to z.
-fn world_from_up(up: UpAxis) -> DMat3 {
-    match up {
-        UpAxis::Y => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-        UpAxis::Z => DMat3::IDENTITY,
     }
 }
 

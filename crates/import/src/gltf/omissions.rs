@@ -3,6 +3,9 @@
 use gltf::json::Root;
 use serde_json::{Value, json};
 
+/// Keys of other JSON that a message names.
+const KEYS: usize = 6;
+
 /// The typed JSON, or the place and the problem.
 ///
 /// # Errors
@@ -17,6 +20,12 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
     let mut value: Value = serde_json::from_slice(text).map_err(|_| problem())?;
     if let Some(version) = old_version(&value) {
         return Err(("asset.version".into(), format!("found glTF {version}, expected 2.0; convert the file to glTF 2.0")));
+    }
+    if let Some(keys) = value.as_object().filter(|root| !root.contains_key("asset") && !root.contains_key("meshes")) {
+        let keys: Vec<&str> = keys.keys().map(String::as_str).take(KEYS).collect();
+        let problem =
+            format!("it has no \"asset\", so it is JSON of another program (with {}) and no glTF; give the glTF file", keys.join(", "));
+        return Err(("whole file".into(), problem));
     }
     complete(&mut value);
     Root::from_slice(value.to_string().as_bytes()).map_err(|_| problem())

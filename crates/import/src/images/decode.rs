@@ -3,6 +3,7 @@
 use super::float_picture::{FloatPicture, check_size};
 use super::layout::Surface;
 use super::{dds, exr, ktx2, pfm, tiff};
+use crate::disguise::Content;
 use ::image::codecs::hdr::HdrDecoder;
 use ::image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use enfilade_scene::{Image, PictureFile, Pixels};
@@ -41,6 +42,9 @@ const LARGEST_HALF: f32 = 65_504.0;
 pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, String> {
     if let Some(decoded) = by_signature(name, bytes, usage) {
         return decoded;
+    }
+    if let Some(content) = Content::of(bytes).filter(|content| !content.is_picture()) {
+        return Err(format!("is {}, not a picture", content.words()));
     }
     let format = format(name, bytes).ok_or_else(|| format!("is not a picture of a known format ({KNOWN})"))?;
     if format == ImageFormat::Tiff

@@ -187,7 +187,18 @@ impl Loader<'_, '_> {
                     let problem = format!("the parameters in the attribute {} make it longer than {MAX_VALUE} bytes", a.name());
                     ImportError::malformed(file, place, problem)
                 })?;
-                Ok((a.name().to_string(), value))
+                match undefined(&value) {
+                    // A definition may refer to what an outer file or a command line would define.
+                    Some(name) if element.tag_name().name() != "default" => {
+                        let problem = format!(
+                            "the attribute {} has the parameter ${name}, which nothing before it defines; add <default name=\"{name}\" value=\"…\"/> \
+                             at the beginning of the scene, with the value that is given to Mitsuba by -D {name}=…",
+                            a.name()
+                        );
+                        Err(ImportError::malformed(file, format!("line {line}:{column}"), problem))
+                    }
+                    _ => Ok((a.name().to_string(), value)),
+                }
             };
             let attributes: Vec<(String, String)> = element.attributes().map(filled_in).collect::<Result<_, ImportError>>()?;
             let get = |name: &str| attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.clone());
@@ -267,6 +278,13 @@ impl Loader<'_, '_> {
             (length <= MAX_VALUE).then(|| text.replace(&place, with))
         })
     }
+}
+
+/// The name of a parameter that is left in a value; a dollar sign alone is text.
+fn undefined(value: &str) -> Option<&str> {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let behind = value.split('$').skip(1).find(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '_'))?;
+    Some(behind.split(|c| !is_name(c)).next().unwrap_or(behind))
 }
 
 /// `toWorld` → `to_world`, `intIOR` → `int_ior`: the names of Mitsuba 2 and 3 for those of version 0.x.

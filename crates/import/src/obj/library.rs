@@ -4,6 +4,7 @@ use super::map::Map;
 use super::text::{decoded, lines, unquoted, without_comment};
 use crate::ImportError;
 use crate::assembly::{Assembly, is_absolute};
+use crate::disguise::Content;
 use crate::spectrum::rgb_of_xyz;
 use enfilade_math::Rgb;
 use std::collections::{BTreeMap, HashMap};
@@ -45,7 +46,13 @@ pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, 
         for name in candidates.into_iter().map(|name| spelled(&folder, unquoted(name))) {
             let path = a.find(&[&name], &[&folder]).unwrap_or(name);
             match a.read(&path) {
-                Ok((_, bytes)) => parse(&bytes, &folder_of(&path), &mut library, a),
+                Ok((file, bytes)) => match Content::of(&bytes) {
+                    Some(content) => {
+                        let problem = format!("the material library {} is {}", file.display(), content.words());
+                        stand_in(obj, line, &problem, &mut library, a)?;
+                    }
+                    None => parse(&bytes, &folder_of(&path), &mut library, a),
+                },
                 Err(ImportError::Read { file, source, .. }) => {
                     let missing = format!("the material library {} cannot be read ({source})", file.display());
                     stand_in(obj, line, &missing, &mut library, a)?;
@@ -60,12 +67,12 @@ pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, 
 /// Takes the library that is called like the OBJ file for one that is missing, where there is one.
 fn stand_in(obj: &str, line: &str, missing: &str, library: &mut Library, a: &mut Assembly) -> Result<(), ImportError> {
     let own = Path::new(&obj.replace('\\', "/")).with_extension("mtl").to_string_lossy().into_owned();
-    if !a.exists(&own) {
+    let bytes = if a.exists(&own) { Some(a.read(&own)?.1).filter(|bytes| Content::of(bytes).is_none()) } else { None };
+    let Some(bytes) = bytes else {
         a.warn(format!("mtllib {line}"), format!("{missing}; grey stands in for its materials"));
         return Ok(());
-    }
+    };
     a.warn(format!("mtllib {line}"), format!("{missing}; {own}, which is called like the OBJ file, was read in its place"));
-    let (_, bytes) = a.read(&own)?;
     let mut found = Library::new();
     parse(&bytes, &folder_of(&own), &mut found, a);
     for (name, entry) in found {

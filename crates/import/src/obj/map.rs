@@ -16,10 +16,21 @@ pub(super) struct Map<'m> {
 }
 
 impl<'m> Map<'m> {
-    /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path.
+    /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path. Options belong before the
+    /// path; behind it they are read where nothing else is there, as three.js does.
     pub(super) fn parse(statement: &'m str) -> Option<Self> {
         let mut map = Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, channel: None, ignored: Vec::new() };
-        let mut rest = statement.trim();
+        let rest = map.options(statement.trim())?;
+        let behind = rest.match_indices(char::is_whitespace).map(|(at, _)| rest.split_at(at)).find(|(_, tail)| are_options(tail.trim()));
+        let (path, tail) = behind.unwrap_or((rest, ""));
+        map.options(tail.trim());
+        map.path = unquoted(path.trim_end());
+        (!map.path.is_empty()).then_some(map)
+    }
+
+    /// Takes over the options at the beginning of a text, and gives what follows them. `None` where an option ends the text before its value.
+    fn options(&mut self, text: &'m str) -> Option<&'m str> {
+        let mut rest = text;
         while rest.starts_with('-') {
             let (option, after) = rest.split_once(char::is_whitespace)?;
             rest = after.trim_start();
@@ -31,7 +42,8 @@ impl<'m> Map<'m> {
             let textual = matches!(option, "-clamp" | "-blendu" | "-blendv" | "-cc" | "-imfchan" | "-type");
             let (mut values, mut word) = (Vec::new(), "");
             while values.len() < max_values {
-                word = rest.split_whitespace().next()?;
+                let Some(next) = rest.split_whitespace().next() else { break };
+                word = next;
                 match word.parse::<f32>() {
                     Ok(value) => values.push(value),
                     Err(_) if textual => values.push(f32::from(u8::from(word == "on"))),
@@ -39,10 +51,9 @@ impl<'m> Map<'m> {
                 }
                 rest = rest[word.len()..].trim_start();
             }
-            map.set(option, word, &values);
+            self.set(option, word, &values);
         }
-        map.path = unquoted(rest);
-        (!map.path.is_empty()).then_some(map)
+        Some(rest)
     }
 
     /// Takes over an option of these values, of which `word` is the last.
@@ -82,6 +93,25 @@ impl<'m> Map<'m> {
     }
 }
 
+/// Options that may stand behind a path.
+const OPTIONS: [&str; 14] =
+    ["-s", "-o", "-t", "-mm", "-bm", "-clamp", "-blendu", "-blendv", "-boost", "-cc", "-imfchan", "-texres", "-type", "-colorspace"];
+
+/// Whether a text is nothing but options with values.
+fn are_options(text: &str) -> bool {
+    let mut words = text.split_whitespace().peekable();
+    let mut any = false;
+    while let Some(option) = words.next() {
+        let is_value = |word: &&str| word.parse::<f32>().is_ok() || !word.contains('.') && !OPTIONS.contains(word);
+        if !OPTIONS.contains(&option) || words.next_if(is_value).is_none() {
+            return false;
+        }
+        while words.next_if(|word| word.parse::<f32>().is_ok()).is_some() {}
+        any = true;
+    }
+    any
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,6 +123,16 @@ mod tests {
         assert_eq!(Map::parse("3 chairs.png").unwrap().path, "3 chairs.png");
         assert_eq!(Map::parse("-imfchan m \"my wood.png\"").map(|m| (m.path, m.channel)), Some(("my wood.png", Some(3))));
         assert!(Map::parse("-bm 1").is_none());
+    }
+
+    #[test]
+    fn options_behind_the_path_are_read_and_names_that_look_like_them_are_names() {
+        let map = Map::parse("my a.png -s 2 3 1 -clamp on -bm 0.5").unwrap();
+        assert_eq!((map.path, map.scale, map.clamp, map.bump), ("my a.png", [2.0, 3.0], true, 0.5));
+        assert_eq!(Map::parse("-o 1 2 a.png -s 2 2").map(|map| (map.path, map.scale, map.offset)), Some(("a.png", [2.0; 2], [1.0, 2.0])));
+        for name in ["wood -s 1.png", "wood -s.png", "a - b.png", "a -x 1", "tile -o"] {
+            assert_eq!(Map::parse(name).map(|map| map.path), Some(name), "{name}");
+        }
     }
 
     #[test]

@@ -45,10 +45,6 @@ impl Reader<'_> {
         // pbrt looks along +z with x to the right.
         let to_ours = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0)));
         let file_from_camera = self.file_from_world * camera_from_world.inverse() * to_ours;
-        let up = file_from_camera.matrix3.y_axis.normalize_or_zero();
-        if self.a.has_default_axes() && up.z.abs() > 0.8 {
-            self.warn(&params.place, "the camera's upper edge points along z; import with up_axis = \"z\" if the room lies on its side");
-        }
         self.a.push_camera("camera", file_from_camera, fov_x, aspect);
         Ok(())
     }

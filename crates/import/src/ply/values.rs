@@ -27,7 +27,10 @@ impl<'b> Values<'b> {
     }
 
     /// What follows the last row, if anything but blanks does, for a warning.
-    pub(super) fn trailing(&self) -> Option<String> {
+    pub(super) fn trailing(&mut self) -> Option<String> {
+        if self.encoding == Encoding::Text {
+            self.skip_comments();
+        }
         let rest = &self.bytes[self.at..];
         let is_something = |b: &u8| !b.is_ascii_whitespace() && *b != 0;
         rest.iter().any(is_something).then(|| match self.encoding {
@@ -100,7 +103,24 @@ impl<'b> Values<'b> {
         })
     }
 
+    /// Passes over lines of comments before a row; some programs write them among rows as well as in the header.
+    fn skip_comments(&mut self) {
+        loop {
+            let rest = &self.bytes[self.at..];
+            let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
+            let is_comment = rest[start..].strip_prefix(b"comment").is_some_and(|text| text.first().is_none_or(u8::is_ascii_whitespace));
+            if !is_comment {
+                return;
+            }
+            let end = rest[start..].iter().position(|b| *b == self.line_end).unwrap_or(rest.len() - start);
+            self.at += start + end;
+        }
+    }
+
     fn next_word(&mut self) -> Result<f64, Problem> {
+        if self.in_row == 0 {
+            self.skip_comments();
+        }
         let rest = &self.bytes[self.at..];
         let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
         let length = rest[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len() - start);

@@ -196,7 +196,7 @@ fn unreadable_files_and_unknown_formats_say_so() {
     assert!(folder.error("folder.glb").contains("folder.glb: cannot be read"));
     assert!(folder.write("a.blend", "BLENDER").error("a.blend").contains("no importer for .blend files; expected one of .gltf"));
     assert!(folder.write("a.gltf", "{\"asset\": ").error("a.gltf").contains("a.gltf: line 1 column 10: not valid glTF JSON"));
-    assert!(folder.write("a.gltf", "").error("a.gltf").contains("line 1 column 0"));
+    assert!(folder.write("a.gltf", "").error("a.gltf").contains("it is empty, not a glTF"));
     assert!(folder.write("a.scene", "x").error("a.scene").contains("not a scene package"));
 }
 
@@ -259,7 +259,7 @@ fn xml_mistakes_have_line_and_column() {
     let folder = Folder::new();
     let error = |text: &str| folder.write("a.xml", text).error("a.xml");
     assert!(error("<scene>\n  <shape>\n</scene>").starts_with("a.xml: line 3:1: not well-formed XML"));
-    assert!(error("<html/>").contains("the outermost element is <html>, expected <scene>"));
+    assert!(error("<rooms/>").contains("XML of another program, with <rooms> around all, not a scene of Mitsuba"));
     assert!(
         error("<scene>\n <shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape></scene>")
             .contains("a.xml line 2:23 <float name=\"radius\">: \"one\" in the attribute value is not a finite number")
@@ -271,7 +271,7 @@ fn xml_mistakes_have_line_and_column() {
         error("<scene><shape type=\"obj\"><string name=\"filename\" value=\"gone.obj\"/></shape></scene>")
             .contains("gone.obj: cannot be read")
     );
-    assert!(error("").contains("not well-formed XML"));
+    assert!(error("").contains("it is empty"));
     let cycle = "<scene><bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf><bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>\
                  <shape type=\"sphere\"><ref id=\"a\"/></shape></scene>";
     assert!(error(cycle).contains("bsdfs go in a circle"));

@@ -404,7 +404,7 @@ fn damaged_files_are_errors_with_a_remedy() {
     let folder = Folder::new();
     folder.write("no.fbx", "hello").write("empty.fbx", "");
     assert!(folder.error("no.fbx").starts_with("no.fbx: whole file: "), "{}", folder.error("no.fbx"));
-    assert!(folder.error("empty.fbx").contains("export it again"), "{}", folder.error("empty.fbx"));
+    assert!(folder.error("empty.fbx").contains("download or copy the file again"), "{}", folder.error("empty.fbx"));
     let whole = binary(&textured("no.png", "no.png", Some(png(2, 2, [9; 4]))), 7400);
     for length in (0..whole.len()).step_by(7) {
         folder.write("cut.fbx", &whole[..length]);

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod common;
+mod disguises;
 mod extensions;
 mod fbx;
 mod front3d;

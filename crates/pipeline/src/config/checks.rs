@@ -17,7 +17,8 @@ const LARGEST_SIDE: u32 = 16_384;
 /// Frame numbers have four digits.
 const MAX_FRAMES: u32 = 10_000;
 /// What names of scenes are made of.
-pub(super) const NAMES: &str = "names become folders: use 1 to 200 letters, digits, '-', '_' and '.', and do not begin with '.'";
+pub(super) const NAMES: &str = "names become folders, which have to be read everywhere: use 1 to 200 of a to z, A to Z, 0 to 9, '-', '_' and '.' \
+     (Buero for Büro), and do not begin with '.'";
 
 /// Where a key stands in `dataset.toml`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -64,6 +64,9 @@ pub(super) struct ImportKeys {
     pub lamps: Option<Lamps>,
     /// Of faces with the same corners the first stays.
     pub drop_doubled_faces: Option<bool>,
+    /// Makes clear panes of parts or materials of these names, in which `*` stands for any characters, where glass has lost that it lets light
+    /// through.
+    pub panes: Option<Vec<String>>,
     /// Goes on with grey, and a warning, where a texture is missing.
     pub allow_missing_textures: Option<bool>,
 }
@@ -88,6 +91,7 @@ pub(super) struct SceneKeys {
     pub environment: Option<Spanned<EnvironmentOverride>>,
     pub lamps: Option<Lamps>,
     pub drop_doubled_faces: Option<bool>,
+    pub panes: Option<Vec<String>>,
     pub allow_missing_textures: Option<bool>,
     pub labels: Option<Spanned<String>>,
     /// Name of the scene in the label table; its own name unless it is given.

@@ -43,7 +43,7 @@ pub struct Config {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneConfig {
-    /// Name in the dataset: letters, digits, `-`, `_` and `.`.
+    /// Name in the dataset: of `a` to `z`, `A` to `Z`, digits, `-`, `_` and `.`.
     pub name: String,
     /// Seed of trajectories and of the renderer's noise.
     pub seed: u64,
@@ -118,6 +118,9 @@ pub struct FileSource {
     /// Keeps the first of all faces with the same corners.
     #[serde(default)]
     pub drop_doubled_faces: bool,
+    /// Parts or materials of these names, with `*` for any characters, become clear panes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub panes: Vec<String>,
     /// Goes on, with a warning, where a texture file is missing.
     #[serde(default)]
     pub allow_missing_textures: bool,
@@ -133,6 +136,7 @@ impl FileSource {
             environment: None,
             lamps: None,
             drop_doubled_faces: false,
+            panes: Vec::new(),
             allow_missing_textures: false,
         }
     }

@@ -1,7 +1,7 @@
 //! `lamps = "ceiling"`: plausible lamps for interiors that have none.
 
 use super::seen::Look;
-use enfilade_dataset::{counted, counted_as};
+use enfilade_dataset::counted;
 use enfilade_explore::LampPlace;
 use enfilade_geometry::Mesh;
 use enfilade_import::ImportedLabel;
@@ -42,10 +42,10 @@ pub(crate) fn hang(scene: &mut Scene, labels: Option<&mut Vec<ImportedLabel>>, l
         labels.extend((first..scene.parts.len() as u32).enumerate().map(label));
     }
     format!(
-        "{} of {:.2} m and less were hung from {} (lamps = \"ceiling\"), {KLM_PER_M2} klm for every m2; they are no part of the file",
+        "{} of {:.2} m and less were hung from the {} (lamps = \"ceiling\"), {KLM_PER_M2} klm for every m2; they are no part of the file",
         counted(lamps.len(), "lamp"),
         lamps.iter().map(|lamp| lamp.side_m).fold(0.0, f32::max),
-        counted_as(ceilings.len(), "the ceiling of a room", "ceilings")
+        if ceilings.len() == 1 { "ceiling of a room".into() } else { format!("{} ceilings of its rooms", ceilings.len()) }
     )
 }
 

@@ -1,13 +1,15 @@
 //! What becomes of a scene file between its importer and the stages: a look at its geometry, and what the user asked to be mended.
 //!
-//! An importer gives what the file says. Here follow doubled faces that go, lamps that are hung, and the remarks about both and about
+//! An importer gives what the file says. Here follow doubled faces that go, lamps that are hung, glass that becomes clear, and the remarks about both and about
 //! everything else that a look finds; they join the importer's warnings, in the report.
 
 mod doubled;
 mod held;
 mod lamps;
+mod panes;
 mod remarks;
 mod seen;
+mod suspect;
 
 pub(crate) use held::Held;
 pub(crate) use remarks::has_light;
@@ -55,13 +57,15 @@ pub(crate) fn load_file(
 /// Mends what `source` asks for, and tells what a look found: `cx` hears it, and the report keeps it.
 pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Look {
     let look = Look::at(&imported.scene);
-    let mut remarks = remarks::of_geometry(source, &imported.scene, &look);
+    let mut remarks = remarks::of_geometry(source, imported, &look);
     if source.drop_doubled_faces {
         remarks.extend(doubled::drop_faces(imported, &look));
     }
     if source.lamps == Some(Lamps::Ceiling) {
         remarks.push(lamps::hang(&mut imported.scene, imported.labels.as_mut(), &look));
     }
+    remarks.extend(panes::glaze(source, &mut imported.scene));
+    remarks.extend(panes::lost(&imported.scene));
     remarks.extend(remarks::of_light(&imported.scene));
     for message in remarks {
         let warning = Warning { place: source.file.clone(), message };

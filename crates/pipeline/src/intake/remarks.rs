@@ -1,9 +1,10 @@
 //! What a look at a scene finds, in sentences that name the key that mends it.
 
 use super::seen::Look;
+use super::suspect::{self, Sizes, UNITS};
 use crate::config::FileSource;
 use enfilade_dataset::counted;
-use enfilade_math::Bounds3;
+use enfilade_import::Imported;
 use enfilade_scene::{PartId, Scene};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -12,17 +13,6 @@ use std::ops::RangeInclusive;
 const BUILDINGS_M: RangeInclusive<f32> = 1.0..=200.0;
 /// Longest sides of what mostly is a room or a flat, metres: a unit that leads there is proposed.
 const ROOMS_M: RangeInclusive<f32> = 2.0..=60.0;
-/// Units that files have, and what they are called.
-const UNITS: [(f64, &str); 8] = [
-    (0.001, "millimetres"),
-    (0.01, "centimetres"),
-    (0.0254, "inches"),
-    (0.1, "decimetres"),
-    (0.3048, "feet"),
-    (10.0, "tens of metres"),
-    (100.0, "metres, if its exporter took centimetres for its unit"),
-    (1000.0, "metres, if its exporter took millimetres for its unit"),
-];
 /// Common areas below this are a matter of contact, square metres.
 const LEAST_OVERLAP_M2: f64 = 0.01;
 /// Floors without a ceiling are told from this area on, square metres, and this share of all floors.
@@ -34,8 +24,18 @@ const BACKS_SHARE: f64 = 0.3;
 const NAMED: usize = 3;
 
 /// About the geometry, most important first.
-pub(super) fn of_geometry(source: &FileSource, scene: &Scene, look: &Look) -> Vec<String> {
-    let found = [unit(source, look), open_floor(look), doubled(source, scene, look), overlapping(scene, look), backs(scene, look)];
+pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look) -> Vec<String> {
+    let (scene, suspicions) = (&imported.scene, suspect::judge(source, imported, look));
+    let unit = match (suspicions.sizes, unit(source, look)) {
+        (Sizes::Fit, _) => None,
+        // A cup is no building.
+        (Sizes::Unknown, Some(_)) if suspicions.is_thing && look.world.bounds.extent().max_element() < *BUILDINGS_M.start() => None,
+        (Sizes::Suspect(suspicion), by_length) if suspicion.is_sure || by_length.is_none() => {
+            Some(suspect::of_unit(source, imported.report.format, &suspicion))
+        }
+        (_, by_length) => by_length,
+    };
+    let found = [suspicions.axes, unit, open_floor(look), doubled(source, scene, look), overlapping(scene, look), backs(scene, look)];
     found.into_iter().flatten().chain(without_area(scene, look)).collect()
 }
 
@@ -57,7 +57,9 @@ pub(crate) fn has_light(scene: &Scene) -> bool {
 fn unit(source: &FileSource, look: &Look) -> Option<String> {
     let size = look.world.bounds.extent();
     let longest = size.max_element();
-    if look.world.bounds.is_empty() || BUILDINGS_M.contains(&longest) || BUILDINGS_M.contains(&longest_without_largest(look)) {
+    let [_, others] = look.largest_and_others();
+    let is_building = |longest: f32| BUILDINGS_M.contains(&longest);
+    if look.world.bounds.is_empty() || is_building(longest) || (!others.is_empty() && is_building(others.extent().max_element())) {
         return None;
     }
     let stated = source.meters_per_unit;
@@ -70,20 +72,6 @@ fn unit(source: &FileSource, look: &Look) -> Option<String> {
         let _ = write!(text, ". {}", proposals.join("; "));
     }
     Some(text)
-}
-
-/// The longest side of the scene without its largest part, which may be a landscape or the dome of a sky; 0 for a single part.
-fn longest_without_largest(look: &Look) -> f32 {
-    let mut parts: Vec<Bounds3> = Vec::new();
-    for (corners, source) in look.world.corners.iter().zip(&look.world.sources) {
-        parts.resize(parts.len().max(source.part as usize + 1), Bounds3::EMPTY);
-        let part = &mut parts[source.part as usize];
-        *part = corners.iter().fold(*part, |bounds, &p| bounds.include(p));
-    }
-    let size = |bounds: &Bounds3| if bounds.is_empty() { 0.0 } else { bounds.extent().max_element() };
-    let largest = (1..parts.len()).fold(0, |best, i| if size(&parts[i]) > size(&parts[best]) { i } else { best });
-    let others = parts.iter().enumerate().filter(|(i, _)| *i != largest).map(|(_, bounds)| bounds).filter(|bounds| !bounds.is_empty());
-    size(&others.fold(Bounds3::EMPTY, |all, bounds| all.include(bounds.min).include(bounds.max)))
 }
 
 fn proposal(size: [f32; 3], factor: f64, stated: f64, name: &str) -> String {

@@ -106,6 +106,31 @@ fn a_wrong_unit_is_told_with_the_ones_that_make_a_room() {
 }
 
 #[test]
+fn glass_that_lets_no_light_through_is_told_once_and_becomes_clear_where_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    // A pane 1 m x 1 m in the middle of the room, in grey glass, as Blender's OBJ has it.
+    let pane = "o window\nusemtl Glass.001\nv 1 1 0.5\nv 2 1 0.5\nv 2 1 1.5\nv 1 1 1.5\nf 9 10 11 12\n";
+    std::fs::write(folder.path().join("m.mtl"), "newmtl Glass.001\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nillum 2\n").unwrap();
+    let glazed = source(folder.path(), &format!("mtllib m.mtl\n{}{pane}", room(1.0)));
+    let text = told(&glazed);
+    assert_eq!(text.matches("lets no light through").count(), 1, "{text}");
+    assert!(text.contains("what is called \"Glass.001\"") && text.contains("panes = [\"Glass.001\"] (or --panes \"Glass.001\")"), "{text}");
+
+    for name in ["glass*", "Window"] {
+        let clear = FileSource { panes: vec![name.into(), "vitrail".into()], ..glazed.clone() };
+        let text = told(&clear);
+        assert!(text.contains("1 part became clear panes (panes); no part or material is called \"vitrail\""), "{name}: {text}");
+        assert!(!text.contains("lets no light through"), "{name}: {text}");
+        let (scene, report) = imported(folder.path(), &clear);
+        let bsdf = |part: usize| &scene.materials[scene.parts[part].material as usize].bsdf;
+        let enfilade_scene::Bsdf::ThinDielectric { eta, transmittance } = bsdf(1) else { panic!("{:?}", bsdf(1)) };
+        assert_eq!((*eta, transmittance.factor.to_array()), (1.5, [1.0; 3]));
+        assert!(!bsdf(0).transmits());
+        assert_eq!(report["import"]["counts"]["transmitting_materials"], 1);
+    }
+}
+
+#[test]
 fn missing_ceilings_shells_and_parts_without_area_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let without_ceiling = room(1.0).replace("f 5 7 8 6\n", "") + "o speck\nf 1 1 1\n";

@@ -12,5 +12,6 @@ mod places;
 mod presets;
 mod rooms;
 mod stored;
+mod suspicions;
 mod trajectories;
 mod vray;

@@ -1,0 +1,153 @@
+//! Units and axes that are suspected: from rooms and things whose sizes are those of the building trade, written in other units and axes.
+
+use enfilade_pipeline::{FileSource, HomeConfig, UpAxis, check_file, make_home};
+use enfilade_scene::{Quiet, to_bytes};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Low and high corner of a box and what it is called: a room of 5 m x 4 m x 2.6 m with a door of 2.05 m, a chair of 0.9 m, a bookshelf
+/// of 2 m; z up, metres.
+const ROOM: [(&str, [f64; 3], [f64; 3]); 9] = [
+    ("floor", [0.0, 0.0, -0.1], [5.0, 4.0, 0.0]),
+    ("ceiling", [0.0, 0.0, 2.6], [5.0, 4.0, 2.7]),
+    ("wall_w", [-0.1, 0.0, 0.0], [0.0, 4.0, 2.6]),
+    ("wall_e", [5.0, 0.0, 0.0], [5.1, 4.0, 2.6]),
+    ("wall_s", [0.0, -0.1, 0.0], [5.0, 0.0, 2.6]),
+    ("wall_n", [0.0, 4.0, 0.0], [5.0, 4.1, 2.6]),
+    ("door", [0.01, 1.0, 0.0], [0.05, 1.9, 2.05]),
+    ("chair", [2.0, 2.0, 0.0], [2.5, 2.5, 0.9]),
+    ("bookshelf", [4.0, 1.0, 0.0], [4.9, 1.4, 2.0]),
+];
+
+/// An OBJ file of boxes whose corners `place` moves.
+fn boxes(list: &[(&str, [f64; 3], [f64; 3])], place: impl Fn([f64; 3]) -> [f64; 3]) -> String {
+    let mut text = String::new();
+    for (k, (name, low, high)) in list.iter().enumerate() {
+        let _ = writeln!(text, "o {name}");
+        for i in 0..8 {
+            let [x, y, z] = place([0, 1, 2].map(|axis| if i >> axis & 1 == 1 { high[axis] } else { low[axis] }));
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+        for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+            let _ = writeln!(text, "f {}", face.map(|i| (8 * k + i).to_string()).join(" "));
+        }
+    }
+    text
+}
+
+/// y up, as in OBJ files.
+fn y_up([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [x, z, -y]
+}
+
+/// What is suspected of a file with this text.
+fn suspected(name: &str, text: &str, source: impl Fn(FileSource) -> FileSource) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(name);
+    std::fs::write(&file, text).unwrap();
+    of(&source(FileSource::of(file.to_string_lossy())))
+}
+
+fn of(source: &FileSource) -> Vec<String> {
+    let checked = check_file(source, &Quiet).unwrap();
+    let messages = checked.warnings.into_iter().map(|warning| warning.message);
+    messages.filter(|message| message.contains("seems to") || message.contains("its unit")).collect()
+}
+
+fn plain(name: &str, text: &str) -> Vec<String> {
+    suspected(name, text, |source| source)
+}
+
+#[test]
+fn units_are_suspected_by_rooms_and_furniture_and_the_number_to_try_is_named() {
+    assert_eq!(plain("room.obj", &boxes(&ROOM, y_up)), [""; 0]);
+    for (unit, key) in [(0.01, "0.01"), (0.001, "0.001"), (0.0254, "0.0254"), (0.3048, "0.3048"), (0.1, "0.1"), (2.0, "2"), (100.0, "100")]
+    {
+        let text = boxes(&ROOM, |p| y_up(p).map(|v| v / unit));
+        let told = plain("room.obj", &text);
+        assert_eq!(told.len(), 1, "{unit}: {told:?}");
+        assert!(told[0].contains(&format!("with meters_per_unit = {key} (or --meters-per-unit {key})")), "{told:?}");
+        assert!(told[0].contains("rooms are 2.60 m high") && told[0].contains("the chair is 0.90 m high"), "{told:?}");
+        // Where a unit is stated, what is proposed stands in its place, and with it all is well.
+        let doubled = suspected("room.obj", &text, |source| FileSource { meters_per_unit: 2.0 * unit, ..source });
+        assert!(doubled[0].contains(&format!("meters_per_unit = {key} ")), "{doubled:?}");
+        assert_eq!(suspected("room.obj", &text, |source| FileSource { meters_per_unit: unit, ..source }), [""; 0]);
+    }
+}
+
+#[test]
+fn halls_single_things_and_dolls_houses_in_their_own_size_are_what_they_are() {
+    let hall: Vec<_> = ROOM.iter().take(6).map(|(name, low, high)| (*name, low.map(|v| 4.0 * v), high.map(|v| 4.0 * v))).collect();
+    assert_eq!(plain("hall.obj", &boxes(&hall, y_up)), [""; 0]);
+    let with_people = [hall, vec![("chair", [2.0, 2.0, 0.0], [2.5, 2.5, 0.9]), ("person", [3.0, 2.0, 0.0], [3.5, 2.3, 1.75])]].concat();
+    assert_eq!(plain("hall.obj", &boxes(&with_people, y_up)), [""; 0]);
+    for (name, high) in [("chair", [0.5, 0.5, 0.9]), ("sofa", [2.0, 0.9, 0.8]), ("cup", [0.08, 0.08, 0.1]), ("person", [0.5, 0.3, 1.8])] {
+        assert_eq!(plain("model.obj", &boxes(&[(name, [0.0; 3], high)], y_up)), [""; 0], "{name}");
+        // Many exporters name nothing, and then the file's name tells.
+        let unnamed = boxes(&[("Mesh.001", [0.0; 3], high)], y_up);
+        assert_eq!(plain(&format!("{name}.obj"), &unnamed), [""; 0], "{name}");
+    }
+    for name in ["chair.obj", "armchair_03.obj"] {
+        let told = plain(name, &boxes(&[("Mesh.001", [0.0; 3], [6.0, 6.0, 12.8])], y_up));
+        assert!(told[0].contains("the chair is 12.80 m high") && told[0].contains("meters_per_unit = 0.1 "), "{told:?}");
+    }
+    let house = boxes(&ROOM, |p| y_up(p).map(|v| v / 12.0));
+    assert!(plain("house.obj", &house)[0].contains("rooms are 0.22 m high"));
+}
+
+#[test]
+fn rooms_on_their_sides_and_heads_are_suspected_and_the_axis_is_named() {
+    let turned: [(&str, fn([f64; 3]) -> [f64; 3]); 5] = [
+        ("z", |p| p),
+        ("-z", |[x, y, z]| [x, -y, -z]),
+        ("-y", |[x, y, z]| [x, -z, y]),
+        ("x", |[x, y, z]| [z, y, -x]),
+        ("-x", |[x, y, z]| [-z, y, x]),
+    ];
+    for (axis, place) in turned {
+        let text = boxes(&ROOM, place);
+        let told = plain("room.obj", &text);
+        assert!(told.len() == 1 && told[0].contains(&format!("up_axis = \"{axis}\" (or --up-axis {axis})")), "{axis}: {told:?}");
+        let named = UpAxis::ALL.into_iter().find(|up| up.name() == axis);
+        assert_eq!(suspected("room.obj", &text, |source| FileSource { up_axis: named, ..source }), [""; 0], "{axis}");
+    }
+}
+
+#[test]
+fn cameras_tell_which_way_is_up_and_views_from_above_do_not() {
+    let box_of =
+        |z: f64| format!("<shape type=\"cube\"><transform name=\"to_world\"><scale x=\"2\" y=\"2\" z=\"{z}\"/></transform></shape>");
+    let scene = |look: &str| {
+        let sensor = format!("<sensor type=\"perspective\"><transform name=\"to_world\"><lookat {look}/></transform></sensor>");
+        format!("<scene version=\"3.0.0\">{sensor}{}</scene>", box_of(1.3))
+    };
+    let told = plain("room.xml", &scene("origin=\"0.5,0.5,1\" target=\"3,2.5,0.8\" up=\"0,0,1\""));
+    assert!(told.len() == 1 && told[0].contains("upper sides of its cameras") && told[0].contains("up_axis = \"z\""), "{told:?}");
+    // Straight along an axis, where the room taken as y-up is looked at from below.
+    assert_eq!(plain("room.xml", &scene("origin=\"0,-1,0\" target=\"0,1,0\" up=\"0,0,1\"")).len(), 1);
+    assert_eq!(plain("room.xml", &scene("origin=\"0,0,1\" target=\"1,0,0\" up=\"0,1,0\"")), [""; 0]);
+    assert_eq!(plain("room.xml", &scene("origin=\"0,9,0\" target=\"0,0,0\" up=\"0,0,1\"")), [""; 0], "a bird's-eye view");
+}
+
+#[test]
+fn a_scan_without_names_is_suspected_by_its_largest_surfaces() {
+    let flat = [("", [0.0; 3], [9.0, 6.0, 2.6]), ("", [1.0, 1.0, 0.0], [3.0, 2.0, 0.8])];
+    let text = boxes(&flat, |p| p).replace("o \n", "");
+    assert!(plain("scan.obj", &text)[0].contains("up_axis = \"z\""));
+    assert_eq!(plain("scan.obj", &boxes(&flat, y_up).replace("o \n", "")), [""; 0]);
+    // A corridor of 1.5 m and the cage of a lift have more wall than floor.
+    for high in [[12.0, 1.5, 2.5], [2.0, 2.0, 7.0]] {
+        assert_eq!(plain("scan.obj", &boxes(&[("", [0.0; 3], high)], y_up).replace("o \n", "")), [""; 0], "{high:?}");
+    }
+}
+
+#[test]
+fn generated_homes_are_not_suspected() {
+    let folder = tempfile::tempdir().unwrap();
+    for seed in 0..3 {
+        let output = folder.path().join("home.scene");
+        let config = HomeConfig { seed, ..HomeConfig::default() };
+        make_home(&config, &output, |scene, _| (to_bytes(scene), Vec::new()), &Quiet).unwrap();
+        assert_eq!(of(&FileSource::of(Path::new(&output).to_string_lossy())), [""; 0], "home {seed}");
+    }
+}
