@@ -91,6 +91,7 @@ fn flag_of_files(args: &ImportArgs) -> Option<&'static str> {
         ("--drop-doubled-faces", choices.drop_doubled_faces),
         ("--panes", !choices.panes.is_empty()),
         ("--allow-missing-textures", choices.allow_missing_textures),
+        ("--allow-missing-meshes", choices.allow_missing_meshes),
     ];
     given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
 }

@@ -1,7 +1,7 @@
 //! The classes that labels choose from: NYU40, or a list of the user's, `semantic_label_descs.csv` of the mesh folder.
 
 use crate::{DatasetError, MeshFiles, write_bytes};
-use enfilade_scene::NYU40;
+use enfilade_scene::{NYU40, decoded_text};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -83,25 +83,32 @@ impl Classes {
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+        let text = decoded_text(bytes);
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
         let header = reader.headers().map_err(|e| e.to_string())?.clone();
-        let column = |name: &str| header.iter().position(|h| h == name).ok_or_else(|| format!("line 1: no column {name:?}"));
+        let column =
+            |name: &str| header.iter().position(|h| h.eq_ignore_ascii_case(name)).ok_or_else(|| format!("line 1: no column {name:?}"));
         let [id, name, red, green, blue] = COLUMNS;
         let (id, name, rgb) = (column(id)?, column(name)?, [column(red)?, column(green)?, column(blue)?]);
         let mut classes = BTreeMap::new();
         for record in reader.records() {
             let record = record.map_err(|e| e.to_string())?;
             let line = record.position().map_or(0, csv::Position::line);
+            if record.iter().all(str::is_empty) {
+                continue;
+            }
             let cell = |column: usize| record.get(column).unwrap_or("");
+            // A column with gaps is one of floats in many programs.
+            let whole = |column: usize| cell(column).strip_suffix(".0").unwrap_or(cell(column));
             let wrong = |what: &str, found: &str, expected: &str| format!("line {line}: {what} is {found:?}, expected {expected}");
-            let number = cell(id).parse::<i16>().ok().filter(|id| *id >= 1);
+            let number = whole(id).parse::<i16>().ok().filter(|id| *id >= 1);
             let number = number.ok_or_else(|| wrong("semantic_id", cell(id), "1 to 32767"))?;
             if cell(name).is_empty() {
                 return Err(wrong("semantic_name", "", "a name"));
             }
             let mut color = [0; 3];
             for (channel, &column) in color.iter_mut().zip(&rgb) {
-                *channel = cell(column).parse().map_err(|_| wrong("the colour", cell(column), "0 to 255"))?;
+                *channel = whole(column).parse().map_err(|_| wrong("the colour", cell(column), "0 to 255"))?;
             }
             if classes.insert(number, Class { id: number, name: cell(name).into(), color }).is_some() {
                 return Err(format!("line {line}: semantic_id {number} is there twice"));

@@ -59,6 +59,22 @@ pub enum ImportError {
         /// What is wrong with it.
         problem: String,
     },
+    /// A mesh in a file of its own that is not there.
+    #[error(
+        "{}: {user} needs the mesh {mesh}, which {problem}; put the file there or correct the path in the scene, or go on without it: \
+         --allow-missing-meshes on the command line, allow_missing_meshes = true in dataset.toml",
+        file.display()
+    )]
+    Mesh {
+        /// The scene file.
+        file: PathBuf,
+        /// The shape that uses the mesh.
+        user: String,
+        /// The mesh's file.
+        mesh: String,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// A scene package that cannot be read.
     #[error("{}: {source}", file.display())]
     Package {

@@ -27,7 +27,7 @@ pub(crate) struct Profile {
 /// # Errors
 /// When it is not LM-63, cut short, of an unsupported type, or has numbers that make no sense.
 pub(crate) fn parse(bytes: &[u8], file: &Path, place: &str) -> Result<Profile, ImportError> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = enfilade_scene::decoded_text(bytes);
     let mut numbers = Numbers { file, place, line: 1, rest: Vec::new(), last_line: text.lines().count() };
     let mut warnings = Vec::new();
     let edition = Edition::of(text.lines().next().unwrap_or(""));

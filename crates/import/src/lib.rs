@@ -79,6 +79,7 @@ pub mod sweethome;
 pub mod usd;
 pub mod vray;
 mod wildcards;
+mod xml;
 
 pub use collections::scene_in_folder;
 pub use environment::{EnvironmentOverride, EnvironmentSource};

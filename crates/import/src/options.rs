@@ -103,11 +103,14 @@ pub struct ImportOptions {
     pub environment: Option<EnvironmentOverride>,
     /// Goes on with plain grey where a texture is missing or broken, with a warning each; off by default.
     pub allow_missing_textures: bool,
+    /// Goes on without a mesh whose file is missing or broken, with a warning each, in scenes that refer to such files (Mitsuba, pbrt, URDF,
+    /// SDF); off by default.
+    pub allow_missing_meshes: bool,
 }
 
 impl Default for ImportOptions {
     fn default() -> Self {
-        Self { meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false }
+        Self { meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false, allow_missing_meshes: false }
     }
 }
 

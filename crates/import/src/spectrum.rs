@@ -43,7 +43,7 @@ pub(crate) fn sampled(pairs: &mut [(f64, f64)], kind: Kind) -> Rgb {
 /// When a word is not a finite number, or the last one stands alone.
 pub(crate) fn pairs(bytes: &[u8], file: &Path) -> Result<Vec<(f64, f64)>, ImportError> {
     let mut numbers = Vec::new();
-    for (i, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
+    for (i, line) in enfilade_scene::decoded_text(bytes).lines().enumerate() {
         let values = line.split('#').next().unwrap_or_default();
         for word in values.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty()) {
             let number = word.parse::<f64>().ok().filter(|n| n.is_finite());

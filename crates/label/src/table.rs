@@ -1,7 +1,8 @@
 //! The label table: a CSV file whose rows say what parts or materials are.
 //!
-//! Columns are found by their header, in any order; others are ignored. Commas, semicolons or tabs separate them; the text is UTF-8, or
-//! UTF-16 with a byte order mark.
+//! Columns are found by their header, in any order; others are ignored. Commas, semicolons or tabs separate them; the text is UTF-8, UTF-16
+//! or Windows-1252, with or without a byte order mark. As pandas and spreadsheets write them, whole numbers may be `1.0` (`1,0` between
+//! semicolons), cells without a value `nan`, and rows empty.
 //!
 //! | column | meaning |
 //! |---|---|
@@ -16,8 +17,7 @@
 //!
 //! At least one of the four name columns is needed; where a row fills several, the first in the order above counts.
 
-use enfilade_scene::{GIT_LFS_POINTER, Labels, NYU40, PartLabel, Scene, is_git_lfs_pointer};
-use std::borrow::Cow;
+use enfilade_scene::{GIT_LFS_POINTER, Labels, NYU40, PartLabel, Scene, decoded_text, is_git_lfs_pointer};
 use std::collections::HashMap;
 
 /// A parsed label table.
@@ -97,7 +97,8 @@ impl LabelTable {
         if is_git_lfs_pointer(bytes) {
             return Err(row_error(source_name, 1, format!("the file is {GIT_LFS_POINTER}")));
         }
-        let bytes = &*utf8(bytes);
+        let text = decoded_text(bytes);
+        let bytes = without_hint(&text).as_bytes();
         let mut reader = reader(bytes, separator(bytes));
         let header = reader.headers().map_err(|e| row_error(source_name, 1, csv_problem(&e)))?.clone();
         let columns = Columns::find(&header, source_name)?;
@@ -105,7 +106,10 @@ impl LabelTable {
         for record in reader.records() {
             let record = record.map_err(|e| row_error(source_name, e.position().map_or(1, csv::Position::line), csv_problem(&e)))?;
             let line = record.position().map_or(1, |p| p.line() + blank_lines(bytes, p.byte()));
-            rows.push(columns.row(&record, line).map_err(|problem| row_error(source_name, line, problem))?);
+            if record.iter().all(str::is_empty) {
+                continue;
+            }
+            rows.extend(columns.row(&record, line).map_err(|problem| row_error(source_name, line, problem))?);
         }
         refuse_contradictions(&rows, source_name)?;
         Ok(Self { rows })
@@ -157,7 +161,7 @@ struct Columns {
 
 impl Columns {
     fn find(header: &csv::StringRecord, file: &str) -> Result<Self, TableError> {
-        let find = |name: &str| header.iter().position(|h| h.eq_ignore_ascii_case(name));
+        let find = |name: &str| header.iter().position(|h| h.replace([' ', '-'], "_").eq_ignore_ascii_case(name));
         let missing = |expected| TableError::MissingColumn {
             file: file.into(),
             expected,
@@ -171,31 +175,34 @@ impl Columns {
         Ok(Self { scene: find("scene"), subjects, class, class_name: find("nyu40_name"), instance: find("instance") })
     }
 
-    fn row(&self, record: &csv::StringRecord, line: u64) -> Result<Row, String> {
+    /// A row; `None` for one that says nothing.
+    fn row(&self, record: &csv::StringRecord, line: u64) -> Result<Option<Row>, String> {
         let cell = |column: Option<usize>| column.and_then(|c| record.get(c)).unwrap_or("");
         let scene = Some(cell(self.scene)).filter(|s| !s.is_empty() && *s != "*").map(str::to_string);
-        let (subject, name) = self
-            .subjects
-            .iter()
-            .map(|&(subject, column)| (subject, cell(Some(column))))
-            .find(|(_, name)| !name.is_empty())
-            .ok_or("the row names nothing; fill one of its name columns or remove it")?;
+        let mut named = self.subjects.iter().map(|&(subject, column)| (subject, cell(Some(column))));
+        let Some((subject, name)) = named.find(|(_, name)| !name.is_empty()) else {
+            let says_nothing = [Some(self.class), self.class_name, self.instance].into_iter().all(|column| is_missing(cell(column)));
+            let problem = || "the row names nothing; fill one of its name columns or remove it".to_string();
+            return if says_nothing { Ok(None) } else { Err(problem()) };
+        };
         let semantic = parse_class(cell(Some(self.class)))?;
         let stated = cell(self.class_name);
-        if !stated.is_empty() && parse_class(stated)? != semantic {
+        if !is_missing(stated) && parse_class(stated)? != semantic {
             return Err(format!("class {semantic} is {}, but nyu40_name says {stated:?}; correct one of them", class_name(semantic)));
         }
-        Ok(Row { line, scene, subject, name: name.to_string(), semantic, instance: parse_instance(cell(self.instance))? })
+        Ok(Some(Row { line, scene, subject, name: name.to_string(), semantic, instance: parse_instance(cell(self.instance))? }))
     }
 }
 
 /// A class by number or name.
 fn parse_class(text: &str) -> Result<i16, String> {
-    if text.is_empty() || ["-1", "0", "unlabelled", "unlabeled", "none"].iter().any(|n| text.eq_ignore_ascii_case(n)) {
+    if is_missing(text) || ["unlabelled", "unlabeled"].iter().any(|n| text.eq_ignore_ascii_case(n)) {
         return Ok(-1);
     }
-    if let Ok(number) = text.parse::<i64>() {
-        return if (1..=40).contains(&number) {
+    if let Some(number) = whole_number(text) {
+        return if matches!(number, -1 | 0) {
+            Ok(-1)
+        } else if (1..=40).contains(&number) {
             Ok(number as i16)
         } else {
             Err(format!("class {number} is out of range; expected 1 to 40, or -1 for unlabelled"))
@@ -214,9 +221,9 @@ fn letters(text: &str) -> String {
 }
 
 fn parse_instance(text: &str) -> Result<Option<i16>, String> {
-    match text.parse::<i16>() {
-        _ if text.is_empty() => Ok(None),
-        Ok(number) if number == -1 || number >= 1 => Ok(Some(number)),
+    match whole_number(text).map(i16::try_from) {
+        _ if is_missing(text) => Ok(None),
+        Some(Ok(number)) if number == -1 || number >= 1 => Ok(Some(number)),
         _ => Err(format!("instance {text:?} is no instance number; expected 1 to 32767, -1 for none, or nothing")),
     }
 }
@@ -239,18 +246,22 @@ fn refuse_contradictions(rows: &[Row], file: &str) -> Result<(), TableError> {
     Ok(())
 }
 
-/// A table's bytes without byte order mark, in UTF-8: spreadsheets also save UTF-16.
-fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
-    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair)).collect();
-        Cow::Owned(String::from_utf16_lossy(&units).into_bytes())
-    };
-    match bytes {
-        [0xef, 0xbb, 0xbf, rest @ ..] => Cow::Borrowed(rest),
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
-        _ => Cow::Borrowed(bytes),
-    }
+/// True for a cell without a value, as spreadsheets and pandas write it.
+fn is_missing(text: &str) -> bool {
+    text.is_empty() || ["nan", "na", "n/a", "<na>", "null", "none"].iter().any(|word| text.eq_ignore_ascii_case(word))
+}
+
+/// A whole number, which a column with gaps has as `1.0` or `1,0`.
+fn whole_number(text: &str) -> Option<i64> {
+    let whole = text.split_once(['.', ',']).filter(|(_, rest)| rest.bytes().all(|b| b == b'0')).map_or(text, |(whole, _)| whole);
+    whole.parse().ok()
+}
+
+/// A table without the line `sep=;` by which spreadsheets are told what separates the cells.
+fn without_hint(text: &str) -> &str {
+    let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
+    let is_hint = first.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("sep=")) && first.trim_end().chars().count() <= 5;
+    if is_hint { rest } else { text }
 }
 
 fn reader(bytes: &[u8], separator: u8) -> csv::Reader<&[u8]> {
@@ -330,6 +341,24 @@ mod tests {
     }
 
     #[test]
+    fn numbers_with_points_and_rows_without_anything_are_what_pandas_and_spreadsheets_write() {
+        let expected = LabelTable::parse(b"part,nyu40_id,instance\nroom,1,\nB\xc3\xbcro,14,2\nx,,\n", "t").unwrap();
+        let same = |bytes: &[u8]| {
+            let mut table = LabelTable::parse(bytes, "t").unwrap();
+            table.rows.iter_mut().zip(expected.rows()).for_each(|(row, expected)| row.line = expected.line);
+            assert_eq!(table, expected, "{}", String::from_utf8_lossy(bytes));
+        };
+        // pandas: DataFrame(...).to_csv() with a gap in a column of whole numbers, and with na_rep.
+        same(",part,nyu40_id,instance\n0,room,1.0,\n1,Büro,14.0,2.0\n2,x,,\n".as_bytes());
+        same("part,nyu40_id,instance\nroom,1.0,nan\nBüro,14.0,2.0\nx,NaN,NaN\n".as_bytes());
+        same("sep=;\r\npart;NYU40 id;instance\r\nroom;1,0;\r\n;;\r\nBüro;14,00;2,0\r\nx;;\r\n;;\r\n".as_bytes());
+        same("part,nyu40_id,instance,,\n\"\",,\nroom,1,,,\n,,,\n   \nBüro,14,2\nx,,\n,,".as_bytes());
+        same(b"part,nyu40_id,instance\nroom,1,\nB\xfcro,14,2\nx,,\n");
+        assert!(message("part,nyu40_id\na,5.5\n").contains(":2: unknown class \"5.5\""));
+        assert!(message("part,nyu40_id,instance\na,5,1.5\n").contains(":2: instance \"1.5\" is no instance number"));
+    }
+
+    #[test]
     fn bad_tables_are_told_with_file_and_line() {
         let pointer = message("version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n");
         assert!(pointer.starts_with("labels.csv:1: the file is a Git LFS pointer"), "{pointer}");
@@ -343,12 +372,6 @@ mod tests {
         assert!(message("part,nyu40_id,instance\na,5,0\n").starts_with("labels.csv:2: instance \"0\" is no instance number"));
         assert!(message("part,nyu40_id\n,5\n").contains(":2: the row names nothing"));
         assert!(message("part,nyu40_id,nyu40_name\na,5,sofa\n").contains("class 5 is chair, but nyu40_name says \"sofa\""));
-        assert!(
-            LabelTable::parse(b"part,nyu40_id\n\xff\xfe,5\n", "labels.csv")
-                .unwrap_err()
-                .to_string()
-                .contains("labels.csv:2: the text is not UTF-8")
-        );
     }
 
     #[test]

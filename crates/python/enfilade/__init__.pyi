@@ -184,6 +184,7 @@ class Scene:
         drop_doubled_faces: bool = False,
         panes: Names | None = None,
         allow_missing_textures: bool = False,
+        allow_missing_meshes: bool = False,
         labels: Path | None = None,
         label_scene: str | None = None,
         progress: bool | None = None,
@@ -298,6 +299,7 @@ def import_scene(
     drop_doubled_faces: bool = False,
     panes: Names | None = None,
     allow_missing_textures: bool = False,
+    allow_missing_meshes: bool = False,
 ) -> dict[str, Any]: ...
 def home(
     output: Path = "home.scene",

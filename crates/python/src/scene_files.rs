@@ -22,12 +22,18 @@ use std::path::{Path, PathBuf};
 /// drop_doubled_faces: of faces with the same corners keeps the first.
 /// panes: makes clear panes of parts or materials of these names, in which `*` stands for any characters.
 /// allow_missing_textures: goes on with plain grey where a texture is missing.
+/// allow_missing_meshes: goes on without a mesh whose file is missing or damaged.
 ///
 /// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or fixed), `lost` (what the output cannot hold).
 /// The scenes of a dataset are imported by `enfilade.stage("import", dataset)`.
 #[pyfunction]
+<<<<<<< HEAD
 #[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
     allow_missing_textures=false))]
+=======
+#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
+    allow_missing_textures=false, allow_missing_meshes=false))]
+>>>>>>> dbe46f60 (Files are read where other readers take them too)
 pub fn import_scene<'py>(
     py: Python<'py>,
     file: PathBuf,
@@ -39,9 +45,15 @@ pub fn import_scene<'py>(
     drop_doubled_faces: bool,
     panes: Option<Names>,
     allow_missing_textures: bool,
+    allow_missing_meshes: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let output = output.unwrap_or_else(|| scene_file_of(&file));
+<<<<<<< HEAD
     let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
+=======
+    let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
+    let source = FileSource { allow_missing_meshes, ..source };
+>>>>>>> dbe46f60 (Files are read where other readers take them too)
     let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
     let imported = interruptible(py, |cx: &Interrupt| enfilade_pipeline::import_file(&source, &output, encode, cx))?;
     let done = json!({ "scene": output, "report": imported.report, "summary": imported.summary, "warnings": imported.warnings, "lost": imported.lost });

@@ -63,6 +63,7 @@ const GROUPS: [Group; 19] = [
             "drop_doubled_faces",
             "panes",
             "allow_missing_textures",
+            "allow_missing_meshes",
             "render",
             "camera",
             "plan",

@@ -124,7 +124,13 @@ impl AnnotatedScene {
     fn of_file(options: &AnnotateOptions, cx: &dyn Cx) -> Result<Self, SceneError> {
         let AnnotateOptions { path, labels, up_axis, .. } = options;
         let meters_per_unit = options.meters_per_unit.unwrap_or(1.0);
-        let import = ImportOptions { meters_per_unit, up_axis: *up_axis, allow_missing_textures: true, ..ImportOptions::default() };
+        let import = ImportOptions {
+            meters_per_unit,
+            up_axis: *up_axis,
+            allow_missing_textures: true,
+            allow_missing_meshes: true,
+            ..ImportOptions::default()
+        };
         let imported = enfilade_import::load(path, &import, cx)?;
         let scene = &imported.scene;
         let mut known = vec![PartLabel::NONE; scene.parts.len()];

@@ -130,6 +130,9 @@ pub struct FileChoices {
     /// Go on with plain grey where a texture is missing
     #[arg(long)]
     pub allow_missing_textures: bool,
+    /// Go on without a mesh whose file is missing or damaged, in scenes of many files (Mitsuba, pbrt, URDF, SDF)
+    #[arg(long)]
+    pub allow_missing_meshes: bool,
 }
 
 impl FileChoices {
@@ -143,6 +146,7 @@ impl FileChoices {
             drop_doubled_faces: self.drop_doubled_faces,
             panes: self.panes.clone(),
             allow_missing_textures: self.allow_missing_textures,
+            allow_missing_meshes: self.allow_missing_meshes,
             ..FileSource::of(file.to_string_lossy())
         }
     }

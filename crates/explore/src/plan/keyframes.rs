@@ -5,7 +5,8 @@ use super::rules::posed;
 use crate::ExploreError;
 use enfilade_math::{DVec3, NaturalSpline, Ray};
 use enfilade_scene::{GIT_LFS_POINTER, Pose, is_git_lfs_pointer};
-use serde::Deserialize;
+use serde::de::{Error, Unexpected};
+use serde::{Deserialize, Deserializer};
 use std::f64::consts::{PI, TAU};
 
 /// Ways between frames that cross a surface are named up to this many.
@@ -31,6 +32,7 @@ pub struct Keyframe {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Row {
+    #[serde(deserialize_with = "whole")]
     frame: u32,
     position: [f64; 3],
     look_at: [f64; 3],
@@ -41,6 +43,7 @@ struct Row {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FlatRow {
+    #[serde(deserialize_with = "whole")]
     frame: u32,
     position_x: f64,
     position_y: f64,
@@ -54,12 +57,19 @@ struct FlatRow {
     up_z: Option<f64>,
 }
 
+/// A whole number, which pandas may write as `3.0`.
+fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    let number = f64::deserialize(deserializer)?;
+    let is_whole = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+    if is_whole { Ok(number as u32) } else { Err(D::Error::invalid_value(Unexpected::Float(number), &"a whole number from 0")) }
+}
+
 /// Reads poses made by hand from the text of `file`, whose name ends in `.json` or `.csv`.
 ///
 /// JSON is an array of `{"frame": 0, "position": [x, y, z], "look_at": [x, y, z]}`; CSV has the columns `frame`, `position_x`,
 /// `position_y`, `position_z`, `look_at_x`, `look_at_y`, `look_at_z`, separated by commas, semicolons or tabs. Metres, z up. Optional are
 /// `roll_deg`, or `up` (`up_x`, `up_y`, `up_z`) for a vector that shall be upright in the picture. Frames ascend from 0; those left out are
-/// interpolated.
+/// interpolated. Empty rows, columns without a name and a byte order mark are skipped, and names of columns may be in any case.
 ///
 /// # Errors
 /// [`ExploreError::Keyframes`] with the row, what was found there, and what was expected.
@@ -80,6 +90,7 @@ struct FlatRow {
 /// assert!(parse_keyframes("down.json", above).unwrap_err().to_string().starts_with("down.json, pose 1: found a view from"));
 /// ```
 pub fn parse_keyframes(file: &str, text: &str) -> Result<Vec<Keyframe>, ExploreError> {
+    let text = text.trim_start_matches('\u{feff}');
     if is_git_lfs_pointer(text.as_bytes()) {
         return Err(wrong(file, 1, GIT_LFS_POINTER.into(), "poses"));
     }
@@ -114,7 +125,14 @@ fn csv_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
     // Where cells are separated by semicolons, the comma is the decimal point.
     let text = if separator == b';' { text.replace(',', ".") } else { text.into() };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).delimiter(separator).from_reader(text.as_bytes());
-    let row = |(i, row): (usize, Result<FlatRow, csv::Error>)| {
+    let header = reader.headers().map_err(|e| wrong(file, 1, e.to_string(), EXPECTED))?.clone();
+    // pandas writes the number of each row in a column without a name.
+    let named = |record: &csv::StringRecord| -> csv::StringRecord {
+        record.iter().zip(&header).filter(|(_, name)| !name.is_empty()).map(|(cell, _)| cell).collect()
+    };
+    let names: csv::StringRecord = named(&header).iter().map(str::to_lowercase).collect();
+    let row = |(i, record): (usize, Result<csv::StringRecord, csv::Error>)| {
+        let row = record.and_then(|record| named(&record).deserialize::<FlatRow>(Some(&names)));
         let row = row.map_err(|e| wrong(file, i + 1, e.to_string(), EXPECTED))?;
         let up = match (row.up_x, row.up_y, row.up_z) {
             (None, None, None) => None,
@@ -124,7 +142,8 @@ fn csv_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
         let position = [row.position_x, row.position_y, row.position_z];
         Ok(Row { frame: row.frame, position, look_at: [row.look_at_x, row.look_at_y, row.look_at_z], roll_deg: row.roll_deg, up })
     };
-    reader.deserialize().enumerate().map(row).collect()
+    let is_blank = |record: &Result<csv::StringRecord, csv::Error>| record.as_ref().is_ok_and(|r| r.iter().all(str::is_empty));
+    reader.records().filter(|record| !is_blank(record)).enumerate().map(row).collect()
 }
 
 /// What stands between the names of the first line that is no comment: a comma, a semicolon or a tab.

@@ -57,7 +57,7 @@ pub fn scene(folder: &Path) -> Run {
     write("scan.semantic.glb", &seeds::gltf().swap_remove(1).bytes);
     write("mesh_semantic.ply", MESH.as_bytes());
     let folder = folder.to_path_buf();
-    let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+    let options = ImportOptions { allow_missing_textures: true, allow_missing_meshes: true, ..ImportOptions::default() };
     Box::new(move |bytes| {
         let (file, scene) = of(bytes);
         std::fs::write(folder.join(file), bytes).expect("a folder that can be written");

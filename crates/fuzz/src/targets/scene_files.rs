@@ -34,7 +34,7 @@ pub fn prepare(folder: &Path, file: &str, scene: &str) -> Run {
         std::fs::write(folder.join(name), bytes).expect("a folder that can be written");
     }
     let (file, scene) = (folder.join(file), folder.join(scene));
-    let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+    let options = ImportOptions { allow_missing_textures: true, allow_missing_meshes: true, ..ImportOptions::default() };
     Box::new(move |bytes| {
         std::fs::write(&file, bytes).expect("a folder that can be written");
         if let Ok(imported) = load(&scene, &options, &Quiet) {

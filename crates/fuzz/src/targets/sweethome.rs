@@ -13,7 +13,7 @@ const MODEL: &[u8] = b"mtllib tripod.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nus
 pub fn home(folder: &Path) -> Run {
     let file = folder.join("home.sh3d");
     let picture = seeds::pictures().swap_remove(0).bytes;
-    let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+    let options = ImportOptions { allow_missing_textures: true, allow_missing_meshes: true, ..ImportOptions::default() };
     Box::new(move |bytes| {
         let archive = match bytes.starts_with(b"PK") {
             true => bytes.to_vec(),

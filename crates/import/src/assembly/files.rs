@@ -53,7 +53,7 @@ impl Assembly<'_> {
     /// The file in the folder of `from`, a file of the scene, that `path` means; `None` where there is none.
     pub(crate) fn beside(&self, from: &Path, path: &str) -> Option<PathBuf> {
         let folder = folder_of(from);
-        [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| file.is_file())
+        [folder.join(path), folder.join(path.replace('\\', "/"))].into_iter().find(|file| self.is_file(file))
     }
 
     /// A file of the scene as the scene file itself would spell it.
@@ -66,7 +66,8 @@ impl Assembly<'_> {
     pub(crate) fn look_in(&mut self, from: &Path, folder: &str) -> bool {
         let folder = folder.replace('\\', "/");
         let places = [from, self.file.as_path()].map(|file| folder_of(file).join(&folder));
-        let found = places.into_iter().find(|place| place.is_dir());
+        let is_folder = |place: &PathBuf| self.archive.map_or_else(|| place.is_dir(), |archive| archive.contains_folder(place));
+        let found = places.into_iter().find(is_folder);
         let is_there = found.is_some();
         self.folders.extend(found);
         is_there
@@ -94,6 +95,28 @@ impl Assembly<'_> {
             return Err(ImportError::GitLfs { file: file.to_path_buf() });
         }
         Ok(bytes)
+    }
+
+    /// What was read of a mesh file that `user`, a shape of the scene, refers to by `path`. `None` when it is missing or broken and the
+    /// options allow that.
+    ///
+    /// # Errors
+    /// When they do not.
+    pub(crate) fn mesh_or_none<T>(&mut self, read: Result<T, ImportError>, path: &str, user: &str) -> Result<Option<T>, ImportError> {
+        let (problem, error) = match read {
+            Ok(read) => return Ok(Some(read)),
+            Err(error @ ImportError::Malformed { .. }) => (format!("is damaged ({error})"), Some(error)),
+            Err(ImportError::Read { source, .. }) => (format!("cannot be read ({source})"), None),
+            Err(ImportError::GitLfs { .. }) => (format!("is {GIT_LFS_POINTER}"), None),
+            Err(other) => return Err(other),
+        };
+        let mesh = self.resolve(path).to_string_lossy().into_owned();
+        if self.options.allow_missing_meshes {
+            self.warn(user, format!("the mesh {mesh} {problem}; it was left out"));
+            return Ok(None);
+        }
+        let (file, user) = (self.file.clone(), user.to_string());
+        Err(error.unwrap_or(ImportError::Mesh { file, user, mesh, problem }))
     }
 
     /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone

@@ -28,19 +28,32 @@ impl Models {
         if let Some(known) = self.known.get(file) {
             return Ok(known.clone());
         }
-        let model = match read(file, a) {
-            Ok(imported) => Some(Rc::new(adopted(imported, file, a)?)),
-            Err(error @ (ImportError::Texture { .. } | ImportError::GitLfs { .. })) => return Err(error),
-            Err(error) => {
-                if !file.exists() {
-                    a.note_missing(file);
-                }
-                a.warn("models", format!("a model cannot be used and is left out ({error})"));
-                None
-            }
+        let read = read(file, a);
+        if read.is_err() && !file.exists() {
+            a.note_missing(file);
+        }
+        let model = match unless_odd(read, "models", "a model", a)? {
+            Some(imported) => Some(Rc::new(adopted(imported, file, a)?)),
+            None => None,
         };
         self.known.insert(file.to_path_buf(), model.clone());
         Ok(model)
+    }
+}
+
+/// What was read; `None`, with a warning, where it is odd: one such thing is not the end of the import. `what` is what it is, such as
+/// "a template".
+///
+/// # Errors
+/// When a picture is missing and has to be there, or the file is a pointer of Git LFS, as all others will be.
+pub(super) fn unless_odd<T>(read: Result<T, ImportError>, place: &str, what: &str, a: &mut Assembly) -> Result<Option<T>, ImportError> {
+    match read {
+        Ok(read) => Ok(Some(read)),
+        Err(error @ (ImportError::Texture { .. } | ImportError::GitLfs { .. })) => Err(error),
+        Err(error) => {
+            a.warn(place, format!("{what} cannot be used and is left out ({error})"));
+            Ok(None)
+        }
     }
 }
 

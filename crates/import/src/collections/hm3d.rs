@@ -38,7 +38,7 @@ type Named = (i64, String);
 /// Imports a scan by its text.
 pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportError> {
     let file = a.file().to_path_buf();
-    let by_color = parse(&String::from_utf8_lossy(bytes)).map_err(|(line, problem)| a.malformed(format!("line {line}"), problem))?;
+    let by_color = parse(&enfilade_scene::decoded_text(bytes)).map_err(|(line, problem)| a.malformed(format!("line {line}"), problem))?;
     a.set_units(1.0, UpAxis::Z);
     let beside = |end: &str| with_end(&file, end);
     let semantic = assets::read(&beside(".semantic.glb"), &a)?;

@@ -1,18 +1,24 @@
 //! JSON of collections: one file into one description, with errors that name line and column.
 
+use super::lenient::Lenient;
+use super::vectors::numbers;
 use crate::ImportError;
 use enfilade_math::DVec3;
+use enfilade_scene::decoded_text;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::path::Path;
 
-/// The description in the bytes of `file`; `what` says what it should be.
+/// The description in the bytes of `file`; `what` says what it should be. Numbers may be text, as [`Lenient`] has it.
 ///
 /// # Errors
 /// When it is not JSON, or not of that form: place, what was found and what was expected.
 pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) -> Result<T, ImportError> {
-    serde_json::from_slice(without_mark(bytes)).map_err(|error| {
+    let text = decoded_text(bytes);
+    let text = text.trim_end_matches('\0');
+    let lenient = || T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();
+    serde_json::from_str(text).or_else(|error| lenient().ok_or(error)).map_err(|error| {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
         let place = format!("line {}, column {}", error.line(), error.column());
@@ -54,13 +60,11 @@ pub(super) fn flag(object: &Value, names: &[&str]) -> Option<bool> {
 /// The vector under the first of these names that has three numbers.
 pub(super) fn vector(object: &Value, names: &[&str]) -> Option<DVec3> {
     let vector = |value: &Value| {
+        if let Some(text) = value.as_str() {
+            return numbers(text)?.first_chunk::<3>().copied().map(DVec3::from_array);
+        }
         let [x, y, z] = value.as_array()?.as_slice().first_chunk::<3>()?;
         Some(DVec3::new(as_number(x)?, as_number(y)?, as_number(z)?))
     };
     names.iter().find_map(|name| vector(object.get(name)?))
-}
-
-/// The text without a byte order mark.
-pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }

@@ -33,7 +33,7 @@ struct House {
 /// Imports a scan by its `.house` file.
 pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportError> {
     let file = a.file().to_path_buf();
-    let house = parse(&String::from_utf8_lossy(bytes)).map_err(|(line, problem)| a.malformed(format!("line {line}"), problem))?;
+    let house = parse(&enfilade_scene::decoded_text(bytes)).map_err(|(line, problem)| a.malformed(format!("line {line}"), problem))?;
     let Some(mesh) = mesh_beside(&file) else {
         let stem = file.file_stem().unwrap_or_default().to_string_lossy();
         let problem =

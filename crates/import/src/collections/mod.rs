@@ -21,7 +21,9 @@
 //!   several parts they are `chair_2 (ab12cd)/seat`, so that a label table can name the object.
 //! - Categories become classes of NYU40 by `classes.csv`; other categories are told and stay unlabelled. Each object is an instance;
 //!   walls, floors and ceilings are none.
-//! - Models that are missing or cannot be read are left out, with a warning for each and their number. A picture that is missing is an
+//! - Numbers may be text (`"1.0"`, as 3D-FRONT has some), and vectors of URDF have commas (as ReplicaCAD has them).
+//! - Models that are missing or cannot be read are left out, with a warning for each and their number, and so are other entries of lists
+//!   that are not what they should be. A picture that is missing is an
 //!   error as everywhere, unless [`ImportOptions::allow_missing_textures`](crate::ImportOptions::allow_missing_textures) is set.
 //! - Lights and cameras within models are left out, with a warning.
 
@@ -32,12 +34,15 @@ mod front3d;
 mod habitat;
 mod hm3d;
 mod json;
+mod lenient;
+mod listed;
 mod matterport;
 mod objects;
 mod procthor;
 mod replica;
 mod scan;
 mod structured3d;
+pub(crate) mod vectors;
 
 pub use detect::scene_in_folder;
 pub(crate) use detect::the_scene_in_folder;

@@ -9,6 +9,7 @@
 //! | `../mesh.ply` with `semantic.bin`, `textures/*.hdr`, `glass.sur` | not read: the parametric textures (PTex) and the binary segmentation are Replica's own forms. `mesh.ply` alone is a PLY without labels |
 
 use super::json;
+use super::listed::Listed;
 use super::objects::Objects;
 use super::scan;
 use crate::assembly::Assembly;
@@ -22,9 +23,9 @@ pub(super) const MESH: &str = "mesh_semantic.ply";
 #[derive(Deserialize)]
 struct Info {
     #[serde(default)]
-    classes: Vec<Class>,
+    classes: Listed<Class>,
     #[serde(default)]
-    objects: Vec<Labelled>,
+    objects: Listed<Labelled>,
 }
 
 #[derive(Deserialize)]
@@ -50,6 +51,8 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
     let file = a.file().to_path_buf();
     let info: Info = json::parse(bytes, &file, "the names of a scan of Replica")?;
     a.set_units(1.0, UpAxis::Z);
+    info.classes.report("classes", &mut a);
+    info.objects.report("objects", &mut a);
     let classes: HashMap<i64, &str> = info.classes.iter().map(|class| (class.id, class.name.as_str())).collect();
     let name = |object: &Labelled| object.class_name.clone().or_else(|| classes.get(&object.class_id).map(|name| (*name).to_string()));
     let names: HashMap<i64, Option<String>> = info.objects.iter().map(|object| (object.id, name(object))).collect();

@@ -24,6 +24,11 @@ pub(super) fn texture(texture: &ufbx::Texture, usage: Use, user: &str, a: &mut A
             first.as_ref()
         }
     };
+    if file.content.is_empty() && [&*file.relative_filename, &*file.filename, &*file.absolute_filename].iter().all(|p| p.trim().is_empty())
+    {
+        a.warn(user, format!("the texture {:?} names no picture and was left out", &*file.element.name));
+        return Ok(None);
+    }
     let found = if file.content.is_empty() {
         a.image(&Source::File(&path(file, a)), usage, user)?
     } else {

@@ -1,5 +1,6 @@
 //! The buffers of a glTF file: what it has, and what unpacking adds.
 
+use super::container::PADDING;
 use super::meshopt::packed::{extension_of, packed_buffer};
 use super::uri::{Uri, resolve_uri};
 use crate::ImportError;
@@ -51,6 +52,9 @@ impl Buffers {
     pub(super) fn range(&self, name: &str, buffer: usize, start: u64, length: u64) -> Result<&[u8], String> {
         let bytes = self.0.get(buffer).ok_or_else(|| format!("{name} refers to buffer {buffer}, but there are only {}", self.0.len()))?;
         let end = start.checked_add(length);
+        let there = bytes.len() as u64;
+        // Padding that is counted and not there.
+        let end = end.map(|end| if end > there && end - there <= PADDING { there } else { end });
         let range = end.and_then(|end| bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
         range.ok_or_else(|| {
             format!(
@@ -73,7 +77,7 @@ fn read_buffer(index: usize, buffer: &buffer::Buffer, binary: Option<&[u8]>, ass
             Uri::Path(path) => assembly.read(&path)?.1,
         },
     };
-    if (bytes.len() as u64) < buffer.byte_length.0 {
+    if (bytes.len() as u64) + PADDING < buffer.byte_length.0 {
         let problem = format!(
             "it should have {} bytes, but only {} are there: it is cut short, so copy or export it again",
             buffer.byte_length.0,

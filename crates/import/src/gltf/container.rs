@@ -7,6 +7,7 @@ use super::{draco, far, lumens, meshopt, omissions, unrendered};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DVec3;
+use enfilade_scene::decoded_text;
 use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -40,6 +41,32 @@ const SUPPORTED: [&str; 22] = [
 /// True for an extension that is read, or of which the report says what is rendered instead.
 pub(super) fn is_supported(extension: &str) -> bool {
     SUPPORTED.contains(&extension) || unrendered::is_told(extension)
+}
+
+/// Bytes that fill chunks and buffers up to a multiple of four; some programs count them and do not write them.
+pub(super) const PADDING: u64 = 3;
+
+/// True for an extension without which everything stands where it should: of looks, metadata, sound, behaviour and animation. It is told
+/// as others are that are used and not read.
+fn is_harmless(extension: &str) -> bool {
+    let name = extension.split_once('_').map_or(extension, |(_, name)| name);
+    let begins = [
+        "materials_",
+        "xmp",
+        "audio",
+        "animation",
+        "physics",
+        "collider",
+        "interactivity",
+        "behavior",
+        "behaviour",
+        "structural_metadata",
+        "mesh_features",
+        "instance_features",
+        "feature_metadata",
+        "packed_metadata",
+    ];
+    extension == "VRM" || extension.starts_with("VRMC_") || begins.iter().any(|begin| name.to_lowercase().starts_with(begin))
 }
 
 /// An accessor without a buffer view is all zeros. All reads of a file together may ask for this many: more is taken for damage rather
@@ -76,6 +103,9 @@ impl Document {
         } else {
             (bytes.as_slice(), None)
         };
+        // Exporters pad the text with spaces, some with zeros.
+        let text = decoded_text(json);
+        let json = text.trim_end_matches(|c: char| c == '\0' || c.is_whitespace()).as_bytes();
         let mut root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Buffers::read(&root, binary, assembly)?;
@@ -142,7 +172,7 @@ fn check_version(root: &Root, assembly: &Assembly) -> Result<(), ImportError> {
         let problem = format!("found glTF version {:?}, expected 2.0; convert the file to glTF 2.0", root.asset.version);
         return Err(assembly.malformed("asset.version", problem));
     }
-    match root.extensions_required.iter().find(|e| !is_supported(e)) {
+    match root.extensions_required.iter().find(|e| !is_supported(e) && !is_harmless(e)) {
         None => Ok(()),
         Some(extension) => {
             let advice = match extension.as_str() {
@@ -164,7 +194,8 @@ fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)
     if version != 2 {
         return Err(("byte 4".into(), format!("found binary glTF version {version}, expected 2; convert the file to glTF 2.0")));
     }
-    if (bytes.len() as u64) < u64::from(length) {
+    // The padding of the last chunk may be missing.
+    if (bytes.len() as u64) + PADDING < u64::from(length) {
         let problem =
             format!("the header says {length} bytes, but the file has {}: it is cut short, so copy or export it again", bytes.len());
         return Err(("byte 8".into(), problem));
@@ -173,7 +204,9 @@ fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)
     while at < bytes.len() && (json.is_none() || binary.is_none()) {
         let size = word(at).ok_or_else(|| cut(at, "a chunk's header"))? as usize;
         let kind = bytes.get(at + 4..at + 8).ok_or_else(|| cut(at + 4, "a chunk's header"))?;
-        let body = bytes.get(at + 8..).and_then(|rest| rest.get(..size)).ok_or_else(|| cut(at + 8, "a chunk"))?;
+        let rest = bytes.get(at + 8..).unwrap_or_default();
+        let lacks_padding = kind == b"BIN\0" && rest.len() < size && rest.len() as u64 + PADDING >= size as u64;
+        let body = if lacks_padding { Some(rest) } else { rest.get(..size) }.ok_or_else(|| cut(at + 8, "a chunk"))?;
         match kind {
             b"JSON" => json = json.or(Some(body)),
             b"BIN\0" => binary = binary.or(Some(body)),

@@ -194,7 +194,7 @@ impl Converter<'_, '_> {
     }
 
     fn normal_map(&mut self, json: &Json) -> Result<Option<NormalMap>, ImportError> {
-        let Some(normal) = &json.normal_texture else { return Ok(None) };
+        let Some(normal) = json.normal_texture.as_ref().filter(|normal| self.has_picture(normal.index.value())) else { return Ok(None) };
         let transform = transform_of_normal(normal);
         if transform.is_none() && normal.extensions.as_ref().is_some_and(|e| e.others.contains_key("KHR_texture_transform")) {
             self.warn("the normal texture's KHR_texture_transform is malformed and was left out; export the file again");
@@ -205,16 +205,25 @@ impl Converter<'_, '_> {
 
     /// A colour; `stand_in` multiplies the factor when the texture is missing and that is allowed.
     pub(super) fn color(&mut self, factor: Rgb, info: Option<&Info>, stand_in: f32) -> Result<ColorParam, ImportError> {
-        let Some(info) = info else { return Ok(factor.into()) };
+        let Some(info) = info.filter(|info| self.has_picture(info.index.value())) else { return Ok(factor.into()) };
         let texture = self.texture(info.index.value(), transform_of(info), Use::Color)?;
         Ok(ColorParam { factor: if texture.is_some() { factor } else { factor * stand_in }, texture })
     }
 
     /// A number from a channel of a texture; `stand_in` multiplies the factor when the texture is missing and that is allowed.
     fn scalar(&mut self, factor: f32, info: Option<&Info>, channel: u8, stand_in: f32) -> Result<ScalarParam, ImportError> {
-        let Some(info) = info else { return Ok(factor.into()) };
+        let Some(info) = info.filter(|info| self.has_picture(info.index.value())) else { return Ok(factor.into()) };
         let texture = self.texture(info.index.value(), transform_of(info), Use::Data)?;
         Ok(ScalarParam { factor: if texture.is_some() { factor } else { factor * stand_in }, texture: texture.map(|t| (t, channel)) })
+    }
+
+    /// False, with a warning, for a texture that names no picture: plain colours and numbers hold.
+    fn has_picture(&mut self, index: usize) -> bool {
+        let has_picture = texture::has_picture(self.document, index);
+        if !has_picture {
+            self.warn(format!("textures[{index}] names no picture; its plain colour or number holds"));
+        }
+        has_picture
     }
 
     fn texture(&mut self, index: usize, transform: Option<&TextureTransform>, usage: Use) -> Result<Option<TextureRef>, ImportError> {

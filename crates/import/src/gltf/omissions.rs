@@ -1,10 +1,12 @@
-//! The JSON of a glTF file, typed. Small omissions are filled in, but only when the file cannot be read without that.
+//! The JSON of a glTF file, typed. Small omissions are filled in and numbers put right, but only when the file cannot be read without that.
 
 use gltf::json::Root;
 use serde_json::{Value, json};
 
 /// Keys of other JSON that a message names.
 const KEYS: usize = 6;
+/// Whole numbers up to this are the same as floats.
+const MAX_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// The typed JSON, or the place and the problem.
 ///
@@ -28,7 +30,39 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
         return Err(("whole file".into(), problem));
     }
     complete(&mut value);
-    Root::from_slice(value.to_string().as_bytes()).map_err(|_| problem())
+    put_right(&mut value, "");
+    let written = value.to_string();
+    // The place in the file is known for the first mistake alone, which may have been put right.
+    Root::from_slice(written.as_bytes()).map_err(|left| if left.to_string() == error.to_string() { problem() } else { unclear(&left) })
+}
+
+fn unclear(error: &serde_json::Error) -> (String, String) {
+    let message = error.to_string();
+    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
+    ("whole file".into(), format!("not valid glTF JSON: {message}; export the file again"))
+}
+
+/// Puts right what other readers take as well: whole numbers written as `3.0`, `null` for what is not there, versions and names that are
+/// numbers. `key` is what the value is called. What extras hold stays.
+fn put_right(value: &mut Value, key: &str) {
+    match value {
+        Value::Number(number) => {
+            let whole = number.as_f64().filter(|_| number.is_f64()).filter(|v| v.fract() == 0.0 && v.abs() < MAX_WHOLE);
+            if matches!(key, "version" | "minVersion") {
+                *value = number.as_f64().map_or_else(|| number.to_string(), |v| format!("{v:.1}")).into();
+            } else if key == "name" {
+                *value = number.to_string().into();
+            } else if let Some(whole) = whole {
+                *value = (whole as i64).into();
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(|item| put_right(item, "")),
+        Value::Object(table) => {
+            table.retain(|_, item| !item.is_null());
+            table.iter_mut().filter(|(key, _)| *key != "extras").for_each(|(key, item)| put_right(item, key));
+        }
+        _ => (),
+    }
 }
 
 /// The version of a file before glTF 2.0, whose lists are maps by name.

@@ -40,6 +40,23 @@ pub(super) fn image(document: &Document, index: usize, usage: Use, user: &str, a
     Err(a.malformed(user, format!("textures[{index}] has no picture; export with PNG, JPEG, WebP or KTX2 textures")))
 }
 
+/// False for a texture that names no picture, or one without a place. A texture that does not exist counts as having one: that is damage.
+pub(super) fn has_picture(document: &Document, index: usize) -> bool {
+    let Some(texture) = document.root.textures.get(index) else { return true };
+    // A picture by an extension that is not read is not the same as none.
+    let others = texture.extensions.as_ref().map(|e| &e.others);
+    if others.is_some_and(|others| others.values().any(|extension| extension.get("source").is_some())) {
+        return true;
+    }
+    let is_somewhere = |i: &usize| {
+        document.root.images.get(*i).is_none_or(|image| {
+            let in_uri = image.uri.as_deref().is_some_and(|uri| !uri.trim().is_empty());
+            in_uri || image.buffer_view.is_some()
+        })
+    };
+    pictures(texture).iter().any(is_somewhere)
+}
+
 /// The indices of a texture's pictures, the one to prefer first.
 fn pictures(texture: &Texture) -> Vec<usize> {
     let others = texture.extensions.as_ref().map(|e| &e.others);

@@ -24,6 +24,7 @@ pub(super) struct ObjFiles {
 }
 
 /// An OBJ file.
+#[derive(Default)]
 pub(super) struct ObjMeshes {
     pub meshes: Vec<ObjMesh>,
     /// Names of its material libraries.

@@ -26,6 +26,9 @@ impl<'n> Reader<'n, '_> {
     ) -> Result<(), ImportError> {
         let (path, flags) = self.stated(node)?;
         let file = self.obj_file(node, path, flags)?;
+        if file.meshes.is_empty() {
+            return Ok(());
+        }
         let only = usize::try_from(node.float_or("shape_index", -1.0)? as i64).ok();
         if let Some(only) = only.filter(|&only| only >= file.meshes.len()) {
             return Err(node.error(format!("found shapeIndex {only}, but there are only {} meshes in {path}", file.meshes.len())));
@@ -69,8 +72,12 @@ impl<'n> Reader<'n, '_> {
         if let Some(known) = self.obj.files.get(&key) {
             return Ok(known.clone());
         }
-        let (file, bytes) = self.a.read(path)?;
-        let mut obj = ObjFile::parse(&bytes, &file)?;
+        let read = self.a.read(path).and_then(|(file, bytes)| Ok((ObjFile::parse(&bytes, &file)?, file)));
+        let Some((mut obj, file)) = self.a.mesh_or_none(read, path, &node.place())? else {
+            let none = Rc::new(ObjMeshes::default());
+            self.obj.files.insert(key, none.clone());
+            return Ok(none);
+        };
         obj.settle(self.a.meters_per_unit());
         obj.notes.iter().for_each(|note| self.a.warn(node.place(), format!("{}: {note}", file.display())));
         if obj.groups.is_empty() {

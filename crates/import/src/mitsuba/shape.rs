@@ -128,16 +128,26 @@ impl<'n> Reader<'n, '_> {
         let mesh = match self.meshes.get(&key) {
             Some(&known) => known,
             None => {
-                let Built { mesh, origin, means, file } = self.build(node, path, index)?;
-                let mesh = finish(mesh, from_file, flags);
-                let place = if from_file { "mesh".to_string() } else { node.place() };
-                let built = self.a.push_mesh_from(origin, mesh, &file, &place)?;
-                built.into_iter().for_each(|mesh| self.attributes.insert(mesh, means.clone()));
+                let read = self.made(node, path, index, flags);
+                let read = if from_file { self.a.mesh_or_none(read, path, &node.place())?.flatten() } else { read? };
+                let built = read.map(|(mesh, means)| {
+                    self.attributes.insert(mesh, means);
+                    mesh
+                });
                 self.meshes.insert(key, built);
                 built
             }
         };
         Ok(mesh.map(|mesh| (mesh, in_shape, stem)))
+    }
+
+    /// The mesh of the scene that a shape is, with the means of its attributes. `None` for one without faces.
+    fn made(&mut self, node: &'n Node, path: &str, index: i64, flags: [bool; 3]) -> Result<Option<(u32, Means)>, ImportError> {
+        let from_file = is_file(node);
+        let Built { mesh, origin, means, file } = self.build(node, path, index)?;
+        let mesh = finish(mesh, from_file, flags);
+        let place = if from_file { "mesh".to_string() } else { node.place() };
+        Ok(self.a.push_mesh_from(origin, mesh, &file, &place)?.map(|mesh| (mesh, means)))
     }
 
     /// The mesh as the file or the formula has it, with v downward as Mitsuba has it.

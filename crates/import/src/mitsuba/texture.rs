@@ -89,7 +89,10 @@ impl<'n> Reader<'n, '_> {
             "data",
         ];
         self.report_unknown(node, &KNOWN, &[]);
-        let path = node.raw_text("filename").ok_or_else(|| node.error("the bitmap has no filename"))?;
+        let Some(path) = node.raw_text("filename").filter(|path| !path.trim().is_empty()) else {
+            self.warn(node, "the bitmap names no file; a mid grey stands in");
+            return Ok(Texture { factor: Rgb::splat(MID_GREY), picture: None, channel: None });
+        };
         let gamma = node.float("gamma")?.unwrap_or(-1.0);
         let raw = node.flag("raw", false) || gamma == 1.0;
         if !raw && gamma != -1.0 && (gamma - 2.2).abs() > 0.3 {

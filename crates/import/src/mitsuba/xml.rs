@@ -4,6 +4,7 @@
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::spectrum;
+use crate::xml::xml_text;
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -146,13 +147,12 @@ struct Loader<'l, 'a> {
 
 impl Loader<'_, '_> {
     fn parse(&mut self, file: PathBuf, bytes: &[u8], depth: usize) -> Result<Node, ImportError> {
-        let text = std::str::from_utf8(bytes)
-            .map_err(|e| ImportError::malformed(&file, format!("byte {}", e.valid_up_to()), "not UTF-8 text; save the file as UTF-8"))?;
-        let document = roxmltree::Document::parse(text).map_err(|e| {
+        let text = xml_text(bytes);
+        let document = roxmltree::Document::parse(&text).map_err(|e| {
             let place = format!("line {}:{}", e.pos().row, e.pos().col);
             ImportError::malformed(&file, place, format!("not well-formed XML: {e}"))
         })?;
-        let (file, mut places) = (Rc::new(file), Places { text, at: 0, line: 1, column: 1 });
+        let (file, mut places) = (Rc::new(file), Places { text: &text, at: 0, line: 1, column: 1 });
         let mut root = Node {
             tag: document.root_element().tag_name().name().to_lowercase(),
             plugin: String::new(),

@@ -1,12 +1,13 @@
 //! MTL material libraries: their entries, statement by statement.
 
 use super::map::Map;
-use super::text::{decoded, lines, unquoted, without_comment};
+use super::text::{lines, number, unquoted, without_comment};
 use crate::ImportError;
 use crate::assembly::{Assembly, is_absolute};
 use crate::disguise::Content;
 use crate::spectrum::rgb_of_xyz;
 use enfilade_math::Rgb;
+use enfilade_scene::decoded_text;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
@@ -64,6 +65,26 @@ pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, 
     Ok(library)
 }
 
+/// The materials of `library` and those of the library that is called like the OBJ file at `obj`, where there is one, for a file that names
+/// materials and no library.
+pub(super) fn read_own_library(obj: &str, library: Library, a: &mut Assembly) -> Result<Library, ImportError> {
+    let own = Path::new(&obj.replace('\\', "/")).with_extension("mtl").to_string_lossy().into_owned();
+    if !a.exists(&own) {
+        return Ok(library);
+    }
+    a.warn("mtllib", format!("the file names no material library; {own}, which is called like it, was read"));
+    let mut library = library;
+    let (_, bytes) = a.read(&own)?;
+    parse(&bytes, &folder_of(&own), &mut library, a);
+    Ok(library)
+}
+
+/// The only material whose name differs from `name` in case alone.
+pub(super) fn in_other_case<'l>(library: &'l Library, name: &str) -> Option<&'l Entry> {
+    let mut alike = library.values().filter(|entry| entry.name.eq_ignore_ascii_case(name));
+    alike.next().filter(|_| alike.next().is_none())
+}
+
 /// Takes the library that is called like the OBJ file for one that is missing, where there is one.
 fn stand_in(obj: &str, line: &str, missing: &str, library: &mut Library, a: &mut Assembly) -> Result<(), ImportError> {
     let own = Path::new(&obj.replace('\\', "/")).with_extension("mtl").to_string_lossy().into_owned();
@@ -93,7 +114,7 @@ pub(super) fn folder_of(path: &str) -> String {
 
 /// Adds the entries of the library that these bytes of a file in `folder` are.
 fn parse(bytes: &[u8], folder: &str, library: &mut Library, a: &mut Assembly) {
-    let stray = parse_text(&decoded(bytes), folder, library);
+    let stray = parse_text(&decoded_text(bytes), folder, library);
     if let Some(line) = stray {
         a.warn("mtllib", format!("statements before the first newmtl of a material library were ignored, such as {line:?}"));
     }
@@ -151,8 +172,9 @@ pub(super) enum Numbers {
 impl Numbers {
     pub(super) fn parse(statement: &str) -> Self {
         let words: Vec<&str> = statement.split_whitespace().collect();
-        let finite =
-            |words: &[&str]| -> Vec<f32> { words.iter().map_while(|word| word.parse().ok()).filter(|v: &f32| v.is_finite()).collect() };
+        let finite = |words: &[&str]| -> Vec<f32> {
+            words.iter().map_while(|word| number(word)).map(|v| v as f32).filter(|v: &f32| v.is_finite()).collect()
+        };
         match words[..] {
             ["spectral", ..] => Self::Spectral,
             // One number stands for all three.

@@ -2,6 +2,10 @@
 
 use super::text::unquoted;
 
+/// Options that a word follows, and those that numbers follow.
+const TEXTUAL: [&str; 7] = ["-clamp", "-blendu", "-blendv", "-cc", "-imfchan", "-type", "-colorspace"];
+const NUMERIC: [&str; 7] = ["-s", "-o", "-t", "-mm", "-bm", "-boost", "-texres"];
+
 /// A `map_…` statement.
 pub(super) struct Map<'m> {
     pub path: &'m str,
@@ -9,6 +13,8 @@ pub(super) struct Map<'m> {
     pub offset: [f32; 2],
     pub clamp: bool,
     pub bump: f32,
+    /// True where `-colorspace` says that colours are stored as they are.
+    pub linear: bool,
     /// The channel that `-imfchan` chooses for a number.
     pub channel: Option<u8>,
     /// Options that have an effect but are not read.
@@ -19,6 +25,7 @@ impl<'m> Map<'m> {
     /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path. Options belong before the
     /// path; behind it they are read where nothing else is there, as three.js does.
     pub(super) fn parse(statement: &'m str) -> Option<Self> {
+<<<<<<< HEAD
         let mut map = Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, channel: None, ignored: Vec::new() };
         let rest = map.options(statement.trim())?;
         let behind = rest.match_indices(char::is_whitespace).map(|(at, _)| rest.split_at(at)).find(|(_, tail)| are_options(tail.trim()));
@@ -31,22 +38,30 @@ impl<'m> Map<'m> {
     /// Takes over the options at the beginning of a text, and gives what follows them. `None` where an option ends the text before its value.
     fn options(&mut self, text: &'m str) -> Option<&'m str> {
         let mut rest = text;
+=======
+        let mut map =
+            Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, linear: false, channel: None, ignored: Vec::new() };
+        let mut rest = statement.trim();
+>>>>>>> dbe46f60 (Files are read where other readers take them too)
         while rest.starts_with('-') {
             let (option, after) = rest.split_once(char::is_whitespace)?;
             rest = after.trim_start();
-            let max_values = match option {
+            let max_values = match &*option.to_ascii_lowercase() {
                 "-s" | "-o" | "-t" => 3,
                 "-mm" => 2,
                 _ => 1,
             };
-            let textual = matches!(option, "-clamp" | "-blendu" | "-blendv" | "-cc" | "-imfchan" | "-type");
+            let takes_word = TEXTUAL.iter().any(|known| known.eq_ignore_ascii_case(option));
+            let is_known = takes_word || NUMERIC.iter().any(|known| known.eq_ignore_ascii_case(option));
             let (mut values, mut word) = (Vec::new(), "");
             while values.len() < max_values {
                 let Some(next) = rest.split_whitespace().next() else { break };
                 word = next;
                 match word.parse::<f32>() {
                     Ok(value) => values.push(value),
-                    Err(_) if textual => values.push(f32::from(u8::from(word == "on"))),
+                    Err(_) if takes_word => values.push(f32::from(u8::from(word.eq_ignore_ascii_case("on")))),
+                    // What stands between an option that nobody knows and the file is the option's.
+                    Err(_) if !is_known && values.is_empty() && !word.contains('.') && rest[word.len()..].contains('.') => values.push(0.0),
                     Err(_) => break,
                 }
                 rest = rest[word.len()..].trim_start();
@@ -59,7 +74,7 @@ impl<'m> Map<'m> {
     /// Takes over an option of these values, of which `word` is the last.
     fn set(&mut self, option: &'m str, word: &str, values: &[f32]) {
         let value = |i: usize, default: f32| values.get(i).copied().filter(|v| v.is_finite()).unwrap_or(default);
-        let changes = match option {
+        let changes = match &*option.to_ascii_lowercase() {
             "-s" => {
                 self.scale = [value(0, 1.0), value(1, 1.0)];
                 false
@@ -77,9 +92,14 @@ impl<'m> Map<'m> {
                 false
             }
             "-imfchan" => {
-                self.channel = ["r", "g", "b", "m"].iter().position(|c| *c == word).map(|c| c as u8);
+                self.channel = ["r", "g", "b", "m"].iter().position(|c| c.eq_ignore_ascii_case(word)).map(|c| c as u8);
                 // Luminance is what a grey picture has in every channel.
-                self.channel.is_none() && word != "l"
+                self.channel.is_none() && !word.eq_ignore_ascii_case("l")
+            }
+            "-colorspace" => {
+                let name = word.to_ascii_lowercase();
+                self.linear = ["linear", "raw", "non-color", "noncolor", "none"].iter().any(|known| name.starts_with(known));
+                !self.linear && !name.starts_with("srgb")
             }
             // How a picture is filtered; blending is the rule.
             "-blendu" | "-blendv" | "-texres" | "-boost" | "-cc" => false,
@@ -126,6 +146,7 @@ mod tests {
     }
 
     #[test]
+<<<<<<< HEAD
     fn options_behind_the_path_are_read_and_names_that_look_like_them_are_names() {
         let map = Map::parse("my a.png -s 2 3 1 -clamp on -bm 0.5").unwrap();
         assert_eq!((map.path, map.scale, map.clamp, map.bump), ("my a.png", [2.0, 3.0], true, 0.5));
@@ -133,6 +154,20 @@ mod tests {
         for name in ["wood -s 1.png", "wood -s.png", "a - b.png", "a -x 1", "tile -o"] {
             assert_eq!(Map::parse(name).map(|map| map.path), Some(name), "{name}");
         }
+=======
+    fn words_of_options_are_not_taken_for_names_of_files() {
+        // tinyobjloader writes and reads -colorspace; the others are made up.
+        for statement in
+            ["-colorspace sRGB my wood.png", "-S 1 1 1 -CLAMP off my wood.png", "-uvset map1 my wood.png", "-gain 2 my wood.png"]
+        {
+            let map = Map::parse(statement).unwrap();
+            assert_eq!((map.path, map.linear), ("my wood.png", false), "{statement}");
+        }
+        let map = Map::parse("-colorspace linear my wood.png").unwrap();
+        assert_eq!((map.path, map.linear, map.ignored.len()), ("my wood.png", true, 0));
+        assert_eq!(Map::parse("-colorspace ACEScg a.png").unwrap().ignored, ["-colorspace"]);
+        assert_eq!(Map::parse("-bm wood 2.0.png").unwrap().path, "wood 2.0.png");
+>>>>>>> dbe46f60 (Files are read where other readers take them too)
     }
 
     #[test]

@@ -8,8 +8,9 @@
 //! | names, paths | the whole rest of the line, so spaces and `#` are part of them; elsewhere `#` begins a comment |
 //! | normals | as in the file; without any, smooth within smoothing groups (`s 1` and above), across parts too, and flat elsewhere |
 //! | colours of vertices | their mean, read as sRGB, is the colour of a part without a material, and the report says so |
-//! | text | UTF-8, or UTF-16 with a byte order mark; lines end as on any system |
-//! | libraries, pictures | at their path; else by their name beside the file that names them (pictures also in `textures/`), a name in other case with a warning; for a library that is missing that which is called like the OBJ file |
+//! | text | UTF-8, UTF-16 or Windows-1252, with or without a byte order mark; lines end as on any system; keywords in any case |
+//! | numbers | with a decimal comma too, and indices as `3.0` |
+//! | libraries, pictures | at their path; else by their name beside the file that names them (pictures also in `textures/`), a name in other case with a warning; for a library that is missing or not named that which is called like the OBJ file |
 //! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 6 or 7 a solid dielectric, with 4 or 9 only where `Kd` is black and `d` is 1 |
 //! | the same of Blender (3.2 or newer) | a clear-coated surface of roughness 1 − √(Ns/1000), its highlight tinted by twice `Ks`; on black `Kd` too |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
@@ -17,7 +18,7 @@
 //! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
 //! | `d 0`, `Tr 1` | `d 0` is not seen, a `Tr` of one without `d` is taken for opaque, each with a warning |
 //! | `map_Ke` with a black `Ke` | taken for white, with a warning |
-//! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`, `-imfchan` for numbers; the others are skipped, with a warning |
+//! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`, `-imfchan` for numbers, `-colorspace` of linear colours; the others are skipped, with a warning |
 //! | ambient colours, `sharpness` | without effect |
 //! | dropped with a warning | lines, points, curves, and all other statements of materials, such as displacement and reflection maps, anisotropy, `map_Ns` |
 //!
@@ -64,7 +65,11 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
     obj.smooth();
     report(&obj, &mut assembly);
     let own = file.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
-    let library = library::read_libraries(&obj.libraries, &own, known, &mut assembly)?;
+    let uses_materials = obj.groups.iter().any(|group| group.material.is_some());
+    let library = match obj.libraries.is_empty() && uses_materials {
+        true => library::read_own_library(&own, known, &mut assembly)?,
+        false => library::read_libraries(&obj.libraries, &own, known, &mut assembly)?,
+    };
     let mut materials: HashMap<(Option<&str>, Option<[u8; 3]>), u32> = HashMap::new();
     let mut sharing: HashMap<(usize, Option<&str>), usize> = HashMap::new();
     obj.groups.iter().for_each(|group| *sharing.entry((group.object, group.name.as_deref())).or_default() += 1);
@@ -123,6 +128,10 @@ pub(crate) fn material(name: &str, library: &Library, assembly: &mut Assembly) -
 
 fn convert(name: Option<&str>, library: &Library, assembly: &mut Assembly) -> Result<Material, ImportError> {
     if let Some(entry) = library.get(name.unwrap_or_default()) {
+        return mtl::material(entry, assembly);
+    }
+    if let Some(entry) = name.and_then(|name| library::in_other_case(library, name)) {
+        assembly.warn(format!("usemtl {}", name.unwrap_or_default()), format!("{:?}, which differs in case, was used", entry.name));
         return mtl::material(entry, assembly);
     }
     if let Some(name) = name {

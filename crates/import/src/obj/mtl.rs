@@ -192,6 +192,7 @@ impl<'c> Converter<'c, '_> {
         let written = spelled(folder, map.path);
         let folders = [String::new(), "textures/".into(), "Textures/".into()].map(|below| format!("{folder}{below}"));
         let path = self.a.find(&[&written], &folders.each_ref().map(String::as_str)).unwrap_or(written);
+        let usage = if map.linear { Use::Data } else { usage };
         let image = self.a.image(&Source::File(&path), usage, &self.user)?;
         Ok(image.map(|image| TextureRef {
             uv_transform: [[map.scale[0], 0.0, map.offset[0]], [0.0, map.scale[1], map.offset[1]]],

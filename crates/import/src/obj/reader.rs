@@ -4,6 +4,7 @@ use super::file::{Face, Group, NONE, ObjFile};
 use super::text;
 use crate::ImportError;
 use enfilade_math::{DVec3, Vec2, Vec3};
+use enfilade_scene::decoded_text;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -16,7 +17,7 @@ impl ObjFile {
     /// # Errors
     /// A number or index that makes no sense, with its line.
     pub(crate) fn parse(bytes: &[u8], file: &Path) -> Result<Self, ImportError> {
-        let text = text::decoded(bytes);
+        let text = decoded_text(bytes);
         let mut parser = Parser {
             file,
             obj: Self::default(),
@@ -31,7 +32,8 @@ impl ObjFile {
         };
         let mut continued = String::new();
         for (number, line) in text::lines(&text).enumerate() {
-            let line = text::without_comment(line, |keyword| matches!(keyword, "o" | "g" | "usemtl" | "mtllib"));
+            let line =
+                text::without_comment(line, |keyword| ["o", "g", "usemtl", "mtllib"].iter().any(|k| keyword.eq_ignore_ascii_case(k)));
             if let Some(start) = line.strip_suffix('\\') {
                 continued.push_str(start);
                 continued.push(' ');
@@ -75,10 +77,10 @@ impl Parser<'_> {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let rest = rest.trim();
         let text = || (!rest.is_empty()).then(|| rest.to_string());
-        match keyword {
+        match &*keyword.to_ascii_lowercase() {
             "" | "vp" => (),
             // "off" is 0; groups without a number, as some programs write, are one.
-            "s" => self.smoothing = if rest == "off" { 0 } else { rest.parse().unwrap_or(1) },
+            "s" => self.smoothing = if rest.eq_ignore_ascii_case("off") { 0 } else { rest.parse().unwrap_or(1) },
             "v" => {
                 let position = DVec3::from_array(self.numbers(rest, 3, number, false)?);
                 if !position.as_vec3().is_finite() {
@@ -105,7 +107,7 @@ impl Parser<'_> {
             "f" | "fo" => self.face(rest, number)?,
             "o" | "g" => {
                 self.name = text();
-                if keyword == "o" {
+                if keyword.eq_ignore_ascii_case("o") {
                     self.object += 1;
                     self.object_name = self.name.clone();
                 }
@@ -117,7 +119,7 @@ impl Parser<'_> {
             }
             "mtllib" => self.obj.libraries.extend(text()),
             "l" | "p" => self.note("points and lines have no surface and were left out"),
-            other => self.note(&format!("{other:?} statements ignored")),
+            _ => self.note(&format!("{keyword:?} statements ignored")),
         }
         Ok(())
     }
@@ -170,8 +172,8 @@ impl Parser<'_> {
             if field.is_empty() && k > 0 {
                 continue;
             }
-            let index: i64 =
-                field.parse().map_err(|_| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
+            let index: i64 = text::whole(field)
+                .ok_or_else(|| self.error(number, format!("{word:?} is not a corner; expected v/vt/vn as whole numbers")))?;
             let absolute = if index < 0 { (counts[k] as i64).saturating_add(index) } else { index - 1 };
             match u32::try_from(absolute).ok().filter(|&i| i != NONE) {
                 Some(index) => corner[k] = index,
@@ -247,7 +249,7 @@ impl Parser<'_> {
                 None => return Err(self.error(number, format!("found {i} numbers in {rest:?}, expected {required}"))),
                 Some(word) => {
                     let odd = lenient && (word.to_ascii_lowercase().contains("nan") || word.contains("IND"));
-                    let parsed = word.parse().ok().or(odd.then_some(f64::NAN));
+                    let parsed = text::number(word).or(odd.then_some(f64::NAN));
                     *value = parsed.ok_or_else(|| self.error(number, format!("{word:?} is not a number")))?;
                 }
             }

@@ -1,20 +1,4 @@
-//! The text of OBJ files and their libraries: its encoding, its lines, and what counts of them.
-
-use std::borrow::Cow;
-
-/// The bytes as text: UTF-16 where its byte order mark says so, else UTF-8, with or without a mark.
-pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
-        Cow::Owned(String::from_utf16_lossy(&units))
-    };
-    match bytes {
-        [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8_lossy(rest),
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
-        _ => String::from_utf8_lossy(bytes),
-    }
-}
+//! The lines of OBJ files and their libraries, and what counts of them.
 
 /// The lines of a text, whether they end with a line feed, a carriage return (as on old Macintoshes) or both.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
@@ -27,6 +11,17 @@ pub(super) fn without_comment(line: &str, is_text: fn(&str) -> bool) -> &str {
     if is_text(keyword) { line } else { line.split('#').next().unwrap_or_default() }
 }
 
+/// A number; a comma is the decimal point of programs that write numbers as the language of their user does.
+pub(super) fn number(word: &str) -> Option<f64> {
+    word.parse().ok().or_else(|| word.replacen(',', ".", 1).parse().ok())
+}
+
+/// A whole number, which numpy writes as `3.0` or `3.000e+00`.
+pub(super) fn whole(word: &str) -> Option<i64> {
+    let float = || word.parse::<f64>().ok().filter(|v| v.fract() == 0.0 && v.abs() < 1e15).map(|v| v as i64);
+    word.parse().ok().or_else(float)
+}
+
 /// A path without the quotation marks that some programs put around it.
 pub(super) fn unquoted(path: &str) -> &str {
     path.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).filter(|inside| !inside.contains('"')).unwrap_or(path)
@@ -37,18 +32,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_encodings_and_ends_of_lines_of_other_systems_are_understood() {
+    fn ends_of_lines_of_other_systems_are_understood() {
         let text = "g Küche\r\nf 1 2 3\rf 2 3 4\n";
-        let utf16 = |order: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(order).collect::<Vec<u8>>();
-        let marked = |mark: &[u8], bytes: &[u8]| [mark, bytes].concat();
-        for bytes in [
-            text.as_bytes().to_vec(),
-            marked(&[0xef, 0xbb, 0xbf], text.as_bytes()),
-            marked(&[0xff, 0xfe], &utf16(u16::to_le_bytes)),
-            marked(&[0xfe, 0xff], &utf16(u16::to_be_bytes)),
-        ] {
-            assert_eq!(lines(&decoded(&bytes)).collect::<Vec<_>>(), ["g Küche", "f 1 2 3", "f 2 3 4", ""]);
-        }
+        assert_eq!(lines(text).collect::<Vec<_>>(), ["g Küche", "f 1 2 3", "f 2 3 4", ""]);
+    }
+
+    #[test]
+    fn numbers_are_read_as_other_programs_write_them() {
+        assert_eq!(
+            ["0.5", "0,5", "-1,5e-3", ".5", "1e3", "1,2,3", "a", ""].map(number),
+            [Some(0.5), Some(0.5), Some(-0.0015), Some(0.5), Some(1000.0), None, None, None]
+        );
+        assert_eq!(
+            ["3", "3.0", "-1.00", "3.000000000000000000e+00", "2.5", "x"].map(whole),
+            [Some(3), Some(3), Some(-1), Some(3), None, None]
+        );
     }
 
     #[test]

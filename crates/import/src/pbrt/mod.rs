@@ -80,7 +80,8 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 impl Reader<'_> {
     /// Reads all directives of a file.
     fn file(&mut self, bytes: &[u8], path: &Path) -> Result<(), ImportError> {
-        let mut tokens = Tokens::new(bytes, path)?;
+        let text = enfilade_scene::decoded_text(bytes);
+        let mut tokens = Tokens::new(&text, path);
         let file = Rc::new(path.to_path_buf());
         self.including.push(path.to_path_buf());
         while let Some(token) = tokens.next()? {

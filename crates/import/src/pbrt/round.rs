@@ -112,7 +112,7 @@ mod tests {
     use std::rc::Rc;
 
     fn params(text: &str) -> Params {
-        let mut tokens = Tokens::new(text.as_bytes(), Path::new("a.pbrt")).unwrap();
+        let mut tokens = Tokens::new(text, Path::new("a.pbrt"));
         let place = Place { file: Rc::new(PathBuf::from("a.pbrt")), line: 1, column: 1, what: "Shape".into() };
         Params::read(&mut tokens, place).unwrap()
     }

@@ -109,8 +109,12 @@ impl Reader<'_> {
         if let Some(&known) = self.meshes.get(&key) {
             return Ok(known);
         }
-        let (file, bytes) = self.a.read(path)?;
-        let ply = ply::read(&unpacked(bytes, &file)?, &file, false, self.a.meters_per_unit())?;
+        let unit = self.a.meters_per_unit();
+        let read = self.a.read(path).and_then(|(file, bytes)| Ok((ply::read(&unpacked(bytes, &file)?, &file, false, unit)?, file)));
+        let Some((ply, file)) = self.a.mesh_or_none(read, path, &params.place.text())? else {
+            self.meshes.insert(key, None);
+            return Ok(None);
+        };
         if ply.mean_color.is_some() {
             self.warn(&params.place, "the colours of vertices were dropped");
         }

@@ -117,7 +117,10 @@ impl Reader<'_> {
     }
 
     fn image_map(&mut self, params: &Params, number: bool) -> Result<Texture, ImportError> {
-        let path = params.string("filename")?.ok_or_else(|| params.place.error("the image map has no filename"))?;
+        let Some(path) = params.string("filename")?.filter(|path| !path.trim().is_empty()) else {
+            self.warn(&params.place, "the image map names no file; a mid grey stands in");
+            return Ok(Rgb::splat(MID_GREY).into());
+        };
         let linear = match params.string("encoding")? {
             None | Some("sRGB") => !params.flag("gamma", true)?,
             Some("linear") => true,

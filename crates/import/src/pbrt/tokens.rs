@@ -38,13 +38,9 @@ pub(super) struct Tokens<'t> {
 }
 
 impl<'t> Tokens<'t> {
-    /// # Errors
-    /// When the bytes are not UTF-8.
-    pub(super) fn new(bytes: &'t [u8], file: &'t Path) -> Result<Self, ImportError> {
-        let text = std::str::from_utf8(bytes)
-            .map_err(|e| ImportError::malformed(file, format!("byte {}", e.valid_up_to()), "not UTF-8 text; save the file as UTF-8"))?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        Ok(Self { text, file, at: 0, line: 1, counted: (0, 1), peeked: None, last: (1, 1) })
+    /// The words of a text without a byte order mark.
+    pub(super) fn new(text: &'t str, file: &'t Path) -> Self {
+        Self { text, file, at: 0, line: 1, counted: (0, 1), peeked: None, last: (1, 1) }
     }
 
     /// The next word, left where it is; `None` at the end of the file.
@@ -133,7 +129,7 @@ mod tests {
 
     #[test]
     fn words_have_their_place_and_comments_are_none() {
-        let mut tokens = Tokens::new("Shape \"a b\" # [ \"\n  [1 -2.5e3]é".as_bytes(), Path::new("a.pbrt")).unwrap();
+        let mut tokens = Tokens::new("Shape \"a b\" # [ \"\n  [1 -2.5e3]é", Path::new("a.pbrt"));
         let mut found = Vec::new();
         while let Some(t) = tokens.next().unwrap() {
             found.push((t.kind, t.line, t.column));
@@ -154,7 +150,7 @@ mod tests {
     #[test]
     fn a_million_words_may_stand_on_one_line() {
         let text = "é ".repeat(1_000_000);
-        let mut tokens = Tokens::new(text.as_bytes(), Path::new("a.pbrt")).unwrap();
+        let mut tokens = Tokens::new(&text, Path::new("a.pbrt"));
         let (mut words, mut column) = (0, 0);
         while let Some(token) = tokens.next().unwrap() {
             (words, column) = (words + 1, token.column);
@@ -164,7 +160,7 @@ mod tests {
 
     #[test]
     fn open_quotation_marks_are_told() {
-        let mut tokens = Tokens::new(b"A\n \"b\n\"", Path::new("a.pbrt")).unwrap();
+        let mut tokens = Tokens::new("A\n \"b\n\"", Path::new("a.pbrt"));
         tokens.next().unwrap();
         assert_eq!(tokens.next().unwrap_err().to_string(), "a.pbrt: line 2:2: the quotation mark has no partner on its line; close it");
     }

@@ -79,7 +79,8 @@ pub(super) fn detect(bytes: &[u8], file: &Path, a: &mut Assembly) -> Result<Vers
 
 /// Counts words, and returns the files that the text includes.
 fn count(bytes: &[u8], file: &Path, third: &mut usize, fourth: &mut usize) -> Result<Vec<String>, ImportError> {
-    let mut tokens = Tokens::new(bytes, file)?;
+    let text = enfilade_scene::decoded_text(bytes);
+    let mut tokens = Tokens::new(&text, file);
     let (mut included, mut directive, mut declared) = (Vec::new(), "", "");
     while let Some(token) = tokens.next()? {
         match token.kind {

@@ -85,6 +85,7 @@ impl Kind {
 }
 
 pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // The first line decides: in a binary file a byte `\n` behind the header belongs to the body.
     let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
     let mut header = Header { encoding: Encoding::Text, line_end, elements: Vec::new(), lines: 0, pictures: Vec::new() };
@@ -106,7 +107,8 @@ pub(super) fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8]), Problem> {
             ["format", "binary_little_endian", _] => header.encoding = Encoding::Little,
             ["format", "binary_big_endian", _] => header.encoding = Encoding::Big,
             ["element", name, count] => {
-                let count = count.parse().map_err(|_| {
+                let whole = count.split_once('.').filter(|(_, rest)| rest.bytes().all(|b| b == b'0')).map_or(count, |(whole, _)| whole);
+                let count = whole.parse().map_err(|_| {
                     (place(), format!("{count:?} is not a number of elements; expected a whole number, so export the file again"))
                 })?;
                 header.elements.push(Element { name: name.into(), count, properties: Vec::new() });

@@ -65,10 +65,21 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
     let archive = Archive::new(&file, bytes).map_err(|e| assembly.malformed("whole file", format!("{e}; copy or save it again")))?;
+    load_archive(&archive, assembly)
+}
+
+/// True for an archive with a home or a furniture library.
+pub(crate) fn is_of_sweethome(archive: &Archive) -> bool {
+    // A file `Home` at the top is a home of old.
+    archive.find(HOME).is_some() || archive.find(catalogue::NAME).is_some() || archive.names().iter().any(|name| name == "Home")
+}
+
+/// Imports the home or the library of furniture that an archive holds.
+pub(crate) fn load_archive(archive: &Archive, assembly: Assembly) -> Result<Imported, ImportError> {
     if let Some(entry) = archive.find(HOME) {
         let bytes = archive.read(entry).map_err(|e| assembly.malformed(HOME, format!("cannot be read ({e}); save the home again")))?;
-        let text = String::from_utf8_lossy(&bytes);
-        return plan::load(&text, &archive, assembly.inside(Format::SweetHome, UpAxis::Y, &archive, entry));
+        let text = crate::xml::xml_text(&bytes);
+        return plan::load(&text, archive, assembly.inside(Format::SweetHome, UpAxis::Y, archive, entry));
     }
     if archive.find("Home").is_some() {
         let problem =
@@ -76,7 +87,7 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         return Err(assembly.malformed("Home", problem));
     }
     if let Some(entry) = archive.find(catalogue::NAME) {
-        return catalogue::load(&archive, assembly.inside(Format::SweetHome, UpAxis::Y, &archive, entry));
+        return catalogue::load(archive, assembly.inside(Format::SweetHome, UpAxis::Y, archive, entry));
     }
     let problem =
         "found neither Home.xml nor a furniture catalogue; expected a home (.sh3d) or a furniture library (.sh3f) of Sweet Home 3D";

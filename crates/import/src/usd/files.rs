@@ -11,6 +11,8 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 
+/// Byte order marks of text.
+const MARKS: [&[u8]; 3] = [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"];
 /// The first bytes of a zip archive.
 const ARCHIVE: &[u8] = b"PK\x03\x04";
 
@@ -93,11 +95,8 @@ impl Files {
         let file = a.path_of(outer(&location));
         let read = if bytes.starts_with(binary::MAGIC) {
             binary::parse(&bytes)
-        } else if bytes.starts_with(b"#") || bytes.starts_with("\u{feff}".as_bytes()) {
-            match std::str::from_utf8(&bytes) {
-                Ok(text) => text::parse(text),
-                Err(e) => Err((format!("byte {}", e.valid_up_to()), "found bytes that are no UTF-8 text; the file is damaged".into())),
-            }
+        } else if bytes.starts_with(b"#") || MARKS.iter().any(|mark| bytes.starts_with(mark)) {
+            text::parse(&enfilade_scene::decoded_text(&bytes))
         } else if is_materialx(&location) {
             a.warn(
                 &location,

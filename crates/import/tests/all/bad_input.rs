@@ -317,3 +317,28 @@ fn obj_mistakes_have_a_line() {
     assert!(folder.write("a.obj", "v 0 0 0\n").error("a.obj").contains("no visible parts"));
     assert!(folder.write("a.obj", b"\xff\xfe\x00\x01").error("a.obj").contains("no visible parts"));
 }
+
+#[test]
+fn meshes_that_are_not_there_end_the_import_unless_that_is_allowed() {
+    let folder = Folder::new();
+    folder.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+    let here = "<shape type=\"rectangle\"/>";
+    let xml = |shapes: &str| format!("<scene version=\"0.6.0\">{here}{shapes}</scene>");
+    let of = |kind: &str, file: &str| format!("<shape type=\"{kind}\"><string name=\"filename\" value=\"{file}\"/></shape>");
+    let gone = ["obj", "ply", "serialized"].map(|kind| of(kind, &format!("gone.{kind}")));
+    let pbrt = |file: &str| format!("WorldBegin\nShape \"sphere\"\nShape \"plymesh\" \"string filename\" \"{file}\"\n");
+    folder.write("a.xml", xml(&gone[0])).write("b.xml", xml(&gone[1])).write("c.xml", xml(&gone[2])).write("a.pbrt", pbrt("gone.ply"));
+    folder.write("d.xml", xml(&of("ply", "cut.ply"))).write("b.pbrt", pbrt("cut.ply"));
+    let options = ImportOptions { allow_missing_meshes: true, ..ImportOptions::default() };
+    for name in ["a.xml", "b.xml", "c.xml", "a.pbrt", "d.xml", "b.pbrt"] {
+        let error = folder.error(name);
+        let says = if error.contains("cut.ply") { "the header does not end" } else { "or go on without it: --allow-missing-meshes" };
+        assert!(error.contains(says), "{error}");
+        let imported = folder.load_with(name, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(imported.report.counts.parts, 1, "{name}");
+        assert!(warnings(&imported).contains("; it was left out"), "{}", warnings(&imported));
+    }
+    // All shapes missing leaves nothing to see.
+    folder.write("e.xml", xml(&gone[0]).replace(here, ""));
+    assert!(folder.load_with("e.xml", &options).is_err());
+}

@@ -107,15 +107,50 @@ fn models_that_are_not_at_hand_are_told_and_counted() {
 }
 
 #[test]
-fn lists_of_wrong_lengths_are_refused_with_their_mesh() {
-    let mut house = house();
-    house["mesh"][1]["faces"] = json!([0, 1]);
+fn one_odd_mesh_is_left_out_and_the_rest_stays() {
     let folder = Folder::new();
-    let message = folder.write("house.json", house.to_string()).error("house.json");
-    assert!(message.contains("mesh \"w\": found 2 numbers in faces, expected a multiple of 3"), "{message}");
-    house["mesh"][1]["faces"] = json!([0, 1, 7]);
-    let message = folder.write("house.json", house.to_string()).error("house.json");
-    assert!(message.contains("mesh \"w\"") && message.contains('7'), "{message}");
+    for (odd, told) in [
+        (json!({"faces": [0, 1]}), "mesh \"w\": found 2 numbers in faces, expected a multiple of 3"),
+        (json!({"faces": [0, 1, 7]}), "a mesh cannot be used and is left out"),
+        (json!({"xyz": "here"}), "1 of 4 entries are not what they should be and were left out, the first: "),
+        (json!({"uid": null}), "1 of 4 entries are not what they should be and were left out, the first: "),
+    ] {
+        let mut house = house();
+        for (key, value) in odd.as_object().unwrap() {
+            house["mesh"][1][key] = value.clone();
+        }
+        let imported = folder.write("house.json", house.to_string()).load("house.json").unwrap();
+        assert_eq!(imported.report.counts.parts, 3, "{odd}");
+        assert!(warnings(&imported).contains(told), "{}", warnings(&imported));
+    }
+    let mut house = house();
+    house["mesh"] = json!({"a": 1});
+    assert!(folder.write("house.json", house.to_string()).error("house.json").contains("expected a list"));
+}
+
+#[test]
+fn numbers_may_be_text() {
+    let plain = imported();
+    let folder = Folder::new();
+    let text = |list: &Value| -> Value { list.as_array().unwrap().iter().map(|v| json!(format!("{:.5}", v.as_f64().unwrap()))).collect() };
+    let mut house = house();
+    for key in ["xyz", "normal", "uv"] {
+        house["mesh"][0][key] = text(&house["mesh"][0][key]);
+    }
+    house["mesh"][1]["faces"] = json!(["0", "1.0", 2.0]);
+    house["mesh"][2]["xyz"] = json!("1, 0, 0, 2, 0, 0, 2, 2, 0");
+    house["material"][1]["color"] = json!(["255", "0", "0", "255"]);
+    house["furniture"][0]["valid"] = json!("true");
+    house["scene"]["room"][0]["children"][0]["rot"] = json!(["0", "0", "0", "1"]);
+    house["scene"]["room"][0]["children"][0]["pos"] = json!("0 0 0");
+    house["scene"]["room"][0]["children"][0]["scale"] = json!(["1.0", "1.0", "1.0"]);
+    let odd = folder.write("house.json", format!("\u{feff}{house}")).load("house.json").unwrap();
+    let bare = |imported: &Imported, name: &str| points(imported, name);
+    for name in ["Floor (LivingRoom-1)", "WallInner (LivingRoom-1)", "Door (LivingRoom-1)", "Back (LivingRoom-1)"] {
+        assert_eq!(bare(&odd, name), bare(&plain, name), "{name}");
+    }
+    let paint = odd.scene.materials.iter().find(|m| m.name == "paint").map(|m| m.bsdf.clone());
+    assert_eq!(paint, Some(Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() }));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Textures of glTF in formats of extensions, and extensions of materials that are told alone.
 
-use crate::common::{Folder, Gltf, base64, png, warnings};
+use crate::common::{Folder, Gltf, base64, png, principled, warnings};
 use enfilade_import::{ImportError, Imported};
 use enfilade_scene::Pixels;
 use serde_json::json;
@@ -90,6 +90,26 @@ fn textures_without_any_picture_say_so() {
     g.json["textures"] = json!([{"extensions": {"ACME_texture": {"source": 0}}}]);
     let error = Folder::new().write("a.gltf", g.text()).error("a.gltf");
     assert!(error.contains("textures[0] has no picture; export with PNG, JPEG, WebP or KTX2 textures"), "{error}");
+}
+
+#[test]
+fn textures_that_name_no_picture_leave_the_plain_colour_and_say_so() {
+    for (textures, images) in
+        [(json!([{}]), json!([])), (json!([{"sampler": 0}]), json!([])), (json!([{"source": 0}]), json!([{"name": "Oak"}]))]
+    {
+        let mut g = Gltf::triangle();
+        let texture = json!({"index": 0});
+        g.json["materials"][0] = json!({"name": "Wood", "normalTexture": texture, "pbrMetallicRoughness":
+            {"baseColorFactor": [0.2, 0.4, 0.6, 1.0], "baseColorTexture": texture, "metallicRoughnessTexture": texture, "metallicFactor": 0.0}});
+        g.json["textures"] = textures;
+        g.json["images"] = images;
+        let imported = Folder::new().write("a.gltf", g.text()).load("a.gltf").unwrap();
+        let material = &imported.scene.materials[imported.scene.parts[0].material as usize];
+        assert_eq!(principled(&material.bsdf).base_color, enfilade_math::Rgb::new(0.2, 0.4, 0.6).into());
+        assert!(material.normal_map.is_none());
+        let told = warnings(&imported);
+        assert_eq!(told, "a.gltf: material \"Wood\": textures[0] names no picture; its plain colour or number holds\n");
+    }
 }
 
 #[test]

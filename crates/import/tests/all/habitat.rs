@@ -204,6 +204,38 @@ fn articulated_objects_are_drawn_at_rest() {
 }
 
 #[test]
+fn vectors_of_urdf_may_have_commas_and_an_odd_model_is_left_out_alone() {
+    let folder = dataset();
+    // As ReplicaCAD's cabinets are written.
+    let urdf = |scale: &str| {
+        format!(
+            r#"<?xml version="1.0"?><robot name="counter"><link name="root"/><link name="body"><visual><origin rpy="0, 0, 0" xyz="0.5,0, 0"/>
+            <geometry><mesh filename="../../objects/a/ab12.glb" scale="{scale}"/></geometry></visual></link>
+            <joint name="j" type="fixed"><origin rpy="0 0 0" xyz="0 0 0"/><parent link="root"/><child link="body"/></joint></robot>"#
+        )
+    };
+    folder.write("urdf/counter/counter.urdf", urdf("1, 1, 2")).write("urdf/odd/odd.urdf", urdf("one")).write("urdf/cut/cut.urdf", "<robot");
+    folder.write("objects/a/broken.object_config.json", "{");
+    let named = |name: &str| json!({"template_name": name, "translation": [0, 0, 0], "rotation": "1, 0, 0, 0"});
+    let all: Vec<Value> = ["counter", "odd", "cut"].map(named).to_vec();
+    let imported = imported(&folder, json!([named("ab12"), named("broken"), 7]), json!({"articulated_object_instances": all}));
+    let counter: Vec<&str> = names(&imported).into_iter().filter(|name| name.starts_with("counter")).collect();
+    assert_eq!(counter.len(), 1, "{:?}", names(&imported));
+    assert_near(&points(&imported, counter[0]), [[0.5, 0.0, 0.0], [1.5, 0.0, 0.0], [0.5, 0.0, 1.0]]);
+    let told = warnings(&imported);
+    for part in [
+        "a model cannot be used and is left out",
+        "found \"one\" as scale of <mesh>, expected three numbers",
+        "cut.urdf: URDF:",
+        "a template cannot be used and is left out",
+        "3 of 5 objects were left out",
+        "1 of 3 entries are not what they should be",
+    ] {
+        assert!(told.contains(part), "{part} is not in {told}");
+    }
+}
+
+#[test]
 fn templates_of_the_configuration_itself_change_those_of_files() {
     let folder = dataset();
     let mut config: Value = serde_json::from_slice(&std::fs::read(folder.path("hssd.scene_dataset_config.json")).unwrap()).unwrap();

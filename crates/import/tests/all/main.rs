@@ -14,6 +14,7 @@ mod gltf_poses;
 mod gltf_textures;
 mod gltf_writers;
 mod habitat;
+mod lenient;
 mod mitsuba;
 mod mitsuba_light;
 mod mitsuba_materials;

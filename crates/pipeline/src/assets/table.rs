@@ -15,7 +15,7 @@ use crate::error::Error;
 use enfilade_home::assets::families_of;
 use enfilade_home::furniture::{FAMILIES, Place};
 use enfilade_math::{DMat3, DVec3, Vec3};
-use enfilade_scene::NYU40;
+use enfilade_scene::{NYU40, decoded_text};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -146,12 +146,12 @@ impl Table {
     /// When it is not TOML, has an unknown key, family, class or model, or a number out of its domain. In a table that is `whole`,
     /// every entry must be about a model that there is.
     pub fn read(file: &Path, models: &[&str], whole: bool) -> Result<Self, Error> {
-        let text = match std::fs::read_to_string(file) {
-            Ok(text) => text,
+        let bytes = match std::fs::read(file) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(error) => return Err(Error::io("read", file)(error)),
         };
-        let at = file.display();
+        let (at, text) = (file.display(), decoded_text(&bytes));
         let hint = "docs/homes.md has an example of assets.toml";
         let document: Document = toml::from_str(&text).map_err(|error| Error::usage(format!("{at}: {error}"), hint))?;
         for (name, entry) in &document.models {

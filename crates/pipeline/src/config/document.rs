@@ -69,6 +69,8 @@ pub(super) struct ImportKeys {
     pub panes: Option<Vec<String>>,
     /// Goes on with grey, and a warning, where a texture is missing.
     pub allow_missing_textures: Option<bool>,
+    /// Goes on without the mesh, and a warning, where the file of one is missing or damaged (Mitsuba, pbrt, URDF, SDF).
+    pub allow_missing_meshes: Option<bool>,
 }
 
 /// A `[[scene]]`.
@@ -93,6 +95,7 @@ pub(super) struct SceneKeys {
     pub drop_doubled_faces: Option<bool>,
     pub panes: Option<Vec<String>>,
     pub allow_missing_textures: Option<bool>,
+    pub allow_missing_meshes: Option<bool>,
     pub labels: Option<Spanned<String>>,
     /// Name of the scene in the label table; its own name unless it is given.
     pub label_scene: Option<String>,

@@ -24,7 +24,7 @@ mod tests;
 use crate::error::Error;
 use crate::workdir::refuse_other_text;
 use enfilade_import::Format;
-use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
+use enfilade_scene::{GIT_LFS_POINTER, decoded_text, is_git_lfs_pointer};
 use resolve::resolve;
 use settings::environment_variable;
 use std::path::Path;
@@ -52,8 +52,9 @@ impl Config {
         }
         let unreadable =
             |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
-        let text = std::fs::read_to_string(file).map_err(unreadable)?;
-        if is_git_lfs_pointer(text.as_bytes()) {
+        let bytes = std::fs::read(file).map_err(unreadable)?;
+        let text = decoded_text(&bytes);
+        if is_git_lfs_pointer(&bytes) {
             return Err(Error::usage(format!("{} is {GIT_LFS_POINTER}", file.display()), "fetch the file, and do this again"));
         }
         let absolute = std::path::absolute(file).map_err(Error::io("find", file))?;

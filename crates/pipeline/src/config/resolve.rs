@@ -323,6 +323,7 @@ impl Resolver<'_> {
             drop_doubled_faces: keys.drop_doubled_faces.or(defaults.drop_doubled_faces).unwrap_or(false),
             panes: keys.panes.clone().or_else(|| defaults.panes.clone()).unwrap_or_default(),
             allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
+            allow_missing_meshes: keys.allow_missing_meshes.or(defaults.allow_missing_meshes).unwrap_or(false),
         }))
     }
 

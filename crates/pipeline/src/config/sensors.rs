@@ -2,6 +2,7 @@
 
 use super::locate::Source;
 use crate::error::Error;
+use enfilade_scene::decoded_text;
 use enfilade_sensors::Sensors;
 use std::path::Path;
 
@@ -12,7 +13,8 @@ use std::path::Path;
 pub fn read_sensors(file: &Path) -> Result<Sensors, Error> {
     let hint = "name a TOML file with sensors, such as [[camera]] with a name; docs/sensors.md has them all";
     let unreadable = |e| Error::usage(format!("cannot read {}: {e}", file.display()), hint);
-    let text = std::fs::read_to_string(file).map_err(unreadable)?;
+    let bytes = std::fs::read(file).map_err(unreadable)?;
+    let text = decoded_text(&bytes);
     let source = Source { file, text: &text };
     let sensors: Sensors = toml::from_str(&text).map_err(|error| source.toml_error(&error))?;
     sensors.check().map_err(|error| source.error(None, error.to_string()))?;

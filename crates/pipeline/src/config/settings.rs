@@ -124,6 +124,9 @@ pub struct FileSource {
     /// Goes on, with a warning, where a texture file is missing.
     #[serde(default)]
     pub allow_missing_textures: bool,
+    /// Goes on, with a warning, where the file of a mesh is missing or damaged.
+    #[serde(default)]
+    pub allow_missing_meshes: bool,
 }
 
 impl FileSource {
@@ -138,6 +141,7 @@ impl FileSource {
             drop_doubled_faces: false,
             panes: Vec::new(),
             allow_missing_textures: false,
+            allow_missing_meshes: false,
         }
     }
 }

@@ -50,6 +50,7 @@ pub(crate) fn load_file(
         up_axis: source.up_axis,
         environment,
         allow_missing_textures: source.allow_missing_textures,
+        allow_missing_meshes: source.allow_missing_meshes,
     };
     enfilade_import::load(file, &options, cx).map_err(Error::stage)
 }

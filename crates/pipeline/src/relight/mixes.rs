@@ -55,18 +55,24 @@ pub(super) fn read(file: &Path) -> Result<Vec<Mix>, Error> {
 
 fn parse(file: &Path, text: &[u8]) -> Result<Vec<Mix>, Error> {
     let wrong = |line: u64, what: String| Error::usage(format!("{}:{line}: {what}", file.display()), HINT);
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text);
+    let text = decoded_text(text);
+    let first = text.lines().next().unwrap_or_default();
+    let separator = [b',', b';', b'\t'].into_iter().find(|byte| first.as_bytes().contains(byte)).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).delimiter(separator).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
     let mut at = [0; COLUMNS.len()];
     for (at, name) in at.iter_mut().zip(COLUMNS) {
-        let found = header.iter().position(|column| column == name);
+        let found = header.iter().position(|column| column.eq_ignore_ascii_case(name));
         *at = found.ok_or_else(|| wrong(1, format!("no column {name:?}, only {}", header.iter().collect::<Vec<_>>().join(", "))))?;
     }
     let mut mixes: Vec<Mix> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
         let line = record.position().map_or(0, csv::Position::line);
-        let [name, fixture, factors @ ..] = at.map(|column| &record[column]);
+        if record.iter().all(str::is_empty) {
+            continue;
+        }
+        let [name, fixture, factors @ ..] = at.map(|column| record.get(column).unwrap_or(""));
         check_name("mix", name).map_err(|error| wrong(line, error.to_string()))?;
         if fixture.is_empty() {
             return Err(wrong(
@@ -76,7 +82,8 @@ fn parse(file: &Path, text: &[u8]) -> Result<Vec<Mix>, Error> {
         }
         let mut factor = [0.0; 3];
         for ((channel, text), column) in factor.iter_mut().zip(factors).zip(&COLUMNS[2..]) {
-            let number = text.parse().ok().filter(|v: &f32| v.is_finite() && *v >= 0.0);
+            // Between semicolons the comma is the decimal point.
+            let number = text.replace(',', ".").parse().ok().filter(|v: &f32| v.is_finite() && *v >= 0.0);
             *channel = number.ok_or_else(|| wrong(line, format!("{column}: expected a number from 0, found {text:?}")))?;
         }
         let rule = Rule { line, fixture: fixture.into(), factor: Rgb::from(factor) };

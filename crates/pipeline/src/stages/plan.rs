@@ -10,7 +10,7 @@ use crate::workdir::Hash;
 use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning, decoded_text};
 use enfilade_show::planview::remove_plan_preview;
 use enfilade_verify::view_gates::GateAction;
 use std::collections::BTreeSet;
@@ -241,8 +241,8 @@ fn follow_all(
     let mut planned = Vec::new();
     for (index, file) in files.iter().enumerate() {
         let path = job.config.path(file)?;
-        let text = std::fs::read_to_string(&path).map_err(Error::io("read", &path))?;
-        let keyframes: Vec<Keyframe> = parse_keyframes(&path.display().to_string(), &text).map_err(misread)?;
+        let bytes = std::fs::read(&path).map_err(Error::io("read", &path))?;
+        let keyframes: Vec<Keyframe> = parse_keyframes(&path.display().to_string(), &decoded_text(&bytes)).map_err(misread)?;
         let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
         let found = enfilade_explore::follow(&world.mesh, &world.bvh, space, &keyframes, &name, config, cx).map_err(Error::stage)?;
         planned.push(found);

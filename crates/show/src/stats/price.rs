@@ -174,9 +174,9 @@ pub fn read_prices(given: &str) -> Result<Vec<Price>, PriceError> {
         let price = Price { licences: further.map_or(Ok(Vec::new()), rates)?, ..Price::new("given", dollars) };
         return Ok(vec![checked(price)?]);
     }
-    let text = std::fs::read_to_string(Path::new(given));
-    let text = text.map_err(|error| PriceError::new(format!("the price {given:?} is no number, and no table: {error}")))?;
-    table(given, &text)
+    let bytes = std::fs::read(Path::new(given));
+    let bytes = bytes.map_err(|error| PriceError::new(format!("the price {given:?} is no number, and no table: {error}")))?;
+    table(given, &enfilade_scene::decoded_text(&bytes))
 }
 
 /// Rates as the command line has them: `licence=0.00015/core-minute,storage=0.001`.

@@ -38,6 +38,27 @@ fn tables_of_both_kinds_are_read_and_every_frame_between_their_poses_is_there() 
 }
 
 #[test]
+fn tables_as_pandas_and_spreadsheets_write_them_are_read() {
+    let expected = parse_keyframes("path.csv", CSV).unwrap();
+    let header = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg";
+    let numbered: String =
+        CSV.lines().enumerate().map(|(i, line)| format!("{},{line}\n", if i == 0 { String::new() } else { i.to_string() })).collect();
+    for text in [
+        format!("\u{feff}{CSV}"),
+        numbered,
+        CSV.replace("\n10,", "\n10.0,").replace("\n0,", "\n0.0,"),
+        CSV.replace('\n', "\n,,,,,,,\n\n"),
+        CSV.replace("frame", "Frame").replace("position_x", "POSITION_X"),
+        CSV.replacen(CSV.lines().next().unwrap(), header, 1),
+    ] {
+        assert_eq!(parse_keyframes("path.csv", &text).unwrap_or_else(|e| panic!("{e}: {text}")), expected, "{text}");
+    }
+    assert_eq!(parse_keyframes("a.json", &format!("\u{feff}{}", JSON.replace("\"frame\": 10", "\"frame\": 10.0"))).unwrap(), expected);
+    assert!(parse_keyframes("path.csv", &CSV.replace("\n10,", "\n10.5,")).is_err());
+    assert!(parse_keyframes("path.csv", &CSV.replace("roll_deg", "rol")).is_err());
+}
+
+#[test]
 fn a_written_trajectory_comes_back_as_it_was() {
     let room = furnished_room();
     let space = carved(&room);

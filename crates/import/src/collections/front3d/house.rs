@@ -1,17 +1,18 @@
 //! The JSON of a house, as far as it is used.
 
 use super::super::json::or_default;
+use super::super::listed::Listed;
 use enfilade_math::DVec3;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
 pub(super) struct House {
-    #[serde(default, deserialize_with = "or_default")]
-    pub furniture: Vec<Furniture>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub mesh: Vec<Surface>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub material: Vec<Paint>,
+    #[serde(default)]
+    pub furniture: Listed<Furniture>,
+    #[serde(default)]
+    pub mesh: Listed<Surface>,
+    #[serde(default)]
+    pub material: Listed<Paint>,
     #[serde(default, deserialize_with = "or_default")]
     pub lights: Vec<serde_json::Value>,
     pub scene: Rooms,
@@ -59,16 +60,16 @@ pub(super) struct Paint {
 
 #[derive(Deserialize)]
 pub(super) struct Rooms {
-    #[serde(default, deserialize_with = "or_default")]
-    pub room: Vec<Room>,
+    #[serde(default)]
+    pub room: Listed<Room>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Room {
     #[serde(default, deserialize_with = "or_default")]
     pub instanceid: String,
-    #[serde(default, deserialize_with = "or_default")]
-    pub children: Vec<Child>,
+    #[serde(default)]
+    pub children: Listed<Child>,
 }
 
 /// Something that stands in a room.

@@ -17,8 +17,9 @@ mod house;
 mod lights;
 mod surface;
 
-use super::assets::Models;
+use super::assets::{Models, unless_odd};
 use super::json;
+use super::listed::Listed;
 use super::objects::Objects;
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
@@ -64,8 +65,13 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
         wanted: 0,
         unknown: 0,
     };
+    house.furniture.report("furniture", &mut a);
+    house.mesh.report("mesh", &mut a);
+    house.material.report("material", &mut a);
+    house.scene.room.report("scene.room", &mut a);
     for (i, room) in house.scene.room.iter().enumerate() {
         a.progress(i + 1, house.scene.room.len());
+        room.children.report(&format!("scene.room {:?}", room.instanceid), &mut a);
         for child in &room.children {
             placer.child(child, &room.instanceid, &mut a)?;
         }
@@ -185,6 +191,9 @@ fn categories(folder: Option<&Path>, a: &mut Assembly) -> Result<HashMap<String,
         return Ok(HashMap::new());
     }
     let bytes = a.read_input(&file, "check the permission to read it")?;
-    let list: Vec<Info> = json::parse(&bytes, &file, "the list of models of 3D-FUTURE")?;
-    Ok(list.into_iter().filter_map(|info| Some((info.model_id, info.category.or(info.super_category)?))).collect())
+    let list = json::parse::<Listed<Info>>(&bytes, &file, "the list of models of 3D-FUTURE");
+    let list = unless_odd(list, "furniture", "the list of models", a)?.unwrap_or_default();
+    list.report(&file.display().to_string(), a);
+    let category = |info: &Info| info.category.clone().or(info.super_category.clone());
+    Ok(list.iter().filter_map(|info| Some((info.model_id.clone(), category(info)?))).collect())
 }

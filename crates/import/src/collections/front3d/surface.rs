@@ -1,5 +1,6 @@
 //! The meshes of the building, their classes and their materials.
 
+use super::super::assets::unless_odd;
 use super::house::{House, Paint, Surface};
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
@@ -82,10 +83,11 @@ impl<'h> Surfaces<'h> {
         self.all.contains_key(id)
     }
 
-    /// A mesh as it is called in a room; `None` where there is none, or none with faces.
+    /// A mesh as it is called in a room; `None` where there is none, or none with faces, and, with a warning,
+    /// for one whose lists make no mesh.
     ///
     /// # Errors
-    /// When its lists are of wrong lengths, or its picture cannot be decoded.
+    /// When its picture cannot be decoded.
     pub fn get(&mut self, id: &str, room: &str, a: &mut Assembly) -> Result<Option<Placed>, ImportError> {
         let Some(&surface) = self.all.get(id) else { return Ok(None) };
         let mesh = match self.meshes.get(id) {
@@ -93,8 +95,8 @@ impl<'h> Surfaces<'h> {
             None => {
                 let file = a.file().to_path_buf();
                 let place = format!("mesh {:?}", surface.uid);
-                let mesh = mesh(surface).map_err(|problem| a.malformed(&place, problem))?;
-                let pushed = a.push_mesh(mesh, &file, &place)?;
+                let made = mesh(surface).map_err(|problem| a.malformed(&place, problem)).and_then(|mesh| a.push_mesh(mesh, &file, &place));
+                let pushed = unless_odd(made, "mesh", "a mesh", a)?.flatten();
                 self.meshes.insert(surface.uid.as_str(), pushed);
                 pushed
             }

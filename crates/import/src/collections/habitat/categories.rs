@@ -1,9 +1,12 @@
 //! What objects are, by the tables of a dataset.
 
+use super::super::assets::unless_odd;
 use super::super::json;
+use super::super::listed::Listed;
 use super::dataset::Dataset;
 use crate::ImportError;
 use crate::assembly::Assembly;
+use enfilade_scene::decoded_text;
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -19,7 +22,7 @@ pub(super) struct Categories {
 
 #[derive(Deserialize)]
 struct Lexicon {
-    classes: Vec<Class>,
+    classes: Listed<Class>,
 }
 
 #[derive(Deserialize)]
@@ -34,7 +37,8 @@ impl Categories {
     /// # Errors
     /// When a table that is there cannot be read.
     pub fn read(dataset: &Dataset, wanted: Option<&str>, a: &mut Assembly) -> Result<Self, ImportError> {
-        let by_model = Self::table(dataset, a)?;
+        let by_model = Self::table(dataset, a);
+        let by_model = unless_odd(by_model, "categories", "a table", a)?.unwrap_or_default();
         let named = wanted.and_then(|handle| dataset.semantics.get(handle));
         let files = named.into_iter().chain(dataset.semantics.values()).filter(|file| file.ends_with(".json"));
         for file in files.map(|file| dataset.root.join(file)) {
@@ -43,8 +47,10 @@ impl Categories {
                 continue;
             }
             let bytes = a.read_input(&file, "check the permission to read it")?;
-            let lexicon: Lexicon = json::parse(&bytes, &file, "a lexicon, {\"classes\": [{\"id\", \"name\"}]}")?;
-            let by_number = lexicon.classes.into_iter().map(|class| (class.id, class.name)).collect();
+            let lexicon = json::parse::<Lexicon>(&bytes, &file, "a lexicon, {\"classes\": [{\"id\", \"name\"}]}");
+            let Some(lexicon) = unless_odd(lexicon, "categories", "a lexicon", a)? else { continue };
+            lexicon.classes.report(&file.display().to_string(), a);
+            let by_number = lexicon.classes.iter().map(|class| (class.id, class.name.clone())).collect();
             return Ok(Self { by_model, by_number });
         }
         Ok(Self { by_model, by_number: HashMap::new() })
@@ -57,10 +63,11 @@ impl Categories {
             return Ok(HashMap::new());
         }
         let bytes = a.read_input(&file, "check the permission to read it")?;
-        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(json::without_mark(&bytes));
+        let text = decoded_text(&bytes);
+        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
         let malformed = |line: u64, problem: String| ImportError::malformed(&file, format!("line {line}"), problem);
         let header = reader.headers().map_err(|e| malformed(1, format!("it is no CSV ({e}); unpack the dataset again")))?.clone();
-        let column = |name: &str| header.iter().position(|h| h.trim() == name);
+        let column = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
         let Some(id) = column("id") else { return Err(malformed(1, "found no column id; unpack the dataset again".into())) };
         let (main, key) = (column("main_category"), column("wnsynsetkey"));
         let mut categories = HashMap::new();

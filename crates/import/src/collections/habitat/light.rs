@@ -1,5 +1,6 @@
 //! The lights of a scene.
 
+use super::super::assets::unless_odd;
 use super::super::json;
 use super::dataset::{Dataset, SCENE};
 use super::scene::SceneInstance;
@@ -70,13 +71,15 @@ pub(super) fn add(scene: &SceneInstance, dataset: &Dataset, a: &mut Assembly) ->
         return Ok(());
     }
     let handle = if named.is_empty() { own.as_str() } else { named };
-    let Some(found) = dataset.lights.find(handle, a)? else {
+    let found = dataset.lights.find(handle, a);
+    let Some(found) = unless_odd(found, "default_lighting", "the layout of lights", a)?.flatten() else {
         let message = if named.is_empty() { flat.to_string() } else { format!("the lights {named:?} are not in the dataset; {flat}") };
         a.warn("default_lighting", message);
         return Ok(());
     };
     let text = Value::Object(found.values).to_string();
-    let layout: Layout = json::parse(text.as_bytes(), &found.file, "a layout of lights")?;
+    let layout = json::parse::<Layout>(text.as_bytes(), &found.file, "a layout of lights");
+    let Some(layout) = unless_odd(layout, "default_lighting", "the layout of lights", a)? else { return Ok(()) };
     let (mut dark, mut elsewhere) = (0, 0);
     for (name, lamp) in layout.lights {
         match lamp.position_model.as_str() {

@@ -1,6 +1,7 @@
 //! A scene instance: the stage and the objects where they stand.
 
-use super::super::assets::Models;
+use super::super::assets::{Models, unless_odd};
+use super::super::listed::Listed;
 use super::super::objects::Objects;
 use super::categories::Categories;
 use super::dataset::{Dataset, Templates};
@@ -25,9 +26,9 @@ const NAMED: usize = 6;
 pub(super) struct SceneInstance {
     stage_instance: Option<Instance>,
     #[serde(default)]
-    object_instances: Vec<Instance>,
+    object_instances: Listed<Instance>,
     #[serde(default)]
-    articulated_object_instances: Vec<Instance>,
+    articulated_object_instances: Listed<Instance>,
     translation_origin: Option<String>,
     pub default_lighting: Option<String>,
     pub semantic_scene_instance: Option<String>,
@@ -169,7 +170,11 @@ impl<'s> Placer<'s> {
                 *self.lost.entry(name).or_default() += 1;
                 continue;
             };
-            let robot = urdf::read(&file, &mut self.models, a)?;
+            let read = urdf::read(&file, &mut self.models, a);
+            let Some(robot) = unless_odd(read, "articulated_object_instances", "a model", a)? else {
+                *self.lost.entry(name).or_default() += 1;
+                continue;
+            };
             if instance.initial_joint_pose.is_some() {
                 a.warn("articulated_object_instances", format!("the joints of {name:?} have a pose, which was not used; it is at rest"));
             }
@@ -194,7 +199,8 @@ impl<'s> Placer<'s> {
         if let Some(known) = self.known.get(name) {
             return Ok(known.clone());
         }
-        let found = of.find(name, a)?.map(Template::new).transpose()?.map(Rc::new);
+        let found = of.find(name, a).and_then(|found| found.map(Template::new).transpose());
+        let found = unless_odd(found, "templates", "a template", a)?.flatten().map(Rc::new);
         if let Some(template) = found.as_ref().filter(|t| t.units_to_meters != 1.0) {
             let message =
                 format!("{name:?} has units_to_meters {}, which was not used, since habitat-sim does not", template.units_to_meters);
@@ -207,6 +213,8 @@ impl<'s> Placer<'s> {
     /// Reports what was left out.
     pub fn finish(self, a: &mut Assembly) {
         self.objects.finish(a);
+        self.scene.object_instances.report("object_instances", a);
+        self.scene.articulated_object_instances.report("articulated_object_instances", a);
         if self.hidden > 0 {
             a.warn("object_instances", format!("{} objects are not visible and were left out", self.hidden));
         }

@@ -1,5 +1,6 @@
 //! What a stage or an object is: its model, its frame and its scale.
 
+use super::super::lenient::Lenient;
 use super::dataset::Attributes;
 use crate::ImportError;
 use enfilade_math::{DMat3, DVec3};
@@ -48,7 +49,7 @@ impl Template {
         let Attributes { values, file } = attributes;
         let problem = |e| format!("{e}; expected the attributes of a Habitat template, so unpack the dataset again");
         let template: Self =
-            serde_json::from_value(Value::Object(values)).map_err(|e| ImportError::malformed(&file, "attributes", problem(e)))?;
+            Self::deserialize(Lenient(Value::Object(values))).map_err(|e| ImportError::malformed(&file, "attributes", problem(e)))?;
         Ok(Self { file, ..template })
     }
 

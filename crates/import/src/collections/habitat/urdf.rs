@@ -3,8 +3,10 @@
 //! As <http://wiki.ros.org/urdf/XML> has it: `origin` is a translation `xyz` and the fixed-axis angles `rpy`, radians.
 
 use super::super::assets::Models;
+use super::super::vectors;
 use crate::ImportError;
 use crate::assembly::{Assembly, Piece};
+use crate::xml::xml_text;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use roxmltree::{Document, Node};
 use std::collections::{HashMap, HashSet};
@@ -24,7 +26,7 @@ pub(super) struct Robot {
 /// When the file is no URDF or a number in it is none.
 pub(super) fn read(file: &Path, models: &mut Models, a: &mut Assembly) -> Result<Robot, ImportError> {
     let bytes = a.read_input(file, "the dataset lists it; copy or unpack it again")?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = xml_text(&bytes);
     let malformed = |problem: String| ImportError::malformed(file, "URDF", format!("{problem}; unpack the dataset again"));
     let document = Document::parse(&text).map_err(|e| malformed(e.to_string()))?;
     let robot = document.root_element();
@@ -117,9 +119,10 @@ fn origin(node: &Node) -> Result<DAffine3, String> {
 
 fn numbers(node: &Node, attribute: &str) -> Result<Option<DVec3>, String> {
     let Some(text) = node.attribute(attribute) else { return Ok(None) };
-    let parsed: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok().filter(|v: &f64| v.is_finite())).collect();
-    match parsed.as_deref() {
+    match vectors::numbers(text).as_deref() {
         Some(&[x, y, z]) => Ok(Some(DVec3::new(x, y, z))),
+        // Of a scale, one number is that of all axes.
+        Some(&[all]) if attribute == "scale" => Ok(Some(DVec3::splat(all))),
         _ => Err(format!("found {text:?} as {attribute} of <{}>, expected three numbers", node.tag_name().name())),
     }
 }

@@ -1,22 +1,23 @@
 //! The JSON of a house, as far as it is used.
 
 use super::super::json::or_default;
+use super::super::listed::Listed;
 use enfilade_math::DVec3;
 use serde::Deserialize;
 use serde_json::Value;
 
 #[derive(Deserialize)]
 pub(super) struct House {
-    #[serde(default, deserialize_with = "or_default")]
-    pub rooms: Vec<Room>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub walls: Vec<Wall>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub doors: Vec<Opening>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub windows: Vec<Opening>,
-    #[serde(default, deserialize_with = "or_default")]
-    pub objects: Vec<Thing>,
+    #[serde(default)]
+    pub rooms: Listed<Room>,
+    #[serde(default)]
+    pub walls: Listed<Wall>,
+    #[serde(default)]
+    pub doors: Listed<Opening>,
+    #[serde(default)]
+    pub windows: Listed<Opening>,
+    #[serde(default)]
+    pub objects: Listed<Thing>,
     #[serde(rename = "proceduralParameters")]
     pub parameters: Option<Parameters>,
 }
@@ -111,14 +112,14 @@ pub(super) struct Thing {
     pub position: Option<Xyz>,
     #[serde(default, deserialize_with = "or_default")]
     pub rotation: Euler,
-    #[serde(default, deserialize_with = "or_default")]
-    pub children: Vec<Self>,
+    #[serde(default)]
+    pub children: Listed<Self>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Parameters {
-    #[serde(default, deserialize_with = "or_default")]
-    pub lights: Vec<Lamp>,
+    #[serde(default)]
+    pub lights: Listed<Lamp>,
 }
 
 #[derive(Deserialize)]

@@ -35,6 +35,11 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
     let file = a.file().to_path_buf();
     let house: House = json::parse(bytes, &file, "a house of ProcTHOR")?;
     let mut objects = Objects::default();
+    house.rooms.report("rooms", &mut a);
+    house.walls.report("walls", &mut a);
+    house.doors.report("doors", &mut a);
+    house.windows.report("windows", &mut a);
+    house.objects.report("objects", &mut a);
     shell::add(&house, &mut objects, &mut a)?;
     let mut library = Library::beside(&file, &mut a)?;
     for opening in house.doors.iter().chain(&house.windows) {
@@ -44,6 +49,7 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
     }
     let mut stack: Vec<&Thing> = house.objects.iter().rev().collect();
     while let Some(thing) = stack.pop() {
+        thing.children.report(&format!("children of {}", thing.id), &mut a);
         library.thing(thing, &mut objects, &mut a)?;
         stack.extend(thing.children.iter().rev());
     }
@@ -55,6 +61,9 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
 
 fn add_lights(house: &House, a: &mut Assembly) {
     let lights = house.parameters.as_ref().map_or(&[][..], |parameters| &parameters.lights);
+    if let Some(parameters) = &house.parameters {
+        parameters.lights.report("proceduralParameters.lights", a);
+    }
     for lamp in lights {
         let color = lamp.rgb.map_or(DVec3::ONE, |c| DVec3::new(c.r, c.g, c.b)) * lamp.intensity.max(0.0);
         let [r, g, b] = color.as_vec3().to_array();

@@ -1,7 +1,8 @@
 //! The models of objects, doors and windows, and boxes where there are none.
 
-use super::super::assets::{Model, Models};
+use super::super::assets::{Model, Models, unless_odd};
 use super::super::json;
+use super::super::listed::Listed;
 use super::super::objects::Objects;
 use super::house::{Opening, Thing};
 use super::space::{MIRROR, turn};
@@ -61,8 +62,10 @@ impl Library {
             let table = folder.join(TABLE);
             if assets.is_empty() && table.is_file() {
                 let bytes = a.read_input(&table, "check the permission to read it")?;
-                let by_kind: BTreeMap<String, Vec<Asset>> = json::parse(&bytes, &table, "ProcTHOR's table of assets")?;
-                assets = by_kind.into_values().flatten().map(|asset| (asset.id.clone(), asset)).collect();
+                let by_kind = json::parse::<BTreeMap<String, Listed<Asset>>>(&bytes, &table, "ProcTHOR's table of assets");
+                let by_kind = unless_odd(by_kind, "objects", "the table of assets", a)?.unwrap_or_default();
+                by_kind.iter().for_each(|(kind, list)| list.report(&format!("{}: {kind}", table.display()), a));
+                assets = by_kind.into_values().flat_map(Listed::into_vec).map(|asset| (asset.id.clone(), asset)).collect();
             }
             folder = folder.join("..");
         }
