@@ -2,6 +2,7 @@
 
 use crate::percent::percent_decoded;
 use std::cell::{Cell, RefCell};
+use std::collections::{BTreeSet, HashSet};
 use std::io::{Cursor, Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use zip::ZipArchive;
@@ -9,6 +10,8 @@ use zip::result::ZipError;
 
 /// A file within an archive may unpack to this many bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
+/// As many archives within an archive are opened.
+const MAX_INNER: usize = 8;
 /// All files of an archive together may unpack to this many bytes: a small file can unpack to a thousand times its size.
 const MAX_BYTES: u64 = 8 << 30;
 
@@ -16,7 +19,10 @@ const MAX_BYTES: u64 = 8 << 30;
 pub(crate) struct Archive {
     file: PathBuf,
     names: Vec<String>,
-    zip: RefCell<ZipArchive<Cursor<Vec<u8>>>>,
+    /// Where the file of each name is: the archive, and what it is called there.
+    entries: Vec<(usize, String)>,
+    /// The archive itself, and those within it that were opened.
+    zips: RefCell<Vec<ZipArchive<Cursor<Vec<u8>>>>>,
     left: Cell<u64>,
 }
 
@@ -27,8 +33,36 @@ impl Archive {
     /// What is wrong with them, as the rest of a sentence.
     pub(crate) fn new(file: &Path, bytes: Vec<u8>) -> Result<Self, String> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("not an archive that can be read ({e})"))?;
-        let names = zip.file_names().filter(|n| !n.ends_with('/')).map(Into::into).collect();
-        Ok(Self { file: file.to_path_buf(), names, zip: RefCell::new(zip), left: Cell::new(MAX_BYTES) })
+        let mut archive =
+            Self { file: file.to_path_buf(), names: Vec::new(), entries: Vec::new(), zips: RefCell::default(), left: Cell::new(MAX_BYTES) };
+        archive.add(zip, "");
+        Ok(archive)
+    }
+
+    /// Opens the archives within the archive: their files are then where the archive that holds them is. Those that are damaged stay closed.
+    pub(crate) fn open_inner(&mut self) {
+        let inner: Vec<String> = self.names.iter().filter(|name| name.to_ascii_lowercase().ends_with(".zip")).cloned().collect();
+        for name in inner.iter().take(MAX_INNER) {
+            let zip = self.read(name).ok().and_then(|bytes| ZipArchive::new(Cursor::new(bytes)).ok());
+            let folder = name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+            zip.into_iter().for_each(|zip| self.add(zip, &folder));
+        }
+    }
+
+    /// Adds the files of an archive as files of `folder`. A name that is taken stays what it was.
+    fn add(&mut self, zip: ZipArchive<Cursor<Vec<u8>>>, folder: &str) {
+        let zips = self.zips.get_mut();
+        let known: HashSet<String> =
+            if folder.is_empty() && zips.is_empty() { HashSet::new() } else { self.names.iter().cloned().collect() };
+        for raw in zip.file_names().filter(|name| !name.ends_with(['/', '\\'])) {
+            // Some programs for Windows write its separators.
+            let name = format!("{folder}{}", raw.replace('\\', "/"));
+            if !known.contains(&name) {
+                self.names.push(name);
+                self.entries.push((zips.len(), raw.to_string()));
+            }
+        }
+        zips.push(zip);
     }
 
     /// The archive's own path.
@@ -56,9 +90,11 @@ impl Archive {
     /// # Errors
     /// When there is none, it is damaged or encrypted, or too large.
     pub(crate) fn read(&self, name: &str) -> Result<Vec<u8>, Error> {
-        let mut zip = self.zip.borrow_mut();
-        let entry = zip.by_name(name).map_err(|e| match e {
-            ZipError::FileNotFound => Error::new(ErrorKind::NotFound, "it is not in the archive"),
+        let absent = || Error::new(ErrorKind::NotFound, "it is not in the archive");
+        let (zip, raw) = self.names.iter().position(|n| n == name).and_then(|i| self.entries.get(i)).ok_or_else(absent)?;
+        let mut zips = self.zips.borrow_mut();
+        let entry = zips.get_mut(*zip).ok_or_else(absent)?.by_name(raw).map_err(|e| match e {
+            ZipError::FileNotFound => absent(),
             other => Error::new(ErrorKind::InvalidData, other.to_string()),
         })?;
         let limit = MAX_FILE_BYTES.min(self.left.get());
@@ -78,12 +114,37 @@ impl Archive {
         self.read(&name)
     }
 
+    /// The names in a folder of the archive, by its path, which begins with the archive's own: of folders or of files, in order.
+    pub(crate) fn names_in(&self, folder: &Path, folders: bool) -> Vec<String> {
+        let Some(parts) = self.parts_of(folder) else { return Vec::new() };
+        let prefix = if parts.is_empty() { String::new() } else { format!("{}/", parts.join("/")) };
+        let rest = self
+            .names
+            .iter()
+            .filter_map(|name| name.get(..prefix.len()).filter(|p| p.eq_ignore_ascii_case(&prefix)).map(|_| &name[prefix.len()..]));
+        let found: BTreeSet<&str> = match folders {
+            true => rest.filter_map(|rest| rest.split_once('/')).map(|(folder, _)| folder).collect(),
+            false => rest.filter(|rest| !rest.contains('/')).collect(),
+        };
+        found.into_iter().map(str::to_string).collect()
+    }
+
+    /// True when there is a folder at a path that begins with the archive's own.
+    pub(crate) fn contains_folder(&self, path: &Path) -> bool {
+        !self.names_in(path, true).is_empty() || !self.names_in(path, false).is_empty()
+    }
+
     /// True when there is a file at a path that begins with the archive's own.
     pub(crate) fn contains_path(&self, path: &Path) -> bool {
         self.name_of(path).is_some()
     }
 
     fn name_of(&self, path: &Path) -> Option<String> {
+        self.find(&self.parts_of(path)?.join("/")).map(Into::into)
+    }
+
+    /// The steps from the archive to a path; `None` where it leads out of the archive.
+    fn parts_of(&self, path: &Path) -> Option<Vec<String>> {
         let mut parts: Vec<String> = Vec::new();
         for component in path.strip_prefix(&self.file).ok()?.components() {
             match component {
@@ -93,7 +154,7 @@ impl Archive {
                 Component::RootDir | Component::Prefix(_) => return None,
             }
         }
-        self.find(&parts.join("/")).map(Into::into)
+        Some(parts)
     }
 }
 
@@ -122,6 +183,33 @@ mod tests {
             assert!(!archive.contains_path(Path::new(outside)), "{outside}");
             assert_eq!(archive.read_path(Path::new(outside)).unwrap_err().kind(), ErrorKind::NotFound);
         }
+    }
+
+    #[test]
+    fn folders_are_listed_and_archives_within_stand_in_their_place() {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        let mut inner = ZipWriter::new(Cursor::new(Vec::new()));
+        for name in ["scene.obj", "parts/leg.obj", "a.png"] {
+            inner.start_file(name, SimpleFileOptions::default()).unwrap();
+            inner.write_all(b"inner").unwrap();
+        }
+        let inner = inner.finish().unwrap().into_inner();
+        for (name, bytes) in
+            [("source/model.zip", &inner[..]), ("textures\\wood.png", b"wood"), ("source/a.png", b"outer"), ("source/bad.zip", b"PK")]
+        {
+            zip.start_file(name, SimpleFileOptions::default()).unwrap();
+            zip.write_all(bytes).unwrap();
+        }
+        let mut archive = Archive::new(Path::new("m.zip"), zip.finish().unwrap().into_inner()).unwrap();
+        archive.open_inner();
+        assert_eq!(archive.names_in(Path::new("m.zip"), true), ["source", "textures"]);
+        assert_eq!(archive.names_in(Path::new("m.zip/source/../source"), false), ["a.png", "bad.zip", "model.zip", "scene.obj"]);
+        assert_eq!(archive.names_in(Path::new("m.zip/source"), true), ["parts"]);
+        assert_eq!(archive.read_path(Path::new("m.zip/source/../textures/wood.png")).unwrap(), b"wood");
+        assert_eq!(archive.read_path(Path::new("m.zip/source/parts/leg.obj")).unwrap(), b"inner");
+        assert_eq!(archive.read_path(Path::new("m.zip/source/a.png")).unwrap(), b"outer");
+        assert!(archive.contains_folder(Path::new("m.zip/textures")) && !archive.contains_folder(Path::new("m.zip/maps")));
+        assert!(archive.names_in(Path::new("m.zip/.."), false).is_empty());
     }
 
     #[test]

@@ -51,9 +51,9 @@ const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
 const ROOTS: [(&str, &str, Option<&str>); 17] = [
     ("mujoco", "a model of MuJoCo", None),
     ("robot", "a robot in URDF", Some("urdf")),
-    ("sdf", "a world or model of Gazebo (SDF)", None),
+    ("sdf", "a world or model of Gazebo (SDF)", Some("sdf")),
     ("world", "a world of Gazebo", None),
-    ("gazebo", "a world of Gazebo", None),
+    ("gazebo", "a world of Gazebo", Some("world")),
     ("collada", "a scene in COLLADA", Some("dae")),
     ("x3d", "a scene in X3D", None),
     ("svg", "a drawing (SVG)", None),
@@ -171,10 +171,12 @@ impl Content {
             Format::Ply => !signed(&["ply"]),
             Format::Usd => !signed(&["usda", "usdc", "zip"]),
             Format::Fbx => !signed(&["fbx"]),
-            Format::SweetHome => !signed(&["zip"]),
+            Format::SweetHome | Format::Zip => !signed(&["zip"]),
+            Format::Collada => !matches!(self, Self::Xml(root, false) if root == "collada"),
+            Format::Urdf => !matches!(self, Self::Xml(root, false) if root == "robot"),
+            Format::Sdf => !matches!(self, Self::Xml(root, false) if root == "sdf" || root == "gazebo"),
             Format::Collection => !matches!(self, Self::JsonTable(_)),
-            #[allow(unreachable_patterns, reason = "formats whose readers tell for themselves")]
-            _ => false,
+            Format::Stl | Format::Package => false,
         }
     }
 }
@@ -277,6 +279,10 @@ mod tests {
             (Format::Usd, b"PK\x03\x04"),
             (Format::Fbx, b"Kaydara FBX Binary  \0"),
             (Format::SweetHome, b"PK\x03\x04"),
+            (Format::Zip, b"PK\x03\x04"),
+            (Format::Collada, b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"x\">"),
+            (Format::Urdf, b"<robot name=\"a\"/>"),
+            (Format::Sdf, b"<sdf version=\"1.6\"/>"),
             (Format::Collection, b"{\"stage_instance\": {}}"),
         ] {
             assert!(!Content::of(bytes).unwrap().is_foreign(format), "{format:?}");

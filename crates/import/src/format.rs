@@ -22,6 +22,16 @@ pub enum Format {
     Usd,
     /// Autodesk FBX, binary or as text.
     Fbx,
+    /// COLLADA, versions 1.4 and 1.5.
+    Collada,
+    /// STL, binary or as text: meshes.
+    Stl,
+    /// Robots and furniture in URDF.
+    Urdf,
+    /// Worlds and models of Gazebo in SDF.
+    Sdf,
+    /// A scene file of another format with what it refers to, in a ZIP archive.
+    Zip,
     /// Homes and furniture libraries of Sweet Home 3D.
     SweetHome,
     /// Scenes of published collections, such as HSSD-200, in their own layouts.
@@ -30,9 +40,40 @@ pub enum Format {
     Package,
 }
 
+/// Extensions of files that are not read, in lower case, and what to do with them.
+const OTHERS: [(&[&str], &str); 18] = [
+    (&["blend"], "open it in Blender and export glTF 2.0 (.glb)"),
+    (&["skp"], "open it in SketchUp and export COLLADA (.dae) or glTF (.glb)"),
+    (&["max"], "open it in 3ds Max and export FBX or USD, or a .vrscene with V-Ray"),
+    (&["ma", "mb"], "open it in Maya and export FBX or USD"),
+    (&["c4d"], "open it in Cinema 4D and export FBX, glTF or USD"),
+    (&["hip", "hiplc", "hipnc"], "open it in Houdini and export USD or glTF"),
+    (&["3dm"], "open it in Rhino and export glTF, OBJ or FBX"),
+    (&["rvt", "rfa"], "open it in Revit and export FBX"),
+    (&["dwg", "dxf"], "open it in FreeCAD or a program for CAD, and export glTF, OBJ or COLLADA (.dae)"),
+    (
+        &["ifc", "ifczip"],
+        "convert it with IfcConvert of IfcOpenShell (IfcConvert house.ifc house.glb), or open it in Blender with Bonsai and export glTF",
+    ),
+    (&["step", "stp", "iges", "igs", "brep", "fcstd"], "open it in FreeCAD and export glTF or OBJ, which makes triangles of it"),
+    (&["3mf", "amf", "off"], "open it in MeshLab, or a slicer, and export OBJ, PLY or STL"),
+    (
+        &["3ds", "lwo", "lws", "wrl", "x3d", "x3dv", "ac", "x", "ms3d"],
+        "open it in Blender and export glTF (.glb), or convert it with assimp (assimp export FILE room.glb)",
+    ),
+    (&["abc", "vdb"], "open it in Blender and export glTF (.glb) or USD"),
+    (&["xacro"], "make URDF of it with ROS (xacro FILE > robot.urdf)"),
+    (&["rar", "7z", "tar", "tgz", "bz2", "xz", "zst"], "unpack it, and give the scene file within or its folder"),
+    (
+        &["las", "laz", "e57", "pcd", "pts", "ptx", "xyz"],
+        "a cloud of points has no surfaces: make a mesh of it with CloudCompare or MeshLab and export PLY",
+    ),
+    (&["splat", "ksplat", "spz"], "splats have no surfaces: reconstruct a mesh of the pictures and export glTF, OBJ or PLY"),
+];
+
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 11] = [
+    pub const ALL: [(Self, &'static [&'static str]); 16] = [
         (Self::Gltf, &["gltf", "glb"]),
         (Self::Obj, &["obj"]),
         (Self::Mitsuba, &["xml"]),
@@ -40,7 +81,12 @@ impl Format {
         (Self::Ply, &["ply"]),
         (Self::Usd, &["usd", "usda", "usdc", "usdz"]),
         (Self::Fbx, &["fbx"]),
-        (Self::SweetHome, &["sh3d", "sh3f", "zip"]),
+        (Self::Collada, &["dae"]),
+        (Self::Stl, &["stl"]),
+        (Self::Urdf, &["urdf"]),
+        (Self::Sdf, &["sdf", "world"]),
+        (Self::Zip, &["zip"]),
+        (Self::SweetHome, &["sh3d", "sh3f"]),
         (Self::VRay, &["vrscene"]),
         (Self::Collection, &["json", "house", "semantic.txt"]),
         (Self::Package, &["scene"]),
@@ -59,6 +105,11 @@ impl Format {
             Self::Ply => "a PLY",
             Self::Usd => "USD",
             Self::Fbx => "an FBX",
+            Self::Collada => "COLLADA",
+            Self::Stl => "an STL",
+            Self::Urdf => "a robot in URDF",
+            Self::Sdf => "a world or model in SDF",
+            Self::Zip => "a ZIP archive",
             Self::SweetHome => "a home of Sweet Home 3D",
             Self::VRay => "a scene of V-Ray",
             Self::Collection => "a scene of a collection",
@@ -91,7 +142,10 @@ impl Format {
         });
         let found = match &extension {
             None => "the file name has no extension".to_string(),
-            Some(e) => format!("no importer for .{e} files"),
+            Some(e) => match OTHERS.iter().find(|(extensions, _)| e.split('.').any(|word| extensions.contains(&word))) {
+                Some((_, remedy)) => format!("no importer for .{e} files: {remedy}"),
+                None => format!("no importer for .{e} files"),
+            },
         };
         Self::ALL
             .iter()
@@ -130,8 +184,21 @@ mod tests {
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
         assert_eq!(
             message,
-            "a/room.blend: no importer for .blend files; expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene, .json, .house, .semantic.txt, .scene"
+            "a/room.blend: no importer for .blend files: open it in Blender and export glTF 2.0 (.glb); expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .dae, .stl, .urdf, .sdf, .world, .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene"
         );
+        for (file, advice) in [
+            ("a.SKP", "SketchUp"),
+            ("a.ifc", "IfcConvert"),
+            ("a.stp", "FreeCAD"),
+            ("a.3ds", "assimp"),
+            ("a.tar.gz", "unpack it"),
+            ("a.7z", "unpack it"),
+        ] {
+            let message = Format::of(Path::new(file)).unwrap_err().to_string();
+            assert!(message.contains(advice) && message.contains("; expected one of .gltf"), "{message}");
+        }
+        let read: Vec<&str> = Format::ALL.iter().flat_map(|(_, extensions)| *extensions).copied().collect();
+        assert!(OTHERS.iter().flat_map(|(extensions, _)| *extensions).all(|other| !read.contains(other)));
         assert!(Format::of(Path::new("room")).unwrap_err().to_string().contains("no extension"));
     }
 }

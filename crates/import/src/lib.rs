@@ -44,14 +44,17 @@
 //!
 //! # Formats
 //!
-//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`fbx`], [`vray`], [`sweethome`] and [`package`] list what is
+//! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`fbx`], [`collada`], [`stl`], [`robot`],
+//! [`vray`], [`sweethome`] and [`package`] list what is
 //! supported of each, and that of [`collections`] which layouts of published collections are read.
 
 mod archive;
 mod assembly;
 mod blender;
+pub mod collada;
 pub mod collections;
 mod disguise;
+mod download;
 mod environment;
 mod error;
 pub mod fbx;
@@ -73,21 +76,22 @@ pub mod ply;
 mod polygon;
 mod primitives;
 mod report;
+pub mod robot;
 mod roughness;
 mod spectrum;
+pub mod stl;
 pub mod sweethome;
 pub mod usd;
 pub mod vray;
 mod wildcards;
 mod xml;
 
-pub use collections::scene_in_folder;
 pub use environment::{EnvironmentOverride, EnvironmentSource};
 pub use error::ImportError;
 pub use format::{Format, scene_name};
 pub use images::{check_exr_blocks, check_exr_table};
 pub use imported::{Imported, ImportedLabel};
-pub use load::load;
+pub use load::{load, scene_in_folder};
 pub use options::{ImportOptions, UpAxis};
 pub use report::{Counts, ImportReport};
 pub use wildcards::{Match, matches};

@@ -2,23 +2,52 @@
 
 use crate::assembly::Assembly;
 use crate::{Format, ImportError, ImportOptions, Imported, UpAxis};
-use crate::{collections, disguise, fbx, gltf, mitsuba, obj, package, pbrt, ply, sweethome, usd, vray};
+use crate::{collada, collections, disguise, download, fbx, gltf, mitsuba, obj, package, pbrt, ply, robot, stl, sweethome, usd, vray};
 use enfilade_scene::Cx;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Imports a scene file by the importer that its extension calls for; of a folder the scene of a collection in it.
+/// Imports a scene file by the importer that its extension calls for; of a folder the scene of a collection in it, or the scene file among
+/// its textures, of a ZIP archive too.
 ///
 /// # Errors
 /// When the file or one that it refers to cannot be read, is not what its format calls for, or leaves nothing visible; the
 /// message names file and place and says what to do.
 pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Imported, ImportError> {
     options.validate()?;
-    let is_folder = path.is_dir() && Format::of(path).is_err();
-    let within = if is_folder { Some(collections::the_scene_in_folder(path)?) } else { None };
-    let path = within.as_deref().unwrap_or(path);
+    if path.is_dir() && Format::of(path).is_err() {
+        let (file, remark) = in_folder(path)?.ok_or_else(|| collections::no_scene_in_folder(path))?;
+        let mut assembly = Assembly::new(Format::of(&file)?, &file, up_axis_of(Format::of(&file)?), options, cx);
+        remark.into_iter().for_each(|remark| assembly.warn("folder", remark));
+        return by_format(Format::of(&file)?, assembly);
+    }
     let format = Format::of(path)?;
     disguise::refuse(path, format)?;
-    let assembly = Assembly::new(format, path, UpAxis::Y, options, cx);
+    by_format(format, Assembly::new(format, path, up_axis_of(format), options, cx))
+}
+
+/// The file that [`load`] imports of a folder; `None` where it holds no scene.
+///
+/// # Errors
+/// When it holds several scenes: which.
+pub fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
+    Ok(in_folder(folder)?.map(|(file, _)| file))
+}
+
+/// The scene of a folder, and what is said where it was chosen among several.
+fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<String>)>, ImportError> {
+    if let Some(file) = collections::scene_in_folder(folder)? {
+        return Ok(Some((file, None)));
+    }
+    download::scene_in_folder(folder)
+}
+
+/// The upward axis of a format that states none.
+pub(crate) fn up_axis_of(format: Format) -> UpAxis {
+    if matches!(format, Format::Stl | Format::Urdf | Format::Sdf) { UpAxis::Z } else { UpAxis::Y }
+}
+
+/// Imports by the importer of a format.
+pub(crate) fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
     match format {
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
@@ -28,8 +57,13 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
         Format::VRay => vray::load(assembly),
         Format::Usd => usd::load(assembly),
         Format::Fbx => fbx::load(assembly),
+        Format::Collada => collada::load(assembly),
+        Format::Stl => stl::load(assembly),
+        Format::Urdf => robot::load_urdf(assembly),
+        Format::Sdf => robot::load_sdf(assembly),
+        Format::Zip => download::load_zip(assembly),
         Format::SweetHome => sweethome::load(assembly),
         Format::Collection => collections::load(assembly),
-        Format::Package => package::load(assembly, options),
+        Format::Package => package::load(assembly),
     }
 }

@@ -7,9 +7,9 @@ use crate::{ImportError, ImportOptions, Imported, UpAxis};
 use std::path::Path;
 
 /// Reads a scene package. Units and axes are already the world's, so only the environment can be overridden.
-pub(crate) fn load(mut assembly: Assembly, options: &ImportOptions) -> Result<Imported, ImportError> {
+pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
-    check_space(&file, options)?;
+    check_space(&file, assembly.options())?;
     let bytes = assembly.read_scene_file()?;
     let (scene, labels) = enfilade_scene::from_bytes_with_labels(&bytes).map_err(|source| ImportError::Package { file, source })?;
     assembly.set_labels(labels);

@@ -29,13 +29,8 @@ impl Scene {
     /// label_scene: the name of the scene in the table's column `scene`; that of the file, without its extension, unless given.
     /// progress: shows how far it has come; unless given, in notebooks and terminals.
     #[staticmethod]
-<<<<<<< HEAD
     #[pyo3(signature = (file, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
-        allow_missing_textures=false, labels=None, label_scene=None, progress=None))]
-=======
-    #[pyo3(signature = (file, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
         allow_missing_textures=false, allow_missing_meshes=false, labels=None, label_scene=None, progress=None))]
->>>>>>> dbe46f60 (Files are read where other readers take them too)
     fn read(
         py: Python<'_>,
         file: PathBuf,
@@ -51,12 +46,8 @@ impl Scene {
         label_scene: Option<String>,
         progress: Option<bool>,
     ) -> PyResult<Self> {
-<<<<<<< HEAD
         let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
-=======
-        let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
         let source = FileSource { allow_missing_meshes, ..source };
->>>>>>> dbe46f60 (Files are read where other readers take them too)
         let own_name = || enfilade_pipeline::scene_file_of(&file).with_extension("").to_string_lossy().into_owned();
         let labels =
             labels.map(|table| LabelSource { table: table.to_string_lossy().into_owned(), scene: label_scene.unwrap_or_else(own_name) });

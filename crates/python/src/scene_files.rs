@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .sh3d, .sh3f, .zip, .vrscene,
-/// .json, .house, .semantic.txt, .scene) to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
+/// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .dae, .stl, .urdf, .sdf, .world,
+/// .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene) to a scene package (.scene) or binary glTF (.glb), and writes a report beside it.
 ///
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.
 /// meters_per_unit: metres per unit of the file.
@@ -27,13 +27,8 @@ use std::path::{Path, PathBuf};
 /// Gives a dictionary: `scene` and `report` (paths), `summary`, `warnings` (dropped, guessed or fixed), `lost` (what the output cannot hold).
 /// The scenes of a dataset are imported by `enfilade.stage("import", dataset)`.
 #[pyfunction]
-<<<<<<< HEAD
 #[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
-    allow_missing_textures=false))]
-=======
-#[pyo3(signature = (file, output=None, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false,
     allow_missing_textures=false, allow_missing_meshes=false))]
->>>>>>> dbe46f60 (Files are read where other readers take them too)
 pub fn import_scene<'py>(
     py: Python<'py>,
     file: PathBuf,
@@ -48,12 +43,8 @@ pub fn import_scene<'py>(
     allow_missing_meshes: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let output = output.unwrap_or_else(|| scene_file_of(&file));
-<<<<<<< HEAD
     let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
-=======
-    let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, allow_missing_textures)?;
     let source = FileSource { allow_missing_meshes, ..source };
->>>>>>> dbe46f60 (Files are read where other readers take them too)
     let encode = scene_encoder(&output).map_err(IntoPy::into_py)?;
     let imported = interruptible(py, |cx: &Interrupt| enfilade_pipeline::import_file(&source, &output, encode, cx))?;
     let done = json!({ "scene": output, "report": imported.report, "summary": imported.summary, "warnings": imported.warnings, "lost": imported.lost });

@@ -71,6 +71,11 @@ pub const TARGETS: &[Target] = &[
     importer("usd", "scene.usd", "scene.usd", "Universal Scene Description, as text and binary", seeds::usd),
     importer("usdz", "scene.usdz", "scene.usdz", "archives of Universal Scene Description", seeds::usdz),
     importer("fbx", "scene.fbx", "scene.fbx", "FBX, as text and binary", seeds::fbx),
+    importer("collada", "scene.dae", "scene.dae", "COLLADA", none),
+    importer("stl", "scene.stl", "scene.stl", "STL, as text and binary", none),
+    importer("urdf", "scene.urdf", "scene.urdf", "robots and furniture in URDF", none),
+    importer("sdf", "scene.sdf", "scene.sdf", "worlds and models of Gazebo in SDF", none),
+    own("zip", "scenes in ZIP archives", 8 << 10, scene_files::archive, seeds::gltf),
     own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
     own("collections", "scenes of collections, and what they are made of", 8 << 10, collections::scene, none),
     // The extension is that of the one format which has no signature.

@@ -19,9 +19,6 @@ impl Assembly<'_> {
     /// Where a picture is whose `path` leads nowhere, as the scene file would spell it: by its name, in whatever case; else with an extension
     /// behind it (`wood.tga.png`, as Sketchfab converts pictures); else by its name with another extension, where one alone has it.
     pub(super) fn elsewhere(&self, path: &str) -> Option<String> {
-        if self.archive.is_some() {
-            return None;
-        }
         let name = path.rsplit(['/', '\\']).next().filter(|name| !name.is_empty())?;
         let listings = self.picture_folders();
         let named = |wanted: &str| as_named(wanted, &listings);
@@ -39,19 +36,32 @@ impl Assembly<'_> {
     fn picture_folders(&self) -> Vec<Listing> {
         let mut listings = Vec::new();
         for place in self.places() {
-            for beside in ["", "../"] {
+            // An archive ends where the download does; on the disk anything may lie farther up.
+            let around: &[&str] = if self.archive.is_some() { &["", "../", "../../"] } else { &["", "../"] };
+            for beside in around {
                 let at = place.join(beside);
                 if beside.is_empty() {
-                    listings.push((String::new(), names_in(&at, false)));
+                    listings.push((String::new(), self.names_in(&at, false)));
                 }
-                for folder in folders_in(&at) {
-                    let inner = folders_in(&at.join(&folder)).into_iter().map(|inner| format!("{folder}/{inner}"));
+                for folder in self.folders_in(&at) {
+                    let inner = self.folders_in(&at.join(&folder)).into_iter().map(|inner| format!("{folder}/{inner}"));
                     let all = std::iter::once(folder.clone()).chain(inner);
-                    listings.extend(all.map(|folder| (format!("{beside}{folder}/"), names_in(&at.join(&folder), false))));
+                    listings.extend(all.map(|folder| (format!("{beside}{folder}/"), self.names_in(&at.join(&folder), false))));
                 }
             }
         }
         listings
+    }
+
+    /// Folders of pictures in a folder, in the order of [`FOLDERS`].
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        let names = self.names_in(folder, true);
+        FOLDERS.iter().flat_map(|wanted| names.iter().filter(move |name| name.to_lowercase() == *wanted).cloned()).collect()
+    }
+
+    /// Names of the files, or of the folders, in a folder, in order.
+    fn names_in(&self, folder: &Path, folders: bool) -> Vec<String> {
+        self.archive.map_or_else(|| names_in(folder, folders), |archive| archive.names_in(folder, folders))
     }
 }
 
@@ -71,13 +81,7 @@ fn stem_of_picture(name: &str) -> Option<String> {
     (EXTENSIONS.contains(&extension) && !stem.is_empty()).then(|| stem.to_string())
 }
 
-/// Folders of pictures in a folder, in the order of [`FOLDERS`].
-fn folders_in(folder: &Path) -> Vec<String> {
-    let names = names_in(folder, true);
-    FOLDERS.iter().flat_map(|wanted| names.iter().filter(move |name| name.to_lowercase() == *wanted).cloned()).collect()
-}
-
-/// Names of the files, or of the folders, in a folder, in order.
+/// Names of the files, or of the folders, in a folder of the disk, in order.
 fn names_in(folder: &Path, folders: bool) -> Vec<String> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();

@@ -107,7 +107,7 @@ impl Assembly<'_> {
             Ok(read) => return Ok(Some(read)),
             Err(error @ ImportError::Malformed { .. }) => (format!("is damaged ({error})"), Some(error)),
             Err(ImportError::Read { source, .. }) => (format!("cannot be read ({source})"), None),
-            Err(ImportError::GitLfs { .. }) => (format!("is {GIT_LFS_POINTER}"), None),
+            Err(error @ ImportError::GitLfs { .. }) => (format!("is {GIT_LFS_POINTER}"), Some(error)),
             Err(other) => return Err(other),
         };
         let mesh = self.resolve(path).to_string_lossy().into_owned();

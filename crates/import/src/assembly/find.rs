@@ -78,7 +78,8 @@ impl Assembly<'_> {
         if self.is_file(&plain) || !path.contains('\\') { plain } else { folder.join(path.replace('\\', "/")) }
     }
 
-    fn is_file(&self, path: &Path) -> bool {
+    /// True where there is a file at a path, on the disk or in the archive of the scene.
+    pub(crate) fn is_file(&self, path: &Path) -> bool {
         self.archive.map_or_else(|| path.is_file(), |archive| archive.contains_path(path))
     }
 }

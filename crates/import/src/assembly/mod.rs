@@ -121,6 +121,11 @@ impl<'a> Assembly<'a> {
         Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
     }
 
+    /// The archive that the scene is in.
+    pub(crate) fn archive(&self) -> Option<&Archive> {
+        self.archive
+    }
+
     /// The scene file.
     pub(crate) fn file(&self) -> &Path {
         &self.file
@@ -150,6 +155,11 @@ impl<'a> Assembly<'a> {
     /// A [`ImportError::Malformed`] of the scene file.
     pub(crate) fn malformed(&self, place: impl Into<String>, problem: impl Into<String>) -> ImportError {
         ImportError::malformed(&self.file, place, problem)
+    }
+
+    /// What the user says.
+    pub(crate) fn options(&self) -> &ImportOptions {
+        self.options
     }
 
     /// True where a missing picture is replaced by grey.

@@ -1,7 +1,7 @@
 //! The models of a collection: each file is read once, by the importer of its format, and may stand in many places.
 
 use crate::assembly::{Assembly, Piece};
-use crate::{Format, ImportError, ImportOptions, Imported, UpAxis, fbx, gltf, obj, ply, usd};
+use crate::{Format, ImportError, ImportOptions, Imported, UpAxis, collada, fbx, gltf, obj, ply, stl, usd};
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::Quiet;
 use std::collections::HashMap;
@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 /// A model in its own unit and axes.
-pub(super) struct Model {
+pub(crate) struct Model {
     pub pieces: Vec<Piece>,
 }
 
 /// The models met so far; `None` for those that cannot be used.
 #[derive(Default)]
-pub(super) struct Models {
+pub(crate) struct Models {
     known: HashMap<PathBuf, Option<Rc<Model>>>,
 }
 
@@ -29,7 +29,7 @@ impl Models {
             return Ok(known.clone());
         }
         let read = read(file, a);
-        if read.is_err() && !file.exists() {
+        if read.is_err() && !a.is_file(file) {
             a.note_missing(file);
         }
         let model = match unless_odd(read, "models", "a model", a)? {
@@ -46,7 +46,7 @@ impl Models {
 ///
 /// # Errors
 /// When a picture is missing and has to be there, or the file is a pointer of Git LFS, as all others will be.
-pub(super) fn unless_odd<T>(read: Result<T, ImportError>, place: &str, what: &str, a: &mut Assembly) -> Result<Option<T>, ImportError> {
+pub(crate) fn unless_odd<T>(read: Result<T, ImportError>, place: &str, what: &str, a: &mut Assembly) -> Result<Option<T>, ImportError> {
     match read {
         Ok(read) => Ok(Some(read)),
         Err(error @ (ImportError::Texture { .. } | ImportError::GitLfs { .. })) => Err(error),
@@ -61,20 +61,30 @@ pub(super) fn unless_odd<T>(read: Result<T, ImportError>, place: &str, what: &st
 ///
 /// # Errors
 /// When it cannot be read.
-pub(super) fn read(file: &Path, a: &Assembly) -> Result<Imported, ImportError> {
+pub(crate) fn read(file: &Path, a: &Assembly) -> Result<Imported, ImportError> {
     let options =
         ImportOptions { up_axis: Some(UpAxis::Z), allow_missing_textures: a.allows_missing_textures(), ..ImportOptions::default() };
     let format = Format::of(file)?;
     let assembly = Assembly::new(format, file, UpAxis::Z, &options, &Quiet);
+    let assembly = match a.archive() {
+        Some(archive) => assembly.within(archive),
+        None => assembly,
+    };
     match format {
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
         Format::Ply => ply::load(assembly),
         Format::Usd => usd::load(assembly),
         Format::Fbx => fbx::load(assembly),
+        Format::Collada => collada::load(assembly),
+        Format::Stl => stl::load(assembly),
         _ => {
             let found = "no model of a collection is read from such a file".to_string();
-            Err(ImportError::UnknownFormat { file: file.to_path_buf(), found, known: ".gltf, .glb, .obj, .ply, .usd, .fbx".into() })
+            Err(ImportError::UnknownFormat {
+                file: file.to_path_buf(),
+                found,
+                known: ".gltf, .glb, .obj, .ply, .usd, .fbx, .dae, .stl".into(),
+            })
         }
     }
 }

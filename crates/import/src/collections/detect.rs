@@ -1,8 +1,8 @@
 //! Which layout a file or folder has, by its name or by the keys that its JSON has.
 
 use super::{habitat, hm3d, json, replica};
-use crate::ImportError;
 use crate::wildcards::matches;
+use crate::{Format, ImportError};
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ pub(super) fn layout(file: &Path, bytes: &[u8]) -> Result<Layout, ImportError> {
 ///
 /// # Errors
 /// When it holds several scenes: which.
-pub fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
+pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
     let names = "info_semantic.json";
     let replicas = [folder.join("habitat"), folder.to_path_buf()].into_iter().filter(|place| place.join(replica::MESH).is_file());
     let single = replicas.map(|place| place.join(names)).chain([folder.join("annotation_3d.json")]);
@@ -111,20 +111,17 @@ fn one(folder: &Path, scenes: Vec<String>) -> Result<Option<PathBuf>, ImportErro
     }
 }
 
-/// The same as [`scene_in_folder`], where there has to be one.
-///
-/// # Errors
-/// When there is none, or several.
-pub(crate) fn the_scene_in_folder(folder: &Path) -> Result<PathBuf, ImportError> {
-    scene_in_folder(folder)?.ok_or_else(|| {
-        let problem = format!(
-            "found no scene in the folder; expected *{}, annotation_3d.json, *{}, *.house, or habitat/info_semantic.json with {}",
-            habitat::SCENE,
-            hm3d::TEXT,
-            replica::MESH
-        );
-        ImportError::malformed(folder, "folder", problem)
-    })
+/// What is said of a folder without a scene.
+pub(crate) fn no_scene_in_folder(folder: &Path) -> ImportError {
+    let problem = format!(
+        "found no scene in the folder; expected one scene file ({}), or a collection's: *{}, annotation_3d.json, *{}, *.house, or \
+         habitat/info_semantic.json with {}",
+        Format::extensions(),
+        habitat::SCENE,
+        hm3d::TEXT,
+        replica::MESH
+    );
+    ImportError::malformed(folder, "folder", problem)
 }
 
 /// The first of a list of scenes.

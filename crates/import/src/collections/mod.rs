@@ -27,7 +27,7 @@
 //!   error as everywhere, unless [`ImportOptions::allow_missing_textures`](crate::ImportOptions::allow_missing_textures) is set.
 //! - Lights and cameras within models are left out, with a warning.
 
-mod assets;
+pub(crate) mod assets;
 mod classes;
 mod detect;
 mod front3d;
@@ -44,8 +44,7 @@ mod scan;
 mod structured3d;
 pub(crate) mod vectors;
 
-pub use detect::scene_in_folder;
-pub(crate) use detect::the_scene_in_folder;
+pub(crate) use detect::{no_scene_in_folder, scene_in_folder};
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};

@@ -33,13 +33,17 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
     put_right(&mut value, "");
     let written = value.to_string();
     // The place in the file is known for the first mistake alone, which may have been put right.
-    Root::from_slice(written.as_bytes()).map_err(|left| if left.to_string() == error.to_string() { problem() } else { unclear(&left) })
+    Root::from_slice(written.as_bytes())
+        .map_err(|left| if without_place(&left) == without_place(&error) { problem() } else { unclear(&left) })
 }
 
 fn unclear(error: &serde_json::Error) -> (String, String) {
+    ("whole file".into(), format!("not valid glTF JSON: {}; export the file again", without_place(error)))
+}
+
+fn without_place(error: &serde_json::Error) -> String {
     let message = error.to_string();
-    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
-    ("whole file".into(), format!("not valid glTF JSON: {message}; export the file again"))
+    message.rsplit_once(" at line ").map_or(message.clone(), |(message, _)| message.to_string())
 }
 
 /// Puts right what other readers take as well: whole numbers written as `3.0`, `null` for what is not there, versions and names that are

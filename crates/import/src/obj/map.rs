@@ -25,8 +25,8 @@ impl<'m> Map<'m> {
     /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path. Options belong before the
     /// path; behind it they are read where nothing else is there, as three.js does.
     pub(super) fn parse(statement: &'m str) -> Option<Self> {
-<<<<<<< HEAD
-        let mut map = Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, channel: None, ignored: Vec::new() };
+        let mut map =
+            Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, linear: false, channel: None, ignored: Vec::new() };
         let rest = map.options(statement.trim())?;
         let behind = rest.match_indices(char::is_whitespace).map(|(at, _)| rest.split_at(at)).find(|(_, tail)| are_options(tail.trim()));
         let (path, tail) = behind.unwrap_or((rest, ""));
@@ -38,11 +38,6 @@ impl<'m> Map<'m> {
     /// Takes over the options at the beginning of a text, and gives what follows them. `None` where an option ends the text before its value.
     fn options(&mut self, text: &'m str) -> Option<&'m str> {
         let mut rest = text;
-=======
-        let mut map =
-            Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, linear: false, channel: None, ignored: Vec::new() };
-        let mut rest = statement.trim();
->>>>>>> dbe46f60 (Files are read where other readers take them too)
         while rest.starts_with('-') {
             let (option, after) = rest.split_once(char::is_whitespace)?;
             rest = after.trim_start();
@@ -146,7 +141,6 @@ mod tests {
     }
 
     #[test]
-<<<<<<< HEAD
     fn options_behind_the_path_are_read_and_names_that_look_like_them_are_names() {
         let map = Map::parse("my a.png -s 2 3 1 -clamp on -bm 0.5").unwrap();
         assert_eq!((map.path, map.scale, map.clamp, map.bump), ("my a.png", [2.0, 3.0], true, 0.5));
@@ -154,7 +148,9 @@ mod tests {
         for name in ["wood -s 1.png", "wood -s.png", "a - b.png", "a -x 1", "tile -o"] {
             assert_eq!(Map::parse(name).map(|map| map.path), Some(name), "{name}");
         }
-=======
+    }
+
+    #[test]
     fn words_of_options_are_not_taken_for_names_of_files() {
         // tinyobjloader writes and reads -colorspace; the others are made up.
         for statement in
@@ -167,7 +163,6 @@ mod tests {
         assert_eq!((map.path, map.linear, map.ignored.len()), ("my wood.png", true, 0));
         assert_eq!(Map::parse("-colorspace ACEScg a.png").unwrap().ignored, ["-colorspace"]);
         assert_eq!(Map::parse("-bm wood 2.0.png").unwrap().path, "wood 2.0.png");
->>>>>>> dbe46f60 (Files are read where other readers take them too)
     }
 
     #[test]

@@ -14,7 +14,8 @@ fn gltf_error(change: impl FnOnce(&mut Gltf)) -> String {
 fn truncations_of_a_binary_gltf_are_errors() {
     let folder = Folder::new();
     let whole = Gltf::triangle().binary();
-    for length in (0..whole.len()).step_by(5) {
+    // The last three bytes may be padding, which some programs count and do not write.
+    for length in (0..whole.len() - 3).step_by(5) {
         let message = folder.write("a.glb", &whole[..length]).error("a.glb");
         assert!(message.starts_with("a.glb: "), "{message}");
     }
@@ -194,7 +195,12 @@ fn unreadable_files_and_unknown_formats_say_so() {
     assert!(folder.error("nowhere.gltf").contains("nowhere.gltf: cannot be read (No such file"));
     std::fs::create_dir(folder.path("folder.glb")).unwrap();
     assert!(folder.error("folder.glb").contains("folder.glb: cannot be read"));
-    assert!(folder.write("a.blend", "BLENDER").error("a.blend").contains("no importer for .blend files; expected one of .gltf"));
+    assert!(
+        folder
+            .write("a.blend", "BLENDER")
+            .error("a.blend")
+            .contains("no importer for .blend files: open it in Blender and export glTF 2.0 (.glb); expected one of .gltf")
+    );
     assert!(folder.write("a.gltf", "{\"asset\": ").error("a.gltf").contains("a.gltf: line 1 column 10: not valid glTF JSON"));
     assert!(folder.write("a.gltf", "").error("a.gltf").contains("it is empty, not a glTF"));
     assert!(folder.write("a.scene", "x").error("a.scene").contains("not a scene package"));
@@ -269,7 +275,7 @@ fn xml_mistakes_have_line_and_column() {
     assert!(error("<scene><include filename=\"a.xml\"/></scene>").contains("nested more than"));
     assert!(
         error("<scene><shape type=\"obj\"><string name=\"filename\" value=\"gone.obj\"/></shape></scene>")
-            .contains("gone.obj: cannot be read")
+            .contains("needs the mesh gone.obj, which cannot be read")
     );
     assert!(error("").contains("it is empty"));
     let cycle = "<scene><bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf><bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>\

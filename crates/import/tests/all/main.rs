@@ -1,8 +1,10 @@
 //! Files of every format, written by the tests, and what scenes become of them.
 
 mod bad_input;
+mod collada;
 mod common;
 mod disguises;
+mod downloads;
 mod extensions;
 mod fbx;
 mod front3d;
@@ -27,6 +29,7 @@ mod pbrt_rooms;
 mod pictures;
 mod ply;
 mod procthor;
+mod robots;
 mod rooms;
 mod scans;
 mod survey;

@@ -231,7 +231,7 @@ fn what_is_not_read_of_a_material_is_reported() {
     let folder = Folder::new();
     folder.write("oak.png", png(2, 2, [150, 100, 60, 255]));
     for (body, expected) in [
-        ("Kd 0,5 0,5 0,5", "kd ignored: found \"0,5 0,5 0,5\", expected numbers such as 0.5"),
+        ("Kd half half half", "kd ignored: found \"half half half\", expected numbers such as 0.5"),
         ("Ns 1e400", "ns ignored"),
         ("Kd spectral oak.rfl", "kd ignored: found a file of spectral samples"),
         ("d -halo 0.3", "d -halo, which depends on the direction"),

@@ -248,7 +248,7 @@ fn mistakes_have_line_and_column_and_gaps_are_reported() {
         error("Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" [0 1 2]")
             .contains("indices refers to vertex 1, but there are 1")
     );
-    assert!(error("Shape \"plymesh\" \"string filename\" \"gone.ply\"").contains("gone.ply: cannot be read"));
+    assert!(error("Shape \"plymesh\" \"string filename\" \"gone.ply\"").contains("gone.ply, which cannot be read"));
     assert!(error("Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"").contains("the texture \"t\", which is not defined"));
     assert!(folder.write("b.pbrt", "Shape \"sphere\"").error("b.pbrt").contains("the shape stands before WorldBegin"));
     let mixed = "MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n\

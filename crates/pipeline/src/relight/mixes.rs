@@ -5,6 +5,7 @@ use crate::error::Error;
 use enfilade_dataset::{Fixture, check_name};
 use enfilade_math::Rgb;
 use enfilade_render::FixtureKind;
+use enfilade_scene::decoded_text;
 use serde::Serialize;
 use std::path::Path;
 

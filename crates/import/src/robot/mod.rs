@@ -1,0 +1,72 @@
+//! Robots, furniture and worlds of robotics: URDF (ROS, PyBullet, PartNet-Mobility) and SDF (Gazebo).
+//!
+//! | feature | what becomes of it |
+//! |---|---|
+//! | links | each an object of its own within the robot or model, where the joints have it at rest (URDF) or its `pose` (SDF) |
+//! | `visual` | a part: mesh files (glTF, OBJ, STL, COLLADA, PLY, USD, FBX) with their `scale`, boxes, cylinders, spheres, capsules, planes of SDF |
+//! | mesh files | beside the file, or by `package://`, `model://` and `file://` in the folders above; in their own unit, and in their own axes taken as they are, as RViz does. One that is missing is an error, unless [`ImportOptions::allow_missing_meshes`](crate::ImportOptions::allow_missing_meshes) is set |
+//! | materials | colours (sRGB) and pictures of URDF; `diffuse`, `emissive` and the maps of `pbr` in SDF. A mesh with materials of its own keeps them |
+//! | `world`, `model` and `include` of SDF | models within models; includes are looked for as mesh files are, as `model.sdf` |
+//! | `light` of SDF | point, spot and directional; SDF states no unit: strengths are W/sr and W/m², by `intensity` |
+//! | joints, inertias, collisions, sensors, plug-ins | without effect |
+//!
+//! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
+
+mod sdf;
+mod shapes;
+mod urdf;
+
+use crate::assembly::Assembly;
+use crate::{ImportError, Imported, UpAxis};
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use roxmltree::{Document, Node};
+
+/// Imports a URDF file.
+pub(crate) fn load_urdf(a: Assembly) -> Result<Imported, ImportError> {
+    load(a, "robot", urdf::place)
+}
+
+/// Imports an SDF file.
+pub(crate) fn load_sdf(a: Assembly) -> Result<Imported, ImportError> {
+    load(a, "sdf", sdf::place)
+}
+
+fn load(
+    mut a: Assembly,
+    outermost: &str,
+    place: impl FnOnce(Node, &mut shapes::Shapes, &mut Assembly) -> Result<(), ImportError>,
+) -> Result<Imported, ImportError> {
+    a.set_units(1.0, UpAxis::Z);
+    let bytes = a.read_scene_file()?;
+    let text = crate::xml::xml_text(&bytes);
+    let document = Document::parse(&text)
+        .map_err(|e| a.malformed(format!("line {}:{}", e.pos().row, e.pos().col), format!("not well-formed XML: {e}")))?;
+    let root = document.root_element();
+    let found = root.tag_name().name();
+    let fits = found == outermost || (outermost == "sdf" && found == "gazebo");
+    if !fits {
+        return Err(a.malformed("line 1", format!("the outermost element is <{found}>, expected <{outermost}>")));
+    }
+    let mut shapes = shapes::Shapes::of(a.file());
+    place(root, &mut shapes, &mut a)?;
+    a.finish()
+}
+
+/// The first element of a name within another.
+fn child<'a, 'd>(node: Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>> {
+    children(node, tag).next()
+}
+
+fn children<'a, 'd, 't>(node: Node<'a, 'd>, tag: &'t str) -> impl Iterator<Item = Node<'a, 'd>> + use<'a, 'd, 't> {
+    node.children().filter(move |n| n.is_element() && n.tag_name().name() == tag)
+}
+
+fn name_of<'d>(node: Node<'d, '_>) -> &'d str {
+    node.attribute("name").map(str::trim).unwrap_or_default()
+}
+
+/// A placement of a translation and angles about the fixed axes x, y, z.
+fn pose(translation: DVec3, angles_rad: DVec3) -> DAffine3 {
+    let turn = DMat3::from_rotation_z(angles_rad.z) * DMat3::from_rotation_y(angles_rad.y) * DMat3::from_rotation_x(angles_rad.x);
+    DAffine3::from_mat3_translation(turn, translation)
+}

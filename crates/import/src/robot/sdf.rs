@@ -1,0 +1,205 @@
+//! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links stand where their poses say.
+
+use super::shapes::{Look, Shape, Shapes, find};
+use super::{child, children, name_of, pose};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use crate::collections::vectors::numbers;
+use enfilade_math::{DAffine3, DVec3, Rgb, linear_from_srgb};
+use enfilade_scene::{Light, ObjectId, SpotFalloff};
+use roxmltree::{Document, Node};
+
+/// Models within models, and includes within includes, deeper than this are taken for a cycle.
+const MAX_DEPTH: usize = 16;
+/// More models than this are taken for a mistake.
+const MAX_MODELS: usize = 100_000;
+/// Side of a plane that states no size.
+const PLANE: f64 = 1.0;
+
+/// Places what the worlds or models of a file hold.
+pub(super) fn place(root: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
+    let mut placer = Placer { shapes, models: 0 };
+    let worlds: Vec<Node> = children(root, "world").collect();
+    if worlds.len() > 1 {
+        a.warn("world", format!("{} worlds, of which the first was imported", worlds.len()));
+    }
+    let scope = worlds.first().copied().unwrap_or(root);
+    placer.content(scope, DAffine3::IDENTITY, None, 0, a)
+}
+
+struct Placer<'s> {
+    shapes: &'s mut Shapes,
+    models: usize,
+}
+
+impl Placer<'_> {
+    /// Adds the models, includes and lights of a world or model.
+    fn content(
+        &mut self,
+        scope: Node,
+        file_from_scope: DAffine3,
+        parent: Option<ObjectId>,
+        depth: usize,
+        a: &mut Assembly,
+    ) -> Result<(), ImportError> {
+        self.models += 1;
+        if depth > MAX_DEPTH || self.models > MAX_MODELS {
+            return Err(a.malformed(
+                format!("model {:?}", name_of(scope)),
+                format!("models are nested more than {MAX_DEPTH} deep, or more than {MAX_MODELS}"),
+            ));
+        }
+        for element in scope.children().filter(Node::is_element) {
+            match element.tag_name().name() {
+                "model" => {
+                    let name = if name_of(element).is_empty() { "model" } else { name_of(element) };
+                    let object = a.push_object(name, parent);
+                    let placement = file_from_scope * posed(element, a);
+                    self.links(element, placement, object, a)?;
+                    self.content(element, placement, Some(object), depth + 1, a)?;
+                }
+                "include" => self.include(element, file_from_scope, parent, depth, a)?,
+                "light" => light(element, file_from_scope * posed(element, a), a),
+                _ => (),
+            }
+        }
+        Ok(())
+    }
+
+    fn links(&mut self, model: Node, file_from_model: DAffine3, object: ObjectId, a: &mut Assembly) -> Result<(), ImportError> {
+        for link in children(model, "link") {
+            let name = if name_of(link).is_empty() { "link" } else { name_of(link) };
+            let own = a.push_object(name, Some(object));
+            let file_from_link = file_from_model * posed(link, a);
+            children(link, "light").for_each(|l| light(l, file_from_link * posed(l, a), a));
+            for visual in children(link, "visual") {
+                let Some(shape) = child(visual, "geometry").and_then(shape) else {
+                    a.warn(format!("link {name:?}"), "a visual has no geometry that is known and was left out");
+                    continue;
+                };
+                let look = child(visual, "material").map(|m| look(m, name_of(visual)));
+                let part = format!("{}.{name}", name_of(model));
+                self.shapes.place(&shape, look.as_ref(), &part, file_from_link * posed(visual, a), own, a)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the model of another file.
+    fn include(
+        &mut self,
+        include: Node,
+        file_from_scope: DAffine3,
+        parent: Option<ObjectId>,
+        depth: usize,
+        a: &mut Assembly,
+    ) -> Result<(), ImportError> {
+        let uri = child(include, "uri").and_then(|n| n.text()).unwrap_or_default().trim();
+        let named = child(include, "name").and_then(|n| n.text()).map(str::trim);
+        let whole = uri.trim_end_matches('/');
+        let found = [whole.to_string(), format!("{whole}/model.sdf")].into_iter().find_map(|path| find(&path, &self.shapes.from, a));
+        let Some(file) = found else {
+            a.warn("include", format!("{uri:?} is neither beside the scene nor in the folders above; it was left out"));
+            return Ok(());
+        };
+        let bytes = a.read_input(&file, "check the permission to read it")?;
+        let text = crate::xml::xml_text(&bytes);
+        let Ok(document) = Document::parse(&text) else {
+            a.warn("include", format!("{} is no well-formed XML; it was left out", file.display()));
+            return Ok(());
+        };
+        let Some(model) = child(document.root_element(), "model") else {
+            a.warn("include", format!("{} holds no model; it was left out", file.display()));
+            return Ok(());
+        };
+        let object = a.push_object(named.unwrap_or_else(|| name_of(model)), parent);
+        // The pose of an include replaces the model's own.
+        let placement = file_from_scope * if child(include, "pose").is_some() { posed(include, a) } else { posed(model, a) };
+        let from = std::mem::replace(&mut self.shapes.from, file);
+        let done = self.links(model, placement, object, a).and_then(|()| self.content(model, placement, Some(object), depth + 1, a));
+        self.shapes.from = from;
+        done
+    }
+}
+
+/// The pose of an element, in the frame that it stands in.
+fn posed(element: Node, a: &mut Assembly) -> DAffine3 {
+    let Some(node) = child(element, "pose") else { return DAffine3::IDENTITY };
+    if node.attribute("relative_to").or(node.attribute("frame")).is_some_and(|frame| !frame.is_empty()) {
+        a.warn("pose", format!("the pose of {:?} is told from another frame; it was taken from what it lies in", name_of(element)));
+    }
+    let degrees = node.attribute("degrees").is_some_and(|v| matches!(v.trim(), "true" | "1"));
+    let text = node.text().unwrap_or_default();
+    match numbers(text).as_deref() {
+        Some(&[x, y, z, roll, pitch, yaw]) => {
+            let angles = DVec3::new(roll, pitch, yaw) * if degrees { std::f64::consts::PI / 180.0 } else { 1.0 };
+            pose(DVec3::new(x, y, z), angles)
+        }
+        None if text.trim().is_empty() => DAffine3::IDENTITY,
+        _ => {
+            a.warn("pose", format!("found {:?} as the pose of {:?}, expected six numbers; it was not used", text.trim(), name_of(element)));
+            DAffine3::IDENTITY
+        }
+    }
+}
+
+fn vector<const N: usize>(node: Node, tag: &str) -> Option<[f64; N]> {
+    numbers(child(node, tag)?.text()?)?.get(..N)?.try_into().ok()
+}
+
+fn shape(geometry: Node) -> Option<Shape> {
+    let kind = geometry.children().find(Node::is_element)?;
+    let number = |tag: &str| vector::<1>(kind, tag).map(|[v]| v);
+    Some(match kind.tag_name().name() {
+        "box" => Shape::Box(DVec3::from_array(vector(kind, "size")?)),
+        "sphere" => Shape::Sphere(number("radius")?),
+        "cylinder" => Shape::Cylinder { radius: number("radius")?, length: number("length")? },
+        "capsule" => Shape::Capsule { radius: number("radius")?, length: number("length")? },
+        "plane" => {
+            let normal = vector(kind, "normal").map_or(DVec3::Z, DVec3::from_array);
+            Shape::Plane { normal, size: vector(kind, "size").unwrap_or([PLANE; 2]) }
+        }
+        "mesh" => {
+            let path = child(kind, "uri")?.text()?.trim().to_string();
+            let scale = match vector::<3>(kind, "scale") {
+                Some(scale) => DVec3::from_array(scale),
+                None => vector::<1>(kind, "scale").map_or(DVec3::ONE, |[all]| DVec3::splat(all)),
+            };
+            Shape::Mesh { path, scale }
+        }
+        _ => return None,
+    })
+}
+
+fn look(material: Node, name: &str) -> Look {
+    let color = |tag: &str| vector::<4>(material, tag).or_else(|| vector::<3>(material, tag).map(|[r, g, b]| [r, g, b, 1.0]));
+    let maps = child(material, "pbr").and_then(|pbr| child(pbr, "metal").or_else(|| child(pbr, "specular")));
+    let texture = maps.and_then(|maps| child(maps, "albedo_map")).and_then(|m| m.text()).map(|t| t.trim().to_string());
+    let emission = color("emissive").map(|[r, g, b, _]| [r, g, b]).filter(|c| c.iter().any(|v| *v > 0.0));
+    Look { name: name.to_string(), rgba: color("diffuse"), texture: texture.filter(|t| !t.is_empty()), emission }
+}
+
+fn light(element: Node, placement: DAffine3, a: &mut Assembly) {
+    let color = vector::<3>(element, "diffuse").unwrap_or([1.0; 3]).map(|v| linear_from_srgb(v.clamp(0.0, 1.0) as f32));
+    let strength = Rgb::from(color) * vector::<1>(element, "intensity").map_or(1.0, |[v]| v.max(0.0) as f32);
+    let direction = vector(element, "direction").map_or(DVec3::NEG_Z, DVec3::from_array);
+    let direction = placement.transform_vector3(direction).normalize_or_zero().as_vec3();
+    let (name, position) = (name_of(element).to_string(), placement.translation.as_vec3());
+    match element.attribute("type").unwrap_or("point") {
+        "directional" => a.push_light(Light::Directional { name, direction, irradiance: strength, angular_radius_rad: 0.0 }),
+        "spot" => {
+            let angle = |tag: &str, default: f64| {
+                child(element, "spot").and_then(|spot| vector::<1>(spot, tag)).map_or(default, |[v]| 0.5 * v).clamp(0.01, 1.57) as f32
+            };
+            let outer_rad = angle("outer_angle", 0.5);
+            let inner_rad = angle("inner_angle", 0.0).min(outer_rad);
+            let falloff = SpotFalloff::CosineSquare;
+            a.push_light_at(
+                placement.translation,
+                Light::Spot { name, position, direction, intensity: strength, inner_rad, outer_rad, falloff },
+            );
+        }
+        _ => a.push_light_at(placement.translation, Light::Point { name, position, intensity: strength }),
+    }
+    a.warn("light", "SDF states no unit of light; strengths were taken as W/sr and W/m²");
+}

@@ -1,0 +1,114 @@
+//! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that say where they stand.
+
+use super::shapes::{Look, Shape, Shapes};
+use super::{child, children, name_of, pose};
+use crate::ImportError;
+use crate::assembly::Assembly;
+use crate::collections::vectors::numbers;
+use enfilade_math::{DAffine3, DVec3};
+use roxmltree::Node;
+use std::collections::{HashMap, HashSet};
+
+/// Places the links of a robot.
+pub(super) fn place(robot: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
+    let links: Vec<Node> = children(robot, "link").collect();
+    let stands = stands(robot, &links, a)?;
+    let whole = a.push_object(if name_of(robot).is_empty() { "robot" } else { name_of(robot) }, None);
+    let looks: HashMap<&str, Look> = children(robot, "material").map(|m| (name_of(m), look(m))).collect();
+    let mut loose = Vec::new();
+    for link in &links {
+        let name = if name_of(*link).is_empty() { "link" } else { name_of(*link) };
+        let Some(&base_from_link) = stands.get(name_of(*link)) else {
+            loose.push(name);
+            continue;
+        };
+        let object = a.push_object(name, Some(whole));
+        for visual in children(*link, "visual") {
+            let Some(shape) = shape(visual, a)? else {
+                a.warn(format!("link {name:?}"), "a visual has no geometry that is known and was left out");
+                continue;
+            };
+            let look = child(visual, "material").map(|m| {
+                let own = look(m);
+                if own.rgba.is_none() && own.texture.is_none() { looks.get(name_of(m)).cloned().unwrap_or(own) } else { own }
+            });
+            let part = if name_of(visual).is_empty() { name.to_string() } else { format!("{name}.{}", name_of(visual)) };
+            let placement = base_from_link * origin(visual, a)?;
+            shapes.place(&shape, look.as_ref(), &part, placement, object, a)?;
+        }
+    }
+    if let Some(first) = loose.first() {
+        a.warn("links", format!("{} links hang on themselves and were left out, such as {first:?}", loose.len()));
+    }
+    Ok(())
+}
+
+/// Where each link stands, by its name; links that no root leads to are not in it.
+fn stands<'d>(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &Assembly) -> Result<HashMap<&'d str, DAffine3>, ImportError> {
+    let mut joints: HashMap<&str, Vec<(&'d str, DAffine3)>> = HashMap::new();
+    let mut has_parent: HashSet<&str> = HashSet::new();
+    for joint in children(robot, "joint") {
+        let link = |tag: &str| child(joint, tag).and_then(|n| n.attribute("link"));
+        let (Some(parent), Some(below)) = (link("parent"), link("child")) else { continue };
+        joints.entry(parent).or_default().push((below, origin(joint, a)?));
+        has_parent.insert(below);
+    }
+    let mut stands = HashMap::new();
+    let roots = links.iter().map(|link| name_of(*link)).filter(|name| !has_parent.contains(name));
+    let mut stack: Vec<(&'d str, DAffine3)> = roots.map(|name| (name, DAffine3::IDENTITY)).collect();
+    while let Some((name, place)) = stack.pop() {
+        if stands.insert(name, place).is_none() {
+            stack.extend(joints.get(name).into_iter().flatten().map(|(below, joint)| (*below, place * *joint)));
+        }
+    }
+    Ok(stands)
+}
+
+fn shape(visual: Node, a: &Assembly) -> Result<Option<Shape>, ImportError> {
+    let Some(geometry) = child(visual, "geometry") else { return Ok(None) };
+    let Some(kind) = geometry.children().find(Node::is_element) else { return Ok(None) };
+    let number = |name: &str| vector::<1>(kind, name, a).map(|v| v.map_or(0.0, |[v]| v));
+    let round = || -> Result<(f64, f64), ImportError> { Ok((number("radius")?, number("length")?)) };
+    Ok(Some(match kind.tag_name().name() {
+        "box" => Shape::Box(vector::<3>(kind, "size", a)?.map_or(DVec3::ONE, DVec3::from_array)),
+        "cylinder" => round().map(|(radius, length)| Shape::Cylinder { radius, length })?,
+        "capsule" => round().map(|(radius, length)| Shape::Capsule { radius, length })?,
+        "sphere" => Shape::Sphere(number("radius")?),
+        "mesh" => {
+            let path = kind.attribute("filename").unwrap_or_default().to_string();
+            let scale = match kind.attribute("scale").and_then(numbers).as_deref() {
+                Some(&[all]) => DVec3::splat(all),
+                _ => vector::<3>(kind, "scale", a)?.map_or(DVec3::ONE, DVec3::from_array),
+            };
+            Shape::Mesh { path, scale }
+        }
+        _ => return Ok(None),
+    }))
+}
+
+fn look(material: Node) -> Look {
+    let rgba = child(material, "color").and_then(|c| numbers(c.attribute("rgba")?));
+    let rgba = rgba.and_then(|v| match v[..] {
+        [r, g, b] => Some([r, g, b, 1.0]),
+        [r, g, b, alpha, ..] => Some([r, g, b, alpha]),
+        _ => None,
+    });
+    let texture = child(material, "texture").and_then(|t| t.attribute("filename")).filter(|t| !t.trim().is_empty());
+    Look { name: name_of(material).to_string(), rgba, texture: texture.map(str::to_string), emission: None }
+}
+
+/// The placement in the element `origin` within another.
+fn origin(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
+    let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
+    let of = |name: &str| vector::<3>(origin, name, a).map(|v| v.map_or(DVec3::ZERO, DVec3::from_array));
+    Ok(pose(of("xyz")?, of("rpy")?))
+}
+
+/// The numbers of an attribute; `None` where there is none.
+fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) -> Result<Option<[f64; N]>, ImportError> {
+    let Some(text) = node.attribute(attribute) else { return Ok(None) };
+    let found: Option<[f64; N]> = numbers(text).and_then(|v| v.try_into().ok());
+    let at = node.document().text_pos_at(node.range().start);
+    let problem = || format!("found {text:?} as {attribute} of <{}>, expected {N} numbers", node.tag_name().name());
+    found.map(Some).ok_or_else(|| a.malformed(format!("line {}", at.row), problem()))
+}
