@@ -87,7 +87,7 @@ impl MomentArg {
 )]
 pub struct ImportArgs {
     /// A scene file, or the folder of a collection's scene, or of a dataset to import the scenes of
-    #[arg(help = format!("A scene file ({}), or the folder of a collection's scene, or of a dataset to import the scenes of", SceneFormat::extensions()))]
+    #[arg(help = format!("A scene file ({}), the folder of one, or a dataset to import the scenes of", SceneFormat::extensions()))]
     pub input: PathBuf,
     /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
     #[arg(short, long, value_name = "FILE")]

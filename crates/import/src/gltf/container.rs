@@ -105,7 +105,7 @@ impl Document {
         };
         // Exporters pad the text with spaces, some with zeros.
         let text = decoded_text(json);
-        let json = text.trim_end_matches(|c: char| c == '\0' || c.is_whitespace()).as_bytes();
+        let json = text.trim_end_matches('\0').as_bytes();
         let mut root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Buffers::read(&root, binary, assembly)?;

@@ -12,7 +12,7 @@ use roxmltree::{Document, Node};
 /// Models within models, and includes within includes, deeper than this are taken for a cycle.
 const MAX_DEPTH: usize = 16;
 /// More models than this are taken for a mistake.
-const MAX_MODELS: usize = 100_000;
+const MAX_MODELS: usize = 20_000;
 /// Side of a plane that states no size.
 const PLANE: f64 = 1.0;
 
