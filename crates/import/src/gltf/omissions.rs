@@ -19,7 +19,7 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
     };
     let problem =
         || (format!("line {} column {}", error.line(), error.column()), format!("not valid glTF JSON: {error}; export the file again"));
-    let mut value: Value = serde_json::from_slice(text).map_err(|_| problem())?;
+    let mut value: Value = serde_json::from_slice(&without_nan(text)).map_err(|_| problem())?;
     if let Some(version) = old_version(&value) {
         return Err(("asset.version".into(), format!("found glTF {version}, expected 2.0; convert the file to glTF 2.0")));
     }
@@ -35,6 +35,28 @@ pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
     // The place in the file is known for the first mistake alone, which may have been put right.
     Root::from_slice(written.as_bytes())
         .map_err(|left| if without_place(&left) == without_place(&error) { problem() } else { unclear(&left) })
+}
+
+/// The text with `null` for what Python writes where a number is none or infinite, as in bounds of accessors.
+fn without_nan(text: &[u8]) -> Vec<u8> {
+    let (mut out, mut at, mut in_string) = (Vec::with_capacity(text.len()), 0, false);
+    while let Some(&byte) = text.get(at) {
+        let word = [&b"NaN"[..], b"-Infinity", b"Infinity"].into_iter().find(|word| !in_string && text[at..].starts_with(word));
+        if let Some(word) = word {
+            out.extend_from_slice(b"null");
+            at += word.len();
+            continue;
+        }
+        in_string ^= byte == b'"';
+        out.push(byte);
+        at += 1;
+        // What is escaped does not end a text.
+        if in_string && byte == b'\\' {
+            out.extend(text.get(at));
+            at += 1;
+        }
+    }
+    out
 }
 
 fn unclear(error: &serde_json::Error) -> (String, String) {

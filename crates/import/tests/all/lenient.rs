@@ -84,6 +84,11 @@ fn gltf_takes_counts_and_indices_with_a_point() {
     json["meshes"][0]["primitives"][0]["targets"] = Value::Null;
     json["scenes"][0]["name"] = Value::Null;
     assert_eq!(folder.write("c.gltf", json.to_string()).load("c.gltf").unwrap().scene.parts[0].name, "12");
+    // As Python's json module writes bounds of no numbers.
+    json["accessors"][0]["min"] = json!(["§", 0, 0]);
+    json["nodes"][0]["name"] = json!("NaN \\\" NaN");
+    let text = json.to_string().replace("\"§\"", "NaN");
+    assert_eq!(folder.write("n.gltf", text).load("n.gltf").unwrap().scene.parts[0].name, "NaN \\\" NaN");
     json["accessors"][0]["count"] = json!(2.5);
     let error = folder.write("d.gltf", json.to_string()).error("d.gltf");
     assert!(error.contains("not valid glTF JSON") && error.contains("2.5"), "{error}");

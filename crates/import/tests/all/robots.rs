@@ -113,7 +113,7 @@ fn meshes_of_a_robot_that_are_missing_are_an_error_or_left_out() {
     assert!(warnings(&imported).contains("it was left out"));
     let bad = COUNTER.replace("2, 1, 1", "2 1");
     assert!(folder.write("a.urdf", bad).error("a.urdf").contains("line 4: found \"2 1\" as size of <box>, expected 3 numbers"));
-    assert!(folder.write("a.urdf", "<scene/>").error("a.urdf").contains("expected <robot>"));
+    assert!(folder.write("a.urdf", "<scene/>").error("a.urdf").contains("not a robot in URDF"));
 }
 
 const WORLD: &str = r#"<?xml version="1.0"?>
