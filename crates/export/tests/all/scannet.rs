@@ -3,7 +3,7 @@
 use crate::common::{files, layer, pinhole, write};
 use enfilade_dataset::hdf5::{Storage, read_array, write_array};
 use enfilade_dataset::mesh_names::{OBJECTS_SEMANTIC, VERTICES};
-use enfilade_dataset::{Array, Dataset, Elements, Partition, SplitRow};
+use enfilade_dataset::{Array, Classes, Dataset, Elements, LabelColors, Partition, SplitRow};
 use enfilade_export::{Existing, ExportConfig, Format, export};
 use enfilade_frame::{Layer, Values};
 use enfilade_math::DVec3;
@@ -184,10 +184,69 @@ fn the_page_of_a_scan_says_what_loaders_look_for() {
     let expected = [("numDepthFrames", "3"), ("colorWidth", "40"), ("depthHeight", "30"), ("fx_color", "33"), ("mx_depth", "18.75")];
     assert!(expected.iter().all(|(key, value)| page[key] == *value), "{text}");
     assert!(text.ends_with("\nsceneType = Office\n"), "Mask3D takes the last line: {text}");
-    let classes = table(&out.join("scannetv2-labels.combined.tsv"), "id", "nyu40class");
+    let classes = table(&out.join("scannetv2-labels.combined.tsv"), "nyu40id", "nyu40class");
     assert!(classes.len() == 40 && classes["24"] == "refridgerator" && classes["28"] == "shower curtain", "{classes:?}");
-    let ids = table(&out.join("scannetv2-labels.combined.tsv"), "id", "nyu40id");
-    assert!(ids.iter().all(|(id, nyu40)| id == nyu40), "label-filt has numbers of NYU40");
+}
+
+/// ScanNet's numbers of some of its 200 benchmark classes, as its `scannet200_constants.py` pairs `VALID_CLASS_IDS_200` with
+/// `CLASS_LABELS_200`, which Mask3D and Pointcept have too.
+const SCANNET200: [(&str, &str); 20] = [
+    ("wall", "1"),
+    ("chair", "2"),
+    ("floor", "3"),
+    ("table", "4"),
+    ("door", "5"),
+    ("couch", "6"),
+    ("cabinet", "7"),
+    ("shelf", "8"),
+    ("desk", "9"),
+    ("bed", "11"),
+    ("pillow", "13"),
+    ("window", "16"),
+    ("book", "22"),
+    ("tv", "33"),
+    ("ceiling", "41"),
+    ("shower curtain", "55"),
+    ("blinds", "86"),
+    ("mat", "140"),
+    ("object", "1163"),
+    ("structure", "1178"),
+];
+
+#[test]
+fn label_images_and_the_table_have_scannets_own_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dataset, out) = (write(&folder.path().join("dataset"), &pinhole()), folder.path().join("out"));
+    exported(&dataset, &out).unwrap();
+    let ids = table(&out.join("scannetv2-labels.combined.tsv"), "raw_category", "id");
+    assert!(ids.len() == 40 && SCANNET200.iter().all(|(word, id)| ids[*word] == *id), "{ids:?}");
+    assert_eq!(ids.values().collect::<BTreeSet<_>>().len(), 40);
+    let picture = image::open(out.join("scans/room_cam_00/label-filt/0.png")).unwrap().into_luma16();
+    let semantic = layer(&dataset, "room", "cam_00", 0, Layer::Semantic);
+    // Floor, wall, table and chair by NYU40, and by ScanNet.
+    let raw: BTreeMap<i16, u16> = [(-1, 0), (2, 3), (1, 1), (7, 4), (5, 2)].into();
+    let expected: Vec<u16> = (0..semantic.len()).map(|i| raw[&(semantic.get(i) as i16)]).collect();
+    assert!(*picture.as_raw() == expected && expected.contains(&3) && expected.contains(&4));
+}
+
+#[test]
+fn a_list_of_ones_own_keeps_its_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dataset, out) = (write(&folder.path().join("dataset"), &pinhole()), folder.path().join("out"));
+    // Number 2 is ScanNet's chair: beside NYU40's own wall the list stays what it is.
+    let own = [(1, "wall"), (2, "rug"), (5, "chair"), (7, "table")];
+    let list = own.map(|(id, name)| format!("{id},{name},{id},{id},{id}\n")).concat();
+    let file = folder.path().join("list.csv");
+    std::fs::write(&file, format!("semantic_id,semantic_name,semantic_color_r,semantic_color_g,semantic_color_b\n{list}")).unwrap();
+    dataset.mesh_files("room").write_classes(&Classes::read(&file).unwrap()).unwrap();
+    let labels = dataset.read_label_tables("room").unwrap();
+    dataset.mesh_files("room").write_labels(&labels, &LabelColors { semantic: vec![[-1; 3]; 8], instances: 2 }).unwrap();
+    exported(&dataset, &out).unwrap();
+    let ids = table(&out.join("scannetv2-labels.combined.tsv"), "raw_category", "id");
+    assert_eq!(ids, own.map(|(id, name)| (name.to_string(), id.to_string())).into());
+    let picture = image::open(out.join("scans/room_cam_00/label-filt/0.png")).unwrap().into_luma16();
+    let semantic = layer(&dataset, "room", "cam_00", 0, Layer::Semantic);
+    assert!((0..semantic.len()).all(|i| picture.as_raw()[i] == semantic.get(i).max(0.0) as u16));
 }
 
 #[test]
@@ -203,8 +262,9 @@ fn lists_are_those_of_the_split_and_a_torn_scan_is_in_none() {
     let mut rows = vec![row("cam_00", 0, Partition::Val), row("cam_00", 1, Partition::Val), row("cam_01", 0, Partition::Test)];
     dataset.write_split(&rows).unwrap();
     let out = folder.path().join("split");
-    exported(&dataset, &out).unwrap();
+    let said = exported(&dataset, &out).unwrap();
     assert_eq!(lists(&out), ["", "room_cam_00\n", "room_cam_01\n"]);
+    assert!(said.iter().any(|line| line.contains("no scan is in scannetv2_train.txt")), "{said:?}");
     rows.push(row("cam_00", 3, Partition::Train));
     dataset.write_split(&rows).unwrap();
     let out = folder.path().join("torn");

@@ -7,7 +7,7 @@ use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::depth::{DEPTH, planar_m};
 use crate::picture::{SHOWN, tone_mapped};
-use crate::selected_frames::{SelectedFrames, Track, View};
+use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::Layer;
 use enfilade_math::DVec3;
 
@@ -24,8 +24,7 @@ const SAME_SLOPE: f64 = 0.02;
 const AT_ONCE: usize = 16;
 
 /// Red, green, blue and 255 for every vertex, or [`UNSEEN`].
-pub(super) fn colors(selected: &SelectedFrames<'_>, tracks: &[Track], vertices: &[DVec3]) -> Result<Vec<[u8; 4]>, ExportError> {
-    let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
+pub(crate) fn colors(selected: &SelectedFrames<'_>, views: &[View<'_>], vertices: &[DVec3]) -> Result<Vec<[u8; 4]>, ExportError> {
     // Red, green, blue and the number of pixels.
     let (mut sums, counted) = (vec![[0u32; 4]; vertices.len()], selected.counted(views.len()));
     for views in views.chunks(AT_ONCE) {

@@ -28,6 +28,10 @@ pub(super) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         let message = format!("{first} and {others} more are in no list: their frames are on no side of the split, or on several");
         selected.warn(Warning { place: selected.dataset.layout().split().display().to_string(), message });
     }
+    if lists[&Partition::Train].is_empty() && lists.values().any(|list| !list.is_empty()) {
+        let message = "no scan is in scannetv2_train.txt: no scene of this export is in train of the split; divide again (enfilade split)";
+        selected.warn(Warning { place: selected.dataset.layout().split().display().to_string(), message: message.into() });
+    }
     lists.iter().try_for_each(|(side, list)| out.write(&format!("scannetv2_{}.txt", side.name()), list.as_bytes()))
 }
 

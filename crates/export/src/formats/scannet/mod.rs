@@ -2,8 +2,8 @@
 //!
 //! Depth is planar, 16-bit PNG in millimetres, 0 for none. `pose/N.txt` is camera to world with OpenCV's axes, metres. `intrinsic/` has K
 //! for whole-numbered pixel centres in 4 × 4 matrices; colour and depth are one camera, so both are the same and the extrinsics are
-//! the identity. Labels are NYU40 numbers; in ScanNet's own images they are numbers of its raw vocabulary. [`mesh`] has the files of the mesh,
-//! in the layout of ScanNet's README, [`classes`] what their labels are called.
+//! the identity. Labels of images are numbers of ScanNet's raw vocabulary, those of the mesh NYU40's, as in its own files. [`mesh`] has the files
+//! of the mesh, in the layout of ScanNet's README, [`classes`] what their labels are called.
 
 mod classes;
 mod colors;
@@ -12,6 +12,8 @@ mod mesh;
 mod names;
 mod segments;
 mod subdivide;
+
+pub(crate) use colors::colors;
 
 use crate::ExportError;
 use crate::calibration::Calibration;
@@ -43,7 +45,8 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         let structure = selected.dataset.read_structure(&track.scene)?;
         out.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k, structure.as_ref()).as_bytes())?;
     }
-    selected.each(|view| write_frame(selected, out, view))?;
+    let raw = raw_numbers(selected)?;
+    selected.each(|view| write_frame(selected, out, view, &raw[&view.track.scene]))?;
     selected.scenes().try_for_each(|tracks| write_mesh(selected, out, tracks))?;
     classes::write_table(selected, out)?;
     lists::write(selected, out)
@@ -70,7 +73,8 @@ fn write_mesh(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Track
         return Ok(());
     }
     let mesh = mesh::scene_mesh(selected, scene)?;
-    let colors = colors::colors(selected, tracks, &mesh.vertices)?;
+    let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
+    let colors = colors(selected, &views, &mesh.vertices)?;
     tracks.iter().try_for_each(|track| mesh.write(out, &folder(track), &scan(track), &colors))
 }
 
@@ -78,7 +82,19 @@ fn folder(track: &Track) -> String {
     format!("scans/{}", scan(track))
 }
 
-fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {
+/// Numbers of ScanNet's vocabulary by class, for every scene.
+fn raw_numbers(selected: &SelectedFrames<'_>) -> Result<BTreeMap<String, Raw>, ExportError> {
+    let of_scene = |tracks: &[Track]| {
+        let scene = &tracks[0].scene;
+        Ok((scene.clone(), classes::classes(selected, scene)?.into_iter().map(|(id, named)| (id, named.raw)).collect()))
+    };
+    selected.scenes().map(of_scene).collect()
+}
+
+/// Numbers of ScanNet's vocabulary by class.
+type Raw = BTreeMap<i16, u16>;
+
+fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>, raw: &Raw) -> Result<(), ExportError> {
     let (folder, n) = (folder(view.track), view.frame());
     let k = Calibration::of_pinhole(selected, view.track)?;
     let frame = selected.read(view, &[&SHOWN[..], &DEPTH, &[Layer::Semantic, Layer::SemanticInstance]].concat())?;
@@ -89,7 +105,8 @@ fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>
         out.write(&format!("{folder}/color/{n}.jpg"), &color_jpeg(selected, view, &frame)?)?;
     }
     if let Some(semantic) = frame.get(Layer::Semantic) {
-        out.write(&format!("{folder}/label-filt/{n}.png"), &grey16_png(frame.width, frame.height, &numbers(semantic)))?;
+        let labels: Vec<u16> = (0..semantic.len()).map(|i| raw.get(&(semantic.get(i) as i16)).copied().unwrap_or(0)).collect();
+        out.write(&format!("{folder}/label-filt/{n}.png"), &grey16_png(frame.width, frame.height, &labels))?;
     }
     if let Some(instance) = frame.get(Layer::SemanticInstance) {
         out.write(&format!("{folder}/instance-filt/{n}.png"), &instance_png(&frame, &numbers(instance)))?;
@@ -97,7 +114,7 @@ fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>
     Ok(())
 }
 
-/// Labels from 1, and 0 where there is none.
+/// Instances from 1, and 0 where there is none.
 fn numbers(labels: &Values) -> Vec<u16> {
     (0..labels.len()).map(|i| labels.get(i).max(0.0) as u16).collect()
 }
