@@ -1,7 +1,8 @@
 //! EuRoC MAV sequences (Burri et al. 2016): `<scene>_<camera>/mav0` with the grey pictures of `cam0` (and `cam1` of a stereo rig), the inertial
 //! measurements of `imu0`, and `state_groundtruth_estimate0`.
 //!
-//! Times are nanoseconds from frame 0. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
+//! Times are nanoseconds, and frame 0 is at [`START_S`]: 19 digits as in EuRoC's own files, so that names in order of text are in order of time
+//! and programs that cut off the last nine digits find seconds before them. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
 //! identity, but for cameras with a tilted image plane, which are turned. The world is that of the dataset, z up.
 
 use crate::ExportError;
@@ -13,6 +14,9 @@ use enfilade_dataset::{StereoRecord, StereoSide};
 use enfilade_math::{DMat3, DMat4, DVec3};
 use enfilade_scene::MotionSample;
 use std::fmt::Write;
+
+/// The time of frame 0, seconds: of ten digits, as clocks have had since 2001 and have until 2286.
+pub(super) const START_S: u64 = 1_400_000_000;
 
 /// Weights of red, green and blue in a grey picture: Rec. 601's luma, as OpenCV has them.
 const LUMA: [f64; 3] = [0.299, 0.587, 0.114];
@@ -63,8 +67,9 @@ fn time(view: View<'_>, step_s: f64) -> u64 {
     nanoseconds(f64::from(view.frame()) * step_s)
 }
 
+/// Seconds from frame 0 as nanoseconds of the sequence's clock.
 fn nanoseconds(time_s: f64) -> u64 {
-    (time_s * 1e9).round() as u64
+    START_S * 1_000_000_000 + (time_s * 1e9).round() as u64
 }
 
 /// The IMU stream, ideal.

@@ -1,8 +1,10 @@
 //! TUM RGB-D sequences (Sturm et al. 2012): `<scene>_<camera>/{rgb,depth}/<time>.png` with `rgb.txt`, `depth.txt` and `groundtruth.txt`.
 //!
 //! Depth is planar, 16-bit PNG, 5000 to the metre, 0 for none and from 13.107 m on. A line of `groundtruth.txt` is `time tx ty tz qx qy qz
-//! qw`: camera centre in metres, and the rotation from OpenCV's camera axes to the world. Times are in seconds from frame 0.
+//! qw`: camera centre in metres, and the rotation from OpenCV's camera axes to the world. Times are seconds with ten digits and six decimals,
+//! as in its own files, so that names in order of text are in order of time; frame 0 is at EuRoC's [`START_S`].
 
+use super::euroc::START_S;
 use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::depth::{DEPTH, planar_m, whole_units};
@@ -53,7 +55,8 @@ fn frame_time_s(selected: &SelectedFrames<'_>, track: &Track) -> Result<f64, Exp
 
 /// The time of a frame, seconds, as files are named.
 fn time(view: View<'_>, step_s: f64) -> String {
-    format!("{:.6}", f64::from(view.frame()) * step_s)
+    let microseconds = START_S * 1_000_000 + (f64::from(view.frame()) * step_s * 1e6).round() as u64;
+    format!("{}.{:06}", microseconds / 1_000_000, microseconds % 1_000_000)
 }
 
 fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>) -> Result<(), ExportError> {

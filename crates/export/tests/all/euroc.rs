@@ -37,7 +37,10 @@ fn pictures_measurements_and_motion_have_one_clock_and_one_body() {
     let dataset = video(&folder.path().join("dataset"));
     let mav = exported(&dataset, &folder.path().join("out"));
     let pictures = rows(&mav.join("cam0/data.csv"));
-    assert_eq!(pictures.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["0", "100000000", "300000000"]);
+    assert_eq!(
+        pictures.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
+        ["1400000000000000000", "1400000000100000000", "1400000000300000000"]
+    );
     assert!(pictures.iter().all(|row| std::fs::read(mav.join("cam0/data").join(&row[1])).unwrap().starts_with(b"\x89PNG")));
     // Twenty samples from frame to frame, of which one is missing.
     let (measured, truth) = (rows(&mav.join("imu0/data.csv")), rows(&mav.join("state_groundtruth_estimate0/data.csv")));
@@ -61,6 +64,26 @@ fn pictures_measurements_and_motion_have_one_clock_and_one_body() {
     let yaml = std::fs::read_to_string(mav.join("cam0/sensor.yaml")).unwrap();
     assert!(yaml.contains("rate_hz: 10\n") && yaml.contains("intrinsics: [33, 34.5, 18.75, 15.25]"), "{yaml}");
     assert!(std::fs::read_to_string(mav.join("imu0/sensor.yaml")).unwrap().contains("rate_hz: 200\n"));
+}
+
+/// EuRoC's own pictures are called `1403636579763555584.png`; DROID-SLAM and DPVO take `sorted(glob("*.png"))` for the order of time, and
+/// Kalibr's `bagcreater` takes what is before the last nine digits for seconds.
+#[test]
+fn sorted_names_are_in_order_of_time_beyond_a_second_and_have_seconds() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = video(&folder.path().join("dataset"));
+    dataset.write_frame_time("room", "cam_00", 0.4).unwrap();
+    let mav = exported(&dataset, &folder.path().join("out"));
+    let listed: Vec<String> = rows(&mav.join("cam0/data.csv")).into_iter().map(|row| row[1].clone()).collect();
+    let mut sorted = listed.clone();
+    sorted.sort();
+    assert!(listed == sorted && listed.len() == 3 && listed[2] == "1400000001200000000.png", "{listed:?}");
+    let kalibr = |name: &String| name.strip_suffix(".png").map(|time| (time[..time.len() - 9].parse::<u64>(), time.len()));
+    assert!(listed.iter().all(|name| matches!(kalibr(name), Some((Ok(1_400_000_000 | 1_400_000_001), 19)))));
+    for file in ["imu0/data.csv", "state_groundtruth_estimate0/data.csv"] {
+        let times: Vec<String> = rows(&mav.join(file)).into_iter().map(|row| row[0].clone()).collect();
+        assert_eq!((times[0].as_str(), times.last().unwrap().as_str()), ("1400000000000000000", "1400000001200000000"), "{file}");
+    }
 }
 
 #[test]
