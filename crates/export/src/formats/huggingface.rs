@@ -133,7 +133,7 @@ fn numbers(labels: &Values) -> Vec<u16> {
     (0..labels.len()).map(|i| labels.get(i).max(0.0) as u16).collect()
 }
 
-/// What the library and the hub read of the card: names, frames and bytes of the splits, and the features.
+/// What the library and the hub read of the card, names, frames and bytes of the splits and the features, and how to load the first split.
 fn front_matter(splits: &[(&str, usize, u64)]) -> String {
     let mut text = String::from("---\npretty_name: enfilade\ntask_categories:\n- depth-estimation\n- image-segmentation\nconfigs:\n");
     text.push_str("- config_name: default\n  data_files:\n");
@@ -154,7 +154,10 @@ fn front_matter(splits: &[(&str, usize, u64)]) -> String {
     for (name, frames, bytes) in splits {
         let _ = writeln!(text, "  - name: {name}\n    num_bytes: {bytes}\n    num_examples: {frames}");
     }
-    text + "---\n\n"
+    let first = splits.first().map_or("train", |(name, ..)| name);
+    let _ = write!(text, "---\n\n# Frames with depth, classes, instances and cameras\n\n    from datasets import load_dataset\n\n");
+    let _ = write!(text, "    frames = load_dataset(\"this-folder\", split=\"{first}\")\n    frame = frames[0]\n");
+    text + "    depth_m = numpy.asarray(frame[\"depth\"]) / 1000.0\n\n"
 }
 
 /// The files of one side, one after the other.

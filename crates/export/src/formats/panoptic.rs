@@ -1,4 +1,5 @@
-//! COCO panoptic segmentation: `images/`, a PNG of segments for each, and `annotations/panoptic.json`, as panopticapi reads them.
+//! COCO panoptic segmentation: `images/`, a PNG of segments for each, and `annotations/panoptic.json`, as panopticapi reads them: it looks for
+//! the PNG files in the folder that is called as the JSON file is.
 //!
 //! A pixel of the PNG has the number of its segment, R + 256 G + 65536 B, and 0 where it has no class.
 
@@ -118,7 +119,7 @@ fn write_frame(
         segment.pixels.iter().for_each(|&i| ids[3 * i..3 * i + 3].copy_from_slice(&[red, green, blue]));
     }
     let file_name = format!("{}/frame.{:04}.png", view.track.folder(), view.frame());
-    out.write(&format!("panoptic/{file_name}"), &rgb_png(frame.width, frame.height, &ids))?;
+    out.write(&format!("annotations/panoptic/{file_name}"), &rgb_png(frame.width, frame.height, &ids))?;
     let segments_info = segments.iter().map(|(&is, segment)| described(is, segment, frame.width)).collect();
     Ok((image, Annotation { image_id: 0, file_name, segments_info }))
 }

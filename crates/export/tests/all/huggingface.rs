@@ -37,6 +37,11 @@ fn sides_become_splits_and_what_is_on_none_is_told() {
     let whole = written(&dataset, &out, &heard).unwrap();
     assert!(has("validation-00000.parquet") && has("test-00000.parquet") && !has("train-00000.parquet"));
     assert!(card().starts_with("---\n") && card().contains("- split: validation\n    path: data/validation-*"), "{}", card());
+    assert!(
+        card().contains("load_dataset(\"this-folder\", split=\"validation\")"),
+        "the example of a card loads what is there: {}",
+        card()
+    );
     assert_eq!(heard.lines(), Vec::<String>::new());
 
     divide(&dataset, |scene| (scene == "room").then_some(Partition::Train));
