@@ -4,7 +4,7 @@ use crate::args::ExportArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::pairs::cameras;
 use crate::progress::Progress;
-use enfilade_export::{Existing, ExportConfig, Format, Selection, export as export_dataset};
+use enfilade_export::{CloudSource, Existing, ExportConfig, Format, Selection, export as export_dataset};
 
 /// `export`: the dataset in another layout.
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -16,6 +16,7 @@ pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
         format: Format::from_name(&args.format).ok_or_else(unknown)?,
         selection: Selection { scenes, cameras, frames: args.chosen.frames.clone(), layers: args.layers.clone() },
         shard_bytes: args.shard_mb * 1_000_000,
+        cloud: if args.cloud == "mesh" { CloudSource::Mesh } else { CloudSource::Frames },
     };
     let existing = if args.force { Existing::SetAside } else { Existing::Refuse };
     let exported = {

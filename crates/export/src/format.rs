@@ -184,7 +184,7 @@ pub const FORMATS: [FormatSpec; 24] = [
     FormatSpec {
         format: Format::Structured3d,
         name: "structured3d",
-        about: "Structured3D: annotation_3d.json, the structure of the building as junctions, lines and planes",
+        about: "Structured3D: the structure of the building as junctions, lines and planes, boxes of its things, and points",
         needs: &[],
         takes: None,
         readme: include_str!("readmes/structured3d.md"),

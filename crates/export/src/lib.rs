@@ -25,6 +25,7 @@ mod mesh;
 mod numpy;
 mod picture;
 mod points;
+mod room_cloud;
 mod scene_file;
 mod scene_gltf;
 mod selected_frames;
@@ -33,6 +34,7 @@ pub use error::ExportError;
 pub use export_folder::{Existing, Exported};
 pub use format::{FORMATS, Format, FormatSpec};
 pub use intrinsics::intrinsics_csv;
+pub use room_cloud::CloudSource;
 pub use scene_file::{SceneEncoder, scene_encoder};
 pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use selected_frames::Selection;
@@ -53,12 +55,14 @@ pub struct ExportConfig {
     /// Largest size of a WebDataset shard, or of a Parquet file, bytes; a sample that is larger has one of its own. One gigabyte unless said
     /// otherwise.
     pub shard_bytes: u64,
+    /// Where SpatialLM's point clouds come from.
+    pub cloud: CloudSource,
 }
 
 impl ExportConfig {
     /// Everything the format can hold of all scenes named.
     pub fn new(format: Format, scenes: Vec<String>) -> Self {
-        Self { format, selection: Selection { scenes, ..Selection::default() }, shard_bytes: 1_000_000_000 }
+        Self { format, selection: Selection { scenes, ..Selection::default() }, shard_bytes: 1_000_000_000, cloud: CloudSource::default() }
     }
 }
 
@@ -93,7 +97,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
         Format::Moge => formats::moge::write(&selected, &out),
         Format::Points => formats::points::write(&selected, &out),
         Format::Huggingface => formats::huggingface::write(&selected, &out, config.shard_bytes),
-        Format::Spatiallm => formats::spatiallm::write(&selected, &out),
+        Format::Spatiallm => formats::spatiallm::write(&selected, &out, config.cloud),
         Format::Structured3d => formats::structured3d::write(&selected, &out),
     }?;
     out.finish(config.format, &selected)

@@ -1,9 +1,10 @@
 //! What is exported: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
 
 use crate::{ExportError, Format, FormatSpec};
-use enfilade_dataset::{Dataset, Window, turn_planar_depth};
+use enfilade_dataset::{Dataset, DatasetError, Partition, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Structure, Warning};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Which part of a dataset to export.
@@ -213,6 +214,21 @@ impl<'d> SelectedFrames<'d> {
             self.unsuitable(scene, format!("{problem}; {remedy}"))
         };
         self.dataset.read_structure(scene)?.ok_or_else(unknown)
+    }
+
+    /// The side of the split of every scene that is on one, by the first of its frames; none where the dataset has no split.
+    pub fn sides_of_scenes(&self) -> Result<BTreeMap<String, Partition>, ExportError> {
+        let rows = match self.dataset.read_split() {
+            Err(error) if DatasetError::is_not_found(&error) => Vec::new(),
+            rows => rows?,
+        };
+        let mut sides = BTreeMap::new();
+        for row in rows {
+            if let Ok(side) = row.partition {
+                sides.entry(row.scene).or_insert(side);
+            }
+        }
+        Ok(sides)
     }
 
     /// Does `work` for every frame, on all threads, and gives the results in the frames' order.

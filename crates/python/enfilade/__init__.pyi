@@ -284,6 +284,7 @@ def export(
     frames: int | range | None = None,
     layers: Names | None = None,
     shard_mb: int = 1000,
+    cloud: Literal["frames", "mesh"] = "frames",
     force: bool = False,
     camera_table: Path | None = None,
     progress: bool | None = None,

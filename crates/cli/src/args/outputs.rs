@@ -31,6 +31,9 @@ pub struct ExportArgs {
     /// With webdataset and huggingface: largest size of a file in megabytes
     #[arg(long, value_name = "MB", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
     pub shard_mb: u64,
+    /// With spatiallm: points of what the frames show, and its rooms; or of the whole mesh, and all rooms
+    #[arg(long, value_name = "FROM", default_value = "frames", value_parser = ["frames", "mesh"])]
+    pub cloud: String,
     /// If OUT exists and is no export, rename it to OUT.old
     #[arg(long)]
     pub force: bool,

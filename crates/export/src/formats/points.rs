@@ -7,6 +7,7 @@ use crate::ExportError;
 use crate::depth::distance_m;
 use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, tone_mapped};
+use crate::room_cloud::SurfacePoint;
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
@@ -33,16 +34,33 @@ type Cubes = BTreeMap<[i64; 3], Fused>;
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
     for tracks in selected.scenes() {
-        let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
-        let (mut all, counted) = (Cubes::new(), selected.counted(views.len()));
-        for views in views.chunks(AT_ONCE) {
-            for cubes in selected.each_counted(&counted, views, |view| of_frame(selected, view))? {
-                cubes.into_iter().for_each(|(place, cube)| add(&mut all, place, cube));
-            }
-        }
-        out.write(&format!("{}.ply", tracks[0].scene), &ply(all.values()))?;
+        out.write(&format!("{}.ply", tracks[0].scene), &ply(cubes(selected, tracks)?.values()))?;
     }
     Ok(())
+}
+
+/// The points of a scene alone, with their colours.
+pub(crate) fn fused(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Vec<SurfacePoint>, ExportError> {
+    let point = |cube: Fused| SurfacePoint { position: cube.position, color: cube.mean_color() };
+    Ok(cubes(selected, tracks)?.into_values().map(point).collect())
+}
+
+/// What all frames of a scene show.
+fn cubes(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Cubes, ExportError> {
+    let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
+    let (mut all, counted) = (Cubes::new(), selected.counted(views.len()));
+    for views in views.chunks(AT_ONCE) {
+        for cubes in selected.each_counted(&counted, views, |view| of_frame(selected, view))? {
+            cubes.into_iter().for_each(|(place, cube)| add(&mut all, place, cube));
+        }
+    }
+    Ok(all)
+}
+
+impl Fused {
+    fn mean_color(&self) -> [u8; 3] {
+        self.color.map(|v| (v / f64::from(self.pixels)).round() as u8)
+    }
 }
 
 /// Adds what another frame shows in a cube.
@@ -99,7 +117,7 @@ fn ply<'c>(cubes: impl ExactSizeIterator<Item = &'c Fused>) -> Vec<u8> {
     for cube in cubes {
         let floats = cube.position.to_array().into_iter().chain(cube.normal.to_array());
         bytes.extend(floats.flat_map(|v| (v as f32).to_le_bytes()));
-        bytes.extend(cube.color.map(|v| (v / f64::from(cube.pixels)).round() as u8));
+        bytes.extend(cube.mean_color());
         bytes.extend(cube.labels.iter().flat_map(|v| v.to_le_bytes()));
     }
     bytes

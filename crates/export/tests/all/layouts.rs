@@ -1,12 +1,12 @@
 //! The structure of buildings, exported and read back: Structured3D's files by our importer, which is made from its own description.
 
 use crate::common::write;
-use enfilade_dataset::Dataset;
-use enfilade_export::{Existing, ExportConfig, Format, export};
+use enfilade_dataset::{Dataset, Partition, SplitRow};
+use enfilade_export::{CloudSource, Existing, ExportConfig, Format, export};
 use enfilade_home::{FloorPlan, RoomKind};
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{Rng, Vec3};
-use enfilade_scene::{Part, Quiet, Scene, Structure};
+use enfilade_scene::{Heard, Part, Quiet, Scene, Structure};
 use std::path::{Path, PathBuf};
 
 fn home(seed: u64) -> Structure {
@@ -47,10 +47,13 @@ fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
         let structure = home(seed);
         let folder = tempfile::tempdir().unwrap();
         let out = exported(folder.path(), Format::Structured3d, Some(&structure)).unwrap();
-        let imported = load(&out.join("room/annotation_3d.json"), &ImportOptions::default(), &Quiet).unwrap();
+        let imported = load(&out.join("scene_00000/annotation_3d.json"), &ImportOptions::default(), &Quiet).unwrap();
         let mut found = [0.0; 2];
         for label in imported.labels.iter().flatten() {
             let part = &imported.scene.parts[label.part as usize];
+            if part.name.starts_with("outwall") {
+                continue;
+            }
             let place = match label.label.semantic {
                 2 => 0,
                 1 => 1,
@@ -63,6 +66,51 @@ fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
             assert!((found - expected).abs() < 1e-3 * expected, "seed {seed}: {found} m2, expected {expected}");
         }
     }
+}
+
+#[test]
+fn rooms_that_frames_do_not_show_are_in_no_layout() {
+    let folder = tempfile::tempdir().unwrap();
+    // The frames look to one side of the room.
+    let room = folder.path().join("room");
+    let dataset = write(&room.join("dataset"), &crate::common::pinhole());
+    let mut config = ExportConfig::new(Format::Spatiallm, vec!["room".into()]);
+    let heard = Heard::default();
+    let error = export(&dataset, &config, &room.join("out"), Existing::Refuse, &heard).unwrap_err();
+    assert!(error.is_usage() && error.to_string().contains("--cloud mesh"), "{error}");
+    assert!(heard.lines()[0].contains("1 of 1 rooms are left out, among them study_1"), "{:?}", heard.lines());
+
+    config.cloud = CloudSource::Mesh;
+    export(&dataset, &config, &room.join("out"), Existing::Refuse, &heard).unwrap();
+    let layout = std::fs::read_to_string(room.join("out/layout/room.txt")).unwrap();
+    assert_eq!(
+        ["wall_", "door_", "window_", "bbox_"].map(|word| layout.lines().filter(|line| line.starts_with(word)).count()),
+        [4, 1, 1, 2]
+    );
+    assert_eq!(std::fs::read_to_string(room.join("out/split.csv")).unwrap(), "id,split\nroom,train\n");
+}
+
+#[test]
+fn numbers_of_structured3d_say_the_side_and_its_lists_know_every_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset: Dataset = write(&folder.path().join("dataset"), &crate::common::pinhole());
+    let mut structure = dataset.read_structure("room").unwrap().unwrap();
+    structure.rooms[0].kind = "childrens".into();
+    dataset.write_structure("room", &structure).unwrap();
+    let row = |scene: &str, partition| SplitRow { scene: scene.into(), camera: "cam_00".into(), frame: 0, partition: Ok(partition) };
+    dataset.write_split(&[row("room", Partition::Test), row("room-two", Partition::Train)]).unwrap();
+    let out = folder.path().join("out");
+    export(&dataset, &ExportConfig::new(Format::Structured3d, dataset.scenes().unwrap()), &out, Existing::Refuse, &Quiet).unwrap();
+    // RoomFormer: train below 3000, val below 3250, test from there on.
+    assert_eq!(std::fs::read_to_string(out.join("scenes.csv")).unwrap(), "folder,scene\nscene_03250,room\nscene_00000,room-two\n");
+    let text = std::fs::read_to_string(out.join("scene_03250/annotation_3d.json")).unwrap();
+    let annotation: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let types: Vec<&str> = annotation["semantics"].as_array().unwrap().iter().map(|s| s["type"].as_str().unwrap()).collect();
+    assert_eq!(types, ["bedroom", "door", "window", "outwall"]);
+    // The room is 4 x 5 m with walls of 30 cm: its outer sides are 4.6 and 5.6 m long.
+    let outer = annotation["semantics"][3]["planeID"].as_array().unwrap().len();
+    assert_eq!(outer, 4);
+    assert!(out.join("scene_03250/bbox_3d.json").is_file() && out.join("scene_03250/point_cloud.ply").is_file());
 }
 
 #[test]

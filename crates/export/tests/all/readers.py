@@ -7,6 +7,7 @@ The dataset is read with h5py alone. Ends with 77 and one line when a library is
 
 import csv
 import glob
+import importlib.util
 import json
 import os
 import struct
@@ -148,7 +149,7 @@ def panoptic():
         at = (image["scene"], image["camera"], image["frame"])
         instances, semantic = layer(*at, "semantic_instance"), layer(*at, "semantic")
         assert annotation["file_name"] == image["file_name"].replace(".jpg", ".png")
-        ids = picture(f"{EXPORT}/panoptic/{annotation['file_name']}").astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
+        ids = picture(f"{EXPORT}/annotations/panoptic/{annotation['file_name']}").astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
         assert picture(f"{EXPORT}/images/{image['file_name']}").shape[:2] == ids.shape == semantic.shape
         found = {segment["id"]: segment for segment in annotation["segments_info"]}
         assert set(np.unique(ids)) - {0} == set(found) and len(found) == len(annotation["segments_info"])
@@ -165,6 +166,12 @@ def panoptic():
             what = (at[0], segment["category_id"], segment["iscrowd"], segment.get("instance"))
             assert numbers.setdefault((at[0], number), what) == what, "a segment has one number in all frames of a scene"
         segments += len(found)
+    if importlib.util.find_spec("panopticapi"):
+        # Its own evaluation of the truth by itself, which finds the PNG files beside the JSON file.
+        from panopticapi.evaluation import pq_compute
+
+        scores = pq_compute(f"{EXPORT}/annotations/panoptic.json", f"{EXPORT}/annotations/panoptic.json")
+        assert scores["All"]["pq"] == 1.0, scores
     return f"{segments} segments"
 
 
@@ -232,13 +239,24 @@ def scannet():
         depth = picture(f"{folder}/depth/{frame}.png")
         assert depth.dtype == np.uint16 or depth.dtype == np.int32
         check_points(scene, camera, frame, depth, K, to_world)
-        for name, kind in (("semantic", "label-filt"), ("semantic_instance", "instance-filt")):
-            labels = layer(scene, camera, frame, name)
-            assert labels is None or np.array_equal(picture(f"{folder}/{kind}/{frame}.png"), np.maximum(labels, 0))
+        classes = layer(scene, camera, frame, "semantic")
+        if classes is not None:
+            # As BenchmarkScripts/2d_helpers converts label images: by the columns `id` and `nyu40id`.
+            nyu40 = np.zeros(1 << 16, int)
+            for raw, number in scannet_table("id", "nyu40id"):
+                nyu40[int(raw)] = int(number)
+            assert np.array_equal(nyu40[picture(f"{folder}/label-filt/{frame}.png")], np.maximum(classes, 0))
+        instances = layer(scene, camera, frame, "semantic_instance")
+        assert instances is None or np.array_equal(picture(f"{folder}/instance-filt/{frame}.png"), np.maximum(instances, 0))
         if layer(scene, camera, frame, "color") is not None:
             assert picture(f"{folder}/color/{frame}.jpg").shape == (*depth.shape, 3)
     meshes = sum(scannet_mesh(scene, camera) for scene, camera in {(scene, camera) for scene, camera, _ in record()})
     return f"{len(record())} frames, {meshes} meshes"
+
+
+def scannet_table(*columns):
+    with open(f"{EXPORT}/scannetv2-labels.combined.tsv") as file:
+        return [[row[column] for column in columns] for row in csv.DictReader(file, delimiter="\t")]
 
 
 def scannet_mesh(scene, camera):
@@ -255,8 +273,7 @@ def scannet_mesh(scene, camera):
         segments = np.array(json.load(file)["segIndices"])
     with open(f"{scan}.aggregation.json") as file:
         groups = json.load(file)["segGroups"]
-    with open(f"{EXPORT}/scannetv2-labels.combined.tsv") as file:
-        number = {row["raw_category"]: int(row["nyu40id"]) for row in csv.DictReader(file, delimiter="\t")}
+    number = {word: int(nyu40) for word, nyu40 in scannet_table("raw_category", "nyu40id")}
     assert len(segments) == vertices
     labels, instances = np.zeros(vertices, int), np.full(vertices, -1)
     for group in groups:
@@ -753,25 +770,79 @@ def spatiallm():
                 assert np.allclose([width, height], np.array(values[4:6], float))
         assert {values[0] for values in found["Bbox"]} == {"table", "chair"}
         with open(f"{EXPORT}/pcd/{scene}.ply", "rb") as file:
-            assert file.readline() == b"ply\n"
+            header, body = file.read().split(b"end_header\n", 1)
+        kind = np.dtype([("at", "<f4", 3), ("rgb", "u1", 3)])
+        points = np.frombuffer(body, kind, int(header.split(b"element vertex ")[1].split(b"\n")[0]))["at"]
+        # Layout.translate(-min) and normalize_and_discretize: nothing may lie below the cloud's least coordinates.
+        corners = np.array([wall[:3] for wall in walls] + [wall[3:6] for wall in walls])
+        assert (corners >= points.min(axis=0) - 0.05).all(), (corners.min(axis=0), points.min(axis=0))
+        for _, *box in found["Bbox"]:
+            x, y, z, angle, *size = map(float, box)
+            along = np.array([[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+            own = (points - [x, y, z]) @ along.T
+            assert (np.abs(own) <= np.array(size) / 2 + 0.15).all(axis=1).sum() > 100, "Layout.filter_empty_bboxes"
+        with open(f"{EXPORT}/split.csv") as file:
+            assert {row["id"]: row["split"] for row in csv.DictReader(file)}[scene] in ("train", "val")
     return f"{len(walls)} walls"
 
 
+ROOM_TYPES = """living room,kitchen,bedroom,bathroom,balcony,corridor,dining room,study,studio,store room,garden,laundry room,office,basement,
+garage,undefined""".replace("\n", "").split(",")
+
+
+def vertices(lines):
+    """Structured3D's `convert_lines_to_vertices`: lines by the numbers of their ends become a polygon."""
+    polygon, left = list(lines[0]), [tuple(line) for line in lines[1:]]
+    while left:
+        (following,) = [line for line in left if polygon[-1] in line][:1]
+        left.remove(following)
+        vertex = following[0] if following[1] == polygon[-1] else following[1]
+        if vertex in polygon:
+            return polygon, left
+        polygon.append(vertex)
+    raise AssertionError("the lines do not close")
+
+
 def structured3d():
-    """Junctions lie on the planes of their lines, and the lines of a plane are closed."""
+    """Junctions lie on the planes of their lines, the lines of a plane are closed, and its own drawing of floor plans finds rooms and outline."""
+    with open(f"{EXPORT}/scenes.csv") as file:
+        folders = {row["scene"]: row["folder"] for row in csv.DictReader(file)}
     for scene in {at[0] for at in record()}:
-        with open(f"{EXPORT}/{scene}/annotation_3d.json") as file:
+        with open(f"{EXPORT}/{folders[scene]}/annotation_3d.json") as file:
             found = json.load(file)
         points = np.array([junction["coordinate"] for junction in found["junctions"]])
-        ends = np.array(found["lineJunctionMatrix"])
+        ends, lines_of = np.array(found["lineJunctionMatrix"]), np.array(found["planeLineMatrix"])
         assert (ends.sum(axis=1) == 2).all() and ends.shape == (len(found["lines"]), len(points))
-        for plane, lines in zip(found["planes"], np.array(found["planeLineMatrix"]), strict=True):
+        for plane, lines in zip(found["planes"], lines_of, strict=True):
             of = ends[lines == 1]
             assert set(of.sum(axis=0)) <= {0, 2}, "every junction of a plane joins two of its lines"
             on = points[of.any(axis=0)]
             assert np.abs(on @ np.array(plane["normal"]) + plane["offset"]).max() < 1e-6
-        rooms = [s for s in found["semantics"] if s["type"] not in ("door", "window")]
-        assert len(rooms) == len(layout(scene)["rooms"])
+        of_type = lambda *types: [s for s in found["semantics"] if s["type"] in types]
+        rooms = of_type(*ROOM_TYPES)
+        assert len(rooms) == len(layout(scene)["rooms"]) == len(found["semantics"]) - len(of_type("door", "window", "outwall"))
+
+        # visualize_floorplan.py: the lines of `outwall` on the floor, without those of doors and windows, are one polygon around all rooms.
+        holes = {line for s in of_type("door", "window") for plane in s["planeID"] for line in np.nonzero(lines_of[plane])[0]}
+        floor = np.isclose(points[:, 2], 0)
+        (outwall,) = of_type("outwall")
+        around = []
+        for plane in outwall["planeID"]:
+            pairs = [tuple(np.nonzero(ends[line])[0]) for line in np.nonzero(lines_of[plane])[0] if line not in holes]
+            around += [pair for pair in pairs if floor[pair[0]] and floor[pair[1]]]
+        outline = points[vertices(around)[0]][:, :2]
+        for room in rooms:
+            (plane,) = [p for p in room["planeID"] if found["planes"][p]["type"] == "floor"]
+            corners = points[ends[lines_of[plane] == 1].any(axis=0)][:, :2]
+            assert (corners.min(axis=0) > outline.min(axis=0)).all() and (corners.max(axis=0) < outline.max(axis=0)).all()
+
+        with open(f"{EXPORT}/{folders[scene]}/bbox_3d.json") as file:
+            boxes = {box["ID"]: box for box in json.load(file)}
+        numbers = np.unique(array(f"{scenes_dir()}/{scene}/_detail/mesh/mesh_objects_sii.hdf5"))
+        assert set(boxes) == set(numbers[numbers > 0].tolist())
+        for box in boxes.values():
+            basis = np.array(box["basis"])
+            assert np.allclose(basis @ basis.T, np.eye(3)) and np.all(np.array(box["coeffs"]) >= 0) and len(box["centroid"]) == 3
     return f"{len(points)} junctions"
 
 

@@ -2,7 +2,7 @@
 
 use enfilade_dataset::hdf5::{Storage, write_array};
 use enfilade_dataset::{Array, Dataset};
-use enfilade_export::{Existing, ExportConfig, FORMATS, FormatSpec, export};
+use enfilade_export::{CloudSource, Existing, ExportConfig, FORMATS, FormatSpec, export};
 use enfilade_math::DMat3;
 use enfilade_scene::{Fisheye, Intrinsics, Projection, Quiet, RadialTangential, TiltedPinhole};
 use std::path::Path;
@@ -26,6 +26,7 @@ fn export_all(dataset: &Dataset, folder: &Path, formats: impl Iterator<Item = &'
         let out = folder.join(spec.name);
         let mut config = ExportConfig::new(spec.format, dataset.scenes().unwrap());
         config.shard_bytes = 150_000; // a few samples
+        config.cloud = CloudSource::Mesh; // frames show one side of the room
         export(dataset, &config, &out, Existing::Refuse, &Quiet).unwrap_or_else(|error| panic!("{error}"));
         read_back(spec, dataset.root(), &out);
     }

@@ -1,16 +1,26 @@
-//! Structured3D: `<scene>/annotation_3d.json`, the structure of a building as junctions, lines and planes.
+//! Structured3D: `scene_<number>/annotation_3d.json`, the structure of a building as junctions, lines and planes, and `bbox_3d.json`, the boxes of
+//! its things; `scenes.csv` says which scene has which number. `point_cloud.ply`, which RoomFormer makes of panoramas, is taken from the mesh.
 //!
-//! Millimetres, z up. A plane is the points p with normal · p + offset = 0; its normal points into the empty space. The lines of a wall are
-//! its outline and those of its openings. A door or window has the planes of its outline on each side that has a face, and of
-//! its reveals.
+//! Millimetres, z up from the lowest floor, where the programs of the format look for it. A plane is the points p with
+//! normal · p + offset = 0; its normal points into the empty space. The lines of a wall are its outline and those of its openings. A door or
+//! window has the planes of its outline on each side that has a face, and of its reveals. [`outwall`] is what is outside.
+
+mod numbers;
+mod outwall;
 
 use crate::ExportError;
+use crate::boxes::instance_boxes;
 use crate::export_folder::ExportFolder;
+use crate::mesh::{instance_meshes, missing_mesh_file};
+use crate::room_cloud::{of_mesh, ply};
 use crate::selected_frames::SelectedFrames;
 use enfilade_math::{DVec2, DVec3};
-use enfilade_scene::{OpeningKind, Structure, WallOpening};
+use enfilade_scene::{OpeningKind, Structure, WallOpening, Warning};
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+
+/// What is outside of the building.
+const OUTWALL: &str = "outwall";
 
 /// Millimetres in a metre.
 const MILLIMETRES: f64 = 1000.0;
@@ -62,16 +72,60 @@ struct Semantic {
     planes: Vec<usize>,
 }
 
-pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
-    for tracks in selected.scenes() {
-        let scene = &tracks[0].scene;
-        out.write_json(&format!("{scene}/annotation_3d.json"), &annotation(&selected.structure(scene)?))?;
-    }
-    Ok(())
+/// A box of an instance, as in SUN RGB-D.
+#[derive(Serialize)]
+struct Box3d {
+    #[serde(rename = "ID")]
+    id: i16,
+    /// Unit vectors of its axes, one a row.
+    basis: [[f64; 3]; 3],
+    /// Half its extents.
+    coeffs: [f64; 3],
+    centroid: [f64; 3],
 }
 
-fn annotation(structure: &Structure) -> Annotation {
-    let mut net = Net::default();
+pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
+    let numbers = numbers::numbers(selected)?;
+    for tracks in selected.scenes() {
+        let scene = &tracks[0].scene;
+        let (folder, structure) = (numbers::folder(numbers[scene]), selected.structure(scene)?);
+        // Its programs take what lies at a height of 0 for the floor.
+        let lowest_m = structure.rooms.iter().map(|room| room.floor_z_m).fold(f64::INFINITY, f64::min);
+        let raised = if lowest_m.is_finite() { DVec3::Z * -lowest_m } else { DVec3::ZERO };
+        if raised.z.abs() > 1e-6 {
+            let message = format!("its heights are counted from its lowest floor, which lies at {lowest_m:.3} m of the dataset's world");
+            selected.warn(Warning { place: scene.clone(), message });
+        }
+        let annotation = annotation(&structure, raised);
+        if annotation.semantics.iter().all(|semantic| semantic.r#type != OUTWALL) {
+            let message = "the outer sides of its walls do not close around it, so its annotation has no `outwall`";
+            selected.warn(Warning { place: scene.clone(), message: message.into() });
+        }
+        out.write_json(&format!("{folder}/annotation_3d.json"), &annotation)?;
+        out.write_json(&format!("{folder}/bbox_3d.json"), &boxes(selected, scene, raised)?)?;
+        if missing_mesh_file(selected.dataset, scene).is_none() {
+            let mut points = of_mesh(selected, tracks, &structure)?;
+            points.iter_mut().for_each(|point| point.position += raised);
+            out.write(&format!("{folder}/point_cloud.ply"), &ply(&points, MILLIMETRES))?;
+        }
+    }
+    out.write("scenes.csv", numbers::table(&numbers).as_bytes())
+}
+
+/// The boxes of all instances, upright.
+fn boxes(selected: &SelectedFrames<'_>, scene: &str, raised: DVec3) -> Result<Vec<Box3d>, ExportError> {
+    let boxes = instance_boxes(selected.dataset, scene, &instance_meshes(selected.dataset, scene)?)?;
+    let one = |(id, of): (i16, enfilade_math::OrientedBox)| Box3d {
+        id,
+        basis: of.world_from_box.to_cols_array_2d(),
+        coeffs: (of.extents * (0.5 * MILLIMETRES)).to_array(),
+        centroid: ((of.center + raised) * MILLIMETRES).to_array(),
+    };
+    Ok(boxes.into_iter().map(one).collect())
+}
+
+fn annotation(structure: &Structure, raised: DVec3) -> Annotation {
+    let mut net = Net { raised, ..Net::default() };
     for (number, room) in structure.rooms.iter().enumerate() {
         let at = |z: f64| room.polygon.iter().map(move |&corner| DVec2::from(corner).extend(z)).collect::<Vec<_>>();
         let (floor, ceiling) = (at(room.floor_z_m), at(room.ceiling_z_m));
@@ -84,28 +138,72 @@ fn annotation(structure: &Structure) -> Annotation {
             let loops: Vec<Vec<DVec3>> = std::iter::once(outline).chain(holes).collect();
             planes.push(net.plane("wall", DVec2::from(wall.inward).extend(0.0), &loops));
         }
-        net.name(&words(&room.kind), planes);
+        net.name(words(&room.kind), planes);
     }
     for opening in &structure.openings {
         let kind = if opening.kind == OpeningKind::Window { "window" } else { "door" };
         let planes = sides(&mut net, structure, opening);
         net.name(kind, planes);
     }
+    let outer = outer_sides(&mut net, structure);
+    if !outer.is_empty() {
+        net.name(OUTWALL, outer);
+    }
     net.finish()
 }
 
-/// Structured3D's words for kinds of rooms; others keep theirs.
-fn words(kind: &str) -> String {
+/// The planes of the outer sides of all outer walls, storey by storey, each with the openings that go through it.
+fn outer_sides(net: &mut Net, structure: &Structure) -> Vec<usize> {
+    let mut storeys: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
+    for (number, room) in structure.rooms.iter().enumerate() {
+        storeys.entry((room.floor_z_m * MILLIMETRES).round() as i64).or_default().push(number);
+    }
+    let backs: Vec<Vec<DVec3>> = structure.openings.iter().filter_map(|opening| back(structure, opening)).collect();
+    let mut planes = Vec::new();
+    for rooms in storeys.values() {
+        let Some(outlines) = outwall::outlines(structure, rooms) else { return Vec::new() };
+        let low = structure.rooms[rooms[0]].floor_z_m;
+        let high = rooms.iter().map(|&room| structure.rooms[room].ceiling_z_m).fold(low, f64::max);
+        for outline in outlines {
+            for (i, &from) in outline.iter().enumerate() {
+                let to = outline[(i + 1) % outline.len()];
+                let outward = -(to - from).normalize_or_zero().perp();
+                let is_on = |corners: &&Vec<DVec3>| {
+                    let on = |p: &DVec3| {
+                        let (off, along) = ((p.truncate() - from).dot(outward), (p.truncate() - from).dot(to - from));
+                        off.abs() < 1e-3 && (0.0..=(to - from).length_squared()).contains(&along) && (low..=high).contains(&p.z)
+                    };
+                    corners.iter().all(on)
+                };
+                let face = vec![from.extend(low), to.extend(low), to.extend(high), from.extend(high)];
+                let loops: Vec<Vec<DVec3>> = std::iter::once(face).chain(backs.iter().filter(is_on).cloned()).collect();
+                planes.push(net.plane("wall", outward.extend(0.0), &loops));
+            }
+        }
+    }
+    planes
+}
+
+/// Where an opening to the outside ends, on the outer side of its wall.
+fn back(structure: &Structure, opening: &WallOpening) -> Option<Vec<DVec3>> {
+    let wall = &structure.walls[*opening.walls.first().filter(|_| opening.walls.len() == 1)?];
+    let inward = DVec2::from(wall.inward).extend(0.0);
+    Some(opening.corners.iter().map(|&corner| DVec3::from(corner) - inward * wall.thickness_m).collect())
+}
+
+/// Structured3D's word for a kind of room, of its `metadata/room_types.txt`: programs know no other.
+fn words(kind: &str) -> &'static str {
     match kind {
         "living" => "living room",
+        "kitchen" => "kitchen",
         "dining" => "dining room",
-        "childrens" => "child room",
-        "toilet" => "bathroom",
+        "bedroom" | "childrens" => "bedroom",
+        "study" => "study",
+        "bathroom" | "toilet" => "bathroom",
         "hall" => "corridor",
         "laundry" => "laundry room",
-        other => other,
+        _ => "undefined",
     }
-    .into()
 }
 
 /// The corners of an opening on one of its faces.
@@ -147,6 +245,8 @@ fn sides(net: &mut Net, structure: &Structure, opening: &WallOpening) -> Vec<usi
 /// Junctions and lines, each once.
 #[derive(Default)]
 struct Net {
+    /// Added to all places, metres.
+    raised: DVec3,
     junctions: HashMap<[i64; 3], usize>,
     lines: HashMap<[usize; 2], usize>,
     /// Lines of each plane.
@@ -156,7 +256,7 @@ struct Net {
 
 impl Net {
     fn junction(&mut self, p: DVec3) -> usize {
-        let p = p * MILLIMETRES;
+        let p = (p + self.raised) * MILLIMETRES;
         let next = self.annotation.junctions.len();
         // Junctions within a tenth of a millimetre are one.
         let id = *self.junctions.entry((p * 10.0).round().as_i64vec3().to_array()).or_insert(next);
@@ -180,7 +280,7 @@ impl Net {
     /// Adds a plane with the lines of its loops.
     fn plane(&mut self, kind: &'static str, normal: DVec3, loops: &[Vec<DVec3>]) -> usize {
         let id = self.annotation.planes.len();
-        let offset = -normal.dot(loops[0][0] * MILLIMETRES);
+        let offset = -normal.dot((loops[0][0] + self.raised) * MILLIMETRES);
         self.annotation.planes.push(Plane { id, r#type: kind, normal: normal.to_array(), offset });
         let mut lines = Vec::new();
         for corners in loops {
