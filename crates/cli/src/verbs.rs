@@ -157,9 +157,7 @@ pub fn split(args: &SplitArgs) -> Result<Verdict, Problem> {
         let images = report.images.get(side).copied().unwrap_or(0);
         say(&format!("{side:5}  {} scenes, {images} images", scenes.len()));
     }
-    if let Some(warning) = report.warning() {
-        say(&format!("warning: {warning}; split.json has all"));
-    }
+    report.leaks().iter().chain(&report.empty_sides()).for_each(|warning| say(&format!("warning: {warning}")));
     Ok(Verdict::Done)
 }
 

@@ -15,20 +15,43 @@ pub struct SplitReport {
     pub config: SplitConfig,
     /// The scenes of each side.
     pub scenes: BTreeMap<String, BTreeSet<String>>,
-    /// Number of images on each side, and of those left out (`excluded`).
+    /// Number of images on each side, 0 where it is empty, and of those left out (`excluded`).
     pub images: BTreeMap<String, usize>,
     /// Meshes and textures that several scenes have, those on several sides first.
     pub shared_assets: Vec<SharedAsset>,
 }
 
 impl SplitReport {
-    /// One line about the assets on several sides; `None` when there are none.
-    pub fn warning(&self) -> Option<String> {
+    /// A line about sides without an image; `None` where all that get a share have some, and before anything is rendered.
+    pub fn empty_sides(&self) -> Option<String> {
+        let is_empty = |side: &&str| self.images.get(*side).is_none_or(|&images| images == 0);
+        let empty: Vec<&str> = self.asked_for().filter(is_empty).collect();
+        if empty.is_empty() || Partition::ALL.iter().all(|side| is_empty(&side.name())) {
+            return None;
+        }
+        let (sides, are, them) =
+            (empty.join(" and "), if empty.len() == 1 { "is" } else { "are" }, if empty.len() == 1 { "it" } else { "them" });
+        let or_seed = if self.has_few_scenes() { "" } else { ", or another seed (enfilade split OUT --seed 1)," };
+        Some(format!("{sides} of the split {are} empty; more scenes{or_seed} fill {them}"))
+    }
+
+    /// True where there are fewer scenes than sides that get a share.
+    pub fn has_few_scenes(&self) -> bool {
+        self.scenes.values().map(BTreeSet::len).sum::<usize>() < self.asked_for().count()
+    }
+
+    /// The sides that get a share.
+    fn asked_for(&self) -> impl Iterator<Item = &'static str> {
+        Partition::ALL.iter().zip(self.config.shares).filter(|(_, share)| *share > 0.0).map(|(side, _)| side.name())
+    }
+
+    /// A line about the assets on several sides; `None` where there are none.
+    pub fn leaks(&self) -> Option<String> {
         let leaks = self.shared_assets.iter().filter(|asset| asset.leaks).count();
         let first = self.shared_assets.first().filter(|asset| asset.leaks)?;
         let scenes: Vec<&str> = first.scenes.values().flatten().map(String::as_str).take(3).collect();
         Some(format!(
-            "{leaks} assets are on several sides of the split, among them {} {:?} of {}",
+            "{leaks} assets are on several sides of the split, among them {} {:?} of {}; split.json has all",
             first.kind,
             first.name,
             scenes.join(", ")
@@ -80,7 +103,8 @@ fn choice(workdir: &Workdir) -> Result<SplitConfig, Error> {
 /// Writes the split of what `manifest` lists.
 pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<SplitReport, Error> {
     let config = choice(workdir)?;
-    let rows = config.rows(manifest, &rejected(dataset, manifest)?);
+    let rejected = rejected(dataset, manifest)?;
+    let (sides, rows) = (config.sides(manifest, &rejected), config.rows(manifest, &rejected));
     // A run that changes nothing touches no file.
     if dataset.read_split().ok().as_ref() != Some(&rows) {
         dataset.write_split(&rows).map_err(Error::stage)?;
@@ -90,14 +114,14 @@ pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manif
         assets.extend(scene_assets(workdir, scene)?.map(|found| (scene.clone(), found)));
     }
     let mut scenes: BTreeMap<String, BTreeSet<String>> = Partition::ALL.iter().map(|p| (p.name().into(), BTreeSet::new())).collect();
-    for scene in manifest.scenes.keys() {
-        scenes.entry(config.partition(scene).name().into()).or_default().insert(scene.clone());
+    for (scene, side) in &sides {
+        scenes.entry(side.name().into()).or_default().insert(scene.to_string());
     }
-    let mut images: BTreeMap<String, usize> = BTreeMap::new();
+    let mut images: BTreeMap<String, usize> = Partition::ALL.iter().map(|p| (p.name().into(), 0)).collect();
     for SplitRow { partition, .. } in &rows {
         *images.entry(partition.as_ref().map_or("excluded", |p| p.name()).into()).or_default() += 1;
     }
-    let shared_assets = shared_assets(&assets, |scene| config.partition(scene));
+    let shared_assets = shared_assets(&assets, |scene| sides.get(scene).copied().unwrap_or_else(|| config.partition(scene)));
     let report = SplitReport { config, scenes, images, shared_assets };
     let path = dataset.layout().split_report();
     if read_json::<SplitReport>(&path).as_ref() != Some(&report) {
@@ -154,9 +178,25 @@ mod tests {
         };
         let report =
             |shared_assets| SplitReport { config: SplitConfig::default(), scenes: BTreeMap::new(), images: BTreeMap::new(), shared_assets };
-        let expected = "1 assets are on several sides of the split, among them mesh \"vase\" of hall, bedroom";
-        assert_eq!(report(vec![shared(true), shared(false)]).warning().as_deref(), Some(expected));
-        assert_eq!(report(vec![shared(false)]).warning(), None);
+        let expected = "1 assets are on several sides of the split, among them mesh \"vase\" of hall, bedroom; split.json has all";
+        assert_eq!(report(vec![shared(true), shared(false)]).leaks().as_deref(), Some(expected));
+        assert_eq!(report(vec![shared(false)]).leaks(), None);
+    }
+
+    #[test]
+    fn sides_without_an_image_are_told_unless_nobody_asked_for_them() {
+        let scenes: BTreeMap<String, BTreeSet<String>> = [("train".to_string(), BTreeSet::from(["room".to_string()]))].into();
+        let report = |shares, images: &[(&str, usize)]| SplitReport {
+            config: SplitConfig { shares, ..SplitConfig::default() },
+            scenes: scenes.clone(),
+            images: images.iter().map(|(side, count)| (side.to_string(), *count)).collect(),
+            shared_assets: Vec::new(),
+        };
+        let told = report([80.0, 10.0, 10.0], &[("train", 4), ("val", 0)]).empty_sides().unwrap();
+        assert_eq!(told, "val and test of the split are empty; more scenes fill them");
+        assert_eq!(report([1.0, 0.0, 0.0], &[("train", 4)]).empty_sides(), None);
+        assert_eq!(report([80.0, 10.0, 10.0], &[]).empty_sides(), None, "nothing is rendered yet");
+        assert_eq!(report([80.0, 10.0, 10.0], &[("train", 4), ("val", 1), ("test", 2)]).empty_sides(), None);
     }
 
     #[test]

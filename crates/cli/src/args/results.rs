@@ -28,7 +28,8 @@ pub struct VerifyArgs {
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  enfilade split out --seed 1 --shares 70,15,15\n\nA scene's side depends on its name and the seed alone, so no \
-    scene moves when others are added. `run` divides the\nsame way. split.json tells which meshes and textures are on several sides."
+    scene moves when others are added; but of fewer scenes\nthan sides, and where train would be empty, the first is in train. `run` divides \
+    the same way. split.json tells which\nmeshes and textures are on several sides."
 )]
 pub struct SplitArgs {
     /// The dataset's folder, as given to `run`

@@ -1,13 +1,14 @@
 //! Splits by scene: which scenes are for learning, for validation and for testing.
 //!
 //! Where a scene goes is a function of its name and the seed alone. So scenes never change sides when others are added, as they do
-//! when a list is shuffled and cut, which is Hypersim's way; the price is that the shares are met only on average.
+//! when a list is shuffled and cut, which is Hypersim's way; the price is that the shares are met only on average. The one exception are
+//! datasets with nothing to learn from otherwise, see [`SplitConfig::sides`].
 
 mod assets;
 
 pub use assets::{ImageAsset, MeshAsset, SceneAssets, SharedAsset, shared_assets};
 
-use enfilade_dataset::{FrameStatus, Manifest, Partition, SplitRow};
+use enfilade_dataset::{FrameEntry, FrameStatus, Manifest, Partition, SceneEntry, SplitRow};
 use enfilade_math::hash_u64;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -37,7 +38,30 @@ impl SplitConfig {
         (!good).then(|| format!("the shares are {:?}; expected three numbers from 0 on, not all 0, as in 80,10,10", self.shares))
     }
 
-    /// The side of a scene.
+    /// The side of every scene of a dataset.
+    ///
+    /// It is [`partition`](Self::partition)'s, but where fewer scenes than sides that get a share have images, or none of them is for
+    /// learning: then the first of them by name is, for without anything to learn from a dataset is of no use. `excluded` as in
+    /// [`rows`](Self::rows).
+    pub fn sides<'m>(&self, manifest: &'m Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> BTreeMap<&'m str, Partition> {
+        let mut sides: BTreeMap<&str, Partition> = manifest.scenes.keys().map(|scene| (scene.as_str(), self.partition(scene))).collect();
+        let has_image = |scene: &str, entry: &SceneEntry| {
+            let is_there = |camera: &str, frame: &FrameEntry| {
+                frame.status == FrameStatus::Complete && !excluded.contains_key(&(scene.to_string(), camera.to_string(), frame.frame))
+            };
+            entry.cameras.iter().any(|(name, camera)| camera.frames.iter().any(|frame| is_there(name, frame)))
+        };
+        let with_images: Vec<&str> =
+            manifest.scenes.iter().filter(|(scene, entry)| has_image(scene, entry)).map(|(scene, _)| scene.as_str()).collect();
+        let is_few = with_images.len() < self.shares.iter().filter(|share| **share > 0.0).count();
+        let lacks_train = with_images.iter().all(|scene| sides[scene] != Partition::Train);
+        if let Some(first) = with_images.first().filter(|_| self.shares[0] > 0.0 && (is_few || lacks_train)) {
+            sides.insert(first, Partition::Train);
+        }
+        sides
+    }
+
+    /// The side of a scene among many.
     pub fn partition(&self, scene: &str) -> Partition {
         let hash = scene.bytes().fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)));
         let place = (hash >> 11) as f64 / (1u64 << 53) as f64 * self.shares.iter().sum::<f64>();
@@ -52,13 +76,13 @@ impl SplitConfig {
     /// Every frame of every trajectory. Those that are not rendered are left out of the split, with the reason; so are those in
     /// `excluded`, by scene, camera and frame.
     pub fn rows(&self, manifest: &Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> Vec<SplitRow> {
-        let mut rows = Vec::new();
+        let (sides, mut rows) = (self.sides(manifest, excluded), Vec::new());
         for (scene, entry) in &manifest.scenes {
             for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
                 let missing =
                     (frame.status != FrameStatus::Complete).then(|| frame.reason.clone().unwrap_or_else(|| "NOT RENDERED".to_string()));
                 let reason = excluded.get(&(scene.clone(), camera.clone(), frame.frame)).cloned().or(missing);
-                let partition = reason.map_or(Ok(self.partition(scene)), Err);
+                let partition = reason.map_or(Ok(sides[scene.as_str()]), Err);
                 rows.push(SplitRow { scene: scene.clone(), camera: camera.clone(), frame: frame.frame, partition });
             }
         }
@@ -69,7 +93,62 @@ impl SplitConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_dataset::{CameraEntry, Conventions, FrameEntry, SceneEntry};
+    use enfilade_dataset::{CameraEntry, Conventions};
+
+    fn frame(frame: u32, status: FrameStatus, reason: Option<&str>) -> FrameEntry {
+        FrameEntry {
+            frame,
+            status,
+            reason: reason.map(Into::into),
+            seed: None,
+            config_hash: None,
+            color: None,
+            denoiser: None,
+            files: BTreeMap::new(),
+        }
+    }
+
+    fn manifest<const N: usize>(scenes: [(&str, Vec<FrameEntry>); N]) -> Manifest {
+        let entry = |frames| SceneEntry { failed: None, cameras: [("cam_00".to_string(), CameraEntry { frames })].into() };
+        Manifest {
+            format: String::new(),
+            enfilade_version: String::new(),
+            conventions: Conventions::default(),
+            config: serde_json::Value::Null,
+            seeds: BTreeMap::new(),
+            scenes: scenes.map(|(name, frames)| (name.to_string(), entry(frames))).into(),
+        }
+    }
+
+    #[test]
+    fn of_few_scenes_the_first_with_images_is_to_learn_from() {
+        let split = SplitConfig::default();
+        let name = |side| names(100).into_iter().filter(|name| split.partition(name) == side).collect::<Vec<_>>();
+        let (trains, vals, tests) = (name(Partition::Train), name(Partition::Val), name(Partition::Test));
+        let there = || vec![frame(0, FrameStatus::Complete, None)];
+        let sides = |scenes: &Manifest| -> Vec<Partition> { split.sides(scenes, &BTreeMap::new()).into_values().collect() };
+        for alone in [&trains[0], &vals[0], &tests[0]] {
+            assert_eq!(sides(&manifest([(alone, there())])), [Partition::Train]);
+        }
+        let two = [&tests[0], &tests[1]];
+        assert_eq!(sides(&manifest(two.map(|name| (name.as_str(), there())))), [Partition::Train, Partition::Test]);
+        let failed = vec![frame(0, FrameStatus::Failed, None)];
+        assert_eq!(
+            sides(&manifest([(&tests[0], failed), (&tests[1], there())])),
+            [Partition::Test, Partition::Train],
+            "the first has no image"
+        );
+        // As many scenes as sides: only where none is to learn from.
+        let four = [&tests[0], &tests[1], &tests[2], &tests[3]].map(|name| (name.as_str(), there()));
+        assert_eq!(sides(&manifest(four.clone())), [Partition::Train, Partition::Test, Partition::Test, Partition::Test]);
+        let mut first_is_test = [&tests[0], &trains[0], &vals[0]].map(|name| (name.as_str(), there()));
+        first_is_test.sort_by_key(|(name, _)| name.to_string());
+        let all = manifest(first_is_test);
+        assert!(split.sides(&all, &BTreeMap::new()).into_iter().all(|(name, side)| side == split.partition(name)));
+        // Nobody who wants all in test gets another side.
+        let all_test = SplitConfig { shares: [0.0, 0.0, 1.0], ..split };
+        assert_eq!(all_test.sides(&manifest(four), &BTreeMap::new()).into_values().collect::<Vec<_>>(), [Partition::Test; 4]);
+    }
 
     fn names(count: usize) -> Vec<String> {
         (0..count).map(|i| format!("ai_{:03}_{:03}", i / 10, i % 10)).collect()
@@ -99,35 +178,16 @@ mod tests {
 
     #[test]
     fn scenes_stay_whole_and_frames_that_are_not_there_are_left_out() {
-        let frame = |frame, status, reason: Option<&str>| FrameEntry {
-            frame,
-            status,
-            reason: reason.map(Into::into),
-            seed: None,
-            config_hash: None,
-            color: None,
-            denoiser: None,
-            files: BTreeMap::new(),
-        };
         let frames = vec![
             frame(0, FrameStatus::Complete, None),
             frame(1, FrameStatus::Failed, Some("disk full")),
             frame(2, FrameStatus::Planned, None),
             frame(3, FrameStatus::Complete, None),
         ];
-        let cameras = [("cam_00".to_string(), CameraEntry { frames })].into();
-        let manifest = Manifest {
-            format: String::new(),
-            enfilade_version: String::new(),
-            conventions: Conventions::default(),
-            config: serde_json::Value::Null,
-            seeds: BTreeMap::new(),
-            scenes: [("room".to_string(), SceneEntry { failed: None, cameras })].into(),
-        };
+        let manifest = manifest([("room", frames)]);
         let excluded = [(("room".to_string(), "cam_00".to_string(), 3), "blank".to_string())].into();
         let split = SplitConfig::default();
         let found: Vec<_> = split.rows(&manifest, &excluded).into_iter().map(|row| row.partition).collect();
-        let side = split.partition("room");
-        assert_eq!(found, [Ok(side), Err("disk full".into()), Err("NOT RENDERED".into()), Err("blank".into())]);
+        assert_eq!(found, [Ok(Partition::Train), Err("disk full".into()), Err("NOT RENDERED".into()), Err("blank".into())]);
     }
 }
