@@ -1,7 +1,11 @@
 //! Colours for numbers.
 
+use enfilade_dataset::hdf5::read_array;
+use enfilade_dataset::mesh_names::{INSTANCE_COLORS, SEMANTIC_COLORS};
+use enfilade_dataset::{Dataset, DatasetError, Elements, instance_colors, semantic_colors};
 use enfilade_frame::{Validity, traits};
 use enfilade_scene::NYU40;
+use std::sync::LazyLock;
 
 /// The viridis colour map (Smith & van der Walt, matplotlib 1.5, CC0) at tenths, sRGB.
 const VIRIDIS: [[u8; 3]; 11] = [
@@ -27,6 +31,59 @@ pub fn viridis(t: f64) -> [u8; 3] {
         let (low, high) = (f64::from(VIRIDIS[below][c]), f64::from(VIRIDIS[below + 1][c]));
         (low + (high - low) * fraction).round() as u8
     })
+}
+
+/// Colours of classes and instances, sRGB; row `i` is number `i`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LabelPalette {
+    classes: Vec<[u8; 3]>,
+    instances: Vec<[u8; 3]>,
+}
+
+impl LabelPalette {
+    /// What scenes have whose tables are not there: NYU40's colours, and those that our tables of instances begin with.
+    pub fn usual() -> &'static Self {
+        static USUAL: LazyLock<LabelPalette> = LazyLock::new(|| LabelPalette {
+            classes: semantic_colors().into_iter().map(rgb8).collect(),
+            instances: instance_colors(i16::MAX as usize).into_iter().map(rgb8).collect(),
+        });
+        &USUAL
+    }
+
+    /// The colours that the tables of a scene's mesh folder have, or the usual ones where there is no table.
+    ///
+    /// # Errors
+    /// When a table is damaged.
+    pub fn of_scene(dataset: &Dataset, scene: &str) -> Result<Self, DatasetError> {
+        let table = |name: &str, usual: &[[u8; 3]]| match read_array(&dataset.layout().mesh_file(scene, name)) {
+            Ok(array) => match array.values {
+                Elements::I64(values) => Ok(values.chunks_exact(3).map(|c| rgb8([c[0], c[1], c[2]])).collect()),
+                _ => Ok(usual.to_vec()),
+            },
+            Err(error) if error.is_not_found() => Ok(usual.to_vec()),
+            Err(error) => Err(error),
+        };
+        let usual = Self::usual();
+        Ok(Self { classes: table(SEMANTIC_COLORS, &usual.classes)?, instances: table(INSTANCE_COLORS, &usual.instances)? })
+    }
+
+    /// The colour of a class; black for every number that is none.
+    pub fn class(&self, semantic: i16) -> [u8; 3] {
+        row(&self.classes, semantic)
+    }
+
+    /// The colour of an instance; black for every number that is none.
+    pub fn instance(&self, instance: i16) -> [u8; 3] {
+        row(&self.instances, instance)
+    }
+}
+
+fn row(colors: &[[u8; 3]], number: i16) -> [u8; 3] {
+    usize::try_from(number).ok().filter(|&i| i > 0).and_then(|i| colors.get(i)).copied().unwrap_or_default()
+}
+
+fn rgb8(color: [i64; 3]) -> [u8; 3] {
+    color.map(|channel| channel.clamp(0, 255) as u8)
 }
 
 /// A colour for a part or instance number, the same in every image; numbers close to each other get colours far apart.

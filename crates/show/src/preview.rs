@@ -7,7 +7,7 @@
 
 use crate::display::Display;
 use crate::exposure::Exposure;
-use crate::palette::{id_color, semantic_color, traits_color, validity_color};
+use crate::palette::{LabelPalette, id_color, traits_color, validity_color};
 use crate::picture::{Picture, byte, from_pixels, jpeg, png};
 use crate::stretch::{self, Stretch};
 
@@ -114,7 +114,15 @@ impl PreviewSpec {
 
     /// The bytes of the preview's file; `None` when the frame lacks a layer it needs.
     pub fn file(&self, frame: &Frame, exposure: Exposure) -> Option<Vec<u8>> {
-        let preview = preview(self.subject, frame, exposure)?;
+        self.file_of_scene(frame, exposure, LabelPalette::usual())
+    }
+
+    /// The bytes of the preview's file, with labels in the colours of `palette`.
+    pub fn file_of_scene(&self, frame: &Frame, exposure: Exposure, palette: &LabelPalette) -> Option<Vec<u8>> {
+        let preview = match self.subject {
+            Subject::Layer(layer @ (Layer::Semantic | Layer::SemanticInstance)) => labels(layer, frame.get(layer)?, frame, palette),
+            subject => preview(subject, frame, exposure)?,
+        };
         let note = Some(preview.note.as_str()).filter(|note| !note.is_empty());
         Some(if self.name.ends_with(".jpg") { jpeg(&preview.picture) } else { png(&preview.picture, note) })
     }
@@ -198,12 +206,21 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
         }
         Layer::Metallic | Layer::Roughness | Layer::TransmissionWeight => shown(frame, values, |v| v),
         Layer::TexCoord => shown(frame, values, |v| v - v.floor()),
-        Layer::RenderEntityId | Layer::SemanticInstance | Layer::MaterialId | Layer::EntityBehindId => ids(frame, values, id_color),
-        Layer::Semantic => ids(frame, values, semantic_color),
+        Layer::RenderEntityId | Layer::MaterialId | Layer::EntityBehindId => ids(frame, values, id_color),
+        Layer::Semantic | Layer::SemanticInstance => return labels(layer, values, frame, LabelPalette::usual()),
         Layer::Valid => ids(frame, values, |code| validity_color(code as u8)),
         Layer::SurfaceTraits => ids(frame, values, |bits| traits_color(bits as u8)),
         Layer::OcclusionBoundary => ids(frame, values, |code| [[0; 3], [255; 3], [110; 3]][code.clamp(0, 2) as usize]),
         Layer::FlowVisibility => ids(frame, values, |code| [if code == 0 { 0 } else { 255 }; 3]),
+    };
+    Preview { picture, note: String::new() }
+}
+
+/// Classes or instances in their colours.
+fn labels(layer: Layer, values: &Values, frame: &Frame, palette: &LabelPalette) -> Preview {
+    let picture = match layer {
+        Layer::Semantic => ids(frame, values, |class| palette.class(class)),
+        _ => ids(frame, values, |instance| palette.instance(instance)),
     };
     Preview { picture, note: String::new() }
 }

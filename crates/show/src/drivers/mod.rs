@@ -12,6 +12,7 @@ pub use exposure::{Exposures, expose_camera};
 use crate::display::Display;
 use crate::exposure::Exposure;
 use crate::inspect::{Names, OutsideError, PixelReport, inspect};
+use crate::palette::LabelPalette;
 use crate::picture::jpeg;
 use crate::preview::{PREVIEWS, PreviewSpec, Subject, preview};
 use crate::sheet::{MOST_TILES, OverviewTile, OverviewTitle, SheetConfig, SheetTitle, overview_sheet, spread, trajectory_sheet};
@@ -66,9 +67,10 @@ fn preview_frame(
     let shown: Vec<Layer> = specs.iter().flat_map(|spec| spec.subject.layers()).collect();
     let needed: Vec<Layer> = LAYERS.iter().map(|spec| spec.layer).filter(|layer| shown.contains(layer)).collect();
     let frame = read_present(dataset, scene, camera, number, &needed)?;
+    let palette = LabelPalette::of_scene(dataset, scene)?;
     let one = |spec: &PreviewSpec| -> Result<Option<PathBuf>, DatasetError> {
         let path = dataset.layout().preview(scene, camera, number, spec.pass, spec.name);
-        let Some(bytes) = spec.file(&frame, exposure) else { return remove_old(&path).map(|()| None) };
+        let Some(bytes) = spec.file_of_scene(&frame, exposure, &palette) else { return remove_old(&path).map(|()| None) };
         write_bytes(&path, bytes)?;
         Ok(Some(path))
     };
@@ -202,6 +204,8 @@ pub fn inspect_pixel(dataset: &Dataset, scene: &str, camera: &str, frame: u32, [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_dataset::hdf5::{Storage, read_array, write_array};
+    use enfilade_dataset::{Array, Elements};
     use enfilade_scene::Quiet;
     use enfilade_testroom as testroom;
 
@@ -278,6 +282,36 @@ mod tests {
         for path in expected {
             let same = apart.path().join(path.strip_prefix(whole.path()).unwrap());
             assert!(std::fs::read(&path).unwrap() == std::fs::read(&same).unwrap(), "{}", same.display());
+        }
+    }
+
+    /// By the rule of Hypersim's `scene_generate_images_semantic_segmentation.py`: the colour of a number is its row of the table, none is black.
+    #[test]
+    fn pictures_of_labels_have_the_colours_of_the_scenes_tables() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        let tables = ["metadata_semantic_colors.hdf5", "metadata_semantic_instance_colors.hdf5"];
+        let mesh = |name: &str| dataset.layout().mesh_file("room", name);
+        // Another table of instances than ours.
+        let own: Vec<i64> = (0..3 * 20).map(|i| if i < 3 { -1 } else { 7 * i % 251 }).collect();
+        write_array(&mesh(tables[1]), &Array::i64(&[20, 3], own), Storage::Contiguous, &[]).unwrap();
+        let (exposures, _) = expose_camera(&dataset, "room", "cam_00", &[0, 1]).unwrap();
+        preview_camera(&dataset, ["room", "cam_00"], &[0, 1], &exposures, &BTreeSet::new(), &Quiet).unwrap();
+        for (layer, name, table) in
+            [(Layer::Semantic, "semantic.png", tables[0]), (Layer::SemanticInstance, "semantic_instance.png", tables[1])]
+        {
+            let picture =
+                image::open(dataset.layout().preview("room", "cam_00", 0, enfilade_frame::Pass::Geometry, name)).unwrap().into_rgb8();
+            let Elements::I64(colors) = read_array(&mesh(table)).unwrap().values else { panic!("{table} has int64") };
+            let numbers = dataset.read_layer("room", "cam_00", 0, layer).unwrap();
+            let mut known = BTreeSet::new();
+            for (i, pixel) in picture.pixels().enumerate() {
+                let number = numbers.get(i) as i16;
+                let expected = if number < 1 { [0; 3] } else { [0, 1, 2].map(|c| colors[3 * number as usize + c] as u8) };
+                assert_eq!(pixel.0, expected, "{name}: number {number}");
+                known.insert(number);
+            }
+            assert!(known.len() > 1, "{name}: {known:?}");
         }
     }
 
