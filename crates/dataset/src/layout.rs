@@ -130,6 +130,11 @@ impl Layout {
         self.root.join("metadata_images_split_scene_v1.csv")
     }
 
+    /// What kind of room each camera goes through.
+    pub fn scene_types(&self) -> PathBuf {
+        self.root.join("metadata_camera_trajectories.csv")
+    }
+
     /// How the split came about, and which assets lie on several sides of it, as JSON.
     pub fn split_report(&self) -> PathBuf {
         self.root.join("split.json")

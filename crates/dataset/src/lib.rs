@@ -48,6 +48,7 @@ mod record;
 mod release;
 mod repack;
 mod scene_files;
+mod scene_type_files;
 mod sensor_files;
 mod split_files;
 mod surface_files;
@@ -88,6 +89,7 @@ pub use record::{ColorKind, Denoised, FileRecord, FrameRecord, LabelRecord, Pose
 pub use release::{RELEASED_LAYERS, planar_depth, turn_planar_depth};
 pub use repack::Repacked;
 pub use scene_files::{Node, read_node_table};
+pub use scene_type_files::{SCENE_TYPES, SceneTypeRow, scene_type};
 pub use sensor_files::{Scan, SensedFrame};
 pub use split_files::{Partition, SplitRow};
 pub use surface_files::Surfaces;

@@ -18,6 +18,7 @@ mod relight;
 mod replay;
 mod report;
 mod run;
+mod scene_types;
 mod single;
 mod split;
 mod stages;

@@ -3,6 +3,7 @@
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
 use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
+use crate::scene_types::write_scene_types;
 use crate::split::write_split;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
 use crate::statistics::{statistics_are_whole, write_statistics};
@@ -55,7 +56,7 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
 }
 
 /// Runs one stage of the dataset in `out` with the configuration stored there; after rendering also what `color`
-/// holds, after new labels also the boxes of what they name.
+/// holds and, of labelled scenes, the labels, after new labels also the boxes of what they name.
 ///
 /// # Errors
 /// As [`run`], and when `out` is no dataset.
@@ -222,7 +223,8 @@ impl<'a> Session<'a> {
         // Scene by scene; one that fails does not keep the others from going on.
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {
-            let outcome = self.run_scene(scene, stages, force, &outcomes, reporter);
+            let stages = self.with_labels(scene, stages)?;
+            let outcome = self.run_scene(scene, &stages, force, &outcomes, reporter);
             outcomes.push(outcome);
         }
 
@@ -231,16 +233,31 @@ impl<'a> Session<'a> {
             .write_manifest(&outcomes, None)
             .and_then(|()| self.write_overview(stages))
             .and_then(|()| self.write_split())
-            .and_then(|warning| self.write_card(stages, &outcomes).map(|()| warning))
-            .and_then(|warning| self.write_statistics(stages).map(|()| warning));
+            .and_then(|warnings| self.write_card(stages, &outcomes).map(|()| warnings))
+            .and_then(|warnings| self.write_statistics(stages).map(|()| warnings));
 
-        let warnings = finished.as_ref().ok().cloned().flatten().into_iter().collect();
+        let warnings = finished.as_ref().ok().cloned().unwrap_or_default();
         let summary = Summary { scenes: outcomes, warnings, wall_s: time.wall_s() };
         match finished {
             // Where a scene has failed, as on a full disk, the user must see that; the next run writes these files.
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
+    }
+
+    /// The `stages`, and after rendering alone those of labels that the scene has been through: frames that are rendered again lose what was
+    /// joined to them.
+    fn with_labels<'s>(&self, scene: &SceneConfig, stages: &[&'s StageSpec]) -> Result<Vec<&'s StageSpec>, Error> {
+        let is_among = |stage: Stage| stages.iter().any(|spec| spec.stage == stage);
+        let mut with = stages.to_vec();
+        if is_among(Stage::Render) && !is_among(Stage::Label) {
+            for spec in LABELLING {
+                if self.workdir.scene_file(&scene.name, &spec.stage.record())?.is_file() {
+                    with.push(spec);
+                }
+            }
+        }
+        Ok(with)
     }
 
     /// Runs `stages` over a scene, after those with the outcomes `earlier`.
@@ -295,11 +312,14 @@ impl<'a> Session<'a> {
         ))
     }
 
-    /// Divides the dataset by scene; a line where assets are on several sides.
-    fn write_split(&self) -> Result<Option<String>, Error> {
-        let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(None) };
-        let warning = write_split(&self.dataset, self.workdir, &manifest)?.warning();
-        Ok(warning.map(|warning| format!("{warning}; split.json has all")))
+    /// Divides the dataset by scene, and says what kinds of rooms it has; lines about assets on several sides and, where there are as many
+    /// scenes as sides, about those without an image.
+    fn write_split(&self) -> Result<Vec<String>, Error> {
+        let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(Vec::new()) };
+        let split = write_split(&self.dataset, self.workdir, &manifest)?;
+        write_scene_types(&self.dataset, self.config, &manifest)?;
+        let empty = split.empty_sides().filter(|_| !split.has_few_scenes());
+        Ok(split.leaks().into_iter().chain(empty).collect())
     }
 
     /// Writes the report card of all scenes, also of those that did not come so far as to be verified. Stages that change what is verified

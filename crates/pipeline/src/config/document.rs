@@ -99,6 +99,9 @@ pub(super) struct SceneKeys {
     pub labels: Option<Spanned<String>>,
     /// Name of the scene in the label table; its own name unless it is given.
     pub label_scene: Option<String>,
+    /// What kind of room it is, in Hypersim's words, such as `"Living room"` or `"Office (home)"`: for `metadata_camera_trajectories.csv`. Homes
+    /// know it by themselves; of other scenes it is `"Other"` unless it is given.
+    pub scene_type: Option<Spanned<String>>,
     /// Where trajectories begin: names of cameras in the file, or `{ position = [x, y, z], look_at = [x, y, z] }` in metres; or
     /// `"found"`. Without it they begin at the file's cameras that stand in a building, else at places that are found.
     #[serde(default)]

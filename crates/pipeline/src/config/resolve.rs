@@ -15,7 +15,7 @@ use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
-use enfilade_dataset::{ColorKind, check_name, read_ray_grid};
+use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
 use enfilade_label::LabelTable;
@@ -142,6 +142,7 @@ impl Resolver<'_> {
             seed,
             source: self.scene_source(entry, seed)?,
             labels: self.labels(keys, &name)?,
+            scene_type: keys.scene_type.as_ref().map(|word| self.scene_type(word)).transpose()?,
             cameras: keys.cameras.chosen.clone(),
             finds_cameras: keys.cameras.found,
             size: SIZE,
@@ -352,6 +353,13 @@ impl Resolver<'_> {
         self.check_table(table)?;
         let scene = keys.label_scene.clone().unwrap_or_else(|| name.into());
         Ok(Some(LabelSource { table: table.get_ref().clone(), scene }))
+    }
+
+    /// Hypersim's spelling of a type of scene.
+    fn scene_type(&self, word: &Spanned<String>) -> Result<String, ConfigError> {
+        let unknown =
+            || self.refuse(word, format!("there is no type of scene {:?}", word.get_ref()), format!("one of {}", SCENE_TYPES.join(", ")));
+        scene_type(word.get_ref()).map(str::to_string).ok_or_else(unknown)
     }
 
     /// Refuses a label table that the last stages could not use.

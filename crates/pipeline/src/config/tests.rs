@@ -157,7 +157,7 @@ fn a_reference_is_unbiased_and_another_quality_takes_that_back() {
 fn everything_about_a_scene_can_be_said() {
     let text = "labels = \"../../examples/real-rooms/drake_labels.csv\"\n[import]\nallow_missing_textures = true\n\
         [[scene]]\nname = \"hall\"\nfile = \"$ROOMS/hall.xml\"\n\
-        meters_per_unit = 0.4\nup_axis = \"z\"\nlabel_scene = \"modern-hall\"\nenvironment = { file = \"sky.hdr\", rotation_deg = 90 }\n\
+        meters_per_unit = 0.4\nup_axis = \"z\"\nlabel_scene = \"modern-hall\"\nscene_type = \"hall\"\nenvironment = { file = \"sky.hdr\", rotation_deg = 90 }\n\
         cameras = [\"door\", { position = [0, 1, 1.5], look_at = [3, 1, 1.2] }]\n[[scene]]\nname = \"home\"\nhome = { seed = 5 }\n";
     let config = config(text);
     let hall = &config.scenes[0];
@@ -170,6 +170,8 @@ fn everything_about_a_scene_can_be_said() {
         hall.cameras,
         [CameraChoice::Named("door".into()), CameraChoice::Placed { position: [0.0, 1.0, 1.5], look_at: [3.0, 1.0, 1.2] }]
     );
+    assert_eq!(hall.scene_type.as_deref(), Some("Hall"), "as Hypersim spells it");
+    assert!(error(&format!("{SCENE}scene_type = \"pantry\"\n")).contains("Living room, Office, "));
     // A home knows its own labels.
     assert_eq!((&config.scenes[1].source, &config.scenes[1].labels), (&Source::Home(HomeConfig::of_seed(5)), &None));
 }

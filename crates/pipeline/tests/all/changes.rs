@@ -3,7 +3,7 @@
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Pass};
-use enfilade_pipeline::{ColorKind, Event, Reporter, Silent, Stage, estimate, run, run_stage};
+use enfilade_pipeline::{ColorKind, Event, RenderChoices, Reporter, Silent, Stage, estimate, relabel, run, run_chosen, run_stage};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -182,4 +182,35 @@ fn a_table_of_cameras_that_was_removed_is_made_again_by_planning() {
     assert!(run_stage(&out, Stage::Plan, None, false, &Silent).unwrap().ok());
     assert_eq!(dataset.read_camera_table().unwrap().scenes().collect::<Vec<_>>(), ["a", "b"]);
     assert!(run_stage(&out, Stage::Plan, None, false, &Silent).unwrap().nothing_done());
+}
+
+#[test]
+fn frames_of_labelled_scenes_that_are_rendered_again_keep_their_labels() {
+    let (folder, out) = place();
+    fs::write(folder.path().join("labels.csv"), "name,semantic\nwall,wall\ntable,table\nlamp,lamp\n").unwrap();
+    run(&config(folder.path(), &[("a", "room.obj", ONE, "")]), &out, None, &Silent).unwrap();
+    relabel(&out, &folder.path().join("labels.csv"), None, false, &Silent).unwrap();
+    let dataset = Dataset::open(&out).unwrap();
+    let labels = || [Layer::Semantic, Layer::SemanticInstance].map(|layer| dataset.read_frame("a", "cam_00", 1, &[layer]).unwrap());
+    let (before, boxes) = (labels(), fs::read(dataset.layout().frame_instances("a", "cam_00")).unwrap());
+    let stages = [Stage::Render, Stage::Denoise];
+    for choices in [RenderChoices { extra: true, ..Default::default() }, RenderChoices { fixtures: true, ..Default::default() }] {
+        let summary = run_chosen(&out, &choices, &stages, None, false, &Silent).unwrap();
+        assert!(summary.ok(), "{:?}", failures(&summary));
+        assert_eq!(labels(), before);
+    }
+    assert!(dataset.has_layer("a", "cam_00", 1, Layer::NormalGeometricWorld), "it was rendered again");
+    let summary = run_stage(&out, Stage::Render, None, true, &Silent).unwrap();
+    assert!(summary.ok() && labels() == before);
+    assert_eq!(fs::read(dataset.layout().frame_instances("a", "cam_00")).unwrap(), boxes, "what frames show of the boxes too");
+}
+
+#[test]
+fn rendering_again_labels_nothing_that_was_not_labelled() {
+    let (folder, out) = place();
+    run(&config(folder.path(), &[("a", "room.obj", ONE, "")]), &out, None, &Silent).unwrap();
+    fs::remove_file(out.join(".enfilade/a").join("label.json")).unwrap();
+    let choices = RenderChoices { extra: true, ..Default::default() };
+    let summary = run_chosen(&out, &choices, &[Stage::Render, Stage::Denoise], None, false, &Silent).unwrap();
+    assert!(summary.scenes[0].stages.iter().all(|outcome| outcome.stage != Stage::Label));
 }

@@ -1,0 +1,66 @@
+//! What kind of room each camera of a dataset goes through, for those who classify scenes.
+
+use crate::config::Config;
+use crate::error::Error;
+use enfilade_dataset::{Dataset, Manifest, SceneTypeRow, scene_type};
+use enfilade_scene::{Structure, StructureRoom};
+use std::collections::BTreeMap;
+
+/// What has no other type.
+const OTHER: &str = "Other";
+
+/// Writes the type of scene of every camera that `manifest` lists: what `scene_type` says, else the room in which most of its poses are, else
+/// that it is another.
+pub(crate) fn write_scene_types(dataset: &Dataset, config: &Config, manifest: &Manifest) -> Result<(), Error> {
+    let mut rows = Vec::new();
+    for (scene, entry) in &manifest.scenes {
+        let told = config.scenes.iter().find(|known| known.name == *scene).and_then(|known| scene_type(known.scene_type.as_deref()?));
+        // What is missing or damaged is told by the stages that need it.
+        let structure = dataset.read_structure(scene).ok().flatten();
+        for camera in entry.cameras.keys() {
+            let room = structure.as_ref().and_then(|structure| most_seen_from(dataset, structure, scene, camera));
+            let of_room = room.map_or(OTHER, |room| type_of_room(&room.kind));
+            let notes = room.map(|room| room.name.clone()).unwrap_or_default();
+            rows.push(SceneTypeRow { scene: scene.clone(), camera: camera.clone(), scene_type: told.unwrap_or(of_room), notes });
+        }
+    }
+    dataset.write_scene_types(&rows).map_err(Error::stage)
+}
+
+/// The room in which most poses of a camera are.
+fn most_seen_from<'s>(dataset: &Dataset, structure: &'s Structure, scene: &str, camera: &str) -> Option<&'s StructureRoom> {
+    let mut poses: BTreeMap<usize, usize> = BTreeMap::new();
+    for pose in dataset.read_trajectory(scene, camera).ok()?.poses {
+        if let Some(room) = structure.room_at(pose.position) {
+            *poses.entry(room).or_default() += 1;
+        }
+    }
+    let most = poses.into_iter().max_by_key(|&(room, count)| (count, std::cmp::Reverse(room)));
+    most.map(|(room, _)| &structure.rooms[room])
+}
+
+/// Hypersim's word for a kind of room of a home.
+fn type_of_room(kind: &str) -> &'static str {
+    match kind {
+        "bathroom" | "toilet" => "Bathroom",
+        "bedroom" | "childrens" => "Bedroom",
+        "dining" => "Dining room",
+        "hall" => "Hallway",
+        "kitchen" => "Kitchen",
+        "living" => "Living room",
+        "study" => "Office (home)",
+        _ => OTHER,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rooms_have_words_of_the_list() {
+        let is_word = |kind: &str| scene_type(type_of_room(kind)) == Some(type_of_room(kind));
+        let kinds = ["living", "kitchen", "dining", "bedroom", "childrens", "study", "bathroom", "toilet", "hall", "laundry", "pantry"];
+        assert!(kinds.into_iter().all(is_word));
+    }
+}
