@@ -378,6 +378,7 @@ def wai():
             camera, number = entry["frame_name"].rsplit("_", 1)
             stored = OpenEXR.File(f"{EXPORT}/{scene}/{entry['depth']}", separate_channels=True).channels()
             assert list(stored) == ["Y"] and stored["Y"].pixels.dtype == np.float32
+            check_opencv(f"{EXPORT}/{scene}/{entry['depth']}", stored["Y"].pixels)
             assert picture(f"{EXPORT}/{scene}/{entry['image']}").shape == (entry["h"], entry["w"], 3) and entry["file_path"] == entry["image"]
             K = np.array([[entry["fl_x"], 0, entry["cx"]], [0, entry["fl_y"], entry["cy"]], [0, 0, 1]])
             check_points(scene, camera, int(number), stored["Y"].pixels * 1000.0, K, np.array(entry["transform_matrix"]))
@@ -389,6 +390,17 @@ def wai():
             assert shape == 2 * (len(meta["frames"]),) and np.allclose(np.diag(shares), 1)
     assert sorted(seen) == sorted(record())
     return f"{len(seen)} frames"
+
+
+def check_opencv(path, expected):
+    """OpenCV reads it too, where it is there and still reads OpenEXR: as docs/export.md says, below version 5."""
+    os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"
+    try:
+        import cv2
+    except ImportError:
+        return
+    if int(cv2.__version__.split(".")[0]) < 5:
+        assert np.array_equal(cv2.imread(path, cv2.IMREAD_UNCHANGED), expected)
 
 
 def dust3r():
