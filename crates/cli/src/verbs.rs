@@ -107,6 +107,7 @@ fn choices(flags: &RenderFlags) -> RenderChoices {
         splits: flags.splits,
         fixtures: flags.fixtures,
         extra: flags.extra,
+        lambertian: flags.lambertian,
         color: flags.color.map(ColorKind::from),
     }
 }

@@ -39,8 +39,8 @@ pub struct LoadedScene {
     picture_files: PictureFiles,
     warnings: Vec<Warning>,
     report: serde_json::Value,
-    /// Made for the first picture.
-    prepared: Mutex<Option<Arc<Prepared>>>,
+    /// Made for the first picture, and again where another one asks for Lambertian surfaces or for none.
+    prepared: Mutex<Option<(bool, Arc<Prepared>)>>,
     /// The view that was found when one was first asked for.
     found: OnceLock<(StartCamera, String)>,
 }
@@ -168,7 +168,7 @@ impl LoadedScene {
     /// # Errors
     /// When the scene has no light or too many parts, or a camera is not usable.
     pub fn render(&self, views: &[(Camera, Pose)], shot: &Shot, cx: &dyn Cx) -> Result<Vec<Frame>, Error> {
-        let prepared = self.prepared(cx)?;
+        let prepared = self.prepared(&shot.render, cx)?;
         let scene = prepared.borrow_dependent();
         let views: Vec<CameraView> = views.iter().map(|(camera, pose)| CameraView::still(camera, pose)).collect();
         cx.progress("learning where light comes from", 0, views.len() as u64);
@@ -218,14 +218,16 @@ impl LoadedScene {
         Ok(lost)
     }
 
-    fn prepared(&self, cx: &dyn Cx) -> Result<Arc<Prepared>, Error> {
+    fn prepared(&self, config: &RenderConfig, cx: &dyn Cx) -> Result<Arc<Prepared>, Error> {
         // One that was interrupted while it prepared has left nothing.
         let mut prepared = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(prepared) = &*prepared {
+        if let Some((_, prepared)) = prepared.as_ref().filter(|(lambertian, _)| *lambertian == config.lambertian) {
             return Ok(prepared.clone());
         }
-        let made = Prepared::try_new(self.scene.clone(), |scene| RenderScene::new(scene, cx)).map_err(Error::stage)?;
-        Ok(prepared.insert(Arc::new(made)).clone())
+        let made = Prepared::try_new(self.scene.clone(), |scene| RenderScene::new(scene, cx).map(|ready| ready.settled(config)));
+        let made = Arc::new(made.map_err(Error::stage)?);
+        *prepared = Some((config.lambertian, made.clone()));
+        Ok(made)
     }
 }
 
@@ -251,8 +253,8 @@ mod tests {
         let rendered = |frame: &Frame| frame.iter().map(|(layer, values)| (layer, values.as_bytes().to_vec())).collect::<Vec<_>>();
         assert!(rendered(&first) == rendered(&second), "the same bytes");
         assert!(first.get(Layer::Semantic).is_some() && first.get(Layer::ColorRendered).is_some());
-        let kept = scene.prepared(&Quiet).unwrap();
-        assert!(Arc::ptr_eq(&kept, &scene.prepared(&Quiet).unwrap()));
+        let kept = scene.prepared(&shot.render, &Quiet).unwrap();
+        assert!(Arc::ptr_eq(&kept, &scene.prepared(&shot.render, &Quiet).unwrap()));
         assert!(first != scene.render(&[view], &Shot { color: ColorKind::Rendered, ..shot }, &Quiet).unwrap()[0]);
     }
 

@@ -166,7 +166,7 @@ fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dy
 /// The frame, with as many samples as it had.
 fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
     let Source { record, config, scene, camera, trajectory, index, .. } = source;
-    let scene = RenderScene::new(scene, cx).map_err(Error::stage)?;
+    let scene = RenderScene::new(scene, cx).map_err(Error::stage)?.settled(config);
     let views = views(camera, trajectory);
     let guide = Guide::learn(&scene, &views, config);
     let mut rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;

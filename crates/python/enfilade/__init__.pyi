@@ -248,6 +248,7 @@ def render(
     noise: float | None = None,
     max_bounces: int | None = None,
     clamp: float | None = None,
+    lambertian: bool = False,
     progress: bool | None = None,
 ) -> Frame: ...
 @overload
@@ -263,6 +264,7 @@ def render(
     noise: float | None = None,
     max_bounces: int | None = None,
     clamp: float | None = None,
+    lambertian: bool = False,
     progress: bool | None = None,
 ) -> list[Frame]: ...
 def run(

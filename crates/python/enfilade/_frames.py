@@ -38,6 +38,7 @@ def render(
     noise=None,
     max_bounces=None,
     clamp=None,
+    lambertian=False,
     progress=None,
 ):
     """Renders a picture of a scene in memory, with every layer; nothing is written to disk.
@@ -48,7 +49,7 @@ def render(
     "diffuse_direct") are rendered where they are named; flow leads from one camera to the next.
     denoise: whether `color`, `diffuse_illumination` and `residual` are denoised, with what was rendered beside them as `*_rendered`; yes, but for
     "reference", unless given.
-    seed: of the noise. noise: ends once the picture is that clean, such as 0.02. max_bounces, clamp: as in [render].
+    seed: of the noise. noise: ends once the picture is that clean, such as 0.02. max_bounces, clamp, lambertian: as in [render].
     progress: shows how far it has come; unless given, in notebooks and terminals.
 
     Gives a `Frame`: a dictionary of numpy arrays as `Dataset` gives them. The same arguments give the same bytes, whatever the number of threads;
@@ -70,6 +71,7 @@ def render(
         noise=noise,
         max_bounces=max_bounces,
         clamp=clamp,
+        lambertian=lambertian,
         progress=progress,
     )
     frames = [Frame(sample) for sample in rendered]

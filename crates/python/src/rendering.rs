@@ -24,7 +24,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 /// Renders views, one frame each: the function behind `enfilade.render`.
 #[pyfunction]
-#[pyo3(signature = (scene, cameras, *, quality, samples, layers, denoise, seed, noise, max_bounces, clamp, progress))]
+#[pyo3(signature = (scene, cameras, *, quality, samples, layers, denoise, seed, noise, max_bounces, clamp, lambertian, progress))]
 pub fn render<'py>(
     py: Python<'py>,
     scene: &Bound<'py, Scene>,
@@ -37,6 +37,7 @@ pub fn render<'py>(
     noise: Option<f32>,
     max_bounces: Option<u32>,
     clamp: Option<f32>,
+    lambertian: bool,
     progress: Option<bool>,
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
     // Find out what is wanted.
@@ -44,7 +45,7 @@ pub fn render<'py>(
     let wants = |pass: Pass| layers.iter().flatten().any(|layer| layer.spec().pass == pass);
     let color = denoise.map(|denoise| if denoise { ColorKind::Denoised } else { ColorKind::Rendered });
     let (splits, extra) = (wants(Pass::Split), wants(Pass::Extra));
-    let choices = RenderChoices { samples, noise, max_bounces, clamp, splits, extra, color, ..RenderChoices::default() };
+    let choices = RenderChoices { samples, noise, max_bounces, clamp, splits, extra, lambertian, color, ..RenderChoices::default() };
     let shot = Shot::new(self::quality(quality)?.unwrap_or(Quality::Normal), &choices, seed).map_err(IntoPy::into_py)?;
     check(layers.as_deref(), &shot)?;
 

@@ -71,6 +71,10 @@ pub struct RenderConfig {
     pub fixtures: bool,
     /// Adds further layers of geometry and material. Changes no other layer: see [`crate::add_extra_layers`]. Default false.
     pub extra: bool,
+    /// Rough diffuse surfaces (plaster, cloth, unglazed clay) scatter by Lambert's law, as if smooth: `diffuse_illumination` of a point is then
+    /// the same from everywhere. What [`crate::RenderScene::settled`] makes of a scene. Default false.
+    #[serde(skip_serializing_if = "is_false")]
+    pub lambertian: bool,
     /// Bounces before Russian roulette begins. Default 1.
     pub roulette_start: u32,
     /// Shape of the reconstruction filter. Default a tent.
@@ -95,6 +99,7 @@ impl Default for RenderConfig {
             splits: false,
             fixtures: false,
             extra: false,
+            lambertian: false,
             roulette_start: 1,
             filter: Filter::Tent,
             filter_radius: 1.0,
@@ -103,7 +108,7 @@ impl Default for RenderConfig {
     }
 }
 
-/// Records and hashes of frames have no word of fixtures where they are not told apart, as before there were any.
+/// Records and hashes of frames have no word of what is not asked for, as before there was any such choice.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
 fn is_false(value: &bool) -> bool {
     !value

@@ -1,6 +1,7 @@
 //! A scene made ready for rays: world triangles, ray-tracing hierarchy, lights, textures, and the tables of its materials.
 
 use crate::bsdf::{TableMaker, Tables};
+use crate::config::RenderConfig;
 use crate::error::RenderError;
 use crate::light::{Fixture, Fixtures, Lights};
 use crate::texture::{Cone, Footprint, Textures};
@@ -54,6 +55,16 @@ impl<'s> RenderScene<'s> {
         let ready = Self::of(Triangles::new(scene))?;
         cx.progress("building the ray-tracing hierarchy", 1, 1);
         Ok(ready)
+    }
+
+    /// The scene with what the settings say of its materials: [`RenderConfig::lambertian`]. Frames need one that their settings have settled.
+    #[must_use]
+    pub fn settled(mut self, config: &RenderConfig) -> Self {
+        if config.lambertian {
+            let mut maker = TableMaker::lambertian();
+            self.tables = self.scene.materials.iter().map(|m| maker.tables(&m.bsdf)).collect();
+        }
+        self
     }
 
     pub(crate) fn of(triangles: Triangles<'s>) -> Result<Self, RenderError> {

@@ -136,6 +136,9 @@ pub struct RenderFlags {
     /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
     #[arg(long)]
     pub extra: bool,
+    /// Make rough diffuse surfaces (plaster, cloth) Lambertian: diffuse_illumination of a point is then the same from everywhere
+    #[arg(long)]
+    pub lambertian: bool,
     /// What color, diffuse_illumination and residual hold [default: denoised]; a change renders nothing again
     #[arg(long, value_enum, value_name = "KIND")]
     pub color: Option<ColorArg>,

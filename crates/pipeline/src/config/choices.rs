@@ -118,6 +118,8 @@ pub struct RenderChoices {
     pub fixtures: bool,
     /// Asks for the further layers of geometry and material.
     pub extra: bool,
+    /// Asks for rough diffuse surfaces to be Lambertian.
+    pub lambertian: bool,
     /// What the colour layers hold.
     pub color: Option<ColorKind>,
 }
@@ -149,5 +151,6 @@ impl RenderChoices {
         render.splits |= self.splits;
         render.fixtures |= self.fixtures;
         render.extra |= self.extra;
+        render.lambertian |= self.lambertian;
     }
 }

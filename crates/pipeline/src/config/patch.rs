@@ -49,6 +49,7 @@ section!(RenderPatch => RenderConfig {
     splits: bool,
     fixtures: bool,
     extra: bool,
+    lambertian: bool,
     roulette_start: u32,
     filter: Filter,
     filter_radius: f32,

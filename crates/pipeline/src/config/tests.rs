@@ -235,7 +235,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, denoiser, samples, adaptive, noise, guiding, max_bounces, clamp, splits, fixtures, extra, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, denoiser, samples, adaptive, noise, guiding, max_bounces, clamp, splits, fixtures, extra, lambertian, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(

@@ -38,7 +38,7 @@ pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Res
     let planned = job.filmed()?;
     let filmed: Vec<_> = planned.iter().filter(|(_, trajectory)| frames.contains_key(&trajectory.name)).collect();
     let scene = job.load_scene()?;
-    let prepared = RenderScene::new(&scene, &Quiet).map_err(Error::stage)?;
+    let prepared = RenderScene::new(&scene, &Quiet).map_err(Error::stage)?.settled(&job.scene.render);
     let scene_cpu_s = time.cpu_s();
     let [width, height] = job.scene.size;
     let mut found = ScenePilot {

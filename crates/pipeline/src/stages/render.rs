@@ -57,7 +57,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     if rendered > 0 || lists_fixtures {
         job.forget_world();
         let scene = job.load_scene()?;
-        let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?;
+        let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?.settled(&job.scene.render);
         if lists_fixtures {
             list_fixtures(job, scene.fixtures())?;
         }

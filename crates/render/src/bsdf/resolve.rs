@@ -56,6 +56,9 @@ impl<'a> Bsdf<'a> {
             scene::Bsdf::Diffuse { reflectance } => Self::lambert(at.reflectance(reflectance)),
             scene::Bsdf::RoughDiffuse { reflectance, roughness } => {
                 let reflectance = at.reflectance(reflectance);
+                if at.tables.lambertian {
+                    return Self::lambert(reflectance);
+                }
                 let lobe = Lobe::RoughDiffuse(RoughDiffuse::new(reflectance, at.unit_scalar(roughness), at.cos_o));
                 Self { reflectance, ..Self::one(lobe) }
             }

@@ -15,16 +15,24 @@ pub struct Tables {
     pub glass: Option<Arc<GlassTable>>,
     /// Those of the two that it blends, if it does.
     pub blended: Option<Box<[Tables; 2]>>,
+    /// True where rough diffuse surfaces scatter by Lambert's law.
+    pub lambertian: bool,
 }
 
 /// Makes tables, each kind once.
 #[derive(Debug, Default)]
 pub struct TableMaker {
+    lambertian: bool,
     coats: Vec<Arc<CoatTable>>,
     glasses: Vec<Arc<GlassTable>>,
 }
 
 impl TableMaker {
+    /// One for scenes whose rough diffuse surfaces scatter by Lambert's law.
+    pub fn lambertian() -> Self {
+        Self { lambertian: true, ..Self::default() }
+    }
+
     /// The tables of a material.
     pub fn tables(&mut self, bsdf: &Bsdf) -> Tables {
         let square = |v: f32| v.clamp(0.0, 1.0).powi(2);
@@ -37,13 +45,14 @@ impl TableMaker {
                 Tables {
                     coat: self.coat(p.ior, alpha, Bounces::All),
                     glass: if body { self.glass(p.ior, alpha) } else { None },
-                    blended: None,
+                    ..Tables::default()
                 }
             }
             Bsdf::Blend { first, second, .. } => {
                 Tables { blended: Some(Box::new([self.tables(first), self.tables(second)])), ..Tables::default() }
             }
-            Bsdf::Diffuse { .. } | Bsdf::RoughDiffuse { .. } | Bsdf::Conductor { .. } | Bsdf::ThinDielectric { .. } => Tables::default(),
+            Bsdf::RoughDiffuse { .. } => Tables { lambertian: self.lambertian, ..Tables::default() },
+            Bsdf::Diffuse { .. } | Bsdf::Conductor { .. } | Bsdf::ThinDielectric { .. } => Tables::default(),
         }
     }
 

@@ -454,3 +454,29 @@ fn relief_creates_no_light_and_loses_what_it_would_send_through_the_wall() {
     let albedo = mean(&frame, Layer::Color, 1);
     assert!((0.72..=1.0).contains(&albedo), "albedo {albedo}");
 }
+
+#[test]
+fn a_lambertian_rendering_lights_a_point_the_same_from_everywhere() {
+    // Plaster under a sun at 60 degrees from the normal, seen from the sun's side and from the other one.
+    let rough = |reflectance: f32| Bsdf::RoughDiffuse { reflectance: Rgb::splat(reflectance).into(), roughness: 1.0.into() };
+    let blend = Bsdf::Blend { first: Box::new(rough(0.8)), second: Box::new(rough(0.4)), weight: 0.5.into() };
+    let direction = Vec3::new(-(60f32.to_radians().sin()), 0.0, -0.5);
+    for bsdf in [rough(0.8), blend] {
+        let floor = quad([(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)].map(|(x, y)| Vec3::new(x, y, 0.0)));
+        let mut scene = scene(vec![("floor", floor, Material::new("plaster", bsdf))]);
+        scene.lights.push(Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad: 0.0 });
+        let from = |x: f64, lambertian: bool| {
+            let config = RenderConfig { samples: 16, lambertian, ..RenderConfig::default() };
+            let ready = RenderScene::new(&scene, &Quiet).unwrap().settled(&config);
+            let pose = Pose::look_at(0, DVec3::new(x, 0.0, 1.0), DVec3::ZERO, DVec3::Z).unwrap();
+            mean(&render(&ready, &Intrinsics::from_fov_x(4, 4, 0.02), &pose, &config).unwrap(), Layer::DiffuseIllumination, 0)
+        };
+        // Irradiance over pi, by Lambert's law.
+        for x in [1.5, -1.5] {
+            assert_close(&format!("from {x}"), from(x, true), 3.0 * 0.5 / PI, 2e-3);
+        }
+        // As it is, the facets that face the sun are seen from its side.
+        let [toward, away] = [1.5, -1.5].map(|x| from(x, false));
+        assert!(toward > 1.2 * away, "{toward} from the sun's side, {away} from the other");
+    }
+}
