@@ -72,7 +72,7 @@ fn a_thing_under_a_sky_is_carved_walked_around_and_rendered_with_a_warning() {
 fn a_given_view_is_rendered_whatever_the_gates_think_of_it() {
     let folder = tempfile::tempdir().unwrap();
     // Straight at a wall from near: a bare wall without depth.
-    let cameras = "cameras = [{ position = [2, 0.6, 1.2], look_at = [2, 0, 1.2] }]\n";
+    let cameras = "lamps = \"ceiling\"\ncameras = [{ position = [2, 0.6, 1.2], look_at = [2, 0, 1.2] }]\n";
     let (dataset, summary, _) = made(folder.path(), ["room.obj", &cuboid([4.0, 3.0, 2.5], true)], cameras);
     assert!(summary.ok(), "{:?}", summary.scenes[0].failure);
     assert!(dataset.frame_numbers("s", "cam_00").unwrap().contains(&0));
@@ -83,7 +83,8 @@ fn a_given_view_is_rendered_whatever_the_gates_think_of_it() {
 #[test]
 fn found_places_take_the_part_of_cameras_that_are_not_wanted() {
     let folder = tempfile::tempdir().unwrap();
-    let (dataset, summary, _) = made(folder.path(), ["room.obj", &cuboid([4.0, 3.0, 2.5], true)], "cameras = \"found\"\n");
+    let (dataset, summary, _) =
+        made(folder.path(), ["room.obj", &cuboid([4.0, 3.0, 2.5], true)], "lamps = \"ceiling\"\ncameras = \"found\"\n");
     assert!(summary.ok(), "{:?}", summary.scenes[0].failure);
     assert_eq!(report(&dataset).start.unwrap().name, "start_00");
 }

@@ -2,7 +2,7 @@
 
 use crate::config::FileSource;
 use enfilade_import::{Imported, scene_name};
-use enfilade_scene::{CEILING, FLOOR, WALL, is_stuff};
+use enfilade_scene::{CEILING, FLOOR, Object, WALL, is_stuff};
 use enfilade_suggest::lexicon::Lexicon;
 use enfilade_suggest::words::words;
 use std::path::Path;
@@ -11,6 +11,10 @@ use std::path::Path;
 pub(super) struct Named {
     /// The class of every part; `None` where its names tell none, or several.
     pub classes: Vec<Option<i16>>,
+    /// The class of every object by its own name.
+    pub objects: Vec<Option<i16>>,
+    /// Whether an object is called by one word.
+    pub is_whole_object: Vec<bool>,
     /// Whether a part is called by this one thing and nothing else, so that it is the whole of it and not its leg.
     pub is_whole: Vec<bool>,
     /// The class that the file's own name tells, where no part has one.
@@ -21,10 +25,16 @@ impl Named {
     pub fn of(source: &FileSource, imported: &Imported) -> Self {
         let scene = &imported.scene;
         let lexicon = Lexicon::builtin().unwrap_or_default();
+        let called = |object: &Object| {
+            let own = words(&object.name);
+            (only(&lexicon.meanings(&own)), own.len() == 1)
+        };
+        let (objects, is_whole_object): (Vec<_>, Vec<_>) = scene.objects.iter().map(called).unzip();
         let (mut classes, mut is_whole) = (Vec::new(), Vec::new());
         for part in &scene.parts {
             let own = words(&part.name);
-            let class = only(&lexicon.meanings(&own));
+            let of_object = || part.object.and_then(|object| objects[object as usize]);
+            let class = only(&lexicon.meanings(&own)).or_else(of_object);
             // Exporters call shells by one name and tell floor and ceiling by the material.
             let by_material = || only(&lexicon.meanings(&words(&scene.materials[part.material as usize].name)));
             let shell =
@@ -37,7 +47,7 @@ impl Named {
         }
         let tells = |path: &str| only(&lexicon.meanings(&words(&scene_name(Path::new(path)))));
         let of_file = if classes.iter().all(Option::is_none) { tells(&source.file) } else { None };
-        Self { classes, is_whole, of_file }
+        Self { classes, objects, is_whole_object, is_whole, of_file }
     }
 
     /// Whether it is the shell of a building.

@@ -3,6 +3,7 @@
 use super::names::Named;
 use crate::intake::seen::Look;
 use enfilade_math::DVec3;
+use enfilade_scene::Scene;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -48,16 +49,23 @@ pub(super) struct Thing {
     pub height_m: f64,
 }
 
-/// Of every kind in the table the highest thing; what is lower than usual only where that tells.
-pub(super) fn things(look: &Look, named: &Named, up: DVec3) -> Vec<Thing> {
-    let heights = heights(look, named.classes.len(), up);
+/// Of every kind in the table the highest thing; what is lower than usual only where that tells. An object that is called so is one thing, else
+/// a part is.
+pub(super) fn things(scene: &Scene, look: &Look, named: &Named, up: DVec3) -> Vec<Thing> {
+    let kind_of = |class: Option<i16>| class.and_then(|class| KINDS.iter().position(|kind| kind.class == class));
+    let object_of =
+        |part: usize| scene.parts[part].object.map(|object| object as usize).filter(|object| kind_of(named.objects[*object]).is_some());
+    let parts = scene.parts.len();
+    let heights = heights(look, parts + scene.objects.len(), up, |part| object_of(part).map_or(part, |object| parts + object));
+    let class = |thing: usize| if thing < parts { named.classes[thing] } else { named.objects[thing - parts] };
+    let is_whole = |thing: usize| if thing < parts { named.is_whole[thing] } else { named.is_whole_object[thing - parts] };
     let mut highest: BTreeMap<usize, (f64, bool)> = BTreeMap::new();
-    for (part, height_m) in heights.iter().enumerate().filter(|(_, height)| **height > 0.0) {
-        let Some(kind) = KINDS.iter().position(|kind| named.classes[part] == Some(kind.class)) else { continue };
+    for (thing, height_m) in heights.iter().enumerate().filter(|(_, height)| **height > 0.0) {
+        let Some(kind) = kind_of(class(thing)) else { continue };
         let entry = highest.entry(kind).or_insert((0.0, false));
-        *entry = (entry.0.max(*height_m), entry.1 || named.is_whole[part]);
+        *entry = (entry.0.max(*height_m), entry.1 || is_whole(thing));
     }
-    if let Some(kind) = named.of_file.and_then(|class| KINDS.iter().position(|kind| kind.class == class)) {
+    if let Some(kind) = kind_of(named.of_file) {
         highest.insert(kind, (extent_m(look, up), true));
     }
     let thing = |(kind, (height_m, is_whole)): (usize, (f64, bool))| {
@@ -67,11 +75,11 @@ pub(super) fn things(look: &Look, named: &Named, up: DVec3) -> Vec<Thing> {
     highest.into_iter().filter_map(thing).collect()
 }
 
-/// Extent of every part along `up`, metres.
-fn heights(look: &Look, parts: usize, up: DVec3) -> Vec<f64> {
-    let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; parts];
+/// Extent along `up` of each of so many things, metres; `thing_of` tells to which a part belongs.
+fn heights(look: &Look, count: usize, up: DVec3, thing_of: impl Fn(usize) -> usize) -> Vec<f64> {
+    let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; count];
     for (corners, source) in look.world.corners.iter().zip(&look.world.sources) {
-        let range = &mut ranges[source.part as usize];
+        let range = &mut ranges[thing_of(source.part as usize)];
         for corner in corners {
             let height = corner.as_dvec3().dot(up);
             *range = [range[0].min(height), range[1].max(height)];

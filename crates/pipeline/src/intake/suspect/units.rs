@@ -104,7 +104,7 @@ pub(in crate::intake) fn judge(scene: &Scene, look: &Look, named: &Named, up: DV
         weight: if room.is_sure { SURE } else { LIKELY },
         tells_small: room.is_sure,
     });
-    let of_things = things(look, named, up).into_iter().map(|thing| Evidence {
+    let of_things = things(scene, look, named, up).into_iter().map(|thing| Evidence {
         subject: format!("the {} is", thing.kind.name),
         size_m: thing.height_m,
         usual_m: thing.kind.usual_m.clone(),
