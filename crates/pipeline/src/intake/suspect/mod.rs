@@ -20,7 +20,7 @@ use names::Named;
 use upright::{Lying, Witness};
 
 /// Formats whose files state which way is up.
-const STATE_UP: [&str; 6] = ["gltf", "usd", "fbx", "vray", "sweethome", "collection"];
+const STATE_UP: [&str; 10] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "zip", "vray", "sweethome", "collection"];
 
 /// What is suspected of a scene.
 pub(super) struct Suspicions {
