@@ -99,7 +99,7 @@ fn binary(facets: &[u8], a: &mut Assembly) -> Solid {
     if colored > 0 {
         a.warn("facets", format!("{colored} facets have attributes, which some programs take for colours; they were left out"));
     }
-    if facets.len() % FACET != 0 {
+    if !facets.len().is_multiple_of(FACET) {
         a.warn("facets", "the last facet is cut short and was left out; copy or export the file again");
     }
     solid

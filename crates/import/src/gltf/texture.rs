@@ -26,7 +26,13 @@ pub(super) fn image(document: &Document, index: usize, usage: Use, user: &str, a
     let mut pictures = pictures(texture).into_iter().peekable();
     while let Some(picture) = pictures.next() {
         if pictures.peek().is_none() {
-            return with_source(document, picture, user, a, |source, a| a.image(source, usage, user))?;
+            return match with_source(document, picture, user, a, |source, a| a.image(source, usage, user)) {
+                Err(error @ ImportError::Texture { .. }) if a.allows_missing_textures() => {
+                    a.warn(user, format!("a texture is missing ({error}); a plain grey stands in"));
+                    Ok(None)
+                }
+                read => read?,
+            };
         }
         let (name, problem) = match with_source(document, picture, user, a, |source, a| a.try_image(source, usage, user)) {
             Ok(read) => match read? {
@@ -83,6 +89,10 @@ fn with_source<T>(
     match document.embedded_image(picture, image) {
         Ok((place, bytes)) => Ok(read(&Source::Embedded(place, &bytes), a)),
         Err(ImageAt::File(path)) => Ok(read(&Source::File(&path), a)),
-        Err(ImageAt::Nowhere(problem)) => Err(a.malformed(user, problem)),
+        Err(ImageAt::Nowhere(problem)) => {
+            let texture = format!("images[{picture}]");
+            let problem = problem.strip_prefix(&texture).unwrap_or(&problem).trim_start().to_string();
+            Err(ImportError::Texture { file: a.file().to_path_buf(), user: user.to_string(), texture, problem })
+        }
     }
 }

@@ -7,7 +7,10 @@ use std::io::{Cursor, Write};
 use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
-fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
+/// Names and bytes of the files of an archive.
+type Files<'f> = &'f [(&'f str, &'f [u8])];
+
+fn zip(files: Files<'_>) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in files {
         zip.start_file(*name, SimpleFileOptions::default().compression_method(CompressionMethod::Deflated)).unwrap();
@@ -43,7 +46,7 @@ fn archives_of_every_shape_hold_the_scene_and_its_pictures() {
     let urdf = br#"<robot name="r"><link name="l"><visual><geometry><mesh filename="meshes/a.stl"/></geometry></visual></link></robot>"#;
     let usda = b"#usda 1.0\ndef \"A\" (references = @./parts/b.usda@</B>) {}\n";
     let layer = b"#usda 1.0\ndef Mesh \"B\" { point3f[] points = [(0,0,0),(1,0,0),(0,1,0)] int[] faceVertexCounts = [3] int[] faceVertexIndices = [0,1,2] }\n";
-    let cases: [(&str, usize, &[(&str, &[u8])]); 9] = [
+    let cases: [(&str, usize, Files<'_>); 9] = [
         ("gltf", 1, &[("scene.gltf", text.as_bytes()), ("textures/wood.png", &picture), ("license.txt", b"CC")]),
         (
             "gltf",

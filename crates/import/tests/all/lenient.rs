@@ -1,7 +1,7 @@
 //! What other readers take as well: byte order marks, other encodings, whole numbers with a point, paddings, decimal commas.
 
 use crate::common::{Folder, Gltf, png, warnings};
-use enfilade_import::Imported;
+use enfilade_import::{ImportOptions, Imported};
 use enfilade_math::Vec3;
 use enfilade_scene::{Bsdf, ColorParam};
 use serde_json::{Value, json};
@@ -105,7 +105,7 @@ fn gltf_takes_paddings_that_are_counted_and_not_written_and_zeros_behind_the_tex
     let length = json["buffers"][0]["byteLength"].as_u64().unwrap();
     json["buffers"][0]["byteLength"] = json!(length.next_multiple_of(4));
     json["bufferViews"][2]["byteLength"] = json!(8);
-    assert!(length % 4 != 0);
+    assert!(!length.is_multiple_of(4));
     assert_eq!(folder.write("c.gltf", json.to_string()).load("c.gltf").unwrap().scene, plain);
     json["buffers"][0]["byteLength"] = json!(length + 4);
     assert!(folder.write("d.gltf", json.to_string()).error("d.gltf").contains("cut short"));
@@ -114,6 +114,25 @@ fn gltf_takes_paddings_that_are_counted_and_not_written_and_zeros_behind_the_tex
         binary.pop();
     }
     assert_eq!(folder.write("e.glb", &binary).load("e.glb").unwrap().scene.meshes, plain.meshes);
+}
+
+#[test]
+fn gltf_goes_on_without_pictures_of_the_web_where_that_is_allowed() {
+    let mut g = Gltf::triangle();
+    g.json["materials"][0]["pbrMetallicRoughness"] = json!({"baseColorTexture": {"index": 0}});
+    g.json["textures"] = json!([{"source": 0}]);
+    for (image, problem) in [
+        (json!({"uri": "https://example.org/a.png"}), "https addresses are not followed"),
+        (json!({"bufferView": 99, "mimeType": "image/png"}), "refers to bufferView 99"),
+    ] {
+        g.json["images"] = json!([image]);
+        let folder = Folder::new();
+        let error = folder.write("a.gltf", g.text()).error("a.gltf");
+        assert!(error.contains(problem) && error.contains("--allow-missing-textures"), "{error}");
+        let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+        let told = warnings(&folder.load_with("a.gltf", &options).unwrap());
+        assert!(told.contains(problem) && told.contains("a plain grey stands in"), "{told}");
+    }
 }
 
 #[test]
