@@ -6,9 +6,9 @@ use crate::intake::load_file;
 use crate::single::{refuse_overwriting, write_output};
 use enfilade_import::Imported;
 use enfilade_label::class_name;
-use enfilade_scene::{Cx, Scene};
+use enfilade_scene::{Cx, ObjectId, Part, Scene, is_stuff};
 use enfilade_suggest::{Suggester, Suggestion};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -92,15 +92,39 @@ fn refuse_another(output: &Path, table: &str) -> Result<(), Error> {
     }
 }
 
-/// The table as `label` reads it, which ignores the last two columns: how sure we are, and of what.
+/// The table as `label` reads it, which ignores the last two columns: how sure we are, and of what. The column `instance` says which parts
+/// of several objects are one thing; `label` numbers the others.
 fn table(scene: &Scene, suggestions: &[Option<Suggestion>], min_confidence: f32) -> String {
-    let mut text = String::from("part,nyu40_id,nyu40_name,confidence,guess\n");
-    for (part, suggestion) in scene.parts.iter().zip(suggestions) {
-        let class = suggestion.as_ref().filter(|s| s.confidence >= min_confidence).map_or(-1, |s| s.class);
+    let mut text = String::from("part,nyu40_id,nyu40_name,instance,confidence,guess\n");
+    let sure = |suggestion: &Option<Suggestion>| suggestion.clone().filter(|s| s.confidence >= min_confidence);
+    let instances = instances(scene, &suggestions.iter().map(sure).collect::<Vec<_>>());
+    for ((part, suggestion), instance) in scene.parts.iter().zip(suggestions).zip(instances) {
+        let class = sure(suggestion).map_or(-1, |s| s.class);
         let (confidence, guess) = suggestion.as_ref().map_or((0.0, ""), |s| (s.confidence, class_name(s.class)));
-        text.push_str(&format!("{},{class},{},{confidence:.3},{guess}\n", quoted(&part.name), class_name(class)));
+        let instance = instance.map_or_else(String::new, |instance| instance.to_string());
+        text.push_str(&format!("{},{class},{},{instance},{confidence:.3},{guess}\n", quoted(&part.name), class_name(class)));
     }
     text
+}
+
+/// The instance numbers of parts that are one thing although they are several objects: the doors and the body of a night stand.
+fn instances(scene: &Scene, sure: &[Option<Suggestion>]) -> Vec<Option<i16>> {
+    let thing = |(part, suggestion): (&Part, &Option<Suggestion>)| {
+        let suggestion = suggestion.as_ref().filter(|s| !is_stuff(s.class))?;
+        Some((suggestion.whole.or(part.object)?, suggestion.class))
+    };
+    let things: Vec<Option<(ObjectId, i16)>> = scene.parts.iter().zip(sure).map(thing).collect();
+    let mut objects: BTreeMap<(ObjectId, i16), BTreeSet<ObjectId>> = BTreeMap::new();
+    for (part, thing) in scene.parts.iter().zip(&things) {
+        thing.zip(part.object).into_iter().for_each(|(thing, object)| _ = objects.entry(thing).or_default().insert(object));
+    }
+    let mut numbers: BTreeMap<(ObjectId, i16), Option<i16>> = BTreeMap::new();
+    let mut next = 1..=i16::MAX;
+    let number = |thing: &Option<(ObjectId, i16)>| {
+        let thing = thing.filter(|thing| objects[thing].len() > 1)?;
+        *numbers.entry(thing).or_insert_with(|| next.next())
+    };
+    things.iter().map(number).collect()
 }
 
 /// A CSV field, in quotes where it needs them.
@@ -113,7 +137,7 @@ fn quoted(field: &str) -> String {
 mod tests {
     use super::*;
     use enfilade_label::LabelTable;
-    use enfilade_scene::{Material, Part};
+    use enfilade_scene::{Material, Object, Part};
 
     #[test]
     fn the_table_is_one_that_label_reads_and_the_unsure_are_not_guessed() {
@@ -121,11 +145,53 @@ mod tests {
             |name: &str| Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: enfilade_math::DAffine3::IDENTITY };
         let parts = ["sofa \"big\", red", "Mesh.001", "thing"].map(part).to_vec();
         let scene = Scene { parts, materials: vec![Material::diffuse("grey", enfilade_math::Rgb::WHITE)], ..Scene::default() };
-        let suggestion = |class, confidence| Some(Suggestion { class, confidence, alternatives: Vec::new() });
+        let suggestion = |class, confidence| Some(Suggestion { class, confidence, whole: None, alternatives: Vec::new() });
         let text = table(&scene, &[suggestion(6, 0.93), None, suggestion(40, 0.3)], 0.9);
-        assert!(text.ends_with("Mesh.001,-1,unlabelled,0.000,\nthing,-1,unlabelled,0.300,otherprop\n"), "{text}");
+        assert!(text.ends_with("Mesh.001,-1,unlabelled,,0.000,\nthing,-1,unlabelled,,0.300,otherprop\n"), "{text}");
         let (labels, report) = LabelTable::parse(text.as_bytes(), "t").unwrap().assign("any", &scene);
         assert_eq!(labels.parts.iter().map(|label| label.semantic).collect::<Vec<_>>(), [6, -1, -1]);
         assert!(report.unmatched.is_empty());
+    }
+
+    #[test]
+    fn parts_with_the_class_of_what_they_lie_in_are_one_instance_and_others_have_their_own() {
+        let object = |name: &str, parent| Object { name: name.into(), parent };
+        let part = |name: &str, object| Part {
+            name: name.into(),
+            object: Some(object),
+            mesh: 0,
+            material: 0,
+            world_from_mesh: enfilade_math::DAffine3::IDENTITY,
+        };
+        let objects = vec![
+            object("Bedroom", None),
+            object("Nightstand", Some(0)),
+            object("door", Some(1)),
+            object("Chair 1", Some(0)),
+            object("legs", Some(3)),
+            object("Cube.004", Some(3)),
+            object("Wall_0_grp", Some(0)),
+            object("Door2", Some(6)),
+            object("Lamps", Some(0)),
+            object("Cube.001", Some(8)),
+            object("Cube.002", Some(8)),
+            object("Sofa", Some(0)),
+            object("Sofa_seat", Some(11)),
+            object("Sofa_Wood_0", Some(11)),
+        ];
+        let names = [("Nightstand", 1), ("door", 2), ("legs", 4), ("Cube.004", 5), ("Door2", 7), ("Cube.001", 9), ("Cube.002", 10)];
+        let names = [names.as_slice(), &[("Sofa_seat", 12), ("Sofa_Wood_0", 13)]].concat();
+        let scene = Scene {
+            parts: names.iter().map(|&(name, object)| part(name, object)).collect(),
+            objects,
+            materials: vec![Material::diffuse("grey", enfilade_math::Rgb::WHITE)],
+            ..Scene::default()
+        };
+        let suggester = Suggester::builtin();
+        let text = table(&scene, &suggester.suggest_scene(&scene), 0.6);
+        let labels = LabelTable::parse(text.as_bytes(), "t").unwrap().assign("any", &scene).0;
+        let found: Vec<_> = labels.parts.iter().map(|label| (label.semantic, label.instance)).collect();
+        // Two parts of a night stand, two of a chair, a door in a wall, two lamps, and two parts of a sofa.
+        assert_eq!(found, [(32, 1), (32, 1), (5, 2), (5, 2), (8, 4), (35, 5), (35, 6), (6, 3), (6, 3)], "{text}");
     }
 }

@@ -32,9 +32,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let weights = learn(&groups.iter().collect::<Vec<&NameGroup>>(), &lexicon, &config);
     let unseen = held_out(&groups, &lexicon, &config, Split::Volume, FOLDS);
     let thresholds = Thresholds::find(&unseen.confidences, &PRECISIONS);
-    for (file, text) in
-        [("weights.csv", weights.to_csv()), ("calibration.csv", unseen.calibration().to_csv()), ("thresholds.csv", thresholds.to_csv())]
-    {
+    let (shares, around) = unseen.around(&groups);
+    let tables = [
+        ("weights.csv", weights.to_csv()),
+        ("calibration.csv", unseen.calibration().to_csv()),
+        ("thresholds.csv", thresholds.to_csv()),
+        ("shares.csv", shares.to_csv()),
+        ("around.csv", around.to_csv()),
+    ];
+    for (file, text) in tables {
         let path = Path::new(folder).join(file);
         std::fs::write(&path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("{}  {} bytes", path.display(), text.len());

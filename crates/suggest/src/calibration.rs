@@ -2,7 +2,9 @@
 //!
 //! Isotonic regression (pool adjacent violators; Zadrozny and Elkan 2002), drawn through with straight lines.
 
+use crate::chain::best;
 use crate::table::{TableError, number, read};
+use crate::weights::CLASSES;
 
 const COLUMNS: [&str; 2] = ["score", "confidence"];
 
@@ -95,6 +97,16 @@ impl Calibration {
     pub fn to_csv(&self) -> String {
         let rows = self.points.iter().map(|(score, confidence)| format!("{score},{confidence}\n"));
         std::iter::once(format!("{}\n", COLUMNS.join(","))).chain(rows).collect()
+    }
+
+    /// Probabilities whose largest is a confidence; the others share what is left as before.
+    pub(crate) fn apply(&self, probabilities: &[f32; CLASSES]) -> [f32; CLASSES] {
+        let (class, score) = best(probabilities);
+        let confidence = self.confidence(score);
+        let factor = (1.0 - confidence) / (1.0 - score).max(f32::EPSILON);
+        let mut applied = probabilities.map(|p| (p * factor).min(confidence));
+        applied[class as usize - 1] = confidence;
+        applied
     }
 
     /// The confidence of a score, both from 0 to 1. Never falls with the score; outside of the curve that of its nearest end.

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 const FILE: &str = "words.csv";
 const BUILTIN: &str = include_str!("../words.csv");
 /// Words of the longest phrase.
-const MAX_PHRASE: usize = 3;
+pub(crate) const MAX_PHRASE: usize = 3;
 /// Letters that the end of a compound needs to count: `Esstisch` is a *tisch*. Words of other scripts need only be in the list.
 const MIN_END: usize = 4;
 
@@ -70,6 +70,11 @@ impl Lexicon {
             at += meaning.map_or(1, |(n, _)| n);
         }
         found
+    }
+
+    /// The class of a word or phrase that is in the list as it stands.
+    pub(crate) fn class(&self, phrase: &str) -> Option<i16> {
+        self.classes.get(phrase).copied()
     }
 
     /// Every word or phrase with its class, sorted.

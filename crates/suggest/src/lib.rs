@@ -13,9 +13,11 @@
 //! names of Hypersim's objects and their labels; `words.csv` is a word list of ours. `docs/suggest.md` says how good it is.
 
 pub mod calibration;
+pub mod chain;
 pub mod features;
 pub mod learn;
 pub mod lexicon;
+pub mod roles;
 mod suggester;
 mod table;
 pub mod weights;

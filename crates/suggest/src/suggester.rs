@@ -1,20 +1,32 @@
-//! The whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence.
+//! The whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence, and the names around it.
 
 use crate::calibration::{Calibration, Thresholds};
+use crate::chain::{Level, Shares, mix};
 use crate::features::features;
+use crate::learn::halves;
 use crate::lexicon::Lexicon;
+use crate::roles::{Role, Roles};
 use crate::table::TableError;
 use crate::weights::{CLASSES, Weights, softmax};
-use crate::words::words;
-use enfilade_scene::Scene;
+use crate::words::{is_plural, words};
+use enfilade_scene::{ObjectId, Part, Scene};
+use std::collections::{BTreeSet, HashMap};
 
 const WEIGHTS: (&str, &str) = ("data/weights.csv", include_str!("../data/weights.csv"));
 const CALIBRATION: (&str, &str) = ("data/calibration.csv", include_str!("../data/calibration.csv"));
 const THRESHOLDS: (&str, &str) = ("data/thresholds.csv", include_str!("../data/thresholds.csv"));
+const SHARES: (&str, &str) = ("data/shares.csv", include_str!("../data/shares.csv"));
+const AROUND: (&str, &str) = ("data/around.csv", include_str!("../data/around.csv"));
 /// Alternatives that a suggestion may have.
 const MAX_ALTERNATIVES: usize = 3;
 /// What a material's name counts beside a part's: half, because it says what a thing is made of more often than what it is.
 const MATERIAL_SHARE: f32 = 0.5;
+/// Names around a part that are looked at, from the inside.
+const MAX_LEVELS: usize = 8;
+/// Classes of things in it, beside its own, from which on a name stands for a collection.
+const COLLECTION: usize = 4;
+/// Wall, floor and ceiling: only places have them.
+const STRUCTURE: [i16; 3] = [1, 2, 22];
 
 /// Knows which classes names stand for. The same names always get the same suggestion; nothing is read or kept.
 ///
@@ -28,18 +40,21 @@ const MATERIAL_SHARE: f32 = 0.5;
 pub struct Suggester {
     weights: Weights,
     lexicon: Lexicon,
+    roles: Roles,
     calibration: Calibration,
     thresholds: Thresholds,
+    shares: Shares,
+    around: Calibration,
 }
 
 /// The names by which a part is judged. Any may be empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PartNames<'a> {
-    /// The part's own name; `object/part` says which object it belongs to.
+    /// The part's own name; what stands before a slash is around it, as in `object/part`.
     pub part: &'a str,
     /// Its material's name.
     pub material: &'a str,
-    /// The groups that it is in, outermost first, with slashes between.
+    /// What it is part of and in, outermost first, with slashes between: parents in a hierarchy, groups.
     pub group: &'a str,
 }
 
@@ -50,9 +65,15 @@ pub struct Suggestion {
     pub class: i16,
     /// Probability that it is right, from 0 to 1: of names with this confidence in scenes that were held out, that share was.
     pub confidence: f32,
+    /// What the part is a part of, where the name of that decided: all parts with the same are one thing. Only [`Suggester::suggest_scene`]
+    /// knows.
+    pub whole: Option<ObjectId>,
     /// Up to three other classes, the likeliest first, with their probabilities, none above `confidence`.
     pub alternatives: Vec<(i16, f32)>,
 }
+
+/// The levels of names that stood around others.
+type Known = HashMap<String, Option<Level>>;
 
 impl Suggester {
     /// With the tables that come with the crate.
@@ -60,25 +81,42 @@ impl Suggester {
     /// # Panics
     /// When they are damaged, which the crate's tests exclude.
     pub fn builtin() -> Self {
-        Self::from_tables(WEIGHTS, CALIBRATION, THRESHOLDS).unwrap_or_else(|error| panic!("a table that was built in is damaged: {error}"))
+        Self::from_tables([WEIGHTS, CALIBRATION, THRESHOLDS, SHARES, AROUND])
+            .unwrap_or_else(|error| panic!("a table that was built in is damaged: {error}"))
     }
 
-    /// With tables of your own: of each what errors call it, and its text. The word list is the crate's.
+    /// With tables of your own, as learning writes them: weights, calibration, thresholds, shares, and the curve of names among others; of
+    /// each what errors call it, and its text. The word lists are the crate's.
     ///
     /// # Errors
     /// The first row that is damaged.
-    pub fn from_tables(weights: (&str, &str), calibration: (&str, &str), thresholds: (&str, &str)) -> Result<Self, TableError> {
+    pub fn from_tables([weights, calibration, thresholds, shares, around]: [(&str, &str); 5]) -> Result<Self, TableError> {
         Ok(Self {
             weights: Weights::parse(weights.1, weights.0)?,
             lexicon: Lexicon::builtin()?,
+            roles: Roles::builtin()?,
             calibration: Calibration::parse(calibration.1, calibration.0)?,
             thresholds: Thresholds::parse(thresholds.1, thresholds.0)?,
+            shares: Shares::parse(shares.1, shares.0)?,
+            around: Calibration::parse(around.1, around.0)?,
         })
     }
 
-    /// With weights that were learned, before anything is known of their precision: the confidence is the model's own probability.
+    /// With weights that were learned, before anything is known of their precision: the confidence is the model's own probability, and
+    /// names around a part say nothing.
+    ///
+    /// # Panics
+    /// When the crate's list of roles is damaged, which its tests exclude.
     pub fn uncalibrated(weights: Weights, lexicon: Lexicon) -> Self {
-        Self { weights, lexicon, calibration: Calibration::identity(), thresholds: Thresholds::default() }
+        Self {
+            weights,
+            lexicon,
+            roles: Roles::builtin().unwrap_or_else(|error| panic!("a table that was built in is damaged: {error}")),
+            calibration: Calibration::identity(),
+            thresholds: Thresholds::default(),
+            shares: Shares::new([0.0; 4]),
+            around: Calibration::identity(),
+        }
     }
 
     /// The minimum confidence from which on at least the share `precision` of names is right, as measured in held-out volumes of
@@ -89,33 +127,51 @@ impl Suggester {
 
     /// What a part of these names is; `None` when they have no word of which anything is known.
     pub fn suggest(&self, names: &PartNames<'_>) -> Option<Suggestion> {
-        let evidence = self.evidence(names);
-        if evidence.is_empty() {
-            return None;
+        let (own, around) = split(names);
+        Some(self.suggest_knowing(own, names.material, &around, &mut HashMap::new())?.0)
+    }
+
+    /// What a part of this name is among the names around it, from the inside, and which of these decided, if one did. `known` are names
+    /// that stood around others, which scenes repeat.
+    fn suggest_knowing(&self, own: &str, material: &str, around: &[&str], known: &mut Known) -> Option<(Suggestion, Option<usize>)> {
+        let evidence = self.evidence(own, material);
+        let levels = self.levels(&evidence, own, material, around, known);
+        let (by, levels): (Vec<Option<usize>>, Vec<Level>) = levels.into_iter().unzip();
+        let (probabilities, shares) = mix(&levels, &self.shares);
+        if *shares.first()? >= 1.0 {
+            return Some((Suggestion::of(&self.probabilities(&evidence)).calibrated(&self.calibration), None));
         }
-        let mut sums = self.weights.start();
-        evidence.iter().for_each(|(features, share)| self.weights.add(features, *share, &mut sums));
-        Some(Suggestion::of(&softmax(&sums)).calibrated(&self.calibration))
+        let found = Suggestion::of(&probabilities).calibrated(&self.around);
+        let weight = |i: &usize| shares[*i] * levels[*i].probabilities[found.class as usize - 1];
+        let decided = (0..levels.len()).max_by(|i, j| weight(i).total_cmp(&weight(j)))?;
+        Some((found, by[decided]))
     }
 
     /// What in these names speaks for a class (above 0) or against it, the strongest first: features as
-    /// [`features`](crate::features::features) writes them, and their weights, in natural logarithms of odds.
+    /// [`features`](crate::features::features) writes them, and their weights, in natural logarithms of odds, as far as their name counts.
     pub fn reasons(&self, names: &PartNames<'_>, class: i16) -> Vec<(String, f32)> {
+        let (own, around) = split(names);
+        let mut evidence = self.evidence(own, names.material);
+        let levels = self.levels(&evidence, own, names.material, &around, &mut HashMap::new());
+        let (by, levels): (Vec<Option<usize>>, Vec<Level>) = levels.into_iter().unzip();
+        let (_, shares) = mix(&levels, &self.shares);
+        evidence.iter_mut().for_each(|(_, share)| *share *= shares.first().copied().unwrap_or(1.0));
+        let outer = by.iter().zip(&shares).filter_map(|(by, share)| Some((features(&words(around[(*by)?]), &self.lexicon), *share)));
         let weighed = |(features, share): (Vec<String>, f32)| {
             features.into_iter().map(move |feature| {
                 let weight = share * self.weights.of(&feature, class);
                 (feature, weight)
             })
         };
-        let mut reasons: Vec<_> = self.evidence(names).into_iter().flat_map(weighed).filter(|(_, weight)| *weight != 0.0).collect();
+        let mut reasons: Vec<_> = evidence.into_iter().chain(outer).flat_map(weighed).filter(|(_, weight)| *weight != 0.0).collect();
         reasons.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         reasons
     }
 
-    /// The features of a part's own names and of its material's, of which anything is known, and how much each list counts.
-    fn evidence(&self, names: &PartNames<'_>) -> Vec<(Vec<String>, f32)> {
-        let own: Vec<String> = [names.group, names.part].into_iter().flat_map(words).collect();
-        let mut material = words(names.material);
+    /// The features of a part's own name and of its material's, of which anything is known, and how much each list counts.
+    fn evidence(&self, own: &str, material: &str) -> Vec<(Vec<String>, f32)> {
+        let own = words(own);
+        let mut material = words(material);
         // Exporters often name a part after its material: that is one word, not two.
         material.retain(|word| !own.contains(word));
         let known = |words: &[String]| Some(features(words, &self.lexicon)).filter(|features| self.weights.knows(features));
@@ -124,18 +180,125 @@ impl Suggester {
         own.map(|features| (features, 1.0)).into_iter().chain(known(&material).map(|features| (features, share))).collect()
     }
 
-    /// What every part of a scene is, in the order of `Scene::parts`.
+    /// The model's probabilities of the classes.
+    fn probabilities(&self, evidence: &[(Vec<String>, f32)]) -> [f32; CLASSES] {
+        let mut sums = self.weights.start();
+        evidence.iter().for_each(|(features, share)| self.weights.add(features, *share, &mut sums));
+        softmax(&sums)
+    }
+
+    /// The levels of a part and which name around it each is of, its own first: a part whose own names say nothing has one where names
+    /// around it speak.
+    fn levels(
+        &self,
+        evidence: &[(Vec<String>, f32)],
+        own: &str,
+        material: &str,
+        around: &[&str],
+        known: &mut Known,
+    ) -> Vec<(Option<usize>, Level)> {
+        let mut outer: Vec<(Option<usize>, Level)> = Vec::new();
+        let own_words = words(own);
+        let piece_of_named = self.roles.is_piece_of_named(&own_words, &self.lexicon);
+        let mut inside = own_words.clone();
+        for (i, name) in around.iter().enumerate() {
+            // A node and its mesh, a part and its object: one name, not two.
+            let named = words(name);
+            if inside == named || (inside.starts_with(&named) && !piece_of_named) {
+                continue;
+            }
+            inside = named;
+            if !known.contains_key(*name) {
+                known.insert((*name).to_string(), self.level_around(name));
+            }
+            outer.extend(known.get(*name).cloned().flatten().map(|level| (Some(i), level)));
+        }
+        if evidence.is_empty() && outer.is_empty() {
+            return Vec::new();
+        }
+        let role = match (self.roles.of(&own_words, &self.lexicon), self.roles.of(&words(material), &self.lexicon)) {
+            (Role::Filler | Role::Side | Role::Unlisted, Role::Thing(class)) => Role::Thing(class),
+            // The leg of a chair is a piece of the chair around it.
+            (Role::Thing(class), _) if piece_of_named => Role::Piece { wholes: vec![class], alone: Some(class) },
+            (role, _) => role,
+        };
+        let probabilities = self.calibration.apply(&self.probabilities(evidence));
+        std::iter::once((None, Level { role, probabilities })).chain(outer).collect()
+    }
+
+    /// The level of a name around others, if it says anything about them.
+    fn level_around(&self, name: &str) -> Option<Level> {
+        self.level(&words(name)).map(|(role, p)| Level { role, probabilities: self.calibration.apply(&p) }).filter(Level::speaks)
+    }
+
+    /// The role of words, and the model's probabilities; `None` where nothing is known of them.
+    pub(crate) fn level(&self, words: &[String]) -> Option<(Role, [f32; CLASSES])> {
+        let features = features(words, &self.lexicon);
+        let known = self.weights.knows(&features);
+        known.then(|| (self.roles.of(words, &self.lexicon), self.probabilities(&[(features, 1.0)])))
+    }
+
+    /// Both halves of a name whose first half names a thing, the inner one first.
+    pub(crate) fn halves(&self, words: &[String]) -> Option<[(Role, [f32; CLASSES]); 2]> {
+        let (outer, inner) = halves(words, &self.lexicon, &self.roles)?;
+        let within = self.level(inner).unwrap_or_else(|| (self.roles.of(inner, &self.lexicon), self.probabilities(&[])));
+        Some([within, self.level(outer)?])
+    }
+
+    /// What every part of a scene is, in the order of `Scene::parts`, by its name, its material's, and the names of what it lies in.
     ///
     /// # Panics
     /// When a part's material does not exist; a valid scene has none such.
     pub fn suggest_scene(&self, scene: &Scene) -> Vec<Option<Suggestion>> {
-        let names = scene.parts.iter().map(|part| PartNames {
-            part: &part.name,
-            material: &scene.materials[part.material as usize].name,
-            group: "",
-        });
-        names.map(|names| self.suggest(&names)).collect()
+        let collections = self.collections(scene);
+        let mut known = HashMap::new();
+        let suggestion = |part: &Part| {
+            let (own, path) = split(&PartNames { part: &part.name, ..PartNames::default() });
+            let objects: Vec<ObjectId> =
+                scene.objects_around(part).filter(|&object| !collections[object as usize]).take(MAX_LEVELS).collect();
+            let lineage: Vec<&str> = objects.iter().map(|&object| scene.objects[object as usize].name.as_str()).collect();
+            // What only the part's name says is farther out than what the file says it lies in.
+            let path = if part.object.is_none() { path } else { Vec::new() };
+            let around = [lineage, path].concat();
+            let (suggestion, by) = self.suggest_knowing(own, &scene.materials[part.material as usize].name, &around, &mut known)?;
+            let whole = by.filter(|&by| !is_plural(around[by])).and_then(|by| objects.get(by).copied());
+            Some(Suggestion { whole: whole.filter(|whole| Some(*whole) != part.object), ..suggestion })
+        };
+        scene.parts.iter().map(suggestion).collect()
     }
+
+    /// Which objects of a scene are collections: what holds walls, floors or ceilings, or things of several other classes, is no thing
+    /// itself, whatever it is called (`coffee table scene`).
+    fn collections(&self, scene: &Scene) -> Vec<bool> {
+        let thing = |name: &str| match self.roles.of(&words(name), &self.lexicon) {
+            Role::Thing(class) => Some(class),
+            _ => None,
+        };
+        let own: Vec<Option<i16>> = scene.objects.iter().map(|object| thing(&object.name)).collect();
+        let mut held: Vec<BTreeSet<i16>> = vec![BTreeSet::new(); scene.objects.len()];
+        for part in &scene.parts {
+            let name = part.name.rsplit('/').next().unwrap_or_default();
+            part.object.into_iter().for_each(|object| held[object as usize].extend(thing(name)));
+        }
+        // Parents stand before what lies in them.
+        for (i, object) in scene.objects.iter().enumerate().rev() {
+            if let Some(parent) = object.parent {
+                let inside: Vec<i16> = held[i].iter().copied().chain(own[i]).collect();
+                held[parent as usize].extend(inside);
+            }
+        }
+        let collection = |(held, own): (&BTreeSet<i16>, &Option<i16>)| {
+            let others = held.iter().filter(|class| Some(**class) != *own);
+            others.clone().count() >= COLLECTION || others.clone().any(|class| STRUCTURE.contains(class))
+        };
+        held.iter().zip(&own).map(collection).collect()
+    }
+}
+
+/// A part's own name, and the names around it, from the inside.
+fn split<'a>(names: &PartNames<'a>) -> (&'a str, Vec<&'a str>) {
+    let mut path = names.part.rsplit('/').chain(names.group.rsplit('/'));
+    (path.next().unwrap_or_default(), path.filter(|name| !name.is_empty()).take(MAX_LEVELS).collect())
 }
 
 impl Suggestion {
@@ -145,7 +308,7 @@ impl Suggestion {
         order.sort_by(|&a, &b| probabilities[b].total_cmp(&probabilities[a]));
         let pair = |i: usize| (i as i16 + 1, probabilities[i]);
         let (class, confidence) = pair(order[0]);
-        Self { class, confidence, alternatives: order[1..=MAX_ALTERNATIVES].iter().map(|&i| pair(i)).collect() }
+        Self { class, confidence, whole: None, alternatives: order[1..=MAX_ALTERNATIVES].iter().map(|&i| pair(i)).collect() }
     }
 
     /// With a score turned into a confidence; the alternatives share what is left as before.
@@ -153,14 +316,14 @@ impl Suggestion {
         let confidence = calibration.confidence(self.confidence);
         let factor = (1.0 - confidence) / (1.0 - self.confidence).max(f32::EPSILON);
         let alternatives = self.alternatives.iter().map(|&(class, p)| (class, (p * factor).min(confidence))).collect();
-        Self { class: self.class, confidence, alternatives }
+        Self { class: self.class, confidence, whole: self.whole, alternatives }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::NYU40;
+    use enfilade_scene::{NYU40, Object};
 
     fn of(part: &str, material: &str) -> Option<Suggestion> {
         Suggester::builtin().suggest(&PartNames { part, material, group: "" })
@@ -231,6 +394,74 @@ mod tests {
     }
 
     #[test]
+    fn pieces_are_what_they_are_pieces_of_and_things_are_what_they_are() {
+        let suggester = Suggester::builtin();
+        let class = |path: &str| {
+            let found = suggester.suggest(&PartNames { part: path, ..PartNames::default() });
+            found.map_or("nothing", |suggestion| NYU40[suggestion.class as usize - 1].name)
+        };
+        for (path, expected) in [
+            ("Nightstand/door", "nightstand"),
+            ("Nachttisch/Tür", "nightstand"),
+            ("Chair 1/legs", "chair"),
+            ("Chair 1/legs/Cylinder.003", "chair"),
+            ("Sketchfab_model/chair.fbx/RootNode/Object_4", "chair"),
+            ("Sofa/cushion", "sofa"),
+            ("Sofa/pillow", "pillow"),
+            ("Fridge/door", "refrigerator"),
+            ("Kitchen/Cabinet_03/drawer", "cabinet"),
+            ("Wardrobe/Door/Handle", "cabinet"),
+            ("Armoire/Porte_gauche", "cabinet"),
+            ("шкаф/дверь", "cabinet"),
+            ("Bed/frame", "bed"),
+            ("Table lamp/Shade", "lamp"),
+            ("Window 2/glass", "window"),
+            ("Window 2/Curtain", "curtain"),
+            ("Bookshelf/shelf", "bookshelf"),
+            ("Bookshelf/book_3", "books"),
+            ("Picture/frame", "picture"),
+            ("Table/Vase", "otherprop"),
+            // What holds it is no thing of which it could be a piece, or a place.
+            ("Wall_0_grp/Door2", "door"),
+            ("Wall_0_grp/Door2/Handle", "door"),
+            ("Living room/Table", "table"),
+            ("Kitchen_grp/Door", "door"),
+            ("House/Level 1/Bedroom/door", "door"),
+            ("Bathroom/Sink", "sink"),
+        ] {
+            assert_eq!(class(path), expected, "{path}");
+        }
+        // A place adds nothing, and a thing is as sure as alone.
+        let found = |path: &str| suggester.suggest(&PartNames { part: path, ..PartNames::default() });
+        assert_eq!(found("Kitchen_grp/Door"), found("Door"));
+        assert_eq!(found("Wall_0_grp/Door2"), found("Door2"));
+        assert_eq!(found("Kitchen/Cube"), found("Cube"));
+    }
+
+    #[test]
+    fn what_holds_walls_or_things_of_many_kinds_is_no_thing() {
+        let object = |name: &str, parent| Object { name: name.into(), parent };
+        let part = |name: &str, object| Part {
+            name: name.into(),
+            object: Some(object),
+            mesh: 0,
+            material: 0,
+            world_from_mesh: enfilade_math::DAffine3::IDENTITY,
+        };
+        let material = enfilade_scene::Material::diffuse("grey", enfilade_math::Rgb::WHITE);
+        let scene = |other: &str| Scene {
+            objects: vec![object("coffee_table_scene", None), object("Cube.001", Some(0)), object(other, Some(0))],
+            parts: vec![part("Cube.001", 1), part(other, 2)],
+            materials: vec![material.clone()],
+            ..Scene::default()
+        };
+        let cube = |other: &str| Suggester::builtin().suggest_scene(&scene(other))[0].clone().unwrap();
+        let alone = of("Cube.001", "grey").unwrap();
+        assert_eq!((cube("leg").class, cube("leg").whole), (7, Some(0)));
+        assert_eq!(cube("Floor"), alone);
+    }
+
+    #[test]
     fn reasons_name_what_decided() {
         let suggester = Suggester::builtin();
         let names = PartNames { part: "armchair_02", material: "leather", group: "" };
@@ -266,7 +497,8 @@ mod tests {
 
     #[test]
     fn damaged_tables_are_told_with_file_and_line() {
-        let message = |weights: &str| Suggester::from_tables(("w.csv", weights), CALIBRATION, THRESHOLDS).unwrap_err().to_string();
+        let message =
+            |weights: &str| Suggester::from_tables([("w.csv", weights), CALIBRATION, THRESHOLDS, SHARES, AROUND]).unwrap_err().to_string();
         assert!(message("").starts_with("w.csv:1: expected the columns feature, class, weight"));
         assert!(message("feature,class,weight\n").contains("w.csv:1: the table has no weights"));
         assert!(message("feature,class,weight\nword a,divan,1\n").starts_with("w.csv:2: unknown class \"divan\""));
@@ -274,7 +506,7 @@ mod tests {
         assert!(message("feature,class,weight\nword a,bed,1\nword a,bed,2\n").starts_with("w.csv:3: a second weight of \"word a\""));
         assert!(message("feature,class,weight\nword a,bed\n").starts_with("w.csv:2:"));
         let cut = &WEIGHTS.1[..WEIGHTS.1.len() - 12];
-        assert!(Suggester::from_tables(("w.csv", cut), CALIBRATION, THRESHOLDS).is_err());
+        assert!(Suggester::from_tables([("w.csv", cut), CALIBRATION, THRESHOLDS, SHARES, AROUND]).is_err());
     }
 
     #[test]
@@ -282,5 +514,7 @@ mod tests {
         assert_eq!(Weights::parse(WEIGHTS.1, WEIGHTS.0).unwrap().to_csv(), WEIGHTS.1);
         assert_eq!(Calibration::parse(CALIBRATION.1, CALIBRATION.0).unwrap().to_csv(), CALIBRATION.1);
         assert_eq!(Thresholds::parse(THRESHOLDS.1, THRESHOLDS.0).unwrap().to_csv(), THRESHOLDS.1);
+        assert_eq!(Shares::parse(SHARES.1, SHARES.0).unwrap().to_csv(), SHARES.1);
+        assert_eq!(Calibration::parse(AROUND.1, AROUND.0).unwrap().to_csv(), AROUND.1);
     }
 }

@@ -86,6 +86,20 @@ pub fn words(name: &str) -> Vec<String> {
     found
 }
 
+/// True where the last word of a name is a plural: it names several things.
+///
+/// ```
+/// use enfilade_suggest::words::is_plural;
+/// assert!(is_plural("Dining_Chairs.001") && !is_plural("Glass") && !is_plural("Chair group"));
+/// ```
+pub fn is_plural(name: &str) -> bool {
+    let last = words(name).pop().unwrap_or_default();
+    let plurals = [format!("{last}s"), format!("{last}es"), format!("{}ves", last.strip_suffix('f').unwrap_or(&last))];
+    let lower: String = name.to_lowercase();
+    let mut runs = lower.split(|c: char| !c.is_alphabetic()).filter(|run| !run.is_empty());
+    !last.is_empty() && runs.any(|run| plurals.iter().any(|plural| run.ends_with(plural.as_str())))
+}
+
 /// Ends a word.
 fn keep(found: &mut Vec<String>, word: &mut String) {
     let text = singular(&std::mem::take(word));

@@ -37,6 +37,8 @@ pub struct AnnotatedScene {
     pub colors: FaceColors,
     /// Names of the parts.
     pub parts: Vec<String>,
+    /// What the parts lie in, outermost first, with slashes between; empty where a mesh folder does not say it.
+    pub around: Vec<String>,
     /// Names of the materials.
     pub materials: Vec<String>,
     /// The labels of the parts before the first edit; none of them if there were edits already, because then the log has them.
@@ -147,6 +149,7 @@ impl AnnotatedScene {
             colors: FaceColors::of(scene, &mesh.sources),
             corners: mesh.corners,
             parts: scene.parts.iter().map(|part| part.name.clone()).collect(),
+            around: scene.parts.iter().map(|part| scene.lineage(part).join("/")).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
             labels: known,
             cameras: cameras_of_file(scene),
@@ -176,6 +179,7 @@ impl AnnotatedScene {
             colors: home.as_ref().map_or(FaceColors::Unknown, SceneOfDataset::colors),
             part_of_face: mesh.object_of_face,
             material_of_face: mesh.material_of_face.iter().map(|m| m.unwrap_or(NO_MATERIAL)).collect(),
+            around: vec![String::new(); mesh.objects.len()],
             parts: mesh.objects,
             materials: mesh.materials,
             labels: known,

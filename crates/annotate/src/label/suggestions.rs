@@ -26,10 +26,12 @@ pub fn suggestions(scene: &AnnotatedScene, classes: &Classes) -> Vec<Option<Sugg
         material_of[part as usize].get_or_insert(material);
     }
     let suggester = Suggester::builtin();
-    let suggest = |(part, material): (&String, Option<u32>)| {
+    let suggest = |((part, around), material): ((&String, &String), Option<u32>)| {
         let material = material.and_then(|material| scene.materials.get(material as usize)).map_or("", String::as_str);
-        let found = suggester.suggest(&PartNames { part, material, ..PartNames::default() })?;
+        // With what it lies in, the path that a part's name may have says nothing more.
+        let part = if around.is_empty() { part } else { part.rsplit('/').next().unwrap_or_default() };
+        let found = suggester.suggest(&PartNames { part, material, group: around })?;
         Some(Suggestion { semantic: found.class, confidence: found.confidence, alternatives: found.alternatives })
     };
-    scene.parts.iter().zip(material_of).map(suggest).collect()
+    scene.parts.iter().zip(&scene.around).zip(material_of).map(suggest).collect()
 }

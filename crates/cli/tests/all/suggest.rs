@@ -6,7 +6,7 @@ use std::fs;
 /// Part and class of every row of a table.
 fn rows(text: &str) -> Vec<(String, i16)> {
     let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("part,nyu40_id,nyu40_name,confidence,guess"));
+    assert_eq!(lines.next(), Some("part,nyu40_id,nyu40_name,instance,confidence,guess"));
     lines.map(|line| line.split(',').collect::<Vec<_>>()).map(|cells| (cells[0].to_string(), cells[1].parse().unwrap())).collect()
 }
 
@@ -47,7 +47,7 @@ fn a_table_that_was_corrected_and_a_scene_file_are_not_written_over() {
     // The same once more takes nothing from anyone.
     succeed(d, &["suggest", "room.obj"]);
     let suggested = fs::read(d.join("room.labels.csv")).unwrap();
-    let corrected = [suggested.as_slice(), b"box,29,box,1.000,\n"].concat();
+    let corrected = [suggested.as_slice(), b"box,29,box,,1.000,\n"].concat();
     fs::write(d.join("room.labels.csv"), &corrected).unwrap();
     fail(d, &["suggest", "room.obj"], 2, &["room.labels.csv is there and differs", "--force"]);
     assert_eq!(fs::read(d.join("room.labels.csv")).unwrap(), corrected);

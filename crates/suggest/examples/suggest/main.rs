@@ -5,6 +5,7 @@
 
 mod actions;
 mod others;
+mod pairs;
 mod peers;
 mod report;
 mod scores;
@@ -45,8 +46,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let config = LearnConfig::default();
     let mut unlike = 0;
     let mut measured = Vec::new();
+    let mut of_two = Vec::new();
+    let suggester = Suggester::builtin();
+    let threshold = suggester.min_confidence(0.9).ok_or("no threshold for 90 %")?;
     for split in [Split::Scene, Split::Volume] {
-        let ours = held_out(&groups, &lexicon, &config, split, FOLDS).suggestions;
+        let held_out = held_out(&groups, &lexicon, &config, split, FOLDS);
+        let ours = held_out.suggestions.clone();
+        of_two = pairs::measure(&held_out, &groups, threshold);
         unlike = groups.iter().zip(&raw).filter(|(a, b)| a != b).count();
         measured.push((
             Measured {
@@ -58,8 +64,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             Judgement::new(&raw, ours),
         ));
     }
-    let suggester = Suggester::builtin();
-    let threshold = suggester.min_confidence(0.9).ok_or("no threshold for 90 %")?;
     let suggestions: [&[Option<Suggestion>]; 2] = [&measured[1].0.ours.suggestions, &measured[1].0.lookup.suggestions];
     let saved = suggestions.map(|list| actions::per_scene(&objects, &groups, list, threshold));
     let others = others::measure(&suggester, &scenes)?;
@@ -69,6 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         measured: &measured,
         curtains: unlike,
         saved: &saved,
+        of_two: &of_two,
         others: &others,
         threshold,
         suggester: &suggester,

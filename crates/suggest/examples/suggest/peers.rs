@@ -27,12 +27,15 @@ pub fn lookup(groups: &[NameGroup], split: Split, folds: usize) -> Vec<Option<Su
 fn most_frequent(table: &BTreeMap<i16, f32>) -> Option<Suggestion> {
     let total: f32 = table.values().sum();
     let (&class, &n) = table.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)))?;
-    Some(Suggestion { class, confidence: n / (total + 1.0), alternatives: Vec::new() })
+    Some(Suggestion { class, confidence: n / (total + 1.0), whole: None, alternatives: Vec::new() })
 }
 
 /// The class whose name is one of the words; the last such word counts.
 pub fn keyword(groups: &[NameGroup]) -> Vec<Option<Suggestion>> {
     let class_of = |word: &String| NYU40.iter().find(|class| class.name.trim_end_matches('s') == word.trim_end_matches('s'));
     let of = |group: &NameGroup| group.words.iter().rev().find_map(class_of);
-    groups.iter().map(|group| of(group).map(|class| Suggestion { class: class.id, confidence: 1.0, alternatives: Vec::new() })).collect()
+    groups
+        .iter()
+        .map(|group| of(group).map(|class| Suggestion { class: class.id, confidence: 1.0, whole: None, alternatives: Vec::new() }))
+        .collect()
 }

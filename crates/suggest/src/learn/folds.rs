@@ -1,11 +1,15 @@
 //! Cross-validation: models learned without some scenes or volumes, and asked about those.
 
 use super::groups::NameGroup;
+use super::pairs::{Pair, learn_shares};
 use super::train::{LearnConfig, learn};
 use crate::calibration::{Calibration, Judged};
+use crate::chain::Shares;
 use crate::lexicon::Lexicon;
+use crate::roles::Role;
 use crate::suggester::{PartNames, Suggester, Suggestion};
-use std::collections::BTreeSet;
+use crate::weights::CLASSES;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What stays together when scenes are held out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,10 +29,19 @@ pub struct HeldOut {
     pub scores: Vec<Judged>,
     /// The same with the confidence in place of the score.
     pub confidences: Vec<Judged>,
+    /// Labelled names of two, a thing and what is in it, each half asked for by itself.
+    pub pairs: Vec<Pair>,
+    /// Per pair: the class by both halves with its confidence, by shares of other scenes than the pair's.
+    pub by_both: Vec<(i16, f32)>,
 }
+
+/// Both halves of a name, the inner one first, as a model sees them.
+type Halves = [(Role, [f32; CLASSES]); 2];
 
 /// Weight of names in a bin of the curve of confidences.
 const BIN: f32 = 120.0;
+/// The same for names of two, of which there are few.
+const BIN_OF_PAIRS: f32 = 80.0;
 
 impl Split {
     /// The fold of a scene, 0 to `folds`−1: a hash (FNV-1a) of what stays together.
@@ -50,6 +63,7 @@ pub fn held_out(groups: &[NameGroup], lexicon: &Lexicon, config: &LearnConfig, s
     assert!(folds >= 2, "held-out scenes need at least two folds, not {folds}");
     let fold_of: Vec<usize> = groups.iter().map(|group| split.fold(&group.scene, folds)).collect();
     let mut raw: Vec<Option<Suggestion>> = vec![None; groups.len()];
+    let mut of_two: Vec<(usize, Halves)> = Vec::new();
     for fold in 0..folds {
         let seen: Vec<&NameGroup> = groups.iter().zip(&fold_of).filter(|&(_, &f)| f != fold).map(|(group, _)| group).collect();
         let weights = learn(&seen, lexicon, config);
@@ -57,20 +71,27 @@ pub fn held_out(groups: &[NameGroup], lexicon: &Lexicon, config: &LearnConfig, s
         for (i, group) in groups.iter().enumerate().filter(|&(i, _)| fold_of[i] == fold) {
             let name = group.words.join(" ");
             raw[i] = suggester.suggest(&PartNames { part: &name, ..PartNames::default() });
+            of_two.extend(suggester.halves(&group.words).filter(|_| group.labelled() > 0).map(|halves| (i, halves)));
         }
     }
     let judge = |i: usize| judged(&groups[i], raw[i].as_ref()?);
     let scores: Vec<Judged> = (0..groups.len()).filter_map(judge).collect();
     let mut suggestions = raw.clone();
+    let mut pairs: Vec<Pair> = Vec::new();
     for fold in fold_of.iter().copied().collect::<BTreeSet<_>>() {
         let others: Vec<Judged> = (0..groups.len()).filter(|&i| fold_of[i] != fold).filter_map(judge).collect();
         let calibration = Calibration::fit(&others, BIN);
         for i in (0..groups.len()).filter(|&i| fold_of[i] == fold) {
             suggestions[i] = raw[i].as_ref().map(|suggestion| suggestion.calibrated(&calibration));
         }
+        for (i, [inner, outer]) in of_two.iter().filter(|(i, _)| fold_of[*i] == fold) {
+            let level = |(role, p): &(Role, [f32; CLASSES])| (role.clone(), calibration.apply(p));
+            pairs.push(Pair::new(*i, level(inner), level(outer)));
+        }
     }
+    let by_both = by_both(&pairs, groups, &fold_of);
     let confidences = groups.iter().zip(&suggestions).filter_map(|(group, suggestion)| judged(group, suggestion.as_ref()?)).collect();
-    HeldOut { suggestions, scores, confidences }
+    HeldOut { suggestions, scores, confidences, pairs, by_both }
 }
 
 impl HeldOut {
@@ -78,6 +99,36 @@ impl HeldOut {
     pub fn calibration(&self) -> Calibration {
         Calibration::fit(&self.scores, BIN)
     }
+
+    /// The shares of names around parts, and the curve of the confidences that they give, of all pairs of these groups.
+    pub fn around(&self, groups: &[NameGroup]) -> (Shares, Calibration) {
+        around(&self.pairs.iter().collect::<Vec<_>>(), groups)
+    }
+}
+
+/// What pairs are by both halves, by shares and a curve that were learned from other folds.
+fn by_both(pairs: &[Pair], groups: &[NameGroup], fold_of: &[usize]) -> Vec<(i16, f32)> {
+    let folds: BTreeSet<usize> = pairs.iter().map(|pair| fold_of[pair.group]).collect();
+    let others = |fold: usize| around(&pairs.iter().filter(|pair| fold_of[pair.group] != fold).collect::<Vec<_>>(), groups);
+    let learned: BTreeMap<usize, (Shares, Calibration)> = folds.into_iter().map(|fold| (fold, others(fold))).collect();
+    let both = |pair: &Pair| {
+        let (shares, calibration) = &learned[&fold_of[pair.group]];
+        let (class, score) = pair.by_both(shares);
+        (class, if pair.kind().is_some() { calibration.confidence(score) } else { score })
+    };
+    pairs.iter().map(both).collect()
+}
+
+/// The shares of names around parts, and the curve of the confidences that they give.
+fn around(pairs: &[&Pair], groups: &[NameGroup]) -> (Shares, Calibration) {
+    let shares = learn_shares(pairs.iter().copied(), groups);
+    let judged = |pair: &Pair| {
+        let ((class, score), group) = (pair.by_both(&shares), &groups[pair.group]);
+        Judged { score, right: group.of_class(class) as f32 / group.labelled() as f32, weight: 1.0 }
+    };
+    let judged: Vec<Judged> = pairs.iter().filter(|pair| pair.kind().is_some()).map(|pair| judged(pair)).collect();
+    let calibration = if judged.is_empty() { Calibration::identity() } else { Calibration::fit(&judged, BIN_OF_PAIRS) };
+    (shares, calibration)
 }
 
 /// How a suggestion fares on the labelled objects of a group; `None` when there are none. Every name of a scene counts once.

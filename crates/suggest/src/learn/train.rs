@@ -8,6 +8,9 @@ use crate::lexicon::Lexicon;
 use crate::weights::{CLASSES, Weights, softmax};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Labelled groups that need to mean a class for their names to say more of it than the word list alone.
+pub const FEW: usize = 5;
+
 /// How weights are learned. The defaults did best on held-out scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LearnConfig {
@@ -26,11 +29,14 @@ pub struct LearnConfig {
     /// What a word of the word list counts, as a name that has its class, beside 1 for a name of a scene. Without these, rare classes
     /// would be known by nothing. Default 1.
     pub word_list: f32,
+    /// What such a word counts whose class is meant by the names of fewer than [`FEW`] labelled groups: nothing else is known of it, and what
+    /// its letters seem to say is chance. Default 30.
+    pub unseen_word: f32,
 }
 
 impl Default for LearnConfig {
     fn default() -> Self {
-        Self { passes: 30, rate: 0.1, l1: 4.0, l2: 0.1, count_power: 0.1, fewest_scenes: 1, word_list: 1.0 }
+        Self { passes: 30, rate: 0.1, l1: 4.0, l2: 0.1, count_power: 0.1, fewest_scenes: 1, word_list: 1.0, unseen_word: 30.0 }
     }
 }
 
@@ -54,7 +60,14 @@ struct State {
 pub fn learn(groups: &[&NameGroup], lexicon: &Lexicon, config: &LearnConfig) -> Weights {
     let labelled: Vec<(&NameGroup, Vec<String>)> =
         groups.iter().filter(|g| g.labelled() > 0 && !g.words.is_empty()).map(|&g| (g, features(&g.words, lexicon))).collect();
-    let names = frequent(&labelled, config.fewest_scenes);
+    // Only what the list says, so that its word is learned as one that no scene has.
+    let said = |features: Vec<String>| features.into_iter().filter(|f| f.starts_with("means ") || f.starts_with("head "));
+    let listed: Vec<(Vec<String>, i16)> =
+        lexicon.entries().iter().map(|(words, class)| (said(features(words, lexicon)).collect(), *class)).collect();
+    let mut names: BTreeSet<&str> = frequent(&labelled, config.fewest_scenes);
+    // Classes that no scene has a word of are known by the list alone.
+    names.extend(listed.iter().flat_map(|(features, _)| features.iter().map(String::as_str)));
+    let names: Vec<&str> = names.into_iter().collect();
     let index: BTreeMap<&str, usize> = names.iter().enumerate().map(|(i, &name)| (name, i + 1)).collect();
     let mut examples: Vec<Example> = labelled
         .iter()
@@ -67,11 +80,11 @@ pub fn learn(groups: &[&NameGroup], lexicon: &Lexicon, config: &LearnConfig) -> 
             }
         })
         .collect();
-    for (words, class) in lexicon.entries() {
-        // Only what the list says, so that its word is learned as one that no scene has.
-        let said = features(&words, lexicon).into_iter().filter(|f| f.starts_with("means ") || f.starts_with("head "));
-        let features = std::iter::once(0).chain(said.filter_map(|f| index.get(f.as_str()).copied())).collect();
-        examples.push(Example { features, shares: vec![(class as usize - 1, 1.0)], weight: config.word_list });
+    for (said, class) in &listed {
+        let features = std::iter::once(0).chain(said.iter().filter_map(|f| index.get(f.as_str()).copied())).collect();
+        let is_seen = said.iter().all(|feature| labelled.iter().filter(|(_, features)| features.contains(feature)).nth(FEW - 1).is_some());
+        let weight = if is_seen { config.word_list } else { config.unseen_word };
+        examples.push(Example { features, shares: vec![(*class as usize - 1, 1.0)], weight });
     }
     let mut states = vec![[State::default(); CLASSES]; names.len() + 1];
     let mut random = 1u64;
@@ -87,7 +100,7 @@ pub fn learn(groups: &[&NameGroup], lexicon: &Lexicon, config: &LearnConfig) -> 
 }
 
 /// The features that enough scenes have, sorted.
-fn frequent<'a>(labelled: &'a [(&NameGroup, Vec<String>)], fewest_scenes: usize) -> Vec<&'a str> {
+fn frequent<'a>(labelled: &'a [(&NameGroup, Vec<String>)], fewest_scenes: usize) -> BTreeSet<&'a str> {
     let mut scenes: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (group, features) in labelled {
         for feature in features {
