@@ -79,7 +79,7 @@ fn missing_tests(house: &House, cell: &str, from: usize) -> Vec<String> {
                 let missing = waiting.drain(..).filter(|name| !declares(&text, name));
                 found.extend(missing.map(|name| format!("{folder} has no test {name}")));
             }
-            None => found.push(format!("there is no {folder} to have {}", waiting.drain(..).collect::<Vec<_>>().join(", "))),
+            None => found.push(format!("there is no {folder} to have {}", std::mem::take(&mut waiting).join(", "))),
         }
     }
     found.extend(waiting.iter().map(|name| format!("no crate or folder stands behind {name}")));

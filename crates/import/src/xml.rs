@@ -1,12 +1,12 @@
 //! The text of XML files, as lenient as the readers that their programs use.
 
-use enfilade_scene::decoded_text;
+use enfilade_scene::{decoded_text, without_padding};
 use std::borrow::Cow;
 
 /// The text of an XML file in whatever encoding, without white space before its declaration and zeros behind its end.
 pub(crate) fn xml_text(bytes: &[u8]) -> Cow<'_, str> {
     let plain = |text: &str| -> (usize, usize) {
-        let end = text.trim_end_matches('\0').len();
+        let end = without_padding(text).len();
         let start = text.len() - text.trim_start().len();
         if text[start..end.max(start)].starts_with("<?xml") { (start, end) } else { (0, end) }
     };

@@ -49,7 +49,7 @@ pub use pictures::{PngEffort, smallest_png};
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use structure::{DoorLeaf, Hinge, OpeningKind, Structure, StructureFit, StructureRoom, StructureThing, WallFace, WallOpening};
 pub use structure_planes::{LAYOUT_NEAR_M, LayoutPlane, PlaneKind};
-pub use text::decoded_text;
+pub use text::{decoded_text, without_padding};
 pub use texture::{Filter, Image, Pixels, TextureRef, Wrap};
 pub use trajectory::{Pose, Trajectory};
 pub use world::{TriangleSource, WorldMesh};

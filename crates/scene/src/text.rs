@@ -34,6 +34,17 @@ pub fn decoded_text(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// The text without the zeros that some programs pad it with, and white space about them.
+///
+/// ```
+/// assert_eq!(enfilade_scene::without_padding("{}\0\0 \n"), "{}");
+/// assert_eq!(enfilade_scene::without_padding("{}\n"), "{}\n");
+/// ```
+pub fn without_padding(text: &str) -> &str {
+    let plain = text.trim_end_matches(|c: char| c == '\0' || c.is_ascii_whitespace());
+    if text[plain.len()..].contains('\0') { plain } else { text }
+}
+
 fn of_bytes(bytes: &[u8]) -> Cow<'_, str> {
     let letter = |&byte: &u8| match byte {
         0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],

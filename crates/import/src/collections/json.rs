@@ -4,7 +4,7 @@ use super::lenient::Lenient;
 use super::vectors::numbers;
 use crate::ImportError;
 use enfilade_math::DVec3;
-use enfilade_scene::decoded_text;
+use enfilade_scene::{decoded_text, without_padding};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
@@ -16,7 +16,7 @@ use std::path::Path;
 /// When it is not JSON, or not of that form: place, what was found and what was expected.
 pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) -> Result<T, ImportError> {
     let text = decoded_text(bytes);
-    let text = text.trim_end_matches('\0');
+    let text = without_padding(&text);
     let lenient = || T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();
     serde_json::from_str(text).or_else(|error| lenient().ok_or(error)).map_err(|error| {
         let message = error.to_string();

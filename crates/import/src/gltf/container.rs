@@ -7,7 +7,7 @@ use super::{draco, far, lumens, meshopt, omissions, unrendered};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DVec3;
-use enfilade_scene::decoded_text;
+use enfilade_scene::{decoded_text, without_padding};
 use gltf::json::{Root, buffer, image};
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -105,7 +105,7 @@ impl Document {
         };
         // Exporters pad the text with spaces, some with zeros.
         let text = decoded_text(json);
-        let json = text.trim_end_matches('\0').as_bytes();
+        let json = without_padding(&text).as_bytes();
         let mut root = omissions::parse(json).map_err(|(place, problem)| assembly.malformed(place, problem))?;
         check_version(&root, assembly)?;
         let mut buffers = Buffers::read(&root, binary, assembly)?;
