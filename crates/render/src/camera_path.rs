@@ -57,7 +57,7 @@ impl Integrator<'_, '_> {
         // Sample the direction in which the path goes on. The first surface always has one: Russian roulette begins after it.
         let u = sampler.set(bsdf_set(0));
         if let Some((weight, mut next)) = vertex.scatter([u[0], u[1], u[2]], &segment) {
-            next.window = self.window(&segment, &vertex.surface, &next);
+            next.window = self.window(&vertex.surface, &next);
             let (crossed, reflected) = (next.crossed, weight.total(sample.reflectance));
             let light = self.radiance(next, 1, true, roulette_throughput(reflected), vertex.expected(), sampler);
             illumination += self.add_scattered(&mut sample, &weight, &self.clamped(light, reflected), crossed);

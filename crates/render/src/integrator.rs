@@ -6,13 +6,13 @@
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
 use crate::guide::Guide;
-use crate::light::{Background, LightKind, power_heuristic};
+use crate::light::{Background, LightKind, LightSample, power_heuristic};
 use crate::prepared::{AlphaTest, RenderScene};
 use crate::split::{Arriving, Origin};
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
-use enfilade_math::{Ray, Rgb, Sampler, Vec3};
+use enfilade_math::{Ray, Rgb, Rng, Sampler, Vec3, hash_u64};
 
 /// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
@@ -84,20 +84,20 @@ impl<'a, 's> Integrator<'a, 's> {
         Origin { kind: LightKind::Surfaces, fixture: self.fixture(|| self.scene.told_apart().of_part(part())) }
     }
 
-    /// The farthest window along a path that goes on as `next` from a `surface` that `before` ends at, since its direction last changed.
+    /// The farthest window along a path that goes on as `next` from a `surface`, since its direction last changed.
     #[inline]
-    pub fn window(&self, before: &Segment, surface: &Surface<'s>, next: &Segment) -> Option<u16> {
+    pub fn window(&self, surface: &Surface<'s>, next: &Segment) -> Option<u16> {
         if !(self.config.fixtures && next.straight) {
             return None;
         }
-        self.scene.told_apart().of_pane(self.scene.triangles.part_of(surface.triangle)).or(before.window)
+        self.scene.told_apart().of_pane(self.scene.triangles.part_of(surface.triangle)).or(next.window)
     }
 
     /// What a shadow ray lets through, and the farthest window along it.
     #[inline]
     fn transmittance_and_window(&self, ray: &Ray) -> (Rgb, Option<u16>) {
         let fixtures = self.scene.told_apart();
-        self.scene.transmittance_and_pane(ray, |part| fixtures.of_pane(part))
+        self.scene.unbent_transmittance_and_pane(ray, |part| fixtures.of_pane(part))
     }
 
     /// What comes from beyond the scene, by its origin; `window` is the one that it comes through.
@@ -124,7 +124,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let throughput = throughput * segment.medium.transmittance(hit.t);
         let emission = surface.emission(self.scene);
         if !emission.is_black() {
-            let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.ray.direction, &hit, surface.p);
+            let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.from_sampled(surface.p), &hit, surface.p);
             radiance.add(self.origin_of_surface(&surface), throughput * emission * weight, direct);
         }
         Some((surface, throughput))
@@ -132,17 +132,28 @@ impl<'a, 's> Integrator<'a, 's> {
 
     /// Adds the lights that are seen through panes beyond a path's last surface, which `segment` ends at. Light sampling sees through
     /// panes, and its weights leave a part of these lights to sampled directions.
-    fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, direct: bool, radiance: &mut Arriving) {
-        if segment.sampled.is_none() {
-            return;
-        }
+    fn beyond_panes(&self, mut segment: Segment, mut surface: Surface<'s>, mut throughput: Rgb, mut direct: bool, radiance: &mut Arriving) {
         for _ in 0..MAX_PANES {
-            let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) else { return };
-            segment = Segment { ray: surface.ray(segment.ray.direction), cone: surface.cone, straight: true, ..segment };
-            segment.window = self.window(&segment, &surface, &segment);
+            if segment.sampled.is_none() && segment.inside.is_none_or(|inside| inside.sampled.is_none()) {
+                return;
+            }
+            let Some((passed, mut next)) = self.straight_on(&segment, &surface) else { return };
+            next.window = self.window(&surface, &next);
+            direct = next.is_direct(&segment, direct);
+            segment = next;
             let Some((next, reached)) = self.next_surface(&segment, throughput * passed, direct, radiance) else { return };
             (surface, throughput) = (next, reached);
         }
+    }
+
+    /// Where a segment goes on as light samples reach through panes, thin or solid, and what comes through.
+    fn straight_on(&self, segment: &Segment, surface: &Surface<'s>) -> Option<(Rgb, Segment)> {
+        if let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) {
+            let ray = surface.ray(segment.ray.direction);
+            return Some((passed, Segment { ray, cone: surface.cone, straight: true, was_direct: None, ..*segment }));
+        }
+        let (passed, next) = segment.beyond(surface, &surface.border(self.scene)?)?;
+        (next.straight || next.inside.is_some()).then_some((passed, next))
     }
 
     /// Where a path goes on, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None`
@@ -235,9 +246,11 @@ impl<'a, 's> Integrator<'a, 's> {
                 return radiance;
             };
             throughput *= weight.total(reflectance);
-            direct &= next.straight;
-            next.sun = if next.straight { segment.sun } else { sun };
-            next.window = self.window(&segment, &vertex.surface, &next);
+            direct = next.is_direct(&segment, direct);
+            if !next.straight {
+                next.sun = sun;
+            }
+            next.window = self.window(&vertex.surface, &next);
             segment = next;
         }
         radiance
@@ -283,11 +296,13 @@ impl<'a, 's> Integrator<'a, 's> {
             true if self.scene.is_covered(&ray) => (Rgb::BLACK, None),
             true => (Rgb::WHITE, None),
             false if self.config.fixtures && light.kind() == LightKind::Environment => self.transmittance_and_window(&ray),
-            false => (self.scene.transmittance(&ray), None),
+            false => (self.scene.unbent_transmittance(&ray), None),
         };
         let arriving = through * absorbed;
         if arriving.is_black() {
-            return None;
+            let number = hash_u64(u64::from(u[0].to_bits()) << 32 ^ u64::from(u[1].to_bits())) ^ u64::from(u[3].to_bits());
+            let behind = self.scene.has_bodies && !scattered;
+            return if behind { self.light_through_glass(vertex, &light, medium, Rng::new(number)) } else { None };
         }
 
         // Weight the sample against the BSDF's own chance to find the light.
@@ -295,6 +310,38 @@ impl<'a, 's> Integrator<'a, 's> {
         let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
         let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.told_apart().of_sample(&light, window)) };
         Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
+    }
+
+    /// Direct light by a light sample that lies behind solid glass; `medium` is that on the light's side of the surface.
+    fn light_through_glass(&self, vertex: &Vertex<'_, 's>, light: &LightSample, medium: Medium, rng: Rng) -> Option<Direct> {
+        // Find the way, and what the surface makes of light from there.
+        let (scene, surface) = (self.scene, &vertex.surface);
+        let way = scene.connect(surface, medium, light, rng)?;
+        let wi = vertex.onb.to_local(way.wi);
+        if !sides_agree(wi.z, way.wi.dot(surface.ng)) {
+            return None;
+        }
+        let (value, pdf) = vertex.eval_pdf(wi, way.wi);
+        if value == Value::default() {
+            return None;
+        }
+
+        // The weight is that of the straight direction to the light, by which sampled directions weight it too.
+        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
+        let radiance = match light.target {
+            // A light at a point is where its light seems to come from, by how it is spread.
+            Some(target) if light.is_delta => scene.lights.point_light_at(light, target - way.arrives / way.spread.sqrt())?,
+            // A point of a surface was sampled by its area, which the straight way saw at another angle and distance.
+            Some(target) => {
+                let [straight, bent] = [light.wi, way.arrives].map(|direction| direction.dot(light.normal).abs());
+                let ratio = way.spread * surface.p.distance_squared(target) * bent / straight.max(f32::MIN_POSITIVE);
+                scene.lights.radiance_of(scene, light, &surface.cone, 0.0) * ratio
+            }
+            None => scene.lights.radiance_of(scene, light, &surface.cone, 0.0) * way.spread,
+        };
+        let window = self.fixture(|| way.passed.last_named(|part| scene.told_apart().of_pane(part)));
+        let from = Origin { kind: light.kind(), fixture: self.fixture(|| scene.told_apart().of_sample(light, window)) };
+        Some(Direct { weight: value * (weight * way.ways), light: radiance * way.through, from, crosses: wi.z < 0.0, scattered: false })
     }
 
     /// Irradiance over π at a surface without diffuse reflectance, by a white Lambert surface in its place.

@@ -55,6 +55,7 @@ mod error;
 mod extra;
 mod film;
 mod geometry_pass;
+mod glass;
 mod guide;
 mod integrator;
 mod layers;

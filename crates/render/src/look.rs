@@ -87,7 +87,16 @@ impl<'s> Lookout<'s> {
         let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
         Ok(Self {
             asks_always,
-            scene: RenderScene { scene, textures, triangles, bvh, lights, tables: Vec::new(), fixtures: OnceLock::new() },
+            scene: RenderScene {
+                scene,
+                textures,
+                triangles,
+                bvh,
+                lights,
+                tables: Vec::new(),
+                has_bodies: false,
+                fixtures: OnceLock::new(),
+            },
         })
     }
 

@@ -8,7 +8,7 @@ use crate::texture::{Cone, Footprint, Textures};
 use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
-use enfilade_scene::{Alpha, Cx, Material, PartId, Scene};
+use enfilade_scene::{Alpha, Bsdf, Cx, Material, PartId, Scene};
 use std::cell::Cell;
 use std::sync::OnceLock;
 
@@ -40,6 +40,8 @@ pub struct RenderScene<'s> {
     pub(crate) lights: Lights<'s>,
     /// Lookup tables of each material's BSDF.
     pub(crate) tables: Vec<Tables>,
+    /// True when a material may be the border of a transparent body.
+    pub(crate) has_bodies: bool,
     /// Found when they are first asked for.
     pub(crate) fixtures: OnceLock<Fixtures>,
 }
@@ -77,7 +79,8 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        let mut ready = Self { scene, textures, triangles, bvh, lights, tables, fixtures: OnceLock::new() };
+        let has_bodies = scene.materials.iter().any(|m| may_be_body(&m.bsdf));
+        let mut ready = Self { scene, textures, triangles, bvh, lights, tables, has_bodies, fixtures: OnceLock::new() };
         Lights::find_glints(&mut ready);
         Ok(ready)
     }
@@ -121,15 +124,32 @@ impl<'s> RenderScene<'s> {
         self.bvh.occluded_filtered(ray, |hit| self.is_present(hit, test))
     }
 
-    /// Fraction of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes dim it.
+    /// Fraction of light that gets through along a shadow ray: 0 when something opaque is in the way; thin panes and solid ones dim it.
     #[inline]
     pub(crate) fn transmittance(&self, ray: &Ray) -> Rgb {
+        let through = self.unbent_transmittance(ray);
+        if self.has_bodies && through.is_black() { self.through_panes(ray).0 } else { through }
+    }
+
+    /// The same, and what `name` calls the farthest pane on the way that it has a name for, by its part.
+    pub(crate) fn transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
+        let found = self.unbent_transmittance_and_pane(ray, &name);
+        if !(self.has_bodies && found.0.is_black()) {
+            return found;
+        }
+        let (through, passed) = self.through_panes(ray);
+        (through, passed.last_named(name))
+    }
+
+    /// Fraction of light that gets through along a shadow ray where solid glass stops it, as everything does but thin panes.
+    #[inline]
+    pub(crate) fn unbent_transmittance(&self, ray: &Ray) -> Rgb {
         self.transmittance_of(ray, |_| ())
     }
 
     /// The same, and what `name` calls the farthest pane on the way that it has a name for, by its part.
     #[inline]
-    pub(crate) fn transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
+    pub(crate) fn unbent_transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
         let farthest = Cell::new((0.0, None));
         let through = self.transmittance_of(ray, |hit| {
             if hit.t > farthest.get().0
@@ -205,6 +225,16 @@ pub(crate) enum AlphaTest {
     Stochastic,
     /// Present from an opacity of one half on: for geometry layers, which are point samples.
     Half,
+}
+
+/// Whether a material may be the border of a transparent body.
+fn may_be_body(bsdf: &Bsdf) -> bool {
+    match bsdf {
+        Bsdf::Dielectric { .. } => true,
+        Bsdf::Principled(p) => p.solid && p.transmission.factor > 0.0,
+        Bsdf::Blend { first, second, .. } => may_be_body(first) || may_be_body(second),
+        _ => false,
+    }
 }
 
 /// Whether hits on this material must pass the filter of a ray query before they count: panes, and what is cut out or half transparent.

@@ -31,6 +31,8 @@ pub(crate) struct Surface<'s> {
     footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
+    /// True where light passes and the shading normal is the same all over the triangle.
+    pub flat: bool,
     /// Number of the triangle, and the weights of its corners.
     pub triangle: u32,
     pub weights: [f32; 3],
@@ -64,6 +66,8 @@ impl<'s> RenderScene<'s> {
             Some(perturbed(&self.textures, map, uv, &footprint, smooth, side, tangents))
         });
         let ns_smooth = facing(smooth, wo);
+        let even = |other: Vec3| other.distance_squared(a) <= EVEN * EVEN;
+        let flat = material.bsdf.transmits() && material.normal_map.is_none() && even(b) && even(c) && ns_smooth == smooth;
         Surface {
             p: triangle.position(weights),
             wo,
@@ -75,6 +79,7 @@ impl<'s> RenderScene<'s> {
             cone,
             footprint,
             outside,
+            flat,
             triangle: hit.triangle,
             weights,
             material,
@@ -106,6 +111,11 @@ impl<'s> Surface<'s> {
     /// See [`bsdf::straight_transmittance`].
     pub fn straight_transmittance(&self, scene: &RenderScene<'s>) -> Option<Rgb> {
         bsdf::straight_transmittance(&self.material.bsdf, &self.inputs(scene))
+    }
+
+    /// See [`bsdf::border`].
+    pub fn border(&self, scene: &RenderScene<'s>) -> Option<bsdf::Border> {
+        bsdf::border(&self.material.bsdf, &self.inputs(scene))
     }
 
     /// Radiance emitted towards `wo`.
@@ -153,6 +163,9 @@ pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
         }
     }
 }
+
+/// Unit normals of corners that differ by no more are the same but for rounding.
+const EVEN: f32 = 1e-5;
 
 /// Viewing cosines are never smaller, so that nothing divides by zero at the horizon.
 pub(crate) const MIN_COSINE: f32 = 1e-4;

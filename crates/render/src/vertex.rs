@@ -3,7 +3,8 @@
 //! Directions are sampled from a mixture of the BSDF and, on diffuse surfaces, of what the guide has learned of the light there (Müller,
 //! Gross & Novák 2017, "Practical Path Guiding", mix them in the same way).
 
-use crate::bsdf::{Bsdf, Event, Value};
+use crate::bsdf::{Border, Bsdf, Event, Value};
+use crate::glass::{Inside, are_parallel, refracted, repeated};
 use crate::guide::{CellLight, Guide};
 use crate::light::LightPoint;
 use crate::surface::{MIN_COSINE, Surface};
@@ -24,8 +25,14 @@ pub(crate) struct Segment {
     pub medium: Medium,
     /// True when the surface at its origin was passed through.
     pub crossed: bool,
-    /// True when that was a pane, which leaves the direction as it was.
+    /// True when that was a pane, which leaves the direction as it was; the last border of a solid one counts too.
     pub straight: bool,
+    /// True when it goes on beside the line on which it was sampled, since it has gone through solid panes.
+    pub shifted: bool,
+    /// The way into the body that it is in, as long as it may leave it as through a pane.
+    pub inside: Option<Inside>,
+    /// Where it has just left a solid pane: whether nothing had scattered the light before that.
+    pub was_direct: Option<bool>,
     /// The window that it has last gone through since its direction changed, where fixtures are told apart.
     pub window: Option<u16>,
     /// Weight of the sun's disk where the segment meets it, beside that of `sampled`: see [`crate::light::Lights::glint_weight`].
@@ -112,7 +119,64 @@ struct Guided<'a> {
 impl Segment {
     /// Along a camera ray, or from nowhere.
     pub fn from_camera(ray: Ray, cone: Cone) -> Self {
-        Self { ray, sampled: None, medium: Medium::AIR, crossed: false, straight: false, window: None, sun: 1.0, cone }
+        Self::new(ray, None, Medium::AIR, false, cone)
+    }
+
+    fn new(ray: Ray, sampled: Option<(LightPoint, f32)>, medium: Medium, crossed: bool, cone: Cone) -> Self {
+        let (straight, shifted, inside, was_direct, window, sun) = (false, false, None, None, None, 1.0);
+        Self { ray, sampled, medium, crossed, straight, shifted, inside, was_direct, window, sun, cone }
+    }
+
+    /// Goes on after this one as the way into a body through a flat border and out of it through a parallel one asks: unbent in the end.
+    fn through_body(&self, surface: &Surface<'_>, mut next: Self) -> Self {
+        if !surface.flat {
+            return next;
+        }
+        match (next.crossed, surface.outside, self.inside) {
+            (true, true, None) => {
+                let (normal, direction, sampled) = (surface.ns, self.ray.direction, self.sampled);
+                next.inside = Some(Inside { normal, direction, sampled, window: self.window, sun: self.sun, direct: true });
+                next
+            }
+            (false, false, Some(inside)) if are_parallel(inside.normal, surface.ns) => Self { inside: Some(inside), ..next },
+            // On the far side: reflections within may bring it back to the near one, and it leaves there as if mirrored.
+            (true, false, Some(inside)) if are_parallel(inside.normal, surface.ns) && inside.normal.dot(surface.ns) > 0.0 => {
+                let Inside { direction, sampled, window, sun, direct, .. } = inside;
+                let ray = surface.ray(direction);
+                Self { ray, sampled, window, sun, straight: true, shifted: true, was_direct: Some(direct), ..next }
+            }
+            _ => next,
+        }
+    }
+
+    /// The unit direction from where it was sampled to the place `p` at its end: its own, but for the shift by solid panes.
+    #[inline]
+    pub fn from_sampled(&self, p: Vec3) -> Vec3 {
+        match &self.sampled {
+            Some((from, _)) if self.shifted => (p - from.p).normalize_or(self.ray.direction),
+            _ => self.ray.direction,
+        }
+    }
+
+    /// Whether nothing has scattered the light that comes along it, given the same of the segment `before` it. One that enters a body keeps
+    /// that for where it leaves.
+    #[inline]
+    pub fn is_direct(&mut self, before: &Self, direct: bool) -> bool {
+        if let (None, Some(inside)) = (before.inside, &mut self.inside) {
+            inside.direct = direct;
+        }
+        self.was_direct.unwrap_or(direct && self.straight)
+    }
+
+    /// The segment beyond the smooth `border` that this one ends at, and the fraction of radiance that comes through, with what parallel
+    /// borders reflect to and fro. `None` where all light is reflected.
+    pub fn beyond(&self, surface: &Surface<'_>, border: &Border) -> Option<(Rgb, Self)> {
+        let direction = refracted(self.ray.direction, surface.ns, border.eta)?;
+        let next = Self::new(surface.ray(direction), None, self.medium.after(surface, true), true, surface.cone);
+        let next = self.through_body(surface, next);
+        let inner = self.medium.transmittance(self.ray.origin.distance(surface.p));
+        let again = if next.straight { repeated(border.reflected, inner) } else { Rgb::WHITE };
+        Some((border.transmitted * again * (1.0 / (border.eta * border.eta)), next))
     }
 }
 
@@ -207,12 +271,21 @@ impl<'a, 's> Vertex<'a, 's> {
         };
         let straight = sample.event == Event::Straight;
         let medium = before.medium.after(surface, side < 0.0 && !straight);
-        Some((weight, Segment { straight, ..self.segment(direction, side, sampled, medium) }))
+        let next = self.segment(direction, side, sampled, medium);
+        let next = match sample.event {
+            Event::Finite => next,
+            Event::Delta => before.through_body(surface, next),
+            Event::Straight => {
+                let Segment { shifted, inside, window, sun, .. } = *before;
+                Segment { straight, shifted, inside, window, sun, ..next }
+            }
+        };
+        Some((weight, next))
     }
 
     fn segment(&self, direction: Vec3, side: f32, sampled: Option<(LightPoint, f32)>, medium: Medium) -> Segment {
         let cone = sampled.map_or(self.surface.cone, |(_, pdf)| self.surface.cone.scattered(pdf));
-        Segment { ray: self.surface.ray(direction), sampled, medium, crossed: side < 0.0, straight: false, window: None, sun: 1.0, cone }
+        Segment::new(self.surface.ray(direction), sampled, medium, side < 0.0, cone)
     }
 }
 

@@ -75,12 +75,17 @@ pub enum Lobe<'a> {
         /// Multiplies all light: what further bounces between the facets add.
         scale: f32,
     },
-    /// A thin pane: mirror reflection and straight transmission.
+    /// A thin pane: reflection and straight transmission, or, where it is rough, what would be reflected on its other side:
+    /// KHR_materials_transmission, whose microfacets transmit in the directions that they mirror, turned through the surface.
     Thin {
+        /// The surface.
+        facets: Facets,
         /// Index of refraction.
         eta: f32,
         /// Multiplies transmitted light.
         tint: Rgb,
+        /// Multiplies all light: what further bounces between the facets add.
+        scale: f32,
     },
     /// Fuzz of cloth.
     Sheen(Sheen),
@@ -113,7 +118,15 @@ impl<'a> Lobe<'a> {
                 let (value, density) = refraction(facets.alpha, *eta, *tint, wo, wi);
                 (value * *scale, density)
             }
-            Self::Thin { .. } => NOTHING,
+            Self::Thin { facets, eta, tint, scale } => {
+                if facets.smooth() || wi.z == 0.0 {
+                    return NOTHING;
+                }
+                let mirrored = facets.mirror(wo, Vec3::new(wi.x, wi.y, wi.z.abs()));
+                let r = thin_reflectance(mirrored.cos_half, *eta);
+                let (part, tint) = if wi.z > 0.0 { (r, Rgb::WHITE) } else { (1.0 - r, *tint) };
+                (specular(tint * (part * scale * mirrored.value)), part * mirrored.pdf)
+            }
             Self::Sheen(sheen) => {
                 if wi.z <= 0.0 {
                     return NOTHING;
@@ -140,7 +153,12 @@ impl<'a> Lobe<'a> {
                 self.finite(wo, facets.sample(wo, [u[0], u[1]]))
             }
             Self::Refraction { facets, eta, tint, .. } => self.sample_refraction(facets, *eta, *tint, wo, u),
-            Self::Thin { eta, tint } => {
+            Self::Thin { facets, eta, .. } if !facets.smooth() => {
+                let up = Some(facets.sample(wo, [u[0], u[1]])).filter(|up| up.z > 0.0)?;
+                let r = thin_reflectance((0.5 * (wo + up).length()).min(1.0), *eta);
+                self.finite(wo, if u[2] < r { up } else { Vec3::new(up.x, up.y, -up.z) })
+            }
+            Self::Thin { eta, tint, .. } => {
                 let r = thin_reflectance(wo.z, *eta);
                 if u[2] < r {
                     return Some(Sample::mirrored(wo, Rgb::WHITE));
@@ -182,7 +200,7 @@ impl<'a> Lobe<'a> {
                 let f = fresnel::dielectric(cos_o, *eta).0;
                 specular(Rgb::splat(f) + *tint * (1.0 - f))
             }
-            Self::Thin { eta, tint } => {
+            Self::Thin { eta, tint, .. } => {
                 let r = thin_reflectance(cos_o, *eta);
                 specular(Rgb::splat(r) + *tint * (1.0 - r))
             }
@@ -195,8 +213,7 @@ impl<'a> Lobe<'a> {
         match self {
             Self::Lambert | Self::RoughDiffuse(_) | Self::Sheen(_) => true,
             Self::Coated(coated) => coated.facets.alpha >= ROUGH_ALPHA,
-            Self::Reflection { facets, .. } | Self::Refraction { facets, .. } => facets.alpha >= ROUGH_ALPHA,
-            Self::Thin { .. } => false,
+            Self::Reflection { facets, .. } | Self::Refraction { facets, .. } | Self::Thin { facets, .. } => facets.alpha >= ROUGH_ALPHA,
         }
     }
 }

@@ -24,7 +24,7 @@ mod tables;
 
 pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
-pub use resolve::{Inputs, straight_transmittance};
+pub use resolve::{Border, Inputs, border, straight_transmittance};
 pub use sample::{Event, Sample, Value};
 pub use tables::{TableMaker, Tables};
 

@@ -69,7 +69,7 @@ impl<'a> Bsdf<'a> {
             scene::Bsdf::Dielectric { eta, alpha, transmittance, .. } => {
                 Self::one(glass(*eta, at.scalar(alpha), at.reflectance(transmittance), at))
             }
-            scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(Lobe::Thin { eta: *eta, tint: at.reflectance(transmittance) }),
+            scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(thin(*eta, 0.0, at.reflectance(transmittance), at)),
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
                 // What saturates reflects more on average than its average colour would, so no average is taken.
                 let base = Inputs { footprint: if *nonlinear { Footprint::POINT } else { at.footprint }, ..*at };
@@ -113,6 +113,15 @@ fn glass<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     let alpha = if (ior - 1.0).abs() < NO_REFRACTION { 0.0 } else { alpha };
     let scale = at.tables.glass.as_ref().map_or(1.0, |table| table.scale(at.cos_o, alpha, at.outside));
     Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta, tint, scale }
+}
+
+/// A thin pane with all bounces between its facets.
+#[inline]
+fn thin<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
+    let facets = Facets::new(alpha, at.cos_o);
+    // Either all is reflected or goes where it would be, so the two together lose what a white metal loses.
+    let scale = if facets.smooth() { 1.0 } else { energy::of_metal(at.cos_o, alpha, Rgb::WHITE).r };
+    Lobe::Thin { facets, eta: ior, tint, scale }
 }
 
 /// Two materials side by side; `weight` is the fraction of the second.
@@ -163,7 +172,7 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
         coated(at, base, alpha, tint, false, tint.max_component())
     };
     let metal = || metal(Facets::new(alpha, at.cos_o), Fresnel::Schlick { f0: base }, Rgb::WHITE, at.cos_o);
-    let body = || if p.solid { glass(p.ior, alpha, base, at) } else { Lobe::Thin { eta: p.ior, tint: base } };
+    let body = || if p.solid { glass(p.ior, alpha, base, at) } else { thin(p.ior, alpha, base, at) };
 
     let sheen_color = at.reflectance(&p.sheen_color);
     let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
@@ -220,7 +229,7 @@ fn cover(mixture: &mut Mixture<'_>, p: &Principled, at: &Inputs<'_>, sheen_color
     }
 }
 
-/// Fraction of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none.
+/// Fraction of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none, as rough ones have none.
 ///
 /// This is the [`Lobe::Thin`] of [`Bsdf::new`] as a shadow ray sees it.
 pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb> {
@@ -229,10 +238,11 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
             Some(at.reflectance(transmittance) * (1.0 - thin_reflectance(at.cos_o, *eta)))
         }
         scene::Bsdf::Principled(p) if !p.solid && p.transmission.factor > 0.0 => {
+            if !Facets::new(at.unit_scalar(&p.roughness).powi(2), at.cos_o).smooth() {
+                return None;
+            }
             let clear = (1.0 - at.unit_scalar(&p.metallic)) * at.unit_scalar(&p.transmission);
-            let sheen = at.reflectance(&p.sheen_color).max_component();
-            let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
-            let layers = Layers { clearcoat, sheen, sheen_roughness: at.scalar(&p.sheen_roughness).clamp(0.05, 1.0) };
+            let layers = layers_over(p, at);
             let pane = at.reflectance(&p.base_color) * (1.0 - thin_reflectance(at.cos_o, p.ior));
             Some(pane * (clear * layers.passes(at.cos_o, at.cos_o)))
         }
@@ -245,4 +255,62 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
         }
         _ => None,
     }
+}
+
+/// What a smooth border of a transparent body does with light that arrives along the viewing direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Border {
+    /// Index beyond the border over the index on the viewer's side.
+    pub eta: f32,
+    /// Fraction that is refracted; radiance is compressed by the square of `eta` beside that.
+    pub transmitted: Rgb,
+    /// Fraction that is mirrored.
+    pub reflected: f32,
+}
+
+/// The border of a transparent body that `bsdf` is at a point; `None` where it is rough or no border. It is the [`Lobe::Refraction`] of
+/// [`Bsdf::new`] as light that is aimed through glass sees it.
+pub fn border(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Border> {
+    match bsdf {
+        scene::Bsdf::Dielectric { eta, alpha, transmittance, .. } => {
+            smooth_border(*eta, at.scalar(alpha), 1.0, || at.reflectance(transmittance), at)
+        }
+        scene::Bsdf::Principled(p) if p.solid && p.transmission.factor > 0.0 => {
+            let clear = (1.0 - at.unit_scalar(&p.metallic)) * at.unit_scalar(&p.transmission);
+            let part = clear * layers_over(p, at).passes(at.cos_o, at.cos_o);
+            smooth_border(p.ior, at.unit_scalar(&p.roughness).powi(2), part, || at.reflectance(&p.base_color), at)
+        }
+        scene::Bsdf::Blend { first, second, weight } => {
+            let weight = at.unit_scalar(weight);
+            let scaled = |b: Border, part: f32| Border { transmitted: b.transmitted * part, reflected: b.reflected * part, ..b };
+            match (border(first, at), border(second, at)) {
+                (Some(a), None) => Some(scaled(a, 1.0 - weight)),
+                (None, Some(b)) => Some(scaled(b, weight)),
+                (Some(a), Some(b)) if a.eta == b.eta => Some(Border {
+                    eta: a.eta,
+                    transmitted: a.transmitted.lerp(b.transmitted, weight),
+                    reflected: a.reflected + (b.reflected - a.reflected) * weight,
+                }),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// The smooth border of a body of the index `ior` that is `part` of what is there.
+fn smooth_border(ior: f32, alpha: f32, part: f32, tint: impl FnOnce() -> Rgb, at: &Inputs<'_>) -> Option<Border> {
+    let Lobe::Refraction { facets, eta, .. } = glass(ior, alpha, Rgb::WHITE, at) else { return None };
+    if !facets.smooth() {
+        return None;
+    }
+    let (reflected, _) = fresnel::dielectric(at.cos_o, eta);
+    Some(Border { eta, transmitted: tint() * (part * (1.0 - reflected)), reflected: part * reflected })
+}
+
+/// The layers over a principled material's lobes, as light that passes straight through meets them.
+fn layers_over(p: &Principled, at: &Inputs<'_>) -> Layers {
+    let sheen = at.reflectance(&p.sheen_color).max_component();
+    let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
+    Layers { clearcoat, sheen, sheen_roughness: at.scalar(&p.sheen_roughness).clamp(0.05, 1.0) }
 }

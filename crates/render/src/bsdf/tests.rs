@@ -67,6 +67,34 @@ fn models() -> Vec<(&'static str, Material, bool)> {
         ),
         (
             material(
+                "principled thin",
+                principled(Principled { transmission: 1.0.into(), roughness: 0.0.into(), ..Principled::default() }),
+            ),
+            true,
+        ),
+        (
+            material(
+                "principled frosted 0.3",
+                principled(Principled { transmission: 1.0.into(), roughness: 0.3.into(), ..Principled::default() }),
+            ),
+            true,
+        ),
+        (
+            material(
+                "principled frosted 0.9",
+                principled(Principled { transmission: 1.0.into(), roughness: 0.9.into(), ..Principled::default() }),
+            ),
+            true,
+        ),
+        (
+            material(
+                "principled half frosted",
+                principled(Principled { transmission: 0.5.into(), roughness: 0.5.into(), metallic: 0.2.into(), ..Principled::default() }),
+            ),
+            false,
+        ),
+        (
+            material(
                 "principled everything",
                 principled(Principled {
                     metallic: 0.3.into(),
@@ -181,7 +209,8 @@ fn reflection_is_reciprocal() {
             };
             let (ab, ba) = (value(a, b), value(b, a));
             // The scales of further bounces and of the sheen under a clear-coat follow the viewing direction only.
-            if !["conductor", "dielectric", "metal", "glass", "everything", "blend"].iter().any(|one_way| name.contains(one_way)) {
+            if !["conductor", "dielectric", "metal", "glass", "frosted", "everything", "blend"].iter().any(|one_way| name.contains(one_way))
+            {
                 assert!((ab - ba).abs() <= 2e-3 * ab.max(ba) + 1e-5, "{name}: {ab} against {ba}");
             }
         }
@@ -295,6 +324,42 @@ fn tiles_under_plastic_reflect_as_much_to_wide_rays_as_their_halves_do() {
         let wide = 0.5 * (reflected(&tiled, 0.25, 1.0) + reflected(&tiled, 0.75, 1.0));
         let halves = 0.5 * (reflected(&plastic(Rgb::BLACK.into()), 0.5, 0.0) + reflected(&plastic(Rgb::WHITE.into()), 0.5, 0.0));
         assert!((wide - halves).abs() < 1e-5 * halves, "nonlinear {nonlinear}: {wide} for {halves}");
+    }
+}
+
+/// KHR_materials_transmission: what passes a rough thin surface is (1 − F) · base · D · V, with the halfway vector of the viewing direction and
+/// the incident one mirrored to its side.
+#[test]
+fn frosted_sheets_transmit_by_the_formula_of_gltf() {
+    let (roughness, ior, base) = (0.25f32, 1.5f32, 0.6f32);
+    let bsdf = scene::Bsdf::Principled(Box::new(Principled {
+        base_color: Rgb::splat(base).into(),
+        roughness: roughness.into(),
+        transmission: 1.0.into(),
+        ..Principled::default()
+    }));
+    let material = Material::new("frosted", bsdf);
+    let (tables, textures) = (tables(&material), Textures::default());
+    for (cos_o, wi) in [(0.9f32, Vec3::new(-0.3, 0.1, -0.8)), (0.6, Vec3::new(-0.9, 0.2, -0.7)), (0.6, Vec3::new(0.3, 0.0, -0.9))] {
+        let (wo, wi) = (direction(cos_o), wi.normalize());
+        let inputs = Inputs { textures: &textures, uv: Vec2::ZERO, footprint: Footprint::POINT, tables: &tables, cos_o, outside: true };
+        let found = f64::from(Bsdf::new(&material.bsdf, &inputs).eval(wo, wi).specular.g);
+
+        let (v, l) = (wo.as_dvec3(), Vec3::new(wi.x, wi.y, -wi.z).as_dvec3());
+        let h = (v + l).normalize();
+        let a2 = f64::from(roughness).powi(4);
+        let d = a2 / (std::f64::consts::PI * (h.z * h.z * (a2 - 1.0) + 1.0).powi(2));
+        let smith = |a: f64, b: f64| a * (b * b * (1.0 - a2) + a2).sqrt();
+        let visible = 0.5 / (smith(l.z, v.z) + smith(v.z, l.z));
+        // Both faces of the sheet reflect, by Fresnel's equations and with all inner reflections.
+        let (cos_i, eta) = (v.dot(h), f64::from(ior));
+        let cos_t = (1.0 - (1.0 - cos_i * cos_i) / (eta * eta)).sqrt();
+        let across = ((cos_i - eta * cos_t) / (cos_i + eta * cos_t)).powi(2);
+        let along = ((eta * cos_i - cos_t) / (eta * cos_i + cos_t)).powi(2);
+        let r = 0.5 * (across + along);
+        let expected = (1.0 - 2.0 * r / (1.0 + r)) * f64::from(base) * d * visible * l.z;
+        // What bounces between facets adds a little.
+        assert!(found >= expected * 0.999 && found <= expected * 1.03, "cosine {cos_o}, {wi}: {found}, by the formula {expected}");
     }
 }
 

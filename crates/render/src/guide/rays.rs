@@ -182,6 +182,12 @@ fn first_surface<'s>(
             ray = surface.ray(ray.direction);
             continue;
         }
+        // Light samples find what lies behind solid panes as well.
+        if let Some((transmittance, beyond)) = scene.beyond_pane(&surface, ray.direction) {
+            through *= transmittance;
+            ray = beyond;
+            continue;
+        }
         let emission = surface.emission(scene);
         if !emission.is_black() {
             let weight = scene.lights.surface_weight(scene, choice, sampled.as_ref(), ray.direction, &hit, surface.p);

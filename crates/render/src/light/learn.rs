@@ -9,7 +9,7 @@ use crate::prepared::RenderScene;
 use crate::surface::{self, Surface};
 use crate::texture::Cone;
 use crate::walk::{pixel_samples, walk};
-use enfilade_math::{INV_PI, Onb, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
+use enfilade_math::{INV_PI, Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 use enfilade_parallel::{flat_map_up_to, map_up_to};
 use enfilade_scene::CameraView;
 
@@ -108,7 +108,7 @@ fn contribution(
     if cos <= 0.0 {
         return 0.0;
     }
-    let arriving = scene.transmittance(&surface.shadow_ray(light.wi, light.target));
+    let arriving = arriving(scene, &surface.shadow_ray(light.wi, light.target), &light);
     if arriving.is_black() {
         return 0.0;
     }
@@ -117,6 +117,12 @@ fn contribution(
         return lights.prior(source, windows, at);
     }
     (lights.radiance_of(scene, &light, &Cone::POINT, u[0]) * arriving).luminance() * cos / light.pdf
+}
+
+/// What comes through along a shadow ray to a sample of light: through curved glass about so, which is enough to learn from.
+fn arriving(scene: &RenderScene<'_>, ray: &Ray, light: &LightSample) -> Rgb {
+    let through = scene.transmittance(ray);
+    if scene.has_bodies && light.is_delta && through.is_black() { scene.about_through_glass(ray) } else { through }
 }
 
 impl Lights<'_> {
@@ -132,7 +138,7 @@ impl Lights<'_> {
         let mut random = || [rng.next_f32(), rng.next_f32(), rng.next_f32()];
         let mut add = |light: &LightSample, pdf: f32| {
             let arriving = self.radiance_of(scene, light, &Cone::POINT, 0.5)
-                * scene.transmittance(&surface::shadow_ray(origin, light.wi, light.target));
+                * arriving(scene, &surface::shadow_ray(origin, light.wi, light.target), light);
             let value = arriving * (light.wi.dot(n) * INV_PI / pdf);
             if value.luminance().is_finite() {
                 sum += value;

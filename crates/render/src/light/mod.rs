@@ -38,4 +38,4 @@ pub(crate) use fixtures::Fixtures;
 pub use fixtures::{Fixture, FixtureKind};
 pub(crate) use lights::Lights;
 pub(crate) use photons::PhotonSources;
-pub(crate) use sample::{Background, LightKind, LightPoint, power_heuristic};
+pub(crate) use sample::{Background, LightKind, LightPoint, LightSample, power_heuristic};

@@ -34,7 +34,7 @@ impl Lights<'_> {
 /// The panes of a scene, in the order of its parts. A function of the scene alone, whatever the number of threads.
 fn panes(ready: &RenderScene<'_>) -> Vec<Pane> {
     let scene = ready.scene;
-    let is_glass = |part: &Part| scene.materials[part.material as usize].bsdf.is_pane() && !emits(scene, part);
+    let is_glass = |part: &Part| scene.materials[part.material as usize].bsdf.transmits() && !emits(scene, part);
     let of_part = |number: usize| {
         let part = &scene.parts[number];
         if is_glass(part) { pane(ready, number as PartId, part) } else { None }

@@ -19,6 +19,8 @@ pub(crate) struct LightSample {
     pub wi: Vec3,
     /// Where the shadow ray ends, moved off the emitter's surface; `None` for infinitely far lights.
     pub target: Option<Vec3>,
+    /// Unit normal of the emitter's surface there; zero for lights without one.
+    pub normal: Vec3,
     /// Radiance (finite lights) or radiance × density (delta lights, whose `pdf` is then only the choice's probability).
     /// `None` for the environment, which is looked up once it is known to be seen: see [`Lights::radiance_of`].
     pub radiance: Option<Rgb>,
@@ -57,7 +59,7 @@ impl LightSample {
     /// Light that other techniques can find too, from no emitter of the hierarchy.
     #[inline]
     pub fn new(wi: Vec3, target: Option<Vec3>, radiance: Option<Rgb>, pdf: f32) -> Self {
-        Self { wi, target, radiance, pdf, is_delta: false, glint: None, emitter: None }
+        Self { wi, target, normal: Vec3::ZERO, radiance, pdf, is_delta: false, glint: None, emitter: None }
     }
 
     /// What the light comes from.

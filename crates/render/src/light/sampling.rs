@@ -9,7 +9,7 @@ use super::window::Windows;
 use crate::prepared::{AlphaTest, RenderScene};
 use crate::texture::{Cone, Footprint};
 use enfilade_geometry::Hit;
-use enfilade_math::{Vec3, offset_origin};
+use enfilade_math::{Rgb, Vec3, offset_origin};
 use enfilade_scene::Alpha;
 
 impl Lights<'_> {
@@ -117,7 +117,7 @@ impl Lights<'_> {
             let behind = point.wi.dot(patch.normal()) >= 0.0;
             let target = Some(offset_origin(point.q, if behind { -patch.normal() } else { patch.normal() }));
             let sample = LightSample::new(point.wi, target, Some(radiance), point.pdf);
-            return (two_sided || !behind).then_some(sample);
+            return (two_sided || !behind).then_some(LightSample { normal: patch.normal(), ..sample });
         }
         let (triangle, [b, c]) = patch.locate(point.q, |number| scene.triangles.get(number).corners);
         let hit = Hit { t: point.distance, triangle, u: b, v: c };
@@ -132,7 +132,13 @@ impl Lights<'_> {
             return None;
         }
         let target = Some(offset_origin(point.q, surface.ng));
-        Some(LightSample::new(point.wi, target, Some(radiance), point.pdf))
+        Some(LightSample { normal: surface.ng, ..LightSample::new(point.wi, target, Some(radiance), point.pdf) })
+    }
+
+    /// The radiance of a sample of a point light as it arrives at another place `p`; `None` for other samples.
+    pub fn point_light_at(&self, sample: &LightSample, p: Vec3) -> Option<Rgb> {
+        let point = (sample.emitter? as usize).checked_sub(self.surfaces.patches.len())?;
+        delta::sample(&self.points[point], &LightPoint { p, n: Vec3::ZERO }, [0.0; 2])?.radiance
     }
 
     /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, whose place is `p`

@@ -3,6 +3,7 @@
 mod cameras;
 mod extra;
 mod film;
+mod glass;
 mod known_answers;
 mod layers;
 mod look;

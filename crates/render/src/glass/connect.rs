@@ -1,0 +1,162 @@
+//! The way from a surface through glass to a light.
+
+use super::shot::{End, Passed, Shot};
+use crate::light::LightSample;
+use crate::prepared::RenderScene;
+use crate::surface::Surface;
+use crate::vertex::Medium;
+use enfilade_math::{Onb, Rgb, Rng, Vec2, Vec3, warp};
+
+/// Newton's steps, and how often a step that leads nowhere is halved.
+const STEPS: usize = 16;
+const HALVINGS: usize = 5;
+/// The longest step, as a tangent.
+const LONGEST_STEP: f32 = 0.5;
+/// A light is met when the shot passes it by no more than this, as a fraction of the distance, or when the directions differ by as much.
+const MET: f32 = 5e-5;
+/// Ways are the same when their first directions differ by no more than this.
+const SAME: f32 = 2e-3;
+/// The most attempts to find a way again. A way that takes more counts for less than it should.
+const ATTEMPTS: u32 = 48;
+/// How far first directions to a light at infinity are spread about the straight one, as a tangent.
+const SPREAD: f32 = 0.7;
+
+/// A way through glass.
+pub(crate) struct Connection {
+    /// Its first direction, a unit vector.
+    pub wi: Vec3,
+    /// Its last direction, at the light.
+    pub arrives: Vec3,
+    /// Fraction of the light that comes through.
+    pub through: Rgb,
+    /// For a light at a point, the irradiance across the way for an intensity of one, per square metre; for a light at infinity, the
+    /// irradiance across the way for one of one in the open.
+    pub spread: f32,
+    /// True when only panes are on the way, so that sampled directions find the same light.
+    pub parallel: bool,
+    /// What lies on it.
+    pub passed: Passed,
+    /// How many ways this one stands for.
+    pub ways: f32,
+}
+
+/// What a way leads to.
+#[derive(Clone, Copy)]
+enum Goal {
+    /// A point, and the unit normal of the surface that it lies on, if it does.
+    Point(Vec3, Vec3),
+    Direction(Vec3),
+}
+
+impl Goal {
+    fn end(self) -> End {
+        match self {
+            Self::Point(p, normal) => End::Near(p, normal),
+            Self::Direction(_) => End::After(f32::INFINITY),
+        }
+    }
+
+    /// By how much a shot misses, across its direction, and the derivatives of its end.
+    fn miss(self, shot: &Shot, distance: f32) -> Option<(Vec3, [Vec3; 2])> {
+        let across = |v: Vec3| v - shot.direction * v.dot(shot.direction);
+        match self {
+            Self::Point(p, _) => Some((across(p - shot.p) / distance, shot.moved.map(|moved| moved / distance))),
+            Self::Direction(d) => (d.dot(shot.direction) > 0.0).then(|| (across(d), shot.turned)),
+        }
+    }
+}
+
+impl<'s> RenderScene<'s> {
+    /// Finds a way from `surface`, whose side towards a sample of light is in `medium`, through glass to that. Where the glass is no pane,
+    /// only lights without a surface are aimed at.
+    pub(crate) fn connect(&self, surface: &Surface<'s>, medium: Medium, light: &LightSample, mut rng: Rng) -> Option<Connection> {
+        let &LightSample { wi, target, is_delta: delta, normal, .. } = light;
+        let straight = surface.shadow_ray(wi, target);
+        let near = self.glass_ahead(&straight)?;
+        let goal = target.map_or(Goal::Direction(wi), |p| Goal::Point(p, normal));
+
+        // Through panes there is one way.
+        let shot = self.shoot(&surface.ray(wi), medium, goal.end());
+        if shot.is_some_and(|shot| shot.parallel) {
+            let found = self.aim(surface, medium, wi, goal).filter(|way| way.parallel);
+            if found.is_some() || !delta {
+                return found;
+            }
+        }
+        if !delta {
+            return None;
+        }
+
+        // Begin anywhere about the light, and see how often the same way is found.
+        let beyond = if straight.t_max.is_finite() { straight.t_max - near } else { SPREAD };
+        let mut attempt = || {
+            let aside = warp::sphere([rng.next_f32(), rng.next_f32()]) * (beyond * rng.next_f32());
+            let start = match target {
+                Some(target) => (target + aside - straight.origin).try_normalize()?,
+                None => (wi + aside).try_normalize()?,
+            };
+            self.aim(surface, medium, start, goal)
+        };
+        let mut found = attempt()?;
+        for _ in 1..ATTEMPTS {
+            if attempt().is_some_and(|again| again.wi.distance_squared(found.wi) < SAME * SAME) {
+                break;
+            }
+            found.ways += 1.0;
+        }
+        Some(found)
+    }
+
+    /// Corrects the first direction of a shot until it meets its goal.
+    fn aim(&self, surface: &Surface<'s>, medium: Medium, start: Vec3, goal: Goal) -> Option<Connection> {
+        let distance = if let Goal::Point(p, _) = goal { p.distance(surface.p) } else { 1.0 };
+        let shoot = |wi: Vec3| {
+            let shot = self.shoot(&surface.ray(wi), medium, goal.end())?;
+            let (miss, by) = goal.miss(&shot, distance)?;
+            Some((wi, shot, miss, by))
+        };
+        let mut best = shoot(start)?;
+        for _ in 0..STEPS {
+            let (wi, shot, miss, by) = best;
+            let axes = Onb::from_z(shot.direction);
+            let [a, b] = by.map(|v| Vec2::new(axes.x.dot(v), axes.y.dot(v)));
+            let determinant = a.perp_dot(b);
+            if miss.length_squared() <= MET * MET {
+                return connection(wi, &shot, goal, medium, determinant.abs(), distance);
+            }
+            let miss_2d = Vec2::new(axes.x.dot(miss), axes.y.dot(miss));
+            let step = Vec2::new(miss_2d.perp_dot(b), a.perp_dot(miss_2d)) / determinant;
+            if !step.is_finite() {
+                return None;
+            }
+            let step = step.clamp_length_max(LONGEST_STEP);
+            let first = Onb::from_z(wi);
+            let try_step = |fraction: f32| {
+                let next = (wi + (first.x * step.x + first.y * step.y) * fraction).normalize();
+                shoot(next).filter(|(_, _, closer, _)| closer.length_squared() < miss.length_squared())
+            };
+            best = (0..HALVINGS).find_map(|k| try_step(0.5f32.powi(k as i32)))?;
+        }
+        None
+    }
+}
+
+/// The way that a shot has found. `determinant` is that of its end's derivatives, for a light at a point over the square of the `distance`.
+fn connection(wi: Vec3, shot: &Shot, goal: Goal, medium: Medium, determinant: f32, distance: f32) -> Option<Connection> {
+    // Radiance over the square of the index is the same along a ray, so étendue is kept: what spreads light from here spreads it to here.
+    let denser = shot.medium.compression / medium.compression;
+    let spread = match goal {
+        Goal::Point(..) => denser / (determinant * distance * distance),
+        Goal::Direction(_) if shot.parallel => 1.0,
+        Goal::Direction(_) => denser / determinant,
+    };
+    spread.is_finite().then_some(Connection {
+        wi,
+        arrives: shot.direction,
+        through: shot.through,
+        spread,
+        parallel: shot.parallel,
+        passed: shot.passed,
+        ways: 1.0,
+    })
+}
