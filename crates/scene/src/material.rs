@@ -223,7 +223,7 @@ pub struct Principled {
     pub specular_color: ColorParam,
     /// `KHR_materials_transmission` share of the dielectric that transmits.
     pub transmission: ScalarParam,
-    /// True for a solid body (`KHR_materials_volume` with thickness): transmitted light refracts. False: a thin sheet.
+    /// True for a solid body (`KHR_materials_volume` with thickness): transmitted light refracts. False: a thin sheet, frosted by its roughness.
     pub solid: bool,
     /// Beer–Lambert absorption inside a solid body, per metre.
     pub absorption: Rgb,

@@ -5,7 +5,8 @@
 //! | `diffuse`, `roughness` | diffuse, or rough diffuse where nothing reflects |
 //! | `reflect` with `fresnel`; `metalness`, `coat_*`, `sheen_*` | principled: `reflect` scales the reflection, roughness = 1 − glossiness (or the glossiness itself with `option_use_roughness`) |
 //! | `reflect` without `fresnel` | a mirror mixed in by its strength |
-//! | `refract` | glass mixed in by its strength; thin with `refract_thin_walled` or an index of 1 |
+//! | `refract` | glass mixed in by its strength; thin with `refract_thin_walled` or an index of 1, and frosted where it is thin and `refract_glossiness` says so |
+//! | `refract_affect_shadows` | on or off, light passes as the glass reflects, absorbs and bends it: straight on through panes |
 //! | `fog_color`, `fog_color_tex`, `fog_mult`, `fog_depth` | absorption, −ln(colour) · `fog_mult` / `fog_depth` per centimetre, or per unit of the scene where `fog_unit_scale_on` is 0 |
 //! | `opacity`, or `opacity_color` where `opacity_source` is 1; `opacity_mode` | shares of the surface that are there; mode 1 cuts at one half |
 //! | `self_illumination`, `bump_map` | emission, perturbed normals |
@@ -95,10 +96,12 @@ impl<'n> Reader<'n, '_> {
         if ior <= 0.0 {
             return Err(m.error("refract_ior", format!("found {ior}, expected a number above zero, such as 1.5; correct the value")));
         }
-        let glass = if m.flag("refract_thin_walled", false)? || (ior - 1.0).abs() < NO_REFRACTION {
-            Bsdf::ThinDielectric { eta: ior as f32, transmittance }
+        let as_roughness = m.int("option_use_roughness", 0)? != 0;
+        let bends = (ior - 1.0).abs() >= NO_REFRACTION;
+        let glass = if m.flag("refract_thin_walled", false)? || !bends {
+            let roughness = if bends { self.roughness(m, "refract_glossiness", 1.0, as_roughness)? } else { 0.0.into() };
+            sheet(ior as f32, transmittance, roughness)
         } else {
-            let as_roughness = m.int("option_use_roughness", 0)? != 0;
             let roughness = self.roughness(m, "refract_glossiness", 1.0, as_roughness)?;
             let alpha = self.squared(m, roughness);
             Bsdf::Dielectric { eta: ior as f32, alpha, transmittance, absorption: self.fog(m)? }
@@ -130,4 +133,12 @@ impl<'n> Reader<'n, '_> {
             Alpha::Blend { opacity }
         })
     }
+}
+
+/// A thin sheet of glass, clear or frosted.
+fn sheet(ior: f32, transmittance: ColorParam, roughness: ScalarParam) -> Bsdf {
+    if roughness == ScalarParam::from(0.0) {
+        return Bsdf::ThinDielectric { eta: ior, transmittance };
+    }
+    Bsdf::Principled(Box::new(Principled { base_color: transmittance, roughness, ior, transmission: 1.0.into(), ..Principled::default() }))
 }

@@ -29,6 +29,10 @@ fn general_materials_become_what_they_do() {
     };
     assert!(eta == 1.5 && near(absorption, Rgb::new(200.0 * std::f32::consts::LN_2, 0.0, 0.0)), "2 per centimetre: {absorption:?}");
     assert!(matches!(bsdf("refract=AColor(1,1,1,1); refract_thin_walled=1;"), Bsdf::ThinDielectric { .. }));
+    let Bsdf::Principled(p) = bsdf("refract=AColor(1,1,1,1); refract_thin_walled=1; refract_glossiness=0.4;") else {
+        panic!("not frosted")
+    };
+    assert!((p.roughness.factor - 0.6).abs() < 1e-6 && p.transmission.factor == 1.0 && !p.solid);
     assert!(matches!(bsdf("refract=AColor(0.5,0.5,0.5,1);"), Bsdf::Blend { weight, .. } if weight.factor == 0.5));
     let Bsdf::Principled(p) = bsdf("coat_amount=0.7; coat_glossiness=0.9; sheen_color=AColor(1,0,0,1);") else { panic!("no coat") };
     assert!(

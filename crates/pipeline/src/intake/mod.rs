@@ -4,6 +4,7 @@
 //! everything else that a look finds; they join the importer's warnings, in the report.
 
 mod doubled;
+mod enclosed;
 mod held;
 mod lamps;
 mod panes;
@@ -68,6 +69,7 @@ pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) 
     remarks.extend(panes::glaze(source, &mut imported.scene));
     remarks.extend(panes::lost(&imported.scene));
     remarks.extend(remarks::of_light(&imported.scene));
+    remarks.extend(enclosed::lamps(&imported.scene, &look));
     for message in remarks {
         let warning = Warning { place: source.file.clone(), message };
         cx.warn(warning.clone());

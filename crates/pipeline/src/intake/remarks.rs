@@ -162,6 +162,6 @@ fn names(scene: &Scene, parts: &[PartId]) -> String {
     first.join(", ") + &and_more(parts.len())
 }
 
-fn and_more(count: usize) -> String {
+pub(super) fn and_more(count: usize) -> String {
     if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() }
 }

@@ -155,3 +155,45 @@ fn the_report_of_a_sound_room_has_nothing_about_its_geometry() {
     // OBJ files have no material of their own here, which their reader tells.
     assert!(checked.warnings.iter().all(|warning| warning.message.contains("material")), "{:?}", checked.warnings);
 }
+
+/// A file of glTF with one triangle mesh, a ball of eight faces around the origin, and a lamp at a point.
+fn globe(folder: &Path, lamp_at: [f32; 3], material: &str) -> FileSource {
+    let corners: [[f32; 3]; 6] = [[0.2, 0.0, 0.0], [-0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, -0.2, 0.0], [0.0, 0.0, 0.2], [0.0, 0.0, -0.2]];
+    let faces: [[u16; 3]; 8] = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+    let bytes: Vec<u8> = corners
+        .as_flattened()
+        .iter()
+        .flat_map(|v| v.to_le_bytes())
+        .chain(faces.as_flattened().iter().flat_map(|v| v.to_le_bytes()))
+        .collect();
+    std::fs::write(folder.join("globe.bin"), bytes).unwrap();
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": 10}}]}}}},
+        "nodes": [{{"name": "globe", "mesh": 0}},
+            {{"name": "bulb", "translation": {lamp_at:?}, "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 0}}]}}],
+        "materials": [{material}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-0.2, -0.2, -0.2], "max": [0.2, 0.2, 0.2]}},
+            {{"bufferView": 1, "componentType": 5123, "count": 24, "type": "SCALAR"}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": 72}}, {{"buffer": 0, "byteOffset": 72, "byteLength": 48}}],
+        "buffers": [{{"byteLength": 120, "uri": "globe.bin"}}]}}"#
+    );
+    let file = folder.join("globe.gltf");
+    std::fs::write(&file, text).unwrap();
+    FileSource::of(file.to_string_lossy())
+}
+
+#[test]
+fn a_lamp_whose_light_leads_nowhere_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let opaque = r#"{"name": "white", "pbrMetallicRoughness": {"metallicFactor": 0}}"#;
+    let text = told(&globe(folder.path(), [0.0, 0.01, 0.0], opaque));
+    assert!(text.contains("1 lamp (\"bulb\" in \"globe\") is inside of an opaque part"), "{text}");
+    // Above it, or within glass, it is found.
+    assert!(!told(&globe(folder.path(), [0.0, 0.5, 0.0], opaque)).contains("lamp ("));
+    let glass = r#"{"name": "glass", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 0.1}}}"#;
+    assert!(!told(&globe(folder.path(), [0.0, 0.01, 0.0], glass)).contains("lamp ("));
+}
