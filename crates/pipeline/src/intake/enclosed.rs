@@ -149,7 +149,7 @@ mod tests {
             meshes: vec![Mesh { positions, triangles, ..Mesh::default() }],
             images: vec![Image { name: "waves".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5, 0.5, 1.0]]) }],
             materials: vec![Material { normal_map, ..Material::new("globe", bsdf) }],
-            parts: vec![Part { name: "globe".into(), mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+            parts: vec![Part { name: "globe".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             lights: vec![
                 Light::Point { name: "bulb".into(), position: Vec3::ZERO, intensity: Rgb::WHITE },
                 Light::Directional { name: "sun".into(), direction: Vec3::NEG_Z, irradiance: Rgb::WHITE, angular_radius_rad: 0.0 },
