@@ -36,8 +36,8 @@ pub(super) fn lamps(scene: &Scene, look: &Look) -> Vec<String> {
     let ways = [
         (
             opaque.collect::<Vec<_>>(),
-            "inside of an opaque part, which no light leaves; if that is glass, give its material transmission (thin: without a volume), or \
-             take the part away",
+            "inside of an opaque part, which no light leaves; if that is glass, panes = [\"its name\"] (or --panes) makes it clear, else take it \
+             away",
         ),
         (
             bumped.collect(),
