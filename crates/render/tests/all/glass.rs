@@ -72,7 +72,13 @@ fn above_floor(things: Vec<(Mesh, Material)>) -> Scene {
     let floor = (sheet(100.0, 0.0, true), Material::diffuse("floor", Rgb::splat(0.5)));
     for (mesh, material) in std::iter::once(floor).chain(things) {
         let number = scene.parts.len() as u32;
-        scene.parts.push(Part { name: format!("part {number}"), mesh: number, material: number, world_from_mesh: DAffine3::IDENTITY });
+        scene.parts.push(Part {
+            name: format!("part {number}"),
+            object: None,
+            mesh: number,
+            material: number,
+            world_from_mesh: DAffine3::IDENTITY,
+        });
         scene.meshes.push(mesh);
         scene.materials.push(material);
     }
