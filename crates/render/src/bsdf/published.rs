@@ -196,7 +196,7 @@ fn thin_panes() {
         let (r, mut rng) = (dielectric(cos, 1.5), Rng::new(3));
         let (mut reflected, mut transmitted) = (Mean::EMPTY, Mean::EMPTY);
         for _ in 0..40_000 {
-            let lobe = Lobe::Thin { eta: 1.5, tint: Rgb::splat(0.5) };
+            let lobe = Lobe::Thin { facets: Facets::new(0.0, cos as f32), eta: 1.5, tint: Rgb::splat(0.5), scale: 1.0 };
             let s = lobe.sample(viewer(cos).as_vec3(), [0.0, 0.0, rng.next_f32()]).expect("it loses nothing");
             let value = f64::from(s.weight.specular.g);
             reflected.add(if s.wi.z > 0.0 { value } else { 0.0 });
