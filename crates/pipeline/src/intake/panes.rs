@@ -119,7 +119,7 @@ fn pane(material: &Material) -> Option<Material> {
         Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Blend { .. } | Bsdf::Principled(_) => return None,
     };
     let alpha = match &material.alpha {
-        mask @ Alpha::Mask { .. } => mask.clone(),
+        mask @ Alpha::Mask { .. } => *mask,
         Alpha::Opaque | Alpha::Blend { .. } => Alpha::Opaque,
     };
     let bsdf = Bsdf::ThinDielectric { eta: GLASS, transmittance: tinted(color) };

@@ -95,9 +95,12 @@ fn halls_single_things_and_dolls_houses_in_their_own_size_are_what_they_are() {
     assert!(plain("house.obj", &house)[0].contains("rooms are 0.22 m high"));
 }
 
+/// Where a point goes.
+type Turn = fn([f64; 3]) -> [f64; 3];
+
 #[test]
 fn rooms_on_their_sides_and_heads_are_suspected_and_the_axis_is_named() {
-    let turned: [(&str, fn([f64; 3]) -> [f64; 3]); 5] = [
+    let turned: [(&str, Turn); 5] = [
         ("z", |p| p),
         ("-z", |[x, y, z]| [x, -y, -z]),
         ("-y", |[x, y, z]| [x, -z, y]),
