@@ -1,5 +1,6 @@
 //! MTL material libraries: their entries, statement by statement.
 
+use super::blender::Gloss;
 use super::map::Map;
 use super::text::{lines, number, unquoted, without_comment};
 use crate::ImportError;
@@ -17,8 +18,8 @@ pub(crate) struct Entry {
     pub(super) name: String,
     /// Folder of the library, to which pictures are relative, as the scene file would spell it.
     pub(super) folder: String,
-    /// True where Blender's own exporter wrote the library.
-    pub(super) of_blender: bool,
+    /// What `Ns` and `Ks` mean.
+    pub(super) gloss: Gloss,
     pub(super) statements: BTreeMap<String, String>,
 }
 
@@ -30,7 +31,7 @@ pub(crate) type Library = HashMap<String, Entry>;
 /// is opacity, as in Sweet Home 3D's loader; in Java 3D's it is transparency.
 pub(super) fn java3d() -> Library {
     let mut library = Library::new();
-    parse_text(include_str!("java3d.mtl"), "", &mut library);
+    parse_text(include_str!("java3d.mtl"), ("", None), &mut library);
     let unnamed = library.get("default").cloned();
     library.extend(unnamed.map(|entry| (String::new(), entry)));
     library
@@ -38,7 +39,14 @@ pub(super) fn java3d() -> Library {
 
 /// Reads the libraries `names` of the OBJ file at `obj`, a path as the scene file would spell it. Their materials replace those of
 /// `library`. For a library that is missing, with a warning, the one that is called like the OBJ file stands in.
-pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, a: &mut Assembly) -> Result<Library, ImportError> {
+///
+/// `blender` is the version of Blender in the head of the OBJ file, if it has one.
+pub(super) fn read_libraries(
+    names: &[String],
+    (obj, blender): (&str, Option<[u32; 2]>),
+    mut library: Library,
+    a: &mut Assembly,
+) -> Result<Library, ImportError> {
     let folder = folder_of(obj);
     for line in names {
         // The rest of the line is one name with spaces, or, if there is no such file, several names.
@@ -50,13 +58,13 @@ pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, 
                 Ok((file, bytes)) => match Content::of(&bytes) {
                     Some(content) => {
                         let problem = format!("the material library {} is {}", file.display(), content.words());
-                        stand_in(obj, line, &problem, &mut library, a)?;
+                        stand_in((obj, blender), line, &problem, &mut library, a)?;
                     }
-                    None => parse(&bytes, &folder_of(&path), &mut library, a),
+                    None => parse(&bytes, (&folder_of(&path), blender), &mut library, a),
                 },
                 Err(ImportError::Read { file, source, .. }) => {
                     let missing = format!("the material library {} cannot be read ({source})", file.display());
-                    stand_in(obj, line, &missing, &mut library, a)?;
+                    stand_in((obj, blender), line, &missing, &mut library, a)?;
                 }
                 Err(other) => return Err(other),
             }
@@ -67,7 +75,11 @@ pub(super) fn read_libraries(names: &[String], obj: &str, mut library: Library, 
 
 /// The materials of `library` and those of the library that is called like the OBJ file at `obj`, where there is one, for a file that names
 /// materials and no library.
-pub(super) fn read_own_library(obj: &str, library: Library, a: &mut Assembly) -> Result<Library, ImportError> {
+pub(super) fn read_own_library(
+    (obj, blender): (&str, Option<[u32; 2]>),
+    library: Library,
+    a: &mut Assembly,
+) -> Result<Library, ImportError> {
     let own = Path::new(&obj.replace('\\', "/")).with_extension("mtl").to_string_lossy().into_owned();
     if !a.exists(&own) {
         return Ok(library);
@@ -75,7 +87,7 @@ pub(super) fn read_own_library(obj: &str, library: Library, a: &mut Assembly) ->
     a.warn("mtllib", format!("the file names no material library; {own}, which is called like it, was read"));
     let mut library = library;
     let (_, bytes) = a.read(&own)?;
-    parse(&bytes, &folder_of(&own), &mut library, a);
+    parse(&bytes, (&folder_of(&own), blender), &mut library, a);
     Ok(library)
 }
 
@@ -86,7 +98,13 @@ pub(super) fn in_other_case<'l>(library: &'l Library, name: &str) -> Option<&'l 
 }
 
 /// Takes the library that is called like the OBJ file for one that is missing, where there is one.
-fn stand_in(obj: &str, line: &str, missing: &str, library: &mut Library, a: &mut Assembly) -> Result<(), ImportError> {
+fn stand_in(
+    (obj, blender): (&str, Option<[u32; 2]>),
+    line: &str,
+    missing: &str,
+    library: &mut Library,
+    a: &mut Assembly,
+) -> Result<(), ImportError> {
     let own = Path::new(&obj.replace('\\', "/")).with_extension("mtl").to_string_lossy().into_owned();
     let bytes = if a.exists(&own) { Some(a.read(&own)?.1).filter(|bytes| Content::of(bytes).is_none()) } else { None };
     let Some(bytes) = bytes else {
@@ -95,7 +113,7 @@ fn stand_in(obj: &str, line: &str, missing: &str, library: &mut Library, a: &mut
     };
     a.warn(format!("mtllib {line}"), format!("{missing}; {own}, which is called like the OBJ file, was read in its place"));
     let mut found = Library::new();
-    parse(&bytes, &folder_of(&own), &mut found, a);
+    parse(&bytes, (&folder_of(&own), blender), &mut found, a);
     for (name, entry) in found {
         library.entry(name).or_insert(entry);
     }
@@ -113,23 +131,23 @@ pub(super) fn folder_of(path: &str) -> String {
 }
 
 /// Adds the entries of the library that these bytes of a file in `folder` are.
-fn parse(bytes: &[u8], folder: &str, library: &mut Library, a: &mut Assembly) {
-    let stray = parse_text(&decoded_text(bytes), folder, library);
+fn parse(bytes: &[u8], of: (&str, Option<[u32; 2]>), library: &mut Library, a: &mut Assembly) {
+    let stray = parse_text(&decoded_text(bytes), of, library);
     if let Some(line) = stray {
         a.warn("mtllib", format!("statements before the first newmtl of a material library were ignored, such as {line:?}"));
     }
 }
 
 /// Adds the entries of a library, and returns the first statement that belongs to none.
-fn parse_text(text: &str, folder: &str, library: &mut Library) -> Option<String> {
-    let of_blender = is_of_blender(text);
+fn parse_text(text: &str, (folder, blender): (&str, Option<[u32; 2]>), library: &mut Library) -> Option<String> {
+    let gloss = Gloss::of(text, blender);
     let (mut current, mut stray): (Option<String>, Option<String>) = (None, None);
     for line in lines(text) {
         let line = without_comment(line, is_text).trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let (keyword, rest) = (keyword.to_ascii_lowercase(), rest.trim().to_string());
         if keyword == "newmtl" {
-            let entry = Entry { name: rest.clone(), folder: folder.to_string(), of_blender, statements: BTreeMap::new() };
+            let entry = Entry { name: rest.clone(), folder: folder.to_string(), gloss, statements: BTreeMap::new() };
             library.insert(rest.clone(), entry);
             current = Some(rest);
         } else if let Some(entry) = current.as_ref().and_then(|name| library.get_mut(name)) {
@@ -141,13 +159,6 @@ fn parse_text(text: &str, folder: &str, library: &mut Library) -> Option<String>
         }
     }
     stray
-}
-
-/// True for a library that Blender 3.2 or newer wrote: "# Blender 4.5.0 MTL File: …". Older ones have no version there
-/// and mean other things by the same numbers.
-fn is_of_blender(text: &str) -> bool {
-    let version = text.strip_prefix("# Blender ").filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
-    version.and_then(|rest| rest.lines().next()).is_some_and(|line| line.contains(" MTL File"))
 }
 
 /// True for keywords that a name or path follows.

@@ -12,7 +12,7 @@
 //! | numbers | with a decimal comma too, and indices as `3.0` |
 //! | libraries, pictures | at their path; else by their name beside the file that names them (pictures also in `textures/`), a name in other case with a warning; for a library that is missing or not named that which is called like the OBJ file |
 //! | `Kd Ks Ns Ni d Tr Ke illum`, `map_Kd map_Ke map_d map_Ks` | a diffuse surface; with `Ks`, unless `illum` is 0 or 1, a clear-coated one of GGX alpha √(2/(Ns+2)), or on black `Kd` a mirror of that colour; with `illum` 6 or 7 a solid dielectric, with 4 or 9 only where `Kd` is black and `d` is 1 |
-//! | the same of Blender (3.2 or newer) | a clear-coated surface of roughness 1 − √(Ns/1000), its highlight tinted by twice `Ks`; on black `Kd` too |
+//! | the same of Blender, by the heads of its files | a clear-coated surface of roughness 1 − √(Ns/1000), before 3.2 1 − √(Ns/900), its highlight tinted by twice `Ks`; on black `Kd` too. Before 2.80 of GGX alpha √(2/(0.51·Ns+3)) |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
 //! | `norm` | a normal map |
 //! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
@@ -25,6 +25,7 @@
 //! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A material
 //! library or material that is not there is a warning, and grey stands in.
 
+mod blender;
 mod check;
 mod file;
 mod library;
@@ -41,10 +42,13 @@ pub(crate) use library::Library;
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported};
 use enfilade_math::{DAffine3, Rgb, linear_from_srgb};
-use enfilade_scene::{Material, PartLabel};
+use enfilade_scene::{Material, PartLabel, decoded_text};
 use mtl::GREY;
 use objects::Objects;
 use std::collections::HashMap;
+
+/// As much of a file has its first line.
+const HEAD_BYTES: usize = 256;
 
 /// Imports an OBJ file.
 pub(crate) fn load(assembly: Assembly) -> Result<Imported, ImportError> {
@@ -61,14 +65,15 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
     let mut obj = ObjFile::parse(&bytes, &file)?;
+    let blender = blender::version(&decoded_text(&bytes[..bytes.len().min(HEAD_BYTES)]));
     obj.settle(assembly.meters_per_unit());
     obj.smooth();
     report(&obj, &mut assembly);
     let own = file.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     let uses_materials = obj.groups.iter().any(|group| group.material.is_some());
     let library = match obj.libraries.is_empty() && uses_materials {
-        true => library::read_own_library(&own, known, &mut assembly)?,
-        false => library::read_libraries(&obj.libraries, &own, known, &mut assembly)?,
+        true => library::read_own_library((&own, blender), known, &mut assembly)?,
+        false => library::read_libraries(&obj.libraries, (&own, blender), known, &mut assembly)?,
     };
     let mut materials: HashMap<(Option<&str>, Option<[u8; 3]>), u32> = HashMap::new();
     let mut sharing: HashMap<(usize, Option<&str>), usize> = HashMap::new();
@@ -118,7 +123,7 @@ fn report(obj: &ObjFile, a: &mut Assembly) {
 
 /// The materials of the libraries `names`, which the OBJ file at `path` names; a scene of another format refers to it by that path.
 pub(crate) fn libraries(names: &[String], path: &str, assembly: &mut Assembly) -> Result<Library, ImportError> {
-    library::read_libraries(names, path, Library::new(), assembly)
+    library::read_libraries(names, (path, None), Library::new(), assembly)
 }
 
 /// The material of a name; `None` where the library does not define it.

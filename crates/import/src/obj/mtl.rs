@@ -1,5 +1,6 @@
 //! Entries of MTL libraries to [`Material`]: which statements make a surface diffuse, coated, metallic or glass.
 
+use super::blender::Gloss;
 use super::check;
 use super::library::{Entry, spelled};
 use super::map::Map;
@@ -70,7 +71,7 @@ impl<'c> Converter<'c, '_> {
             return Ok(Bsdf::Diffuse { reflectance: diffuse });
         }
         let specular = self.color(if specular.is_black() { Rgb::WHITE } else { specular }, "map_ks", 0.5)?;
-        if diffuse.factor.is_black() && !self.entry.of_blender {
+        if diffuse.factor.is_black() && !matches!(self.entry.gloss, Gloss::Roughness(_)) {
             return Ok(Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: specular, alpha: roughness.powi(2).into() });
         }
         // Not a plastic, whose rough coat loses light.
@@ -87,12 +88,13 @@ impl<'c> Converter<'c, '_> {
         matches!(illum, 6 | 7) || matches!(illum, 4 | 9) && !has_color && !see_through
     }
 
-    /// Colour and roughness of the highlight. Blender writes half its strength as `Ks`, and its roughness r as `Ns` = 1000·(1 − r)².
+    /// Colour and roughness of the highlight. Blender writes half its strength as `Ks`: see [`Gloss`].
     fn highlight(&self) -> (Rgb, f32) {
         let (ks, ns) = (self.entry.rgb("ks").unwrap_or(Rgb::BLACK), self.entry.number("ns").unwrap_or(0.0).max(0.0));
-        let (specular, roughness) = match self.entry.of_blender {
-            true => (ks * 2.0, 1.0 - (ns / 1000.0).sqrt()),
-            false => (ks, alpha_of_exponent(ns).sqrt()),
+        let (specular, roughness) = match self.entry.gloss {
+            Gloss::Roughness(smooth) => (ks * 2.0, 1.0 - (ns / smooth).sqrt()),
+            Gloss::Hardness => (ks, alpha_of_exponent(0.51 * ns + 1.0).sqrt()),
+            Gloss::Exponent => (ks, alpha_of_exponent(ns).sqrt()),
         };
         (specular.map(|c| c.clamp(0.0, 1.0)), roughness.clamp(0.0, 1.0))
     }

@@ -115,8 +115,16 @@ fn highlights_are_energy_conserving_coats_and_of_blenders_roughness_in_its_files
     for (kd, ns, roughness) in [(0.25, 0.0, 1.0), (0.25, 250.0, 0.5), (0.0, 1000.0, 0.0)] {
         assert_eq!(coat(blender, kd, ns), (kd, roughness, 1.0));
     }
-    // Versions before 3.2 had other laws.
-    assert_eq!(coat("# Blender MTL File: 'None'\n", 0.25, 0.0), (0.25, 1.0, 0.5));
+    // Before 3.2 it wrote 900·(1 − r)² (io_scene_obj's export_obj.py): 225 for its default of one half.
+    for head in ["# Blender MTL File: 'None'\n# Material Count: 1\n", "# Blender 3.1.0 MTL File: 'None'\n"] {
+        for (kd, ns, roughness) in [(0.25, 0.0, 1.0), (0.25, 225.0, 0.5), (0.0, 900.0, 0.0)] {
+            assert_eq!(coat(head, kd, ns), (kd, roughness, 1.0), "{head}");
+        }
+    }
+    // Before 2.80 a hardness from 1 to 511, as 0 to 1000: here one of 198. The OBJ file tells which Blender it was.
+    folder.write("a.obj", format!("# Blender v2.79 (sub 0) OBJ File: ''\nmtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
+    let (_, roughness, ks) = coat("# Blender MTL File: 'None'\n", 0.25, 197.0 / 0.51);
+    assert!((roughness - 0.1f32.sqrt()).abs() < 1e-5 && ks == 0.5, "{roughness} {ks}");
 }
 
 /// Blender writes 9 for whatever has an alpha below one; it became clear glass.
