@@ -42,7 +42,7 @@ impl Integrator<'_, '_> {
 
         // Sample a light and add what the surface reflects of it: next-event estimation, weighted against the BSDF's own directions.
         let bsdf = surface.bsdf(self.scene);
-        let vertex = Vertex::new(self.guide, surface, bsdf);
+        let vertex = Vertex::new(self.guide, surface.lifted(self.scene), bsdf);
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;
         if let Some(Direct { weight, light, from, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {

@@ -230,7 +230,7 @@ impl<'a, 's> Integrator<'a, 's> {
             if bsdf.is_black() {
                 return radiance;
             }
-            let vertex = Vertex::new(self.guide, surface, bsdf);
+            let vertex = Vertex::new(self.guide, surface.lifted(self.scene), bsdf);
             let reflectance = vertex.bsdf.reflectance;
 
             // Sample a light and add its contribution. The sun's light on a glossy surface could have been found as a glint as well.
@@ -268,7 +268,7 @@ impl<'a, 's> Integrator<'a, 's> {
     pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, bounce: u32, sampler: &Sampler, medium: Medium) -> Option<Direct> {
         // Choose a light and a point on it, above the shading and the geometric surface alike.
         let (surface, u) = (&vertex.surface, sampler.set(light_set(bounce)));
-        let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), wi.dot(surface.ng));
+        let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), surface.side(wi));
         let at = surface.light_point();
         let light = self.scene.lights.sample(self.scene, &self.guide.choice, &at, [u[0], u[1], u[2]], wanted)?;
 

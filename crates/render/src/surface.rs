@@ -19,6 +19,8 @@ pub(crate) struct Surface<'s> {
     pub ng: Vec3,
     /// See [`crate::triangle::Triangle::slack`].
     slack: f32,
+    /// See [`Surface::lifted`], metres; zero where nothing is lifted.
+    lift: Vec3,
     /// Unit interpolated normal, on the side of `wo`, before bump.
     pub ns_smooth: Vec3,
     /// Unit shading normal with bump, on the side of `wo`.
@@ -73,6 +75,7 @@ impl<'s> RenderScene<'s> {
             wo,
             ng: outward * side,
             slack: triangle.slack,
+            lift: Vec3::ZERO,
             ns_smooth,
             ns: bumped.map_or(ns_smooth, |bumped| facing(bumped, wo)),
             uv,
@@ -133,11 +136,54 @@ impl<'s> Surface<'s> {
         Onb::from_z(self.ns)
     }
 
+    /// Lets light in where smooth shading says that it still shines, though the face is turned away from it already. Light on coarse
+    /// smooth meshes would otherwise end in steps along their edges, before it has faded: the "shadow terminator".
+    ///
+    /// Light in such directions meets the surface where that would be if it were as round as its normals, by the planes through the corners
+    /// that are square to their normals: Hanika 2021, "Hacking the Shadow Terminator". All other directions are as they were. Nothing is
+    /// lifted on flat faces, in hollows, on what transmits light, nor where something else lies within the lift.
+    pub fn lifted(self, scene: &RenderScene<'s>) -> Self {
+        Self { lift: self.lift(scene).unwrap_or(Vec3::ZERO), ..self }
+    }
+
+    fn lift(&self, scene: &RenderScene<'s>) -> Option<Vec3> {
+        let triangle = scene.triangles.get(self.triangle);
+        let [a, b, c] = triangle.normals;
+        if (a == b && b == c) || self.material.bsdf.transmits() {
+            return None;
+        }
+        let side = if self.outside { 1.0 } else { -1.0 };
+        let corners = triangle.corners.into_iter().zip(triangle.normals).zip(self.weights);
+        let lift: Vec3 = corners.map(|((corner, n), weight)| n * (-(self.p - corner).dot(n * side).min(0.0) * side * weight)).sum();
+        let height = lift.dot(self.ng);
+        if height < MIN_LIFT_M {
+            return None;
+        }
+        let way = Ray { t_max: lift.length(), ..Ray::new(self.face_origin(self.ng), lift.normalize()) };
+        (height < FREE_LIFT_M || !scene.is_covered(&way)).then_some(lift)
+    }
+
+    /// The cosine of a direction to the face; positive also for light that [`Surface::lifted`] lets in.
+    #[inline]
+    pub fn side(&self, direction: Vec3) -> f32 {
+        let cos = direction.dot(self.ng);
+        if cos <= 0.0 && self.lift != Vec3::ZERO { cos.max(direction.dot(self.ns_smooth)) } else { cos }
+    }
+
+    /// The point, just off the face on the side of `normal`.
+    #[inline]
+    fn face_origin(&self, normal: Vec3) -> Vec3 {
+        offset_origin(self.p, normal) + normal * self.slack
+    }
+
     /// The ray that leaves in a direction, from the side of the surface that it leaves on.
     #[inline]
     pub fn ray(&self, direction: Vec3) -> Ray {
-        let normal = if direction.dot(self.ng) < 0.0 { -self.ng } else { self.ng };
-        Ray::new(offset_origin(self.p, normal) + normal * self.slack, direction)
+        let cos = direction.dot(self.ng);
+        if cos <= 0.0 && self.side(direction) > 0.0 {
+            return Ray::new(self.face_origin(self.ng) + self.lift, direction);
+        }
+        Ray::new(self.face_origin(if cos < 0.0 { -self.ng } else { self.ng }), direction)
     }
 
     /// This point as one that receives light.
@@ -151,6 +197,11 @@ impl<'s> Surface<'s> {
         shadow_ray(self.ray(wi).origin, wi, target)
     }
 }
+
+/// Surfaces that bulge by less are as good as flat.
+const MIN_LIFT_M: f32 = 1e-6;
+/// Where surfaces bulge by less, nothing that matters lies between: what is within this distance is not asked for.
+const FREE_LIFT_M: f32 = 1e-3;
 
 /// The ray from a surface to a light, ending just before it.
 pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
@@ -233,5 +284,55 @@ fn perturbed(
             let gradient = (r1 * slope.x + r2 * slope.y) / determinant;
             (n - gradient * side).try_normalize().unwrap_or(n)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepared::AlphaTest;
+    use enfilade_geometry::Mesh;
+    use enfilade_math::DAffine3;
+    use enfilade_scene::{Environment, Part, Quiet, Scene};
+
+    /// A roof whose normals are those of a bulge, and a sheet at a height over it.
+    fn scene(sheet_m: f32) -> Scene {
+        let roof = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: [[-0.3, -0.3], [0.3, 0.0], [0.0, 0.3]].map(|[x, y]| Vec3::new(x, y, 1.0).normalize()).to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let sheet = Mesh {
+            positions: [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(|[x, y]| Vec3::new(x, y, sheet_m)).to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let part = |mesh| Part { name: format!("part {mesh}"), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        Scene {
+            meshes: vec![roof, sheet],
+            parts: vec![part(0), part(1)],
+            materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
+            environment: Some(Environment::Constant { radiance: Rgb::WHITE }),
+            ..Scene::default()
+        }
+    }
+
+    /// By hand: the centre lies 0.2/√1.18 below the plane of one corner and 0.2/√1.09 below those of the others; the normals rise by 1/√1.18 and
+    /// 1/√1.09.
+    #[test]
+    fn bulges_are_lifted_to_the_planes_of_their_corners_unless_something_lies_between() {
+        let expected = (0.2 / 1.18 + 2.0 * 0.2 / 1.09) / 3.0;
+        let hit_from = |z: f32, sheet_m: f32| {
+            let scene = scene(sheet_m);
+            let ready = RenderScene::new(&scene, &Quiet).unwrap();
+            let ray = Ray { t_max: 0.01, ..Ray::new(Vec3::new(1.0 / 3.0, 1.0 / 3.0, z), Vec3::new(0.0, 0.0, -z.signum())) };
+            let hit = ready.closest(&ray, AlphaTest::Half).unwrap();
+            ready.surface(&hit, ray.direction, &Cone::POINT).lifted(&ready).lift
+        };
+        let free = hit_from(0.005, 1.0);
+        assert!((free.z - expected).abs() < 1e-5, "{free}, expected {expected}");
+        assert_eq!(hit_from(0.005, 0.01), Vec3::ZERO, "a sheet in the way");
+        assert_eq!(hit_from(-0.005, 1.0), Vec3::ZERO, "a hollow from below");
     }
 }

@@ -120,13 +120,13 @@ impl Lights<'_> {
 
     /// What the surface at `hit` reflects of the sun against the unit direction `wi` of a ray that met it; `u` is uniform on [0,1)².
     pub(super) fn reflected_sun(&self, scene: &RenderScene<'_>, hit: &Hit, wi: Vec3, cone: &Cone, u: [f32; 2]) -> Rgb {
-        let surface = scene.surface(hit, wi, cone);
+        let surface = scene.surface(hit, wi, cone).lifted(scene);
         let bsdf = surface.bsdf(scene);
         let onb = surface.onb();
         let at = surface.light_point();
         let Some(sun) = self.distant.first().and_then(|light| delta::sample(light, &at, u)) else { return Rgb::BLACK };
         let to_sun = onb.to_local(sun.wi);
-        if !sides_agree(to_sun.z, sun.wi.dot(surface.ng)) {
+        if !sides_agree(to_sun.z, surface.side(sun.wi)) {
             return Rgb::BLACK;
         }
         let value = bsdf.eval_pdf(viewing(&onb, surface.wo), to_sun).0.total(bsdf.reflectance);

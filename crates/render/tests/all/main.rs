@@ -8,3 +8,4 @@ mod known_answers;
 mod layers;
 mod look;
 mod scene_to_frame;
+mod terminator;
