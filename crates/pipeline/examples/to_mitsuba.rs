@@ -20,8 +20,8 @@
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, place, srgb_from_linear};
 use enfilade_scene::{
-    Alpha, Bsdf, ColorParam, Environment, Image, Light, Material, NormalMap, Part, Pixels, Principled, Quiet, ScalarParam, Scene,
-    TextureRef, Wrap,
+    Alpha, Bsdf, ColorParam, Distribution, Environment, Image, Light, Material, NormalMap, Part, Pixels, Principled, Quiet, ScalarParam,
+    Scene, TextureRef, Wrap,
 };
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -217,36 +217,39 @@ impl Writer<'_> {
 
     fn bsdf(&mut self, bsdf: &Bsdf) -> Outcome<String> {
         let rough = |alpha: f32| if alpha > SMOOTH { "rough" } else { "" };
-        let ggx = |alpha: f32| match rough(alpha) {
-            "" => String::new(),
-            _ => format!("<string name=\"distribution\" value=\"ggx\"/><float name=\"alpha\" value=\"{alpha}\"/>"),
+        let facets = |alpha: f32, distribution| match (rough(alpha), distribution) {
+            ("", _) => String::new(),
+            (_, Distribution::Ggx) => format!("<string name=\"distribution\" value=\"ggx\"/><float name=\"alpha\" value=\"{alpha}\"/>"),
+            (_, Distribution::Beckmann) => {
+                format!("<string name=\"distribution\" value=\"beckmann\"/><float name=\"alpha\" value=\"{alpha}\"/>")
+            }
         };
         let ior = |eta: f32| format!("<float name=\"int_ior\" value=\"{eta}\"/><float name=\"ext_ior\" value=\"1\"/>");
         Ok(match bsdf {
             Bsdf::Diffuse { reflectance } => format!("<bsdf type=\"diffuse\">{}</bsdf>", self.color("reflectance", reflectance, false)?),
             Bsdf::Conductor { eta, k, reflectance, alpha } => {
-                let alpha = self.mean(alpha);
+                let (alpha, distribution) = (self.mean(alpha), alpha.distribution);
                 let tint = self.color("specular_reflectance", reflectance, false)?;
                 let metal = match *eta == Rgb::BLACK && *k == Rgb::BLACK {
                     true => "<string name=\"material\" value=\"none\"/>".to_string(),
                     false => rgb("eta", *eta) + &rgb("k", *k),
                 };
-                format!("<bsdf type=\"{}conductor\">{metal}{}{tint}</bsdf>", rough(alpha), ggx(alpha))
+                format!("<bsdf type=\"{}conductor\">{metal}{}{tint}</bsdf>", rough(alpha), facets(alpha, distribution))
             }
             Bsdf::Dielectric { eta, alpha, transmittance, .. } => {
-                let alpha = self.mean(alpha);
+                let (alpha, distribution) = (self.mean(alpha), alpha.distribution);
                 let tint = self.color("specular_transmittance", transmittance, false)?;
-                format!("<bsdf type=\"{}dielectric\">{}{}{tint}</bsdf>", rough(alpha), ior(*eta), ggx(alpha))
+                format!("<bsdf type=\"{}dielectric\">{}{}{tint}</bsdf>", rough(alpha), ior(*eta), facets(alpha, distribution))
             }
             Bsdf::ThinDielectric { eta, transmittance } => {
                 let tint = self.color("specular_transmittance", transmittance, false)?;
                 format!("<bsdf type=\"thindielectric\">{}{tint}</bsdf>", ior(*eta))
             }
             Bsdf::Plastic { diffuse, eta, alpha, specular, nonlinear } => {
-                let alpha = self.mean(alpha);
+                let (alpha, distribution) = (self.mean(alpha), alpha.distribution);
                 let colors = self.color("diffuse_reflectance", diffuse, false)? + &self.color("specular_reflectance", specular, false)?;
                 let nonlinear = format!("<boolean name=\"nonlinear\" value=\"{nonlinear}\"/>");
-                format!("<bsdf type=\"{}plastic\">{}{}{colors}{nonlinear}</bsdf>", rough(alpha), ior(*eta), ggx(alpha))
+                format!("<bsdf type=\"{}plastic\">{}{}{colors}{nonlinear}</bsdf>", rough(alpha), ior(*eta), facets(alpha, distribution))
             }
             Bsdf::Principled(p) => self.principled(p)?,
             // Models that Mitsuba shares no definition of.

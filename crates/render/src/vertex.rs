@@ -87,6 +87,7 @@ pub(crate) fn body(model: &Model) -> Option<(f32, Rgb)> {
     match model {
         Model::Dielectric { eta, absorption, .. } => Some((*eta, *absorption)),
         Model::Principled(p) if p.solid => Some((p.ior, p.absorption)),
+        Model::Disney(p) if !p.thin && p.spec_trans.factor > 0.0 => Some((p.eta, Rgb::BLACK)),
         Model::Blend { first, second, .. } => body(first).or_else(|| body(second)),
         _ => None,
     }
@@ -236,7 +237,7 @@ impl<'a, 's> Vertex<'a, 's> {
         // Sample a direction from the guide; its density is that of the mixture of both.
         let (direction, light_pdf) = light.sample([u[0], u[1]], surface.p, onb);
         let wi = self.onb.to_local(direction);
-        let side = direction.dot(surface.ng);
+        let side = surface.side(direction);
         if light_pdf <= 0.0 || !sides_agree(wi.z, side) {
             return None;
         }
@@ -251,7 +252,7 @@ impl<'a, 's> Vertex<'a, 's> {
         let surface = &self.surface;
         let sample = self.bsdf.sample(self.wo, u)?;
         let direction = if sample.event == Event::Straight { before.ray.direction } else { self.onb.to_world(sample.wi).normalize() };
-        let side = direction.dot(surface.ng);
+        let side = surface.side(direction);
         if sample.event != Event::Straight && !sides_agree(sample.wi.z, side) {
             return None;
         }

@@ -37,7 +37,7 @@ pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, is_stuff};
 pub use light::{Light, SpotFalloff};
-pub use material::{Alpha, Bsdf, ColorParam, Material, NormalMap, Parameter, Principled, ScalarParam};
+pub use material::{Alpha, Bsdf, ColorParam, Disney, Distribution, Material, NormalMap, Parameter, Principled, Roughness, ScalarParam};
 pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV};
 pub use object::{Object, ObjectId};
 pub use package::{

@@ -6,6 +6,7 @@ use crate::nesting::{self, nested};
 use crate::texture::TextureRef;
 use enfilade_math::Rgb;
 use serde::{Deserialize, Serialize};
+use std::ops::{Deref, DerefMut};
 
 /// A colour that may vary over the surface: `factor` × texture (1 without one).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +26,51 @@ pub struct ScalarParam {
     pub texture: Option<(TextureRef, u8)>,
 }
 
+/// How rough an interface is: the width of its facets' slopes, and their distribution.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Roughness {
+    /// Alpha; 0 is smooth.
+    pub param: ScalarParam,
+    /// Whose slopes.
+    pub distribution: Distribution,
+}
+
+/// How the slopes of facets are distributed, and what becomes of light between them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Distribution {
+    /// Trowbridge and Reitz'; light that meets several facets in a row is kept, but under a plastic's coat.
+    #[default]
+    Ggx,
+    /// Beckmann's, as Mitsuba has it: only single bounces count, and the facets mask both directions independently.
+    Beckmann,
+}
+
+impl Deref for Roughness {
+    type Target = ScalarParam;
+    fn deref(&self) -> &ScalarParam {
+        &self.param
+    }
+}
+
+impl DerefMut for Roughness {
+    fn deref_mut(&mut self) -> &mut ScalarParam {
+        &mut self.param
+    }
+}
+
+impl From<f32> for Roughness {
+    fn from(alpha: f32) -> Self {
+        ScalarParam::from(alpha).into()
+    }
+}
+
+impl From<ScalarParam> for Roughness {
+    /// Of GGX facets.
+    fn from(param: ScalarParam) -> Self {
+        Self { param, distribution: Distribution::Ggx }
+    }
+}
+
 impl From<Rgb> for ColorParam {
     fn from(factor: Rgb) -> Self {
         Self { factor, texture: None }
@@ -37,7 +83,7 @@ impl From<f32> for ScalarParam {
     }
 }
 
-/// How light is scattered at a surface. `alpha` is GGX roughness (0 = smooth); reflectances lie on `[0,1]`.
+/// How light is scattered at a surface. `alpha` is the roughness of interfaces (0 = smooth); reflectances lie on `[0,1]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Bsdf {
     /// Lambert's law.
@@ -60,15 +106,15 @@ pub enum Bsdf {
         k: Rgb,
         /// Multiplies the Fresnel reflectance.
         reflectance: ColorParam,
-        /// GGX roughness.
-        alpha: ScalarParam,
+        /// Roughness.
+        alpha: Roughness,
     },
     /// A solid transparent body: reflection and refraction by Fresnel's equations. Outward normals point to `eta` = 1.
     Dielectric {
         /// Interior over exterior index of refraction.
         eta: f32,
-        /// GGX roughness.
-        alpha: ScalarParam,
+        /// Roughness.
+        alpha: Roughness,
         /// Multiplies transmitted light at each crossing.
         transmittance: ColorParam,
         /// Beer–Lambert absorption inside, per metre.
@@ -87,8 +133,8 @@ pub enum Bsdf {
         diffuse: ColorParam,
         /// Index of refraction of the coat.
         eta: f32,
-        /// GGX roughness of the coat.
-        alpha: ScalarParam,
+        /// Roughness of the coat.
+        alpha: Roughness,
         /// Multiplies the coat's reflection.
         specular: ColorParam,
         /// True when colour shifts by inner reflections are modelled (Mitsuba's `nonlinear`).
@@ -96,6 +142,8 @@ pub enum Bsdf {
     },
     /// glTF's metallic-roughness model with its common extensions.
     Principled(Box<Principled>),
+    /// Disney's model, as Mitsuba has it in `principled` and `principledthin`.
+    Disney(Box<Disney>),
     /// Two of these side by side.
     Blend {
         /// Where the weight is 0.
@@ -144,6 +192,7 @@ impl Bsdf {
         match self {
             Self::Dielectric { .. } | Self::ThinDielectric { .. } => true,
             Self::Principled(p) => p.transmission.factor > 0.0,
+            Self::Disney(p) => p.spec_trans.factor > 0.0 || p.thin && p.diff_trans.factor > 0.0,
             Self::Blend { first, second, .. } => first.transmits() || second.transmits(),
             Self::Diffuse { .. } | Self::RoughDiffuse { .. } | Self::Conductor { .. } | Self::Plastic { .. } => false,
         }
@@ -154,6 +203,7 @@ impl Bsdf {
         match self {
             Self::ThinDielectric { .. } => true,
             Self::Principled(p) => !p.solid && p.transmission.factor > 0.0,
+            Self::Disney(p) => p.is_pane(),
             Self::Blend { first, second, .. } => first.is_pane() || second.is_pane(),
             _ => false,
         }
@@ -173,6 +223,7 @@ impl Bsdf {
                 found(Constant::Index(p.ior));
                 found(Constant::Color(p.absorption));
             }
+            Self::Disney(p) => found(Constant::Index(p.eta)),
             Self::Blend { first, second, .. } => {
                 first.constants(found);
                 second.constants(found);
@@ -198,6 +249,7 @@ impl Bsdf {
                 first.parameters(found);
                 second.parameters(found);
             }
+            Self::Disney(p) => all(&[&p.base_color], &p.scalars()),
             Self::Principled(p) => all(
                 &[&p.base_color, &p.specular_color, &p.sheen_color],
                 &[&p.metallic, &p.roughness, &p.specular, &p.transmission, &p.clearcoat, &p.clearcoat_roughness, &p.sheen_roughness],
@@ -255,6 +307,76 @@ impl Default for Principled {
             sheen_color: Rgb::BLACK.into(),
             sheen_roughness: 0.0.into(),
         }
+    }
+}
+
+/// Disney's model with the parameters of Mitsuba 3's `principled` and `principledthin`; roughness is the same in all directions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Disney {
+    /// Colour of the diffuse base, of metals and, by its root, of what is seen through.
+    pub base_color: ColorParam,
+    /// Perceptual roughness; alpha is its square.
+    pub roughness: ScalarParam,
+    /// 0 dielectric … 1 metal; sheets have none.
+    pub metallic: ScalarParam,
+    /// Interior over exterior index of refraction.
+    pub eta: f32,
+    /// Share of the dielectric that transmits.
+    pub spec_trans: ScalarParam,
+    /// How much of the base's hue the dielectric's reflection has.
+    pub spec_tint: ScalarParam,
+    /// Strength of the fuzz.
+    pub sheen: ScalarParam,
+    /// How much of the base's hue the fuzz has.
+    pub sheen_tint: ScalarParam,
+    /// From the diffuse base (0) to one that looks like skin (1).
+    pub flatness: ScalarParam,
+    /// Strength of the clear-coat; sheets have none.
+    pub clearcoat: ScalarParam,
+    /// The clear-coat's gloss; its alpha goes from 0.1 to 0.001.
+    pub clearcoat_gloss: ScalarParam,
+    /// True for a sheet without thickness (`principledthin`).
+    pub thin: bool,
+    /// Of a sheet, twice the share of diffuse light that goes to the other side.
+    pub diff_trans: ScalarParam,
+}
+
+impl Disney {
+    /// True for a smooth sheet: light goes straight on through it.
+    pub fn is_pane(&self) -> bool {
+        self.thin && self.spec_trans.factor > 0.0 && self.roughness.factor == 0.0
+    }
+
+    /// All parameters that are numbers and may be textured.
+    pub fn scalars(&self) -> [&ScalarParam; 10] {
+        [
+            &self.roughness,
+            &self.metallic,
+            &self.spec_trans,
+            &self.spec_tint,
+            &self.sheen,
+            &self.sheen_tint,
+            &self.flatness,
+            &self.clearcoat,
+            &self.clearcoat_gloss,
+            &self.diff_trans,
+        ]
+    }
+
+    /// The same, to change.
+    pub fn scalars_mut(&mut self) -> [&mut ScalarParam; 10] {
+        [
+            &mut self.roughness,
+            &mut self.metallic,
+            &mut self.spec_trans,
+            &mut self.spec_tint,
+            &mut self.sheen,
+            &mut self.sheen_tint,
+            &mut self.flatness,
+            &mut self.clearcoat,
+            &mut self.clearcoat_gloss,
+            &mut self.diff_trans,
+        ]
     }
 }
 

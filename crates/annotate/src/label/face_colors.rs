@@ -93,6 +93,7 @@ fn scattered(scene: &Scene, bsdf: &Bsdf, uv: Vec2) -> Rgb {
         Bsdf::Dielectric { transmittance, .. } | Bsdf::ThinDielectric { transmittance, .. } => read(scene, transmittance, uv) * GLASS,
         Bsdf::Plastic { diffuse, .. } => read(scene, diffuse, uv),
         Bsdf::Principled(surface) => read(scene, &surface.base_color, uv),
+        Bsdf::Disney(surface) => read(scene, &surface.base_color, uv),
         Bsdf::Blend { first, second, weight } => scattered(scene, first, uv).lerp(scattered(scene, second, uv), share(scene, weight, uv)),
     }
 }

@@ -4,16 +4,20 @@
 //! |---|---|
 //! | diffuse, rough diffuse | no specular reflection (`KHR_materials_specular` 0); roughness of the body is lost |
 //! | plastic | dielectric of the coat's index of refraction; roughness √α |
+//! | Beckmann's facets | GGX of the same α |
 //! | conductor | metal whose colour is the reflectance at normal incidence, ((η−1)² + k²) / ((η+1)² + k²) |
 //! | solid glass | transmission with volume: index of refraction and Beer's law as they are |
 //! | pane | transmission without volume |
+//! | Disney's model | metallic-roughness of the same parameters, with the nearest sheen and coat |
 //! | blend | the heavier of the two |
 //! | height map | normal map, by the mean size of texture coordinates on the parts that have the material |
 
 use super::document::{Document, TextureUse};
 use super::picture::{computed, reference};
 use enfilade_math::Rgb;
-use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam, Scene, TextureRef, Wrap};
+use enfilade_scene::{
+    Alpha, Bsdf, ColorParam, Distribution, Material, NormalMap, Principled, Roughness, ScalarParam, Scene, TextureRef, Wrap,
+};
 use serde_json::{Map, Value, json};
 
 /// Distance at which glTF states the colour that absorption leaves.
@@ -70,30 +74,66 @@ impl Writer<'_, '_, '_> {
                 (Principled { base_color: *reflectance, specular: 0.0.into(), ..Principled::default() }, false)
             }
             Bsdf::Conductor { eta, k, reflectance, alpha } => {
+                self.facets(alpha);
                 let at_normal = |n: f32, k: f32| ((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k);
                 let normal = Rgb::new(at_normal(eta.r, k.r), at_normal(eta.g, k.g), at_normal(eta.b, k.b));
                 let base_color = ColorParam { factor: reflectance.factor * normal, texture: reflectance.texture };
-                (Principled { base_color, metallic: 1.0.into(), roughness: *alpha, ..Principled::default() }, true)
+                (Principled { base_color, metallic: 1.0.into(), roughness: alpha.param, ..Principled::default() }, true)
             }
             Bsdf::Dielectric { eta, alpha, transmittance, absorption } => {
+                self.facets(alpha);
                 let (base_color, transmission, absorption) = (*transmittance, 1.0.into(), *absorption);
-                let glass =
-                    Principled { base_color, roughness: *alpha, ior: *eta, transmission, solid: true, absorption, ..Principled::default() };
+                let glass = Principled {
+                    base_color,
+                    roughness: alpha.param,
+                    ior: *eta,
+                    transmission,
+                    solid: true,
+                    absorption,
+                    ..Principled::default()
+                };
                 (glass, true)
             }
             Bsdf::ThinDielectric { eta, transmittance } => {
                 let transmission = 1.0.into();
                 (Principled { base_color: *transmittance, roughness: 0.0.into(), ior: *eta, transmission, ..Principled::default() }, true)
             }
-            Bsdf::Plastic { diffuse, eta, alpha, specular, .. } => (
-                Principled { base_color: *diffuse, roughness: *alpha, ior: *eta, specular_color: *specular, ..Principled::default() },
-                true,
-            ),
+            Bsdf::Plastic { diffuse, eta, alpha, specular, .. } => {
+                self.facets(alpha);
+                let (base_color, roughness, specular_color) = (*diffuse, alpha.param, *specular);
+                (Principled { base_color, roughness, ior: *eta, specular_color, ..Principled::default() }, true)
+            }
             Bsdf::Principled(principled) => ((**principled).clone(), false),
+            Bsdf::Disney(p) => {
+                self.note("glTF has no model of Disney's; metallic-roughness of the same parameters was written");
+                let sheen_color = (Rgb::WHITE * p.sheen.factor.max(0.0)).into();
+                let nearest = Principled {
+                    base_color: p.base_color,
+                    metallic: if p.thin { 0.0.into() } else { p.metallic },
+                    roughness: p.roughness,
+                    ior: p.eta.max(1.0),
+                    transmission: p.spec_trans,
+                    solid: !p.thin,
+                    // The coat has a quarter of a dielectric's strength.
+                    clearcoat: ScalarParam { factor: 0.25 * p.clearcoat.factor, ..p.clearcoat },
+                    clearcoat_roughness: (0.1 + (0.001 - 0.1) * p.clearcoat_gloss.factor).max(0.0).sqrt().into(),
+                    sheen_color,
+                    sheen_roughness: 0.5.into(),
+                    ..Principled::default()
+                };
+                (nearest, false)
+            }
             Bsdf::Blend { first, second, weight } => {
                 self.note("glTF cannot blend two surfaces; the heavier one was written");
                 self.nearest(if weight.factor < 0.5 { first } else { second })
             }
+        }
+    }
+
+    /// glTF has GGX alone.
+    fn facets(&mut self, alpha: &Roughness) {
+        if alpha.distribution == Distribution::Beckmann {
+            self.note("glTF has no facets of Beckmann's; GGX of the same alpha was written");
         }
     }
 

@@ -174,7 +174,7 @@ fn other_surfaces_become_the_nearest_that_gltf_has() {
         eta: Rgb::new(0.2, 0.4, 1.4),
         k: Rgb::new(3.0, 2.4, 1.9),
         reflectance: Rgb::WHITE.into(),
-        alpha: ScalarParam { factor: 0.5, texture: Some((ramp, 0)) },
+        alpha: ScalarParam { factor: 0.5, texture: Some((ramp, 0)) }.into(),
     };
     let plaster = Material {
         normal_map: Some(NormalMap::Bump { texture: TextureRef { uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], ..ramp }, scale: 0.5 }),

@@ -50,6 +50,10 @@ fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
             of_bsdf(first, found);
             of_bsdf(second, found);
         }
+        Bsdf::Disney(p) => {
+            of_color(&mut p.base_color, found);
+            p.scalars_mut().into_iter().for_each(|scalar| of_scalar(scalar, found));
+        }
         Bsdf::Principled(p) => {
             for color in [&mut p.base_color, &mut p.specular_color, &mut p.sheen_color] {
                 of_color(color, found);
@@ -85,7 +89,7 @@ mod tests {
             sheen_roughness: scalar(9),
             ..Principled::default()
         };
-        let plastic = Bsdf::Plastic { diffuse: color(10), eta: 1.5, alpha: scalar(11), specular: color(12), nonlinear: false };
+        let plastic = Bsdf::Plastic { diffuse: color(10), eta: 1.5, alpha: scalar(11).into(), specular: color(12), nonlinear: false };
         let both = Bsdf::Blend { first: Box::new(Bsdf::Principled(Box::new(principled))), second: Box::new(plastic), weight: scalar(13) };
         let material = Material {
             emission: color(14),

@@ -103,6 +103,7 @@ pub fn rough(name: &str, reflectance: impl Into<ColorParam>, roughness: f32) -> 
 
 /// Varnish, lacquer, glaze or plastic: a diffuse body under a clear coat of roughness `alpha`.
 pub fn coated(name: &str, diffuse: impl Into<ColorParam>, alpha: impl Into<ScalarParam>) -> Material {
-    let bsdf = Bsdf::Plastic { diffuse: diffuse.into(), eta: 1.5, alpha: alpha.into(), specular: Rgb::WHITE.into(), nonlinear: false };
+    let bsdf =
+        Bsdf::Plastic { diffuse: diffuse.into(), eta: 1.5, alpha: alpha.into().into(), specular: Rgb::WHITE.into(), nonlinear: false };
     Material::new(name, bsdf)
 }

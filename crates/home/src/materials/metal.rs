@@ -19,7 +19,7 @@ pub const SILVER: Index = [Rgb::new(0.155, 0.145, 0.135), Rgb::new(4.10, 3.40, 2
 
 /// Polished or ground metal of roughness `alpha`, darkened to `reflectance`.
 pub fn conductor(name: &str, [eta, k]: Index, reflectance: f32, alpha: impl Into<ScalarParam>) -> Material {
-    Material::new(name, Bsdf::Conductor { eta, k, reflectance: Rgb::splat(reflectance).into(), alpha: alpha.into() })
+    Material::new(name, Bsdf::Conductor { eta, k, reflectance: Rgb::splat(reflectance).into(), alpha: alpha.into().into() })
 }
 
 impl Maker<'_> {

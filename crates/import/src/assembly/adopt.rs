@@ -92,14 +92,18 @@ fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
     let (colors, scalars) = match bsdf {
         Bsdf::Diffuse { reflectance } => (vec![reflectance], vec![]),
         Bsdf::RoughDiffuse { reflectance, roughness } => (vec![reflectance], vec![roughness]),
-        Bsdf::Conductor { reflectance, alpha, .. } => (vec![reflectance], vec![alpha]),
-        Bsdf::Dielectric { transmittance, alpha, .. } => (vec![transmittance], vec![alpha]),
+        Bsdf::Conductor { reflectance, alpha, .. } => (vec![reflectance], vec![&mut alpha.param]),
+        Bsdf::Dielectric { transmittance, alpha, .. } => (vec![transmittance], vec![&mut alpha.param]),
         Bsdf::ThinDielectric { transmittance, .. } => (vec![transmittance], vec![]),
-        Bsdf::Plastic { diffuse, specular, alpha, .. } => (vec![diffuse, specular], vec![alpha]),
+        Bsdf::Plastic { diffuse, specular, alpha, .. } => (vec![diffuse, specular], vec![&mut alpha.param]),
         Bsdf::Blend { first, second, weight } => {
             of_bsdf(first, found);
             of_bsdf(second, found);
             (vec![], vec![weight])
+        }
+        Bsdf::Disney(p) => {
+            p.base_color.texture.iter_mut().for_each(&mut *found);
+            (vec![], p.scalars_mut().into())
         }
         Bsdf::Principled(p) => (
             vec![&mut p.base_color, &mut p.specular_color, &mut p.sheen_color],

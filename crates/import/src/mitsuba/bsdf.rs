@@ -1,7 +1,7 @@
 //! BSDFs to materials: the adapters (`twosided`, `mask`, `bumpmap`, blends, coats) around those that scatter light.
 
 use super::reader::Reader;
-use super::scattering::{DEFAULT_ALPHA, eta};
+use super::scattering::eta;
 use super::texture::Texture;
 use super::xml::Node;
 use crate::ImportError;
@@ -177,7 +177,7 @@ impl<'n> Reader<'n, '_> {
             return Ok(surface);
         };
         self.warn(node, "a coat over a diffuse base was taken for plastic");
-        let alpha = if node.plugin == "roughcoating" { self.scalar(node, "alpha", DEFAULT_ALPHA)? } else { 0.0.into() };
+        let alpha = self.alpha(node)?;
         let eta = eta(node, "bk7")? as f32;
         let bsdf = Bsdf::Plastic { diffuse: reflectance, eta, alpha, specular: Rgb::WHITE.into(), nonlinear: false };
         Ok(Surface { bsdf: Some(bsdf), ..surface })

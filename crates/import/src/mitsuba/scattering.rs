@@ -7,10 +7,10 @@ use crate::ImportError;
 use crate::roughness::oren_nayar;
 use crate::spectrum::{Kind, metal};
 use enfilade_math::Rgb;
-use enfilade_scene::{Bsdf, Principled, ScalarParam};
+use enfilade_scene::{Bsdf, Disney, Distribution, Roughness, ScalarParam};
 
-/// GGX roughness where a rough bsdf does not state one.
-pub(super) const DEFAULT_ALPHA: f32 = 0.1;
+/// Roughness where a rough bsdf does not state one.
+const DEFAULT_ALPHA: f32 = 0.1;
 
 /// Exponent of Phong's lobe where the bsdf does not state one.
 const DEFAULT_EXPONENT: f64 = 30.0;
@@ -135,71 +135,96 @@ impl<'n> Reader<'n, '_> {
         Ok(Bsdf::Conductor { eta, k, reflectance, alpha: self.alpha(node)? })
     }
 
-    /// Mitsuba's Disney-like model by glTF's parameters.
+    /// Disney's model.
     fn principled(&mut self, node: &'n Node) -> Result<Bsdf, ImportError> {
-        const KNOWN: [&str; 13] = [
+        const KNOWN: [&str; 21] = [
             "base_color",
             "roughness",
+            "anisotropic",
             "metallic",
             "specular",
             "eta",
             "spec_trans",
+            "diff_trans",
             "clearcoat",
             "clearcoat_gloss",
             "sheen",
             "sheen_tint",
             "spec_tint",
+            "flatness",
             "diffuse_reflectance_sampling_rate",
+            "diffuse_transmittance_sampling_rate",
+            "specular_reflectance_sampling_rate",
+            "specular_transmittance_sampling_rate",
+            "main_specular_sampling_rate",
+            "clearcoat_sampling_rate",
             "specular_sampling_rate",
         ];
         self.report_unknown(node, &KNOWN, &[]);
-        let specular = self.plain(node, "specular")?.unwrap_or(0.5).clamp(0.0, 0.999);
-        let from_specular = 2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0;
-        let ior = self.plain(node, "eta")?.unwrap_or(from_specular);
-        let base_color = self.color(node, "base_color", Kind::Factor, Rgb::splat(0.5))?;
-        let mut share = |name: &str| Ok::<f64, ImportError>(self.plain(node, name)?.unwrap_or(0.0).clamp(0.0, 1.0));
-        let (gloss, sheen_tint, specular_tint) = (share("clearcoat_gloss")?, share("sheen_tint")?, share("spec_tint")?);
-        let sheen = self.plain(node, "sheen")?.unwrap_or(0.0);
-        if base_color.texture.is_some() && (specular_tint > 0.0 || sheen_tint * sheen > 0.0) {
-            self.warn(node, "a tint by a textured base colour is not supported; that by the texture's factor was used");
+        let thin = node.plugin == "principledthin";
+        // What Mitsuba's other plugin has would be an error there.
+        let absent: &[&str] = if thin { &["metallic", "specular", "clearcoat", "clearcoat_gloss"] } else { &["diff_trans"] };
+        for child in node.children.iter().filter(|child| absent.contains(&child.name.as_str())) {
+            self.warn(child, format!("ignored in {}", node.plugin));
         }
-        // Tints are by the base colour at a luminance of one.
-        let luminance = base_color.factor.luminance();
-        let hue = if luminance > 0.0 { base_color.factor * (1.0 / luminance) } else { Rgb::WHITE };
-        let clearcoat = self.scalar(node, "clearcoat", 0.0)?;
-        let p = Principled {
-            base_color,
-            metallic: self.scalar(node, "metallic", 0.0)?,
-            roughness: self.scalar(node, "roughness", 0.5)?,
-            ior: ior.max(1.0) as f32,
-            specular_color: Rgb::WHITE.lerp(hue, specular_tint as f32).into(),
-            transmission: self.scalar(node, "spec_trans", 0.0)?,
-            solid: node.plugin == "principled",
-            // The model's coat has a quarter of a dielectric's strength, and its alpha runs from 0.1 to 0.001.
-            clearcoat: ScalarParam { factor: 0.25 * clearcoat.factor, ..clearcoat },
-            clearcoat_roughness: ((0.1 + (0.001 - 0.1) * gloss).sqrt() as f32).into(),
-            sheen_color: (Rgb::WHITE.lerp(hue, sheen_tint as f32) * sheen as f32).into(),
-            sheen_roughness: 0.5.into(),
-            ..Principled::default()
+        let anisotropic = self.scalar(node, "anisotropic", 0.0)?;
+        if anisotropic.factor != 0.0 {
+            self.warn(node, format!("anisotropic is not supported in {}; roughness is the same in all directions", node.plugin));
+        }
+        let spec_trans = self.scalar(node, "spec_trans", 0.0)?;
+        let mut share = |name: &str, default: f32| self.scalar(node, name, default);
+        let disney = Disney {
+            roughness: share("roughness", 0.5)?,
+            metallic: share("metallic", 0.0)?,
+            spec_tint: share("spec_tint", 0.0)?,
+            sheen: share("sheen", 0.0)?,
+            sheen_tint: share("sheen_tint", 0.0)?,
+            flatness: share("flatness", 0.0)?,
+            clearcoat: share("clearcoat", 0.0)?,
+            clearcoat_gloss: share("clearcoat_gloss", 0.0)?,
+            diff_trans: share("diff_trans", 0.0)?,
+            base_color: self.color(node, "base_color", Kind::Factor, Rgb::splat(0.5))?,
+            eta: self.principled_eta(node, thin, spec_trans.factor > 0.0)?,
+            spec_trans,
+            thin,
         };
-        Ok(Bsdf::Principled(Box::new(p)))
+        Ok(Bsdf::Disney(Box::new(disney)))
     }
 
-    /// GGX alpha: zero for smooth bsdfs, the mean of both directions for anisotropic ones.
-    fn alpha(&mut self, node: &'n Node) -> Result<ScalarParam, ImportError> {
+    /// The index of refraction, stated or by `specular`; an index of one is none where light is refracted.
+    fn principled_eta(&mut self, node: &'n Node, thin: bool, refracts: bool) -> Result<f32, ImportError> {
+        if let Some(eta) = self.plain(node, "eta")? {
+            let eta = if eta.is_finite() && eta > 0.0 { eta } else { 1.0 };
+            return Ok(if refracts && eta == 1.0 { 1.001 } else { eta as f32 });
+        }
+        if thin {
+            return Ok(1.5);
+        }
+        let specular = self.plain(node, "specular")?.unwrap_or(0.5).clamp(0.0, 12.0);
+        let specular = if refracts && specular == 0.0 { 1e-3 } else { specular };
+        Ok((2.0 / (1.0 - (0.08 * specular).sqrt()) - 1.0) as f32)
+    }
+
+    /// Roughness: zero for smooth bsdfs, the mean of both directions for anisotropic ones.
+    pub(super) fn alpha(&mut self, node: &'n Node) -> Result<Roughness, ImportError> {
         if !node.plugin.starts_with("rough") {
             return Ok(0.0.into());
         }
-        let distribution = node.text("distribution").unwrap_or_else(|| "beckmann".to_string());
-        if distribution != "ggx" {
-            self.warn(node, format!("the {distribution} distribution was replaced by GGX of the same alpha"));
-        }
+        let distribution = match node.text("distribution").as_deref() {
+            Some("ggx") => Distribution::Ggx,
+            None | Some("beckmann") => Distribution::Beckmann,
+            Some(other) => {
+                self.warn(node, format!("the {other} distribution was replaced by Beckmann's of the same alpha"));
+                Distribution::Beckmann
+            }
+        };
         if node.child("alpha_u").is_none() && node.child("alpha_v").is_none() {
-            return self.scalar(node, "alpha", DEFAULT_ALPHA);
+            return Ok(Roughness { param: self.scalar(node, "alpha", DEFAULT_ALPHA)?, distribution });
         }
         let (u, v) = (self.scalar(node, "alpha_u", DEFAULT_ALPHA)?, self.scalar(node, "alpha_v", DEFAULT_ALPHA)?);
         self.warn(node, "anisotropic roughness was replaced by its mean");
-        Ok(ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) })
+        let param = ScalarParam { factor: 0.5 * (u.factor + v.factor), texture: u.texture.or(v.texture) };
+        Ok(Roughness { param, distribution })
     }
 }
 

@@ -187,7 +187,7 @@ impl Reader<'_> {
         Ok(Bsdf::Plastic {
             diffuse: self.color_param(params, "reflectance", Rgb::splat(0.5))?,
             eta: self.index_of_refraction(params)?,
-            alpha: self.alpha(params, "", 0.0)?,
+            alpha: self.alpha(params, "", 0.0)?.into(),
             specular: Rgb::WHITE.into(),
             nonlinear: true,
         })
@@ -200,7 +200,7 @@ impl Reader<'_> {
         }
         let transmittance = self.color_param(params, "Kt", Rgb::WHITE)?;
         let (eta, alpha) = (self.index_of_refraction(params)?, self.alpha_of_glass(params)?);
-        Ok(Bsdf::Dielectric { eta, alpha, transmittance, absorption: Rgb::BLACK })
+        Ok(Bsdf::Dielectric { eta, alpha: alpha.into(), transmittance, absorption: Rgb::BLACK })
     }
 
     /// Only what is reflected is kept.

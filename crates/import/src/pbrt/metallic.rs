@@ -22,13 +22,13 @@ impl Reader<'_> {
             return Ok(match reflectance.texture {
                 None => {
                     let (eta, k) = index_of_reflectance(reflectance.factor);
-                    Bsdf::Conductor { eta, k, reflectance: white, alpha }
+                    Bsdf::Conductor { eta, k, reflectance: white, alpha: alpha.into() }
                 }
-                Some(_) => Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha },
+                Some(_) => Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha: alpha.into() },
             });
         }
         let (eta, k) = self.index_of_metal(params, "")?;
-        Ok(Bsdf::Conductor { eta, k, reflectance: white, alpha })
+        Ok(Bsdf::Conductor { eta, k, reflectance: white, alpha: alpha.into() })
     }
 
     fn is_fourth(&self) -> bool {

@@ -32,7 +32,7 @@ impl<'n> Reader<'n, '_> {
                 let roughness = self.roughness(plugin, "glossiness", 1.0, false)?;
                 let alpha = self.squared(plugin, roughness);
                 let eta = plugin.number("ior", DEFAULT_IOR)? as f32;
-                Bsdf::Dielectric { eta, alpha, transmittance: color(self)?, absorption: Rgb::BLACK }.into()
+                Bsdf::Dielectric { eta, alpha: alpha.into(), transmittance: color(self)?, absorption: Rgb::BLACK }.into()
             }
             "BRDFLight" => {
                 let multiplier = self.plain_number(plugin, "colorMultiplier", 1.0)? as f32;
@@ -146,7 +146,7 @@ pub(super) fn diffuse(reflectance: ColorParam, roughness: ScalarParam) -> Bsdf {
 
 /// A reflection of the same strength at all angles.
 pub(super) fn mirror(reflectance: ColorParam, alpha: ScalarParam) -> Bsdf {
-    Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha }
+    Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha: alpha.into() }
 }
 
 /// `over` with a weight on `under`; one of both alone where the weight says so.

@@ -104,7 +104,7 @@ impl<'n> Reader<'n, '_> {
         } else {
             let roughness = self.roughness(m, "refract_glossiness", 1.0, as_roughness)?;
             let alpha = self.squared(m, roughness);
-            Bsdf::Dielectric { eta: ior as f32, alpha, transmittance, absorption: self.fog(m)? }
+            Bsdf::Dielectric { eta: ior as f32, alpha: alpha.into(), transmittance, absorption: self.fog(m)? }
         };
         Ok(blend(opaque, glass, share))
     }

@@ -3,7 +3,7 @@
 use crate::common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported, UpAxis};
 use enfilade_math::{DVec3, Mat3, Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Environment, Filter, Light, MapRows, Material, NormalMap, SpotFalloff};
+use enfilade_scene::{Alpha, Bsdf, Distribution, Environment, Filter, Light, MapRows, Material, NormalMap, SpotFalloff};
 
 fn load(folder: &Folder, body: &str) -> Imported {
     folder.write("a.xml", format!("<scene version=\"0.5.0\">{body}</scene>")).load("a.xml").unwrap_or_else(|e| panic!("{e}"))
@@ -39,16 +39,33 @@ fn bsdfs_become_materials() {
         r#"<bsdf type="principled"><rgb name="base_color" value="1 0.5 0"/><float name="roughness" value="0.4"/>
         <float name="metallic" value="0.9"/></bsdf>"#,
     );
-    assert!(matches!(m.bsdf, Bsdf::Principled(p) if p.roughness.factor == 0.4 && p.metallic.factor == 0.9 && (p.ior - 1.5).abs() < 1e-6));
+    assert!(matches!(m.bsdf, Bsdf::Disney(p) if p.roughness.factor == 0.4 && p.metallic.factor == 0.9 && (p.eta - 1.5).abs() < 1e-6));
+}
+
+#[test]
+fn rough_bsdfs_have_beckmanns_facets_unless_they_say_ggx() {
+    let folder = Folder::new();
+    for plugin in ["roughconductor", "roughplastic", "roughdielectric"] {
+        for (stated, expected) in [("", Distribution::Beckmann), ("beckmann", Distribution::Beckmann), ("ggx", Distribution::Ggx)] {
+            let stated = if stated.is_empty() { String::new() } else { format!("<string name=\"distribution\" value=\"{stated}\"/>") };
+            let (made, told) = material(&folder, &format!("<bsdf type=\"{plugin}\">{stated}</bsdf>"));
+            let (Bsdf::Conductor { alpha, .. } | Bsdf::Plastic { alpha, .. } | Bsdf::Dielectric { alpha, .. }) = made.bsdf else {
+                panic!()
+            };
+            assert!(alpha.distribution == expected && alpha.factor == 0.1 && !told.contains("distribution"), "{plugin}: {told}");
+        }
+    }
 }
 
 #[test]
 fn guesses_and_gaps_are_reported_with_their_place() {
     let folder = Folder::new();
     let report = |text: &str| material(&folder, text).1;
-    let text = report("\n<bsdf type=\"roughconductor\" id=\"M\"><string name=\"material\" value=\"Xx\"/></bsdf>");
+    let text = report(
+        "\n<bsdf type=\"roughconductor\" id=\"M\"><string name=\"material\" value=\"Xx\"/><string name=\"distribution\" value=\"phong\"/></bsdf>",
+    );
     assert!(text.contains("a.xml line 2:1 <bsdf type=\"roughconductor\" id=\"M\">: the metal \"Xx\" is not known"), "{text}");
-    assert!(text.contains("beckmann distribution was replaced by GGX"), "{text}");
+    assert!(text.contains("the phong distribution was replaced by Beckmann's of the same alpha"), "{text}");
     assert!(report(r#"<bsdf type="hair"/>"#).contains("hair bsdfs are not supported"));
     assert!(
         report(r#"<bsdf type="diffuse"><float name="wetness" value="1"/></bsdf>"#).contains("<float name=\"wetness\">: ignored in diffuse")

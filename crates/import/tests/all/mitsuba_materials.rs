@@ -2,7 +2,7 @@
 
 use crate::common::{Folder, png, warnings};
 use enfilade_math::{Rgb, linear_from_srgb};
-use enfilade_scene::{Bsdf, Principled};
+use enfilade_scene::{Bsdf, Disney};
 
 /// The bsdf of a sphere in a file of this version, and what was reported. `grey.png` may be referred to.
 fn bsdf(version: &str, text: &str) -> (Bsdf, String) {
@@ -20,10 +20,10 @@ fn conductor(version: &str, properties: &str) -> (Rgb, Rgb) {
     }
 }
 
-fn principled(properties: &str) -> (Principled, String) {
+fn principled(properties: &str) -> (Disney, String) {
     let (bsdf, told) = bsdf("3.0.0", &format!("<bsdf type=\"principled\">{properties}</bsdf>"));
     match bsdf {
-        Bsdf::Principled(p) => (*p, told),
+        Bsdf::Disney(p) => (*p, told),
         other => panic!("not principled: {other:?}"),
     }
 }
@@ -89,13 +89,12 @@ fn phong_without_an_exponent_has_one_of_thirty() {
 
 #[test]
 fn principled_textures_are_read_or_reported() {
-    let (p, told) = principled(&texture("clearcoat"));
-    // The coat has a quarter of a dielectric's strength.
-    assert!(p.clearcoat.factor == 0.25 && p.clearcoat.texture.is_some() && told.is_empty(), "{told}");
-    let (p, told) = principled(r#"<float name="clearcoat" value="0.8"/><float name="sheen" value="0.5"/>"#);
-    assert!((p.clearcoat.factor - 0.2).abs() < 1e-6 && p.sheen_color.factor == Rgb::splat(0.5) && told.is_empty(), "{told}");
+    for (name, of) in [("clearcoat", 7), ("sheen", 4), ("sheen_tint", 5), ("clearcoat_gloss", 8), ("spec_tint", 3), ("flatness", 6)] {
+        let (p, told) = principled(&texture(name));
+        assert!(p.scalars()[of].factor == 1.0 && p.scalars()[of].texture.is_some() && told.is_empty(), "{name}: {told}");
+    }
     let grey = linear_from_srgb(9.0 / 255.0);
-    for name in ["sheen", "sheen_tint", "clearcoat_gloss", "spec_tint", "specular", "eta"] {
+    for name in ["specular", "eta"] {
         let (p, told) = principled(&texture(name));
         assert!(told.contains(&format!("a texture of {name} in principled is not supported; its mean was used")), "{told}");
         assert_eq!(p, principled(&format!("<float name=\"{name}\" value=\"{grey}\"/>")).0, "{name}");
@@ -104,22 +103,23 @@ fn principled_textures_are_read_or_reported() {
     assert!(told.contains("a texture of exponent in phong"), "{told}");
 }
 
+/// Mitsuba 3.9.1: 2 / (1 − √(0.08 specular)) − 1, 1.5 by default.
 #[test]
-fn principled_tints_have_the_hue_of_the_base_colour() {
-    let base = Rgb::new(0.4, 0.2, 0.1);
-    // Mitsuba's hue has a luminance of one.
-    let hue = base * (1.0 / 0.2353);
-    let tinted = |base: &str| {
-        principled(&format!(
-            r#"{base}<float name="spec_tint" value="0.5"/><float name="sheen" value="0.8"/><float name="sheen_tint" value="0.25"/>"#
-        ))
-    };
-    let near = |found: Rgb, expected: Rgb| (0..3).all(|i| (found[i] - expected[i]).abs() < 1e-5);
-    let (p, told) = tinted(r#"<rgb name="base_color" value="0.4 0.2 0.1"/>"#);
-    assert!(near(p.specular_color.factor, Rgb::WHITE.lerp(hue, 0.5)), "{:?}", p.specular_color);
-    assert!(near(p.sheen_color.factor, Rgb::WHITE.lerp(hue, 0.25) * 0.8), "{:?}", p.sheen_color);
-    assert!(told.is_empty(), "{told}");
-    let (p, _) = tinted(r#"<rgb name="base_color" value="0"/>"#);
-    assert_eq!((p.specular_color.factor, p.sheen_color.factor), (Rgb::WHITE, Rgb::splat(0.8)));
-    assert!(tinted(&texture("base_color")).1.contains("a tint by a textured base colour is not supported"));
+fn principled_bsdfs_have_mitsubas_parameters_and_defaults() {
+    let (p, told) = principled("");
+    let numbers = |p: &Disney| p.scalars().map(|number| number.factor);
+    assert_eq!(numbers(&p), [0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "{told}");
+    assert!((p.eta - 1.5).abs() < 1e-6 && p.base_color == Rgb::splat(0.5).into() && !p.thin && told.is_empty(), "{told}");
+    let eta = |text: &str| principled(text).0.eta;
+    assert!((eta(r#"<float name="specular" value="1"/>"#) - 1.788_85).abs() < 1e-4);
+    assert_eq!(eta(r#"<float name="specular" value="0"/>"#), 1.0);
+    assert!(eta(r#"<float name="specular" value="0"/><float name="spec_trans" value="0.5"/>"#) > 1.0);
+    assert_eq!(eta(r#"<float name="eta" value="1.3"/>"#), 1.3f32);
+    let (_, told) = principled(r#"<float name="anisotropic" value="0.5"/>"#);
+    assert!(told.contains("anisotropic is not supported in principled"), "{told}");
+    let (sheet, told) =
+        bsdf("3.0.0", r#"<bsdf type="principledthin"><float name="diff_trans" value="0.6"/><float name="metallic" value="1"/></bsdf>"#);
+    let Bsdf::Disney(sheet) = sheet else { panic!("{sheet:?}") };
+    assert!(sheet.thin && sheet.eta == 1.5 && sheet.diff_trans.factor == 0.6, "{sheet:?}");
+    assert!(told.contains("<float name=\"metallic\">: ignored in principledthin"), "{told}");
 }

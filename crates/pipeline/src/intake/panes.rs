@@ -105,6 +105,7 @@ fn is_opaque(material: &Material) -> bool {
     let reflects = match &material.bsdf {
         Bsdf::Diffuse { .. } | Bsdf::RoughDiffuse { .. } | Bsdf::Plastic { .. } => true,
         Bsdf::Principled(p) => p.metallic.factor < METAL,
+        Bsdf::Disney(p) => p.metallic.factor < METAL,
         _ => false,
     };
     reflects && matches!(material.alpha, Alpha::Opaque) && !material.bsdf.transmits() && material.emission.factor.is_black()
@@ -116,7 +117,8 @@ fn pane(material: &Material) -> Option<Material> {
         Bsdf::Diffuse { reflectance } | Bsdf::RoughDiffuse { reflectance, .. } | Bsdf::Conductor { reflectance, .. } => reflectance,
         Bsdf::Plastic { diffuse, .. } => diffuse,
         Bsdf::Principled(p) if !material.bsdf.transmits() => &p.base_color,
-        Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Blend { .. } | Bsdf::Principled(_) => return None,
+        Bsdf::Disney(p) if !material.bsdf.transmits() => &p.base_color,
+        Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Blend { .. } | Bsdf::Principled(_) | Bsdf::Disney(_) => return None,
     };
     let alpha = match &material.alpha {
         mask @ Alpha::Mask { .. } => *mask,

@@ -1,7 +1,9 @@
 //! How much light a dielectric coat lets through to the diffuse base beneath it.
 
+use super::ggx::Facets;
 use super::{fresnel, ggx};
 use enfilade_math::{Vec3, warp};
+use enfilade_scene::Distribution;
 
 /// Cosines i/63 of the table; the first one counts as 10⁻⁶.
 const COSINES: usize = 64;
@@ -26,13 +28,15 @@ pub enum Bounces {
 pub struct CoatSpec {
     /// Index of refraction, > 1.
     pub eta: f32,
-    /// GGX roughness, where it is the same all over the surface.
+    /// Roughness, where it is the same all over the surface.
     pub alpha: Option<f32>,
+    /// Its facets' slopes.
+    pub distribution: Distribution,
     /// Multiple bounces at the facets.
     pub bounces: Bounces,
 }
 
-/// A GGX dielectric coat over a diffuse base.
+/// A dielectric coat over a diffuse base.
 #[derive(Debug)]
 pub struct CoatTable {
     spec: CoatSpec,
@@ -59,6 +63,8 @@ pub struct Coat<'a> {
     smooth: bool,
     /// Index of refraction of the coat.
     pub eta: f32,
+    /// The slopes of its facets.
+    pub distribution: Distribution,
     /// Multiple bounces at the facets.
     pub bounces: Bounces,
 }
@@ -81,15 +87,15 @@ impl CoatTable {
     /// The coat at the roughness `alpha`, which must be the table's if it was made for one.
     #[inline]
     pub fn at(&self, alpha: f32) -> Coat<'_> {
-        let CoatSpec { bounces, .. } = self.spec;
+        let CoatSpec { bounces, distribution, .. } = self.spec;
         let eta = self.spec.eta.min(MAX_ETA);
         let smooth = alpha < ggx::SMOOTH_ALPHA;
         if let [row] = &self.rows[..] {
-            return Coat { low: row, high: row, fraction: 0.0, smooth, eta, bounces };
+            return Coat { low: row, high: row, fraction: 0.0, smooth, eta, distribution, bounces };
         }
         let x = (alpha.max(0.0).sqrt() * (ALPHAS - 1) as f32).min((ALPHAS - 1) as f32);
         let a = (x as usize).min(ALPHAS - 2);
-        Coat { low: &self.rows[a], high: &self.rows[a + 1], fraction: x - a as f32, smooth, eta, bounces }
+        Coat { low: &self.rows[a], high: &self.rows[a + 1], fraction: x - a as f32, smooth, eta, distribution, bounces }
     }
 }
 
@@ -100,7 +106,7 @@ impl Row {
         let bounces = if alpha < ggx::SMOOTH_ALPHA { Bounces::All } else { spec.bounces };
         let transmittance: [f32; COSINES] = std::array::from_fn(|i| match bounces {
             Bounces::All => 1.0 - ggx::directional_albedo(cosine(i), alpha, POINTS, |cos| fresnel::dielectric(cos, eta).0),
-            Bounces::Single => once(cosine(i), alpha, eta).1,
+            Bounces::Single => once(cosine(i), alpha, spec.distribution, eta).1,
         });
         // Exact for the table's linear interpolation: ∫ 2c T(c) dc, piece by piece.
         let step = 1.0 / (COSINES - 1) as f32;
@@ -114,7 +120,8 @@ impl Row {
             Bounces::All => mean / (eta * eta),
             // The sum that Mitsuba takes; it falls short of the integral by 1/64.
             Bounces::Single => {
-                1.0 - (0..COSINES).map(|i| 2.0 * cosine(i) * once(cosine(i), alpha, 1.0 / eta).0).sum::<f32>() / COSINES as f32
+                1.0 - (0..COSINES).map(|i| 2.0 * cosine(i) * once(cosine(i), alpha, spec.distribution, 1.0 / eta).0).sum::<f32>()
+                    / COSINES as f32
             }
         };
         Self { transmittance, mean, escapes: escapes.max(MIN_ESCAPE) }
@@ -157,8 +164,14 @@ impl Coat<'_> {
 const POINTS: u32 = 512;
 
 /// Fractions of light from the cosine `cos_o` that a rough interface reflects and transmits in a single bounce, with separable masking.
-fn once(cos_o: f32, alpha: f32, eta: f32) -> (f32, f32) {
+fn once(cos_o: f32, alpha: f32, distribution: Distribution, eta: f32) -> (f32, f32) {
     let wo = Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o);
+    let facets = single(distribution, alpha, cos_o);
+    // What is visible from the side of the facet's light, over the density of sampled facets.
+    let kept = |m: Vec3, w: Vec3| match distribution {
+        Distribution::Ggx => ggx::g1(w, alpha),
+        Distribution::Beckmann => facets.d(m) * facets.masking(wo, w) / (ggx::d(m, alpha) * ggx::g1(wo, alpha)).max(f32::MIN_POSITIVE),
+    };
     let (mut reflected, mut transmitted) = (0.0, 0.0);
     for i in 0..POINTS {
         let m = ggx::sample_visible(wo, alpha, warp::hammersley(i, POINTS));
@@ -166,14 +179,23 @@ fn once(cos_o: f32, alpha: f32, eta: f32) -> (f32, f32) {
         let (f, cos_t) = fresnel::dielectric(cos, eta);
         let up = ggx::reflect(wo, m);
         if up.z > 0.0 {
-            reflected += f * ggx::g1(up, alpha);
+            reflected += f * kept(m, up);
         }
         let down = ggx::refract(wo, m, eta, cos_t);
         if down.z < 0.0 {
-            transmitted += (1.0 - f) * ggx::g1(down, alpha);
+            transmitted += (1.0 - f) * kept(m, down);
         }
     }
     (reflected / POINTS as f32, transmitted / POINTS as f32)
+}
+
+/// Facets of which single bounces count.
+#[inline]
+pub fn single(distribution: Distribution, alpha: f32, cos_o: f32) -> Facets {
+    match distribution {
+        Distribution::Ggx => Facets::separable(alpha, cos_o),
+        Distribution::Beckmann => Facets::beckmann(alpha, cos_o),
+    }
 }
 
 #[cfg(test)]
@@ -181,7 +203,7 @@ mod tests {
     use super::*;
 
     fn table(alpha: Option<f32>, bounces: Bounces) -> CoatTable {
-        CoatTable::new(CoatSpec { eta: 1.5, alpha, bounces })
+        CoatTable::new(CoatSpec { eta: 1.5, alpha, distribution: Distribution::Ggx, bounces })
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! The base receives what the coat does not reflect in one bounce, and light is reflected between base and coat many times. Ashikhmin &
 //! Shirley 2000; Weidlich & Wilkie 2007; Mitsuba's `roughplastic`.
 
-use super::coat::{Bounces, Coat};
+use super::coat::{self, Bounces, Coat};
 use super::fresnel;
 use super::ggx::Facets;
 use super::sample::{Event, Sample, Value};
@@ -42,7 +42,7 @@ impl<'a> Coated<'a> {
         let base = if saturating { reflectance.map(|r| once / ((1.0 - r) + r * escapes)) } else { Rgb::splat(once / escapes) };
         let facets = match coat.bounces {
             Bounces::All => Facets::new(alpha, cos_o),
-            Bounces::Single => Facets::separable(alpha, cos_o),
+            Bounces::Single => coat::single(coat.distribution, alpha, cos_o),
         };
         let through = covered * through_o + (1.0 - covered);
         let (diffuse, specular) = (reflectance.luminance() * through, (1.0 - through_o) * tint.luminance());

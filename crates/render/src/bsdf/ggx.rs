@@ -3,7 +3,9 @@
 //! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
 //! above the surface (z > 0) unless said otherwise.
 
+use super::beckmann;
 use enfilade_math::{Vec3, angle, warp};
+use enfilade_scene::Distribution;
 
 /// Below this roughness a surface counts as smooth and scatters into single directions. At 1e-3 the lobe is narrower than
 /// the sun's disk.
@@ -42,12 +44,15 @@ pub fn g2(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
 /// A rough surface seen from one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets {
-    /// GGX roughness.
+    /// Roughness.
     pub alpha: f32,
-    /// Λ of the viewing direction.
+    /// Whose slopes the facets have. Directions are sampled by GGX's in any case: its density is nowhere far below Beckmann's.
+    distribution: Distribution,
+    /// GGX's Λ of the viewing direction.
     lambda_o: f32,
-    /// What Λ of the incident direction is multiplied by in the masking of both directions: 1 for height-correlated masking, 1 + Λ for
-    /// separable masking.
+    /// What the masking of the viewing direction is multiplied by, and what is added to it, for each Λ of the incident direction: 1 + Λ and
+    /// 1 for height-correlated masking, for separable masking 1 + Λ and 1 + Λ.
+    visible_o: f32,
     slope_i: f32,
 }
 
@@ -56,30 +61,64 @@ pub struct Facets {
 pub struct Mirrored {
     /// Value × cosine for a reflectance of one.
     pub value: f32,
-    /// Density per solid angle with which sampled visible normals mirror into this direction.
+    /// Density per solid angle with which sampled normals mirror into this direction.
     pub pdf: f32,
     /// Cosine between either direction and the normal halfway.
     pub cos_half: f32,
 }
 
 impl Facets {
-    /// Facets of roughness `alpha` seen at the cosine `cos_o` > 0.
+    /// GGX facets of roughness `alpha` seen at the cosine `cos_o` > 0.
     #[inline]
     pub fn new(alpha: f32, cos_o: f32) -> Self {
-        Self { alpha, lambda_o: if alpha < SMOOTH_ALPHA { 0.0 } else { lambda(cos_o, alpha) }, slope_i: 1.0 }
+        let lambda_o = if alpha < SMOOTH_ALPHA { 0.0 } else { lambda(cos_o, alpha) };
+        Self { alpha, distribution: Distribution::Ggx, lambda_o, visible_o: 1.0 + lambda_o, slope_i: 1.0 }
     }
 
-    /// The same with the masking of both directions independent, as in Mitsuba.
+    /// GGX facets with the masking of both directions independent, as in Mitsuba.
     #[inline]
     pub fn separable(alpha: f32, cos_o: f32) -> Self {
         let correlated = Self::new(alpha, cos_o);
-        Self { slope_i: 1.0 + correlated.lambda_o, ..correlated }
+        Self { slope_i: correlated.visible_o, ..correlated }
+    }
+
+    /// Beckmann's facets, as Mitsuba has them: masking of both directions is independent.
+    #[inline]
+    pub fn beckmann(alpha: f32, cos_o: f32) -> Self {
+        let ggx = Self::new(alpha, cos_o);
+        let visible_o = if ggx.smooth() { 1.0 } else { 1.0 + beckmann::lambda(cos_o, alpha) };
+        Self { distribution: Distribution::Beckmann, visible_o, slope_i: visible_o, ..ggx }
     }
 
     /// True when the surface scatters into single directions.
     #[inline]
     pub fn smooth(&self) -> bool {
         self.alpha < SMOOTH_ALPHA
+    }
+
+    /// True for GGX's facets.
+    #[inline]
+    pub fn is_ggx(&self) -> bool {
+        self.distribution == Distribution::Ggx
+    }
+
+    /// Fraction of the facets that are visible from the viewing direction `wo` and from `wi`, which may be on either side.
+    #[inline]
+    pub fn masking(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self.distribution {
+            Distribution::Ggx if self.slope_i == 1.0 => g2(wo, wi, self.alpha),
+            Distribution::Ggx => 1.0 / (self.visible_o + self.slope_i * lambda(wi.z, self.alpha)),
+            Distribution::Beckmann => 1.0 / (self.visible_o + self.slope_i * beckmann::lambda(wi.z, self.alpha)),
+        }
+    }
+
+    /// Density of the facets' normals.
+    #[inline]
+    pub fn d(&self, m: Vec3) -> f32 {
+        match self.distribution {
+            Distribution::Ggx => d(m, self.alpha),
+            Distribution::Beckmann => beckmann::d(m, self.alpha),
+        }
     }
 
     /// Reflection from `wi` to `wo`, both above a surface that is not smooth.
@@ -92,12 +131,11 @@ impl Facets {
         let a2 = self.alpha * self.alpha;
         let t = length2 / (z2 * a2 + xy2);
         let d = a2 * t * t * (0.25 * enfilade_math::INV_PI) / wo.z;
-        let visible = 1.0 + self.lambda_o;
-        Mirrored {
-            value: d / (visible + self.slope_i * lambda(wi.z, self.alpha)),
-            pdf: d / visible,
-            cos_half: (0.5 * length2.sqrt()).min(1.0),
-        }
+        let value = match self.distribution {
+            Distribution::Ggx => d / (self.visible_o + self.slope_i * lambda(wi.z, self.alpha)),
+            Distribution::Beckmann => beckmann::d(h / length2.sqrt(), self.alpha) * self.masking(wo, wi) / (4.0 * wo.z),
+        };
+        Mirrored { value, pdf: d / (1.0 + self.lambda_o), cos_half: (0.5 * length2.sqrt()).min(1.0) }
     }
 
     /// Samples the direction from which a visible facet mirrors light to `wo`; it may lie below the surface.

@@ -5,6 +5,7 @@
 //! for one viewing direction and only meaningful for that.
 
 use super::coated::Coated;
+use super::disney;
 use super::fresnel;
 use super::ggx::{self, Facets};
 use super::rough_diffuse::RoughDiffuse;
@@ -32,6 +33,17 @@ pub enum Fresnel<'a> {
         /// At normal incidence.
         f0: Rgb,
     },
+    /// A part of a dielectric's and Schlick's approximation, added.
+    Disney {
+        /// Weight of the dielectric.
+        dielectric: f32,
+        /// Index of refraction.
+        eta: f32,
+        /// Schlick's part at normal incidence.
+        f0: Rgb,
+        /// Schlick's part at grazing incidence.
+        f90: f32,
+    },
 }
 
 impl Fresnel<'_> {
@@ -42,6 +54,11 @@ impl Fresnel<'_> {
             Self::Dielectric { eta } => Rgb::splat(fresnel::dielectric(cos_i, eta).0),
             Self::Conductor { eta, k } => fresnel::conductor(cos_i, *eta, *k),
             Self::Schlick { f0 } => fresnel::schlick(cos_i, f0, Rgb::WHITE),
+            Self::Disney { dielectric, eta, f0, f90 } => {
+                let (exact, cos_t) = fresnel::dielectric(cos_i, eta);
+                let cos = if eta > 1.0 { cos_i } else { cos_t };
+                Rgb::splat(dielectric * exact) + fresnel::schlick(cos, f0, Rgb::splat(f90))
+            }
         }
     }
 }
@@ -89,6 +106,8 @@ pub enum Lobe<'a> {
     },
     /// Fuzz of cloth.
     Sheen(Sheen),
+    /// A lobe of Disney's model.
+    Disney(disney::Part),
 }
 
 impl<'a> Lobe<'a> {
@@ -115,7 +134,7 @@ impl<'a> Lobe<'a> {
                 (specular(*tint * fresnel.eval(mirrored.cos_half) * mirrored.value), mirrored.pdf)
             }
             Self::Refraction { facets, eta, tint, scale } => {
-                let (value, density) = refraction(facets.alpha, *eta, *tint, wo, wi);
+                let (value, density) = refraction(facets, *eta, *tint, wo, wi);
                 (value * *scale, density)
             }
             Self::Thin { facets, eta, tint, scale } => {
@@ -133,6 +152,7 @@ impl<'a> Lobe<'a> {
                 }
                 (specular(sheen.eval(wo, wi)), wi.z * INV_PI)
             }
+            Self::Disney(part) => part.eval_pdf(wo, wi),
         }
     }
 
@@ -165,6 +185,10 @@ impl<'a> Lobe<'a> {
                 }
                 Some(Sample { event: Event::Straight, ..Sample::delta(-wo, *tint) })
             }
+            Self::Disney(part) => match part.sample(wo, [u[0], u[1]])? {
+                Ok(wi) => self.finite(wo, wi),
+                Err(sample) => Some(sample),
+            },
             Self::RoughDiffuse(_) | Self::Sheen(_) => self.finite(wo, warp::cosine_hemisphere([u[0], u[1]])),
         }
     }
@@ -205,6 +229,7 @@ impl<'a> Lobe<'a> {
                 specular(Rgb::splat(r) + *tint * (1.0 - r))
             }
             Self::Sheen(sheen) => specular(sheen.albedo(cos_o)),
+            Self::Disney(part) => part.albedo(cos_o),
         }
     }
 
@@ -214,11 +239,12 @@ impl<'a> Lobe<'a> {
             Self::Lambert | Self::RoughDiffuse(_) | Self::Sheen(_) => true,
             Self::Coated(coated) => coated.facets.alpha >= ROUGH_ALPHA,
             Self::Reflection { facets, .. } | Self::Refraction { facets, .. } | Self::Thin { facets, .. } => facets.alpha >= ROUGH_ALPHA,
+            Self::Disney(part) => part.alpha().is_none_or(|alpha| alpha >= ROUGH_ALPHA),
         }
     }
 }
 
-/// From this GGX roughness on a reflection counts as blurred: half of it spreads over a cone of 60 degrees and more.
+/// From this roughness on a reflection counts as blurred: half of it spreads over a cone of 60 degrees and more.
 const ROUGH_ALPHA: f32 = 0.5;
 
 const NOTHING: (Value, f32) = (Value { diffuse: Rgb::BLACK, specular: Rgb::BLACK }, 0.0);
@@ -236,14 +262,15 @@ pub fn thin_reflectance(cos: f32, eta: f32) -> f32 {
 }
 
 /// Value and density of [`Lobe::Refraction`].
-fn refraction(alpha: f32, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Value, f32) {
-    if alpha < ggx::SMOOTH_ALPHA || wi.z == 0.0 {
+fn refraction(facets: &Facets, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Value, f32) {
+    if facets.smooth() || wi.z == 0.0 {
         return NOTHING;
     }
     let Some((m, f, jacobian)) = refraction_half_vector(wo, wi, eta) else { return NOTHING };
-    let common = ggx::d(m, alpha) * jacobian * wo.dot(m).max(0.0) / wo.z;
-    let value = ggx::g2(wo, wi, alpha) * common;
-    let density = ggx::g1(wo, alpha) * common;
+    let common = |d: f32| d * jacobian * wo.dot(m).max(0.0) / wo.z;
+    let sampled = common(ggx::d(m, facets.alpha));
+    let value = facets.masking(wo, wi) * if facets.is_ggx() { sampled } else { common(facets.d(m)) };
+    let density = ggx::g1(wo, facets.alpha) * sampled;
     if wi.z > 0.0 {
         (specular(Rgb::splat(f * value)), f * density)
     } else {
@@ -255,7 +282,7 @@ fn refraction(alpha: f32, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Value, f3
 /// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the
 /// Jacobian from the solid angle of the normal to that of `wi`. `None` when no facet does.
 #[inline]
-fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f32)> {
+pub(super) fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f32)> {
     if wi.z > 0.0 {
         let m = (wo + wi).normalize();
         let cos = wo.dot(m);

@@ -8,8 +8,10 @@
 //! are asked for with the `wo` that it was made for. Paths are followed from the camera, so `wo` is known and `wi` is sampled; values are
 //! those of radiance, not of importance.
 
+mod beckmann;
 pub mod coat;
 mod coated;
+mod disney;
 mod energy;
 pub mod fresnel;
 pub mod ggx;
@@ -155,6 +157,8 @@ fn fraction(a: Rgb, b: Rgb) -> f32 {
     if a + b > 0.0 { a / (a + b) } else { 0.0 }
 }
 
+#[cfg(test)]
+mod mitsuba;
 #[cfg(test)]
 mod published;
 #[cfg(test)]

@@ -10,6 +10,7 @@ use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
 use super::*;
 use enfilade_math::{DVec3, Rng};
+use enfilade_scene as scene;
 use enfilade_testkit::Mean;
 use std::f64::consts::PI;
 
@@ -222,7 +223,7 @@ fn base_under_a_coat() {
     let mean = albedo(|wi| interpolated(wi.z) / PI, false);
     // By reciprocity the base's light escapes as well as diffuse light enters, over eta².
     let escapes = mean / (eta * eta);
-    let coats = CoatTable::new(CoatSpec { eta: 1.5, alpha: Some(0.3), bounces: Bounces::All });
+    let coats = CoatTable::new(CoatSpec { eta: 1.5, alpha: Some(0.3), distribution: scene::Distribution::Ggx, bounces: Bounces::All });
     for cos in COSINES {
         let wo = viewer(cos);
         let through_o = through(cos);

@@ -6,10 +6,10 @@ use super::layers::CLEARCOAT_ETA;
 use super::mixture::Mixture;
 use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
-use super::{Bsdf, Fresnel, Layers, Lobe, Model, Tables, energy, fresnel, thin_reflectance};
+use super::{Bsdf, Fresnel, Layers, Lobe, Model, Tables, disney, energy, fresnel, thin_reflectance};
 use crate::texture::{Footprint, Textures};
 use enfilade_math::{Rgb, Vec2};
-use enfilade_scene::{self as scene, ColorParam, Principled, ScalarParam};
+use enfilade_scene::{self as scene, ColorParam, Distribution, Principled, ScalarParam};
 
 /// What is needed to read a material at a point.
 #[derive(Clone, Copy)]
@@ -31,19 +31,19 @@ pub struct Inputs<'a> {
 impl Inputs<'_> {
     /// A colour parameter here, on [0,1].
     #[inline]
-    fn reflectance(&self, p: &ColorParam) -> Rgb {
+    pub(super) fn reflectance(&self, p: &ColorParam) -> Rgb {
         self.textures.color(p, self.uv, &self.footprint).map(|v| v.clamp(0.0, 1.0))
     }
 
     /// A scalar parameter here.
     #[inline]
-    fn scalar(&self, p: &ScalarParam) -> f32 {
+    pub(super) fn scalar(&self, p: &ScalarParam) -> f32 {
         self.textures.scalar(p, self.uv, &self.footprint)
     }
 
     /// A scalar parameter here, on [0,1].
     #[inline]
-    fn unit_scalar(&self, p: &ScalarParam) -> f32 {
+    pub(super) fn unit_scalar(&self, p: &ScalarParam) -> f32 {
         self.scalar(p).clamp(0.0, 1.0)
     }
 }
@@ -63,11 +63,14 @@ impl<'a> Bsdf<'a> {
                 Self { reflectance, ..Self::one(lobe) }
             }
             scene::Bsdf::Conductor { eta, k, reflectance, alpha } => {
-                let (facets, fresnel) = (Facets::new(at.scalar(alpha), at.cos_o), Fresnel::Conductor { eta, k });
-                Self::one(metal(facets, fresnel, at.reflectance(reflectance), at.cos_o))
+                let (fresnel, tint, roughness) = (Fresnel::Conductor { eta, k }, at.reflectance(reflectance), at.scalar(alpha));
+                Self::one(match alpha.distribution {
+                    Distribution::Ggx => metal(Facets::new(roughness, at.cos_o), fresnel, tint, at.cos_o),
+                    Distribution::Beckmann => Lobe::Reflection { facets: Facets::beckmann(roughness, at.cos_o), fresnel, tint },
+                })
             }
             scene::Bsdf::Dielectric { eta, alpha, transmittance, .. } => {
-                Self::one(glass(*eta, at.scalar(alpha), at.reflectance(transmittance), at))
+                Self::one(glass(*eta, at.scalar(alpha), alpha.distribution, at.reflectance(transmittance), at))
             }
             scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(thin(*eta, 0.0, at.reflectance(transmittance), at)),
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
@@ -76,6 +79,7 @@ impl<'a> Bsdf<'a> {
                 coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear, 1.0)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
+            scene::Bsdf::Disney(p) => disney::disney(p, at),
             scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.unit_scalar(weight), at),
         }
     }
@@ -105,14 +109,18 @@ fn metal<'a>(facets: Facets, fresnel: Fresnel<'a>, tint: Rgb, cos_o: f32) -> Lob
 /// Indices of refraction this close to 1 count as 1: the directions that rough facets bend light to could not be told apart.
 const NO_REFRACTION: f32 = 1e-3;
 
-/// The border of a transparent body of the index `ior`, with all bounces between its facets.
+/// The border of a transparent body of the index `ior`, with all bounces between its facets where these are GGX's.
 #[inline]
-fn glass<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
+fn glass<'a>(ior: f32, alpha: f32, distribution: Distribution, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     let eta = if at.outside { ior } else { 1.0 / ior };
     // What does not bend light does not scatter it either, however rough.
     let alpha = if (ior - 1.0).abs() < NO_REFRACTION { 0.0 } else { alpha };
     let scale = at.tables.glass.as_ref().map_or(1.0, |table| table.scale(at.cos_o, alpha, at.outside));
-    Lobe::Refraction { facets: Facets::new(alpha, at.cos_o), eta, tint, scale }
+    let facets = match distribution {
+        Distribution::Ggx => Facets::new(alpha, at.cos_o),
+        Distribution::Beckmann => Facets::beckmann(alpha, at.cos_o),
+    };
+    Lobe::Refraction { facets, eta, tint, scale }
 }
 
 /// A thin pane with all bounces between its facets.
@@ -172,7 +180,7 @@ fn principled<'a>(p: &Principled, at: &Inputs<'a>) -> Bsdf<'a> {
         coated(at, base, alpha, tint, false, tint.max_component())
     };
     let metal = || metal(Facets::new(alpha, at.cos_o), Fresnel::Schlick { f0: base }, Rgb::WHITE, at.cos_o);
-    let body = || if p.solid { glass(p.ior, alpha, base, at) } else { thin(p.ior, alpha, base, at) };
+    let body = || if p.solid { glass(p.ior, alpha, Distribution::Ggx, base, at) } else { thin(p.ior, alpha, base, at) };
 
     let sheen_color = at.reflectance(&p.sheen_color);
     let clearcoat = if at.outside { at.unit_scalar(&p.clearcoat) } else { 0.0 };
@@ -246,6 +254,7 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
             let pane = at.reflectance(&p.base_color) * (1.0 - thin_reflectance(at.cos_o, p.ior));
             Some(pane * (clear * layers.passes(at.cos_o, at.cos_o)))
         }
+        scene::Bsdf::Disney(p) if p.is_pane() => Some(disney::straight_transmittance(p, at)),
         scene::Bsdf::Blend { first, second, weight } => {
             let (first, second) = (straight_transmittance(first, at), straight_transmittance(second, at));
             if first.is_none() && second.is_none() {

@@ -3,7 +3,7 @@
 use super::coat::{Bounces, CoatSpec, CoatTable};
 use super::energy::GlassTable;
 use super::ggx;
-use enfilade_scene::{Bsdf, ScalarParam};
+use enfilade_scene::{Bsdf, Distribution, ScalarParam};
 use std::sync::Arc;
 
 /// The tables of one material.
@@ -37,13 +37,17 @@ impl TableMaker {
     pub fn tables(&mut self, bsdf: &Bsdf) -> Tables {
         let square = |v: f32| v.clamp(0.0, 1.0).powi(2);
         match bsdf {
-            Bsdf::Plastic { eta, alpha, .. } => Tables { coat: self.coat(*eta, fixed(alpha), Bounces::Single), ..Tables::default() },
-            Bsdf::Dielectric { eta, alpha, .. } => Tables { glass: self.glass(*eta, fixed(alpha)), ..Tables::default() },
+            Bsdf::Plastic { eta, alpha, .. } => {
+                Tables { coat: self.coat(*eta, fixed(alpha), alpha.distribution, Bounces::Single), ..Tables::default() }
+            }
+            Bsdf::Dielectric { eta, alpha, .. } if alpha.distribution == Distribution::Ggx => {
+                Tables { glass: self.glass(*eta, fixed(alpha)), ..Tables::default() }
+            }
             Bsdf::Principled(p) => {
                 let alpha = fixed(&p.roughness).map(square);
                 let body = p.solid && p.transmission.factor > 0.0;
                 Tables {
-                    coat: self.coat(p.ior, alpha, Bounces::All),
+                    coat: self.coat(p.ior, alpha, Distribution::Ggx, Bounces::All),
                     glass: if body { self.glass(p.ior, alpha) } else { None },
                     ..Tables::default()
                 }
@@ -52,13 +56,15 @@ impl TableMaker {
                 Tables { blended: Some(Box::new([self.tables(first), self.tables(second)])), ..Tables::default() }
             }
             Bsdf::RoughDiffuse { .. } => Tables { lambertian: self.lambertian, ..Tables::default() },
-            Bsdf::Diffuse { .. } | Bsdf::Conductor { .. } | Bsdf::ThinDielectric { .. } => Tables::default(),
+            Bsdf::Diffuse { .. } | Bsdf::Conductor { .. } | Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Disney(_) => {
+                Tables::default()
+            }
         }
     }
 
     /// An index of one or less is no coat.
-    fn coat(&mut self, eta: f32, alpha: Option<f32>, bounces: Bounces) -> Option<Arc<CoatTable>> {
-        let spec = CoatSpec { eta, alpha, bounces };
+    fn coat(&mut self, eta: f32, alpha: Option<f32>, distribution: Distribution, bounces: Bounces) -> Option<Arc<CoatTable>> {
+        let spec = CoatSpec { eta, alpha, distribution, bounces };
         if eta.is_nan() || eta <= 1.0 {
             return None;
         }

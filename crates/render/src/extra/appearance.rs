@@ -76,6 +76,14 @@ impl At<'_> {
                 let transmission = (1.0 - metallic) * self.unit_scalar(&p.transmission);
                 Appearance { base_color: self.color(&p.base_color), metallic, alpha: self.unit_scalar(&p.roughness).powi(2), transmission }
             }
+            Bsdf::Disney(p) => {
+                let metallic = if p.thin { 0.0 } else { self.unit_scalar(&p.metallic) };
+                let through = self.unit_scalar(&p.spec_trans);
+                let diffuse =
+                    if p.thin { 0.5 * self.textures.scalar(&p.diff_trans, self.uv, &Footprint::POINT).clamp(0.0, 2.0) } else { 0.0 };
+                let transmission = (1.0 - metallic) * (through + (1.0 - through) * diffuse);
+                Appearance { base_color: self.color(&p.base_color), metallic, alpha: self.unit_scalar(&p.roughness).powi(2), transmission }
+            }
             Bsdf::Blend { first, second, weight } => self.appearance(first).lerp(self.appearance(second), self.unit_scalar(weight)),
         }
     }

@@ -1,0 +1,313 @@
+//! Disney's model as Mitsuba 3 has it in `principled` and `principledthin`: its own lobes, and the mixture of all.
+//!
+//! Burley 2012, "Physically Based Shading at Disney", and 2015, "Extending the Disney BRDF to a BSDF". It is not a model that keeps energy:
+//! lobes are added to each other, single bounces between facets count alone, and masking is separable. What glTF's model shares with it
+//! ([`super::resolve`]) is named alike and means something else.
+
+use super::ggx::{self, Facets};
+use super::mixture::Mixture;
+use super::resolve::Inputs;
+use super::sample::{Event, Sample, Value};
+use super::{Bsdf, Fresnel, Lobe, Model, fresnel};
+use enfilade_math::{INV_PI, Rgb, Vec3, angle, warp};
+use enfilade_scene as scene;
+use std::f32::consts::PI;
+
+/// Mitsuba's facets are no smoother; ours are smooth below.
+const MIN_ALPHA: f32 = 1e-3;
+/// The roughness of the clear-coat's masking.
+const COAT_MASKING: f32 = 0.25;
+
+/// One of the model's lobes that others do not have.
+#[derive(Clone, Copy, Debug)]
+pub enum Part {
+    /// The diffuse base with its retro-reflection, demodulated.
+    Diffuse {
+        /// Of the base.
+        roughness: f32,
+        /// How much of it is flattened like skin, by Hanrahan and Krueger.
+        flatness: f32,
+    },
+    /// Fuzz.
+    Sheen {
+        /// Multiplies it.
+        color: Rgb,
+    },
+    /// The clear-coat, by the distribution GTR1, over its strength.
+    Coat {
+        /// Roughness.
+        alpha: f32,
+    },
+    /// Refraction, without the reflection that goes with it.
+    Through {
+        /// The surface.
+        facets: Facets,
+        /// Index beyond the surface over the index on the side of `wo`.
+        eta: f32,
+        /// Multiplies it.
+        tint: Rgb,
+    },
+    /// Light that a rough sheet scatters on its way through: reflection, turned to the other side.
+    Sheet {
+        /// The surface.
+        facets: Facets,
+        /// Index of refraction.
+        eta: f32,
+        /// Multiplies it.
+        tint: Rgb,
+    },
+    /// Diffuse light on the other side.
+    Translucent {
+        /// Fraction of light.
+        color: Rgb,
+    },
+}
+
+const NOTHING: (Value, f32) = (Value { diffuse: Rgb::BLACK, specular: Rgb::BLACK }, 0.0);
+
+impl Part {
+    /// See [`Lobe::eval_pdf`].
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Value, f32) {
+        let specular = |specular: Rgb| Value { diffuse: Rgb::BLACK, specular };
+        let above = wi.z > 0.0;
+        match *self {
+            Self::Diffuse { roughness, flatness } if above => {
+                let value = diffuse(wo, wi, roughness, flatness) * wi.z * INV_PI;
+                (Value { diffuse: Rgb::splat(value), specular: Rgb::BLACK }, wi.z * INV_PI)
+            }
+            Self::Sheen { color } if above => {
+                let halfway = (wo + wi).normalize();
+                (specular(color * (schlick(wi.dot(halfway)) * wi.z)), wi.z * INV_PI)
+            }
+            Self::Coat { alpha } if above => {
+                let m = (wo + wi).normalize();
+                let (cos, d) = (wo.dot(m), gtr1(m, alpha));
+                let masking = ggx::g1(wo, COAT_MASKING) * ggx::g1(wi, COAT_MASKING);
+                (specular(Rgb::splat((0.04 + 0.96 * schlick(cos)) * d * masking * wi.z)), d * m.z / (4.0 * cos))
+            }
+            Self::Through { facets, eta, tint } if !facets.smooth() && wi.z < 0.0 => {
+                let Some((m, f, jacobian)) = super::lobe::refraction_half_vector(wo, wi, eta) else { return NOTHING };
+                let common = ggx::d(m, facets.alpha) * jacobian * wo.dot(m) / wo.z;
+                (specular(tint * ((1.0 - f) * facets.masking(wo, wi) * common / (eta * eta))), ggx::g1(wo, facets.alpha) * common)
+            }
+            Self::Sheet { facets, eta, tint } if !facets.smooth() && wi.z < 0.0 => {
+                let turned = Vec3::new(wi.x, wi.y, -wi.z);
+                let m = (wo + turned).normalize();
+                if wi.dot(m) >= 0.0 {
+                    return NOTHING;
+                }
+                let mirrored = facets.mirror(wo, turned);
+                (specular(tint * ((1.0 - fresnel::dielectric(mirrored.cos_half, eta).0) * mirrored.value)), mirrored.pdf)
+            }
+            Self::Translucent { color } if wi.z < 0.0 => (specular(color * (-wi.z * INV_PI)), -wi.z * INV_PI),
+            _ => NOTHING,
+        }
+    }
+
+    /// The direction that is tried, or the whole sample where it is one of finitely many; `None` where there is none. `u` is uniform on
+    /// [0,1)².
+    pub fn sample(&self, wo: Vec3, u: [f32; 2]) -> Option<Result<Vec3, Sample>> {
+        match *self {
+            Self::Diffuse { .. } | Self::Sheen { .. } => Some(Ok(warp::cosine_hemisphere(u))),
+            Self::Translucent { .. } => Some(Ok(-warp::cosine_hemisphere(u))),
+            Self::Coat { alpha } => Some(Ok(ggx::reflect(wo, sample_gtr1(alpha, u)))),
+            Self::Through { facets, eta, tint } => {
+                let m = if facets.smooth() { Vec3::Z } else { ggx::sample_visible(wo, facets.alpha, u) };
+                let (f, cos_t) = fresnel::dielectric(wo.dot(m).clamp(0.0, 1.0), eta);
+                let wi = (cos_t > 0.0).then(|| ggx::refract(wo, m, eta, cos_t).normalize())?;
+                Some(if facets.smooth() { Err(Sample::delta(wi, tint * ((1.0 - f) / (eta * eta)))) } else { Ok(wi) })
+            }
+            Self::Sheet { facets, eta, tint } if facets.smooth() => {
+                let passed = tint * (1.0 - fresnel::dielectric(wo.z, eta).0);
+                Some(Err(Sample { event: Event::Straight, ..Sample::delta(-wo, passed) }))
+            }
+            Self::Sheet { facets, .. } => {
+                let mirrored = facets.sample(wo, u);
+                Some(Ok(Vec3::new(mirrored.x, mirrored.y, -mirrored.z)))
+            }
+        }
+    }
+
+    /// See [`Lobe::albedo`].
+    pub fn albedo(&self, cos_o: f32) -> Value {
+        let specular = |specular: Rgb| Value { diffuse: Rgb::BLACK, specular };
+        match *self {
+            Self::Diffuse { .. } => Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK },
+            Self::Sheen { color } => specular(color * (0.05 + 0.5 * schlick(cos_o))),
+            Self::Coat { .. } => specular(Rgb::splat(4.0 * (0.04 + 0.96 * schlick(cos_o)))),
+            Self::Through { eta, tint, .. } | Self::Sheet { eta, tint, .. } => specular(tint * (1.0 - fresnel::dielectric(cos_o, eta).0)),
+            Self::Translucent { color } => specular(color),
+        }
+    }
+
+    /// Its interface, for lobes that may be sharp.
+    pub fn alpha(&self) -> Option<f32> {
+        match *self {
+            Self::Diffuse { .. } | Self::Sheen { .. } | Self::Translucent { .. } => None,
+            Self::Coat { alpha } => Some(alpha),
+            Self::Through { facets, .. } | Self::Sheet { facets, .. } => Some(facets.alpha),
+        }
+    }
+}
+
+/// (1 − cos)⁵.
+#[inline]
+fn schlick(cos: f32) -> f32 {
+    (1.0 - cos.abs()).clamp(0.0, 1.0).powi(5)
+}
+
+/// The base's value times π for a reflectance of one.
+fn diffuse(wo: Vec3, wi: Vec3, roughness: f32, flatness: f32) -> f32 {
+    let (o, i) = (schlick(wi.z), schlick(wo.z));
+    let cos = wi.dot((wo + wi).normalize());
+    let retro = 2.0 * roughness * cos * cos;
+    let plain = (1.0 - 0.5 * i) * (1.0 - 0.5 * o) + retro * (o + i + o * i * (retro - 1.0));
+    if flatness == 0.0 {
+        return plain;
+    }
+    let edge = |f: f32| 1.0 + (0.5 * retro - 1.0) * f;
+    let flat = 1.25 * (edge(o) * edge(i) * (1.0 / (wo.z + wi.z) - 0.5) + 0.5);
+    plain + (flat - plain) * flatness
+}
+
+/// Burley 2012, equation 4 with γ = 1.
+#[inline]
+fn gtr1(m: Vec3, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    (a2 - 1.0) / (PI * a2.ln() * (1.0 + (a2 - 1.0) * m.z * m.z))
+}
+
+/// A normal in proportion to [`gtr1`] × cosine.
+fn sample_gtr1(alpha: f32, u: [f32; 2]) -> Vec3 {
+    let a2 = alpha * alpha;
+    let cos2 = ((1.0 - a2.powf(1.0 - u[1])) / (1.0 - a2)).clamp(0.0, 1.0);
+    let ((sin_phi, cos_phi), sin) = (angle::sin_cos_turns(u[0]), (1.0 - cos2).sqrt());
+    Vec3::new(sin * cos_phi, sin * sin_phi, cos2.sqrt())
+}
+
+/// Smooth facets or ones of this alpha, with Mitsuba's least.
+fn facets(alpha: f32, cos_o: f32) -> Facets {
+    Facets::separable(if alpha < MIN_ALPHA { 0.0 } else { alpha }, cos_o)
+}
+
+/// What the parameters are at a point.
+struct Point {
+    base: Rgb,
+    roughness: f32,
+    metallic: f32,
+    through: f32,
+    spec_tint: f32,
+    /// The base's colour at a luminance of one.
+    hue: Rgb,
+    sheen: Rgb,
+    eta: f32,
+}
+
+impl Point {
+    fn new(p: &scene::Disney, at: &Inputs<'_>) -> Self {
+        let base = at.reflectance(&p.base_color);
+        let luminance = base.luminance();
+        let hue = if luminance > 0.0 { base * (1.0 / luminance) } else { Rgb::WHITE };
+        let sheen = Rgb::WHITE.lerp(hue, at.unit_scalar(&p.sheen_tint)) * at.scalar(&p.sheen).max(0.0);
+        Self {
+            base,
+            roughness: at.unit_scalar(&p.roughness),
+            metallic: if p.thin { 0.0 } else { at.unit_scalar(&p.metallic) },
+            through: at.unit_scalar(&p.spec_trans),
+            spec_tint: at.unit_scalar(&p.spec_tint),
+            hue,
+            sheen,
+            eta: p.eta,
+        }
+    }
+
+    /// The main reflection's: Fresnel's equations for what is neither metal nor tinted, Schlick's curve for the rest.
+    fn fresnel<'a>(&self) -> Fresnel<'a> {
+        let (metal, tinted) = (self.metallic, (1.0 - self.metallic) * self.spec_tint);
+        let normal = self.hue * ((self.eta - 1.0) / (self.eta + 1.0)).powi(2);
+        Fresnel::Disney {
+            dielectric: (1.0 - self.metallic) * (1.0 - self.spec_tint),
+            eta: self.eta,
+            f0: self.base * metal + normal * tinted,
+            f90: metal + tinted,
+        }
+    }
+}
+
+/// The whole model at a point.
+pub fn disney<'a>(p: &scene::Disney, at: &Inputs<'a>) -> Bsdf<'a> {
+    let here = Point::new(p, at);
+    let mut mixture = Mixture::new();
+    let reflectance = if p.thin {
+        sheet(&mut mixture, p, &here, at)
+    } else if at.outside || p.spec_trans.factor == 0.0 {
+        body(&mut mixture, p, &here, at)
+    } else {
+        let alpha = here.roughness * here.roughness;
+        let tint = here.base.map(f32::sqrt);
+        let weight = (1.0 - here.metallic) * here.through;
+        let lobe = Lobe::Refraction { facets: facets(alpha, at.cos_o), eta: 1.0 / here.eta, tint, scale: 1.0 };
+        mixture.add(lobe, Rgb::BLACK, weight, weight);
+        Rgb::BLACK
+    };
+    mixture.finish();
+    let model = if mixture.is_empty() { Model::Black } else { Model::Mixture(mixture) };
+    Bsdf { reflectance, model }
+}
+
+/// The base with its fuzz, as the given `fraction` of all; returns the diffuse reflectance.
+fn base(mixture: &mut Mixture<'_>, p: &scene::Disney, here: &Point, fraction: f32, fuzz: f32, at: &Inputs<'_>) -> Rgb {
+    let reflectance = here.base * fraction;
+    if fraction <= 0.0 {
+        return Rgb::BLACK;
+    }
+    let lobe = Lobe::Disney(Part::Diffuse { roughness: here.roughness, flatness: at.unit_scalar(&p.flatness) });
+    mixture.add(lobe, Rgb::WHITE, 1.0, reflectance.luminance());
+    let sheen = Part::Sheen { color: here.sheen };
+    mixture.add(Lobe::Disney(sheen), Rgb::BLACK, fuzz, fuzz * sheen.albedo(at.cos_o).specular.luminance());
+    reflectance
+}
+
+/// A solid body from outside.
+fn body(mixture: &mut Mixture<'_>, p: &scene::Disney, here: &Point, at: &Inputs<'_>) -> Rgb {
+    let alpha = here.roughness * here.roughness;
+    let clear = (1.0 - here.metallic) * here.through;
+    let fraction = (1.0 - here.metallic) * (1.0 - here.through);
+    let reflectance = base(mixture, p, here, fraction, 1.0 - here.metallic, at);
+    let facets = facets(alpha, at.cos_o);
+    // Mitsuba reflects nothing at all where the index is one, not even metals.
+    if here.eta != 1.0 {
+        let fresnel = here.fresnel();
+        mixture.add(Lobe::Reflection { facets, fresnel, tint: Rgb::WHITE }, Rgb::BLACK, 1.0, fresnel.eval(at.cos_o).luminance());
+    }
+    let coat = 0.25 * at.unit_scalar(&p.clearcoat);
+    let coat_alpha = 0.1 + (0.001 - 0.1) * at.unit_scalar(&p.clearcoat_gloss);
+    mixture.add(Lobe::Disney(Part::Coat { alpha: coat_alpha }), Rgb::BLACK, coat, 0.5 * coat);
+    let through = Part::Through { facets, eta: here.eta, tint: here.base.map(f32::sqrt) };
+    mixture.add(Lobe::Disney(through), Rgb::BLACK, clear, clear * through.albedo(at.cos_o).specular.luminance());
+    reflectance
+}
+
+/// A sheet without thickness, from either side.
+fn sheet(mixture: &mut Mixture<'_>, p: &scene::Disney, here: &Point, at: &Inputs<'_>) -> Rgb {
+    let behind = 0.5 * at.scalar(&p.diff_trans).clamp(0.0, 2.0);
+    let (clear, dull) = (here.through, 1.0 - here.through);
+    let reflectance = base(mixture, p, here, dull * (1.0 - behind), dull * (1.0 - behind), at);
+    let alpha = |roughness: f32| roughness * roughness;
+    let (outer, fresnel) = (facets(alpha(here.roughness), at.cos_o), here.fresnel());
+    let reflection = Lobe::Reflection { facets: outer, fresnel, tint: Rgb::WHITE };
+    mixture.add(reflection, Rgb::BLACK, clear, clear * fresnel.eval(at.cos_o).luminance());
+    // Burley 2015, figure 15.
+    let inner = facets(alpha((0.65 * here.eta - 0.35) * here.roughness), at.cos_o);
+    let through = Part::Sheet { facets: inner, eta: here.eta, tint: here.base };
+    mixture.add(Lobe::Disney(through), Rgb::BLACK, clear, clear * through.albedo(at.cos_o).specular.luminance());
+    let diffuse = here.base * (dull * behind);
+    mixture.add(Lobe::Disney(Part::Translucent { color: diffuse }), Rgb::BLACK, 1.0, diffuse.luminance());
+    reflectance
+}
+
+/// Fraction of light that goes straight through a smooth sheet at a point.
+pub fn straight_transmittance(p: &scene::Disney, at: &Inputs<'_>) -> Rgb {
+    let here = Point::new(p, at);
+    here.base * (here.through * (1.0 - fresnel::dielectric(at.cos_o, here.eta).0))
+}
