@@ -1,6 +1,9 @@
 //! The instances that a frame shows: which pixels, which class, which box.
 
+use crate::ExportError;
+use crate::selected_frames::SelectedFrames;
 use enfilade_frame::{Frame, Layer};
+use enfilade_scene::Warning;
 use std::collections::BTreeMap;
 
 /// The visible part of one instance.
@@ -11,6 +14,36 @@ pub(crate) struct Instance {
     pub semantic: i16,
     /// Indices of its pixels, row by row, ascending.
     pub pixels: Vec<usize>,
+}
+
+/// True where a part of the scenes is an instance.
+pub(crate) fn are_labelled(selected: &SelectedFrames<'_>) -> Result<bool, ExportError> {
+    let labels = selected.scenes().map(|tracks| selected.labels(&tracks[0].scene)).collect::<Result<Vec<_>, _>>()?;
+    Ok(labels.iter().flat_map(|labels| &labels.parts).any(|label| label.instance >= 1))
+}
+
+/// Says so where an export of instances found none, and why. `found` tells whether there is one.
+pub(crate) fn warn_of_none(selected: &SelectedFrames<'_>, found: bool) -> Result<(), ExportError> {
+    if found {
+        return Ok(());
+    }
+    let (mut classed, mut numbered) = (0, 0);
+    for tracks in selected.scenes() {
+        let labels = selected.labels(&tracks[0].scene)?.parts;
+        classed += labels.iter().filter(|label| label.semantic >= 1).count();
+        numbered += labels.iter().filter(|label| label.instance >= 1).count();
+    }
+    let why = match (classed, numbered) {
+        (_, 1..) => "none of the frames shows one; select others, or place cameras nearer to things".to_string(),
+        (0, 0) => "no part has a label; name a label table, or use enfilade suggest or enfilade annotate".to_string(),
+        (classed, 0) => format!(
+            "{classed} parts have a class and none is an instance: walls, floors and ceilings are not counted, nor is what the label table \
+             gives the instance -1"
+        ),
+    };
+    let message = format!("the export has no instance: {why}");
+    selected.warn(Warning { place: selected.dataset.root().display().to_string(), message });
+    Ok(())
 }
 
 /// The instances of a frame with `semantic_instance`, by number.

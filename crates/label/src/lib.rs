@@ -7,6 +7,7 @@
 
 mod assign;
 pub mod boxes;
+mod doubts;
 pub mod instances;
 mod join;
 mod pieces;
@@ -16,6 +17,7 @@ pub mod structure;
 mod table;
 
 pub use assign::{LabelReport, UnlabelledPart, UnmatchedRow};
+pub use doubts::{Doubts, doubts};
 pub use join::{JoinError, join};
 pub use pieces::SplitParts;
 pub use table::{LabelTable, Row, Subject, TableError, class_name, write_part_table, write_table};

@@ -6,7 +6,7 @@
 
 use crate::ExportError;
 use crate::export_folder::ExportFolder;
-use crate::instances::{Instance, instances};
+use crate::instances::{Instance, instances, warn_of_none};
 use crate::picture::{SHOWN, color_jpeg};
 use crate::selected_frames::{SelectedFrames, View};
 use enfilade_dataset::{Class, Classes};
@@ -88,6 +88,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         }
         all.images.push(Image { id: image_id, ..image });
     }
+    warn_of_none(selected, !all.annotations.is_empty())?;
     let text = serde_json::to_string(&all).expect("plain data encodes");
     out.write("annotations/instances.json", text.as_bytes())
 }

@@ -6,7 +6,7 @@
 use super::coco::{Category, Image, categories, class_of, info, write_image};
 use crate::ExportError;
 use crate::export_folder::ExportFolder;
-use crate::instances::{Instance, instances};
+use crate::instances::{Instance, instances, warn_of_none};
 use crate::picture::{SHOWN, rgb_png};
 use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::{Frame, Layer};
@@ -98,6 +98,8 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         all.images.push(image);
         all.annotations.push(Annotation { image_id, ..annotation });
     }
+    let is_thing = |segment: &Segment| segment.instance.is_some();
+    warn_of_none(selected, all.annotations.iter().flat_map(|annotation| &annotation.segments_info).any(is_thing))?;
     let text = serde_json::to_string(&all).expect("plain data encodes");
     out.write("annotations/panoptic.json", text.as_bytes())
 }

@@ -3,7 +3,7 @@
 use super::document::Document;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Labels, Light, NYU40, Object, PartLabel, Scene, SpotFalloff, StartCamera};
+use enfilade_scene::{Labels, Light, NYU40, Object, PartLabel, Scene, SpotFalloff, StartCamera, is_stuff};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
@@ -87,7 +87,8 @@ pub(super) fn object(object: &Object) -> Value {
 fn extras(label: &PartLabel) -> Option<Value> {
     let class = usize::try_from(label.semantic - 1).ok().and_then(|index| NYU40.get(index))?;
     let mut extras = json!({ "semantic": class.name, "semantic_id": class.id });
-    if label.instance > 0 {
+    // Without a number, the importer would give one to what people count.
+    if label.instance > 0 || !is_stuff(label.semantic) {
         extras["instance"] = json!(label.instance);
     }
     Some(extras)

@@ -1,6 +1,6 @@
 //! Scenes that are parts of others: models with files of their own, of which each is read once and may stand in many places.
 
-use super::Assembly;
+use super::{Assembly, FileLabel};
 use crate::{ImportError, Imported};
 use enfilade_math::DAffine3;
 use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, ObjectId, Part, PartLabel, Scene, TextureRef};
@@ -15,8 +15,15 @@ pub(crate) struct Piece {
     pub model_from_mesh: DAffine3,
     /// Its object within the model: that of the part, where the model stands in one place.
     pub object: Option<ObjectId>,
-    /// What the model's own file says of it.
+    /// What the model's own file says of it. Its number of the instance counts within the model alone.
     pub label: PartLabel,
+}
+
+impl Piece {
+    /// What the model's file says of the piece as a part of `object`: one instance for each class.
+    pub(crate) fn label_in(&self, object: ObjectId) -> FileLabel {
+        FileLabel::given(self.label.semantic, object)
+    }
 }
 
 impl Assembly<'_> {

@@ -1,8 +1,9 @@
 //! Pictures, materials, meshes, parts and cameras of the scene being built.
 
 use super::Assembly;
+use super::labels::FileLabel;
 use super::names::printable;
-use crate::{ImportError, ImportedLabel, mesh};
+use crate::{ImportError, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::{Material, Object, ObjectId, Part, PartId, PartLabel, StartCamera};
@@ -120,7 +121,7 @@ impl Assembly<'_> {
         mut mesh: u32,
         material: u32,
         file_from_mesh: DAffine3,
-        label: PartLabel,
+        label: impl Into<FileLabel>,
     ) -> Option<PartId> {
         let mut world_from_mesh = self.world_from_file * file_from_mesh;
         if let Some(origin) = self.origins.get(&mesh) {
@@ -141,9 +142,7 @@ impl Assembly<'_> {
         }
         let name = self.part_names.unique(name);
         let part = self.scene.parts.len() as PartId;
-        if label != PartLabel::NONE {
-            self.labels.push(ImportedLabel { part, label });
-        }
+        self.file_labels.push((part, label.into()));
         self.scene.parts.push(Part { name, object: Some(object), mesh, material, world_from_mesh });
         Some(part)
     }

@@ -8,6 +8,7 @@ mod elsewhere;
 mod files;
 mod find;
 mod flat;
+mod labels;
 mod light;
 mod names;
 mod survey;
@@ -16,6 +17,7 @@ pub(crate) use adopt::Piece;
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
 pub(crate) use find::is_absolute;
+pub(crate) use labels::{FileLabel, class_named};
 pub(crate) use survey::{FAR_M, origin_of, positions_from};
 
 use crate::archive::Archive;
@@ -23,7 +25,7 @@ use crate::images::{self, Use};
 use crate::report::Warnings;
 use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
-use enfilade_scene::{Cx, Labels, PartLabel, PictureFiles, Scene};
+use enfilade_scene::{Cx, Labels, PartId, PartLabel, PictureFiles, Scene};
 use names::Names;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -55,6 +57,8 @@ pub(crate) struct Assembly<'a> {
     offset_m: Option<[f64; 3]>,
     /// Triangles kept of flattened parts.
     flattened: usize,
+    /// Of the parts that the file labels, in their order.
+    file_labels: Vec<(PartId, FileLabel)>,
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
     axes: DMat3,
@@ -85,6 +89,7 @@ impl<'a> Assembly<'a> {
             light_positions: Vec::new(),
             offset_m: None,
             flattened: 0,
+            file_labels: Vec::new(),
             labels: Vec::new(),
             meters_per_unit: 1.0,
             axes: DMat3::IDENTITY,
@@ -190,6 +195,7 @@ impl<'a> Assembly<'a> {
     /// When nothing visible remains or something about the scene is not valid.
     pub(crate) fn finish(mut self) -> Result<Imported, ImportError> {
         self.bring_near();
+        self.labels = self.numbered_labels();
         let mut scene = std::mem::take(&mut self.scene);
         scene.remove_unused_meshes();
         scene.remove_unused_objects();

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 const TABLE: &str = include_str!("classes.csv");
 
 /// The class of NYU40 that a category stands for, however it is written: `DiningTable`, `dining_table` and `Dining table` are one.
-pub(super) fn class_of(category: &str) -> Option<i16> {
+pub(crate) fn class_of(category: &str) -> Option<i16> {
     static CLASSES: OnceLock<HashMap<String, i16>> = OnceLock::new();
     let classes = CLASSES.get_or_init(|| rows().filter_map(|(category, class)| Some((letters(category), number(class)?))).collect());
     classes.get(&letters(category)).copied().or_else(|| number(&letters(category)))

@@ -44,6 +44,7 @@ mod scan;
 mod structured3d;
 pub(crate) mod vectors;
 
+pub(crate) use classes::class_of;
 pub(crate) use detect::{no_scene_in_folder, scene_in_folder};
 
 use crate::assembly::Assembly;

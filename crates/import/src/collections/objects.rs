@@ -107,7 +107,7 @@ impl Object {
         let object = a.push_object(&self.name, None);
         for piece in pieces {
             let name = if pieces.len() > 1 { format!("{}/{}", self.name, piece.name) } else { self.name.clone() };
-            let label = if self.label == PartLabel::NONE { piece.label } else { self.label };
+            let label = if self.label == PartLabel::NONE { piece.label_in(object) } else { self.label.into() };
             a.push_part_of(object, &name, piece.mesh, piece.material, file_from_model * piece.model_from_mesh, label);
         }
     }

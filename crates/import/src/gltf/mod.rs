@@ -25,8 +25,10 @@
 //!
 //! # Labels
 //!
-//! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, and `"instance"`, a number from 1. Both
-//! apply to the node's own parts and for all nodes below it that do not say otherwise.
+//! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, or `"semantic_id"`, its id, and `"instance"`, a
+//! number from 1, or −1 for none. They apply to the node's own parts and to all nodes below it that do not say otherwise. Without a number
+//! each node with a class is an instance, together with the nodes below it that have none of their own; under `EXT_mesh_gpu_instancing`
+//! each place is. Wall, floor and ceiling are not counted.
 //!
 //! # Environments
 //!
@@ -45,6 +47,7 @@ mod file_material;
 mod gloss;
 mod gloss_pictures;
 mod instancing;
+mod label;
 mod light;
 mod lumens;
 mod material;

@@ -3,11 +3,11 @@
 use super::container::Document;
 use super::objects::{self, Objects};
 use super::parts::{Parts, Stand};
-use super::{instancing, light, profile};
+use super::{instancing, label, light, profile};
 use crate::ImportError;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::DAffine3;
-use enfilade_scene::{NYU40, ObjectId, PartLabel};
+use enfilade_scene::ObjectId;
 use gltf::json::scene::Node;
 
 /// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
@@ -42,7 +42,7 @@ pub(super) fn roots(document: &Document, assembly: &mut Assembly) -> Result<Vec<
 struct Visit {
     node: usize,
     file_from_parent: DAffine3,
-    label: PartLabel,
+    label: FileLabel,
     parent: Option<ObjectId>,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
     let mut placer = Placer { document, parts: Parts::new(document) };
     let objects = Objects::new(document, assembly);
     let visit = |file_from_parent, label, parent| move |&node: &usize| Visit { node, file_from_parent, label, parent };
-    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, PartLabel::NONE, None)).collect();
+    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, FileLabel::NONE, None)).collect();
     let mut seen = vec![false; nodes.len()];
     let mut done = 0;
     while let Some(Visit { node: index, file_from_parent, label, parent }) = stack.pop() {
@@ -73,8 +73,8 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
             continue;
         }
         let file_from_node = file_from_parent * document.local_transform(index);
-        let label = label_of(node, index, label, assembly);
         let object = objects.of(document, node, index, parent, assembly);
+        let label = label::of(node, index, object, label, assembly);
         placer.node(node, index, file_from_node, (object, parent), label, assembly)?;
         let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();
         stack.extend(children.iter().rev().map(visit(file_from_node, label, object)));
@@ -96,7 +96,7 @@ impl Placer<'_> {
         index: usize,
         file_from_node: DAffine3,
         (object, parent): (Option<ObjectId>, Option<ObjectId>),
-        label: PartLabel,
+        label: FileLabel,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
         let fallback = || format!("node_{index}");
@@ -110,7 +110,7 @@ impl Placer<'_> {
                 }
                 None => vec![(object.unwrap_or_else(|| a.push_object(&own, parent)), file_from_node)],
             };
-            self.parts.add(mesh.value(), &Stand { node, index, name: own, label }, &places, a)?;
+            self.parts.add(mesh.value(), &Stand { node, index, name: own, object, label }, &places, a)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.root.cameras.get(camera.value());
@@ -143,32 +143,4 @@ impl Placer<'_> {
 fn is_invisible(node: &Node) -> bool {
     let visibility = node.extensions.as_ref().and_then(|e| e.others.get(VISIBILITY));
     visibility.and_then(|v| v.get("visible")).and_then(serde_json::Value::as_bool) == Some(false)
-}
-
-/// The label that a node's extras give, where they are silent the inherited one.
-fn label_of(node: &Node, index: usize, inherited: PartLabel, assembly: &mut Assembly) -> PartLabel {
-    let extras = node.extras.as_ref().and_then(|e| serde_json::from_str::<serde_json::Value>(e.get()).ok());
-    let Some(extras) = extras else { return inherited };
-    let mut label = inherited;
-    if let Some(value) = extras.get("semantic") {
-        let by_name = value.as_str().and_then(|s| NYU40.iter().find(|c| c.name.eq_ignore_ascii_case(s.trim()))).map(|c| c.id);
-        let by_id = value.as_i64().filter(|id| (1..=40).contains(id)).map(|id| id as i16);
-        match by_name.or(by_id) {
-            Some(id) => label.semantic = id,
-            None => assembly.warn(
-                format!("nodes[{index}].extras.semantic"),
-                format!("found {value}, expected a NYU40 id (1 to 40) or name; the label was ignored"),
-            ),
-        }
-    }
-    if let Some(value) = extras.get("instance") {
-        match value.as_i64().and_then(|i| i16::try_from(i).ok()).filter(|&i| i > 0) {
-            Some(instance) => label.instance = instance,
-            None => {
-                let message = format!("found {value}, expected a whole number from 1 to 32767; the label was ignored");
-                assembly.warn(format!("nodes[{index}].extras.instance"), message);
-            }
-        }
-    }
-    label
 }

@@ -10,9 +10,9 @@ use super::painted::painted;
 use super::primitive::{self, Pose};
 use super::skin::{self, Skins};
 use crate::ImportError;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::{DAffine3, Rgb};
-use enfilade_scene::{ObjectId, PartLabel};
+use enfilade_scene::ObjectId;
 use gltf::json::mesh::Primitive;
 use gltf::json::scene::Node;
 use std::collections::{BTreeSet, HashMap};
@@ -22,7 +22,9 @@ pub(super) struct Stand<'n> {
     pub node: &'n Node,
     pub index: usize,
     pub name: String,
-    pub label: PartLabel,
+    /// Its object.
+    pub object: Option<ObjectId>,
+    pub label: FileLabel,
 }
 
 /// Makes parts of the file's meshes, which share what they can.
@@ -100,7 +102,10 @@ impl<'d> Parts<'d> {
             // Joints place a skinned mesh in the file by themselves.
             for &(object, file_from_mesh) in places.iter().take(if skin.is_some() { 1 } else { places.len() }) {
                 let file_from_mesh = if skin.is_some() { DAffine3::IDENTITY } else { file_from_mesh };
-                a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, stand.label);
+                // What is said of the node itself is said of each place.
+                let is_own = stand.label.whole.is_some() && stand.label.whole == stand.object;
+                let label = FileLabel { whole: if is_own { Some(object) } else { stand.label.whole }, ..stand.label };
+                a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, label);
             }
         }
         Ok(())

@@ -9,8 +9,9 @@ use super::things::Thing;
 use super::walk::{State, Walk, is_aside};
 use super::xform::rotation;
 use crate::ImportError;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_scene::ObjectId;
 use std::collections::HashSet;
 use std::rc::Rc;
 
@@ -64,6 +65,7 @@ impl Walk<'_> {
                 prefix: format!("{}{own}/", state.prefix),
                 object: Some(object),
                 thing: Thing::placed(object, state.thing),
+                label: of_instance(inherited.label, state.object, object),
                 ..inherited.clone()
             };
             self.visit(&prototype.clone(), &state, a)?;
@@ -81,7 +83,7 @@ impl Walk<'_> {
             let Some(above) = self.stage.at(&path[..end], a)? else { continue };
             bindings = bind::at(&above, &bindings, self.stage, a)?;
             constants = constants.below(&above);
-            label = label::at(&above, label, &mut Unknown::default());
+            label = label::at(&above, None, label, &mut Unknown::default());
             hidden = is_aside(&above, hidden);
         }
         Ok(Some((prim, State { label, bindings, constants, hidden, ..state.clone() })))
@@ -97,4 +99,10 @@ impl Walk<'_> {
         let id = |i: usize| ids.get(i).map_or(i as i64, |id| *id as i64);
         (0..count).filter(|i| hidden.contains(&id(*i))).collect()
     }
+}
+
+/// The label of one instance: what is said of the instancer, or of what holds the prototypes, is said of each.
+fn of_instance(label: FileLabel, instancer: Option<ObjectId>, instance: ObjectId) -> FileLabel {
+    let is_of_all = label.whole.is_some() && label.whole != instancer;
+    if is_of_all { label } else { FileLabel { whole: Some(instance), ..label } }
 }

@@ -1,7 +1,14 @@
-//! Labels: `semantics:labels:*` of UsdSemantics, and `semantic:*:params:semanticData` of Omniverse's SemanticsAPI.
+//! Labels: `semantics:labels:*` of UsdSemantics, `semantic:*:params:semanticData` of Omniverse's SemanticsAPI, and `customData.Category`,
+//! as Apple's RoomPlan writes it.
 
 use super::stage::Prim;
-use enfilade_scene::{NYU40, PartLabel};
+use super::value::Value;
+use crate::assembly::{FileLabel, class_named};
+use crate::collections::class_of;
+use enfilade_scene::ObjectId;
+
+/// Categories of RoomPlan that collections call otherwise.
+const ROOMPLAN: [(&str, i16); 1] = [("storage", 3)];
 
 /// Labels that name no class of NYU40: how many, and the first one with its prim.
 #[derive(Default)]
@@ -10,8 +17,28 @@ pub(super) struct Unknown {
     pub first: Option<(String, String)>,
 }
 
-/// The label that a prim's semantics give, where they are silent the inherited one.
-pub(super) fn at(prim: &Prim, inherited: PartLabel, unknown: &mut Unknown) -> PartLabel {
+/// The label that is given to a prim with all below it, which is `object`; where the prim is silent the inherited one.
+pub(super) fn at(prim: &Prim, object: Option<ObjectId>, inherited: FileLabel, unknown: &mut Unknown) -> FileLabel {
+    match class(prim, unknown) {
+        Some(semantic) => FileLabel { semantic, instance: None, whole: object },
+        None => inherited,
+    }
+}
+
+/// The class that a prim itself states.
+pub(super) fn class(prim: &Prim, unknown: &mut Unknown) -> Option<i16> {
+    let names = semantics(prim);
+    let category = category(prim);
+    let known = names.iter().find_map(|name| class_named(name)).or_else(|| category.as_deref().and_then(class_of_category));
+    if let (None, Some(name)) = (known, names.into_iter().next().or(category)) {
+        unknown.count += 1;
+        unknown.first.get_or_insert_with(|| (name, prim.path.clone()));
+    }
+    known
+}
+
+/// The texts of both schemas, in the order of properties.
+fn semantics(prim: &Prim) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for property in prim.properties() {
         let omniverse = property.starts_with("semantic:") && property.ends_with(":params:semanticData");
@@ -20,14 +47,17 @@ pub(super) fn at(prim: &Prim, inherited: PartLabel, unknown: &mut Unknown) -> Pa
         }
     }
     names.retain(|n| !n.is_empty());
-    let known = names.iter().find_map(|name| NYU40.iter().find(|c| c.name.eq_ignore_ascii_case(name)));
-    match (known, names.first()) {
-        (Some(class), _) => PartLabel { semantic: class.id, ..inherited },
-        (None, Some(name)) => {
-            unknown.count += 1;
-            unknown.first.get_or_insert_with(|| (name.clone(), prim.path.clone()));
-            inherited
-        }
-        (None, None) => inherited,
-    }
+    names
+}
+
+/// RoomPlan's category, without what it says of the thing besides: `Door(Isopen: False)` is a door.
+fn category(prim: &Prim) -> Option<String> {
+    let Some(Value::Dictionary(custom)) = prim.field("customData") else { return None };
+    let text = custom.get("Category")?.as_text()?;
+    let name = text.split('(').next().unwrap_or(text).trim();
+    (!name.is_empty()).then(|| name.to_string())
+}
+
+fn class_of_category(name: &str) -> Option<i16> {
+    class_of(name).or_else(|| ROOMPLAN.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, class)| *class))
 }

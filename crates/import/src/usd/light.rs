@@ -9,7 +9,7 @@ use super::shapes;
 use super::stage::{Prim, Stage};
 use super::texture::{Textures, rgb};
 use super::value::Value;
-use crate::assembly::{Assembly, orthonormal};
+use crate::assembly::{Assembly, FileLabel, orthonormal};
 use crate::blender::spot_inner_rad;
 use crate::images::Use;
 use crate::mesh::area;
@@ -17,7 +17,7 @@ use crate::spectrum::black_body;
 use crate::{ImportError, ies};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
-use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, ObjectId, PartLabel, SpotFalloff, TextureRef};
+use enfilade_scene::{ColorParam, Environment, Light, MapRows, Material, ObjectId, SpotFalloff, TextureRef};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ pub(super) struct Lamp<'l> {
     pub prim: &'l Prim,
     pub file_from_prim: DAffine3,
     pub object: ObjectId,
-    pub label: PartLabel,
+    pub label: FileLabel,
     pub baked: &'l mut HashMap<String, u32>,
     /// True where z is up in the file.
     pub z_up: bool,

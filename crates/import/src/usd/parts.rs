@@ -1,7 +1,8 @@
-//! Parts: the meshes of a gprim, one for each subset that binds a material, placed with their materials.
+//! Parts: the meshes of a gprim, one for each subset that binds a material or has a label, placed with their materials.
 
 use super::bind::{self, Bindings};
 use super::camera::name;
+use super::label;
 use super::layer::{child_path, field};
 use super::light;
 use super::polygons::Polygons;
@@ -10,7 +11,7 @@ use super::stage::Prim;
 use super::surface::uvs;
 use super::walk::{Piece, Shape, State, Walk};
 use crate::ImportError;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, FileLabel};
 use enfilade_geometry::Mesh;
 use enfilade_math::DVec3;
 use std::rc::Rc;
@@ -22,7 +23,10 @@ impl Walk<'_> {
             Some(known) => known.clone(),
             None => {
                 let mesh = pushed(DVec3::ZERO, mesh, prim, a)?;
-                let pieces = mesh.into_iter().map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default() }).collect();
+                let pieces = mesh
+                    .into_iter()
+                    .map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default(), semantic: None })
+                    .collect();
                 Shape { pieces, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
             }
         };
@@ -56,11 +60,11 @@ impl Walk<'_> {
         self.place(prim, &shape, state, a)
     }
 
-    /// The meshes of a prim: one for each subset that binds a material, and one for the remaining faces.
+    /// The meshes of a prim: one for each subset that binds a material or has a label, and one for the remaining faces.
     fn split(&mut self, prim: &Rc<Prim>, polygons: &Polygons, uv_name: &str, a: &mut Assembly) -> Result<Vec<Piece>, ImportError> {
         let sizes = polygons.sizes();
         let mut taken = vec![false; sizes.faces];
-        let mut parts: Vec<(String, Vec<usize>, Bindings)> = Vec::new();
+        let mut parts: Vec<(String, Vec<usize>, Bindings, Option<i16>)> = Vec::new();
         for name in prim.children() {
             let subset = self.stage.child(prim, &name, a)?;
             if subset.kind() != "GeomSubset" {
@@ -68,16 +72,17 @@ impl Walk<'_> {
             }
             let bindings = bind::at(&subset, &Bindings::default(), self.stage, a)?;
             let is_face = subset.text("elementType").unwrap_or("face") == "face";
-            if !bindings.is_empty() && is_face {
-                parts.push((name.to_string(), faces_of(&subset, &mut taken, a), bindings));
+            let semantic = label::class(&subset, &mut self.unknown_labels);
+            if (!bindings.is_empty() || semantic.is_some()) && is_face {
+                parts.push((name.to_string(), faces_of(&subset, &mut taken, a), bindings, semantic));
             }
         }
         let rest: Vec<usize> = (0..sizes.faces).filter(|f| !taken[*f]).collect();
         if !rest.is_empty() || parts.is_empty() {
-            parts.insert(0, (String::new(), rest, Bindings::default()));
+            parts.insert(0, (String::new(), rest, Bindings::default(), None));
         }
         let mut pieces = Vec::new();
-        for (name, faces, bindings) in parts {
+        for (name, faces, bindings, semantic) in parts {
             let wanted = match bindings.material(&child_path(&prim.path, &name)) {
                 Some(material) => self.materials.get(self.stage, material, false, a)?.map(|s| s.uv_name),
                 None => None,
@@ -85,7 +90,7 @@ impl Walk<'_> {
             let uvs = uvs(prim, wanted.as_deref().unwrap_or(uv_name), sizes, a);
             let mesh = polygons.mesh(faces.into_iter(), uvs.as_ref());
             if let Some(mesh) = pushed(polygons.origin, mesh, prim, a)? {
-                pieces.push(Piece { mesh, name, bindings });
+                pieces.push(Piece { mesh, name, bindings, semantic });
             }
         }
         Ok(pieces)
@@ -106,7 +111,8 @@ impl Walk<'_> {
             let suffix = if piece.name.is_empty() { String::new() } else { format!(".{}", piece.name) };
             let part = format!("{}{own}{suffix}", state.prefix);
             let object = state.object.unwrap_or_else(|| a.push_object(&own, None));
-            if let Some(part) = a.push_part_of(object, &part, piece.mesh, material, state.file_from_parent, state.label) {
+            let label = piece.semantic.map_or(state.label, |semantic| FileLabel::given(semantic, object));
+            if let Some(part) = a.push_part_of(object, &part, piece.mesh, material, state.file_from_parent, label) {
                 self.things.part(state.thing, object, part);
             }
         }

@@ -12,9 +12,9 @@ use super::stage::{Prim, Stage};
 use super::things::{Thing, Things};
 use super::xform;
 use crate::ImportError;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::DAffine3;
-use enfilade_scene::{ObjectId, PartLabel};
+use enfilade_scene::ObjectId;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -22,7 +22,7 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub(super) struct State {
     pub file_from_parent: DAffine3,
-    pub label: PartLabel,
+    pub label: FileLabel,
     pub bindings: Bindings,
     /// Constant primvars, which all prims below inherit.
     pub constants: Constants,
@@ -42,6 +42,8 @@ pub(super) struct Piece {
     pub mesh: u32,
     pub name: String,
     pub bindings: Bindings,
+    /// The class that the subset states.
+    pub semantic: Option<i16>,
 }
 
 /// What the meshes of a prim are made of.
@@ -64,7 +66,7 @@ pub(super) struct Walk<'s> {
     pub(super) pieces: HashMap<String, Shape>,
     pub(super) things: Things,
     visited: usize,
-    unknown_labels: Unknown,
+    pub(super) unknown_labels: Unknown,
     /// Of what was noted more than once: how often.
     hidden: usize,
     pub(super) cages: usize,
@@ -102,7 +104,7 @@ impl<'s> Walk<'s> {
         let root = self.stage.root();
         let state = State {
             file_from_parent: DAffine3::IDENTITY,
-            label: PartLabel::NONE,
+            label: FileLabel::NONE,
             bindings: Bindings::default(),
             constants: Constants::default(),
             hidden: false,
@@ -170,7 +172,7 @@ impl<'s> Walk<'s> {
         let (local, reset) = xform::local(prim, a);
         let state = State {
             file_from_parent: if reset { local } else { state.file_from_parent * local },
-            label: label::at(prim, state.label, &mut self.unknown_labels),
+            label: label::at(prim, Some(object), state.label, &mut self.unknown_labels),
             bindings: bind::at(prim, &state.bindings, self.stage, a)?,
             constants: state.constants.below(prim),
             hidden,

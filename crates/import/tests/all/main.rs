@@ -23,6 +23,7 @@ mod mitsuba_materials;
 mod mitsuba_pictures;
 mod mitsuba_references;
 mod obj;
+mod objects;
 mod pbrt;
 mod pbrt_numbers;
 mod pbrt_rooms;

@@ -6,7 +6,7 @@ use enfilade_explore::LampPlace;
 use enfilade_geometry::Mesh;
 use enfilade_import::ImportedLabel;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Material, Part, PartLabel, Scene};
+use enfilade_scene::{Material, Object, Part, PartLabel, Scene};
 use std::f64::consts::PI;
 
 /// Light of a lamp for every square metre of ceiling, kilo-lumens: some 120 lux on the floor of a light room.
@@ -57,16 +57,12 @@ fn add(scene: &mut Scene, number: usize, lamp: &LampPlace, frame: u32) {
     let world_from_mesh = DAffine3::from_translation(lamp.top.as_dvec3() - DVec3::Z * f64::from(BELOW_M));
     let panel = push(&mut scene.meshes, panel(side_m));
     let rest = push(&mut scene.meshes, housing(lamp.side_m));
-    scene.parts.push(Part {
-        name: unused(scene, &format!("ceiling_lamp_{number}")),
-        object: None,
-        mesh: panel,
-        material: light,
-        world_from_mesh,
-    });
+    let name = unused(scene, &format!("ceiling_lamp_{number}"));
+    let object = Some(push(&mut scene.objects, Object { name: name.clone(), parent: None }));
+    scene.parts.push(Part { name, object, mesh: panel, material: light, world_from_mesh });
     scene.parts.push(Part {
         name: unused(scene, &format!("ceiling_lamp_{number}_frame")),
-        object: None,
+        object,
         mesh: rest,
         material: frame,
         world_from_mesh,

@@ -70,6 +70,7 @@ pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) 
     remarks.extend(panes::lost(&imported.scene));
     remarks.extend(remarks::of_light(&imported.scene));
     remarks.extend(enclosed::lamps(&imported.scene, &look));
+    remarks.extend(remarks::of_labels(imported));
     for message in remarks {
         let warning = Warning { place: source.file.clone(), message };
         cx.warn(warning.clone());

@@ -3,8 +3,10 @@
 use super::seen::Look;
 use super::suspect::{self, Sizes, UNITS};
 use crate::config::FileSource;
+use crate::stages::labels_by_part;
 use enfilade_dataset::counted;
 use enfilade_import::Imported;
+use enfilade_label::doubts;
 use enfilade_scene::{PartId, Scene};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -37,6 +39,12 @@ pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look)
     };
     let found = [suspicions.axes, unit, open_floor(look), doubled(source, scene, look), overlapping(scene, look), backs(scene, look)];
     found.into_iter().flatten().chain(without_area(scene, look)).collect()
+}
+
+/// What is doubtful about the instances that the file itself tells.
+pub(super) fn of_labels(imported: &Imported) -> Vec<String> {
+    let Some(labels) = &imported.labels else { return Vec::new() };
+    doubts(&imported.scene, &labels_by_part(&imported.scene, labels)).remarks(&imported.scene)
 }
 
 /// Says so when nothing shines.

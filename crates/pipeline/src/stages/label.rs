@@ -6,7 +6,7 @@ use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, counted, mesh_names, quoted, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_label::{LabelReport, LabelTable, SplitParts, join};
+use enfilade_label::{LabelReport, LabelTable, SplitParts, doubts, join};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -172,6 +172,9 @@ fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Err
 pub(crate) fn assign_table(path: &Path, name: &str, scene: &Scene, cx: &dyn Cx) -> Result<(Labels, LabelReport), Error> {
     let (labels, report) = read_table(path)?.assign(name, scene);
     warn_about(&report, &path.display().to_string(), name, cx);
+    for message in doubts(scene, &labels).remarks(scene) {
+        cx.warn(Warning { place: path.display().to_string(), message });
+    }
     Ok((labels, report))
 }
 

@@ -19,6 +19,7 @@ use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::depth::{DEPTH, millimetres, planar_m};
 use crate::export_folder::ExportFolder;
+use crate::instances::{are_labelled, warn_of_none};
 use crate::mesh::missing_mesh_file;
 use crate::picture::{SHOWN, color_jpeg, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
@@ -48,6 +49,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     let raw = raw_numbers(selected)?;
     selected.each(|view| write_frame(selected, out, view, &raw[&view.track.scene]))?;
     selected.scenes().try_for_each(|tracks| write_mesh(selected, out, tracks))?;
+    warn_of_none(selected, are_labelled(selected)?)?;
     classes::write_table(selected, out)?;
     lists::write(selected, out)
 }

@@ -118,7 +118,14 @@ impl<'s> Placer<'s> {
                 Some(class) => self.objects.of_class(class, &piece.name).place(std::slice::from_ref(piece), placement, a),
                 None => {
                     let object = piece.object.unwrap_or_else(|| a.push_object(&piece.name, None));
-                    a.push_part_of(object, &piece.name, piece.mesh, piece.material, placement * piece.model_from_mesh, piece.label);
+                    a.push_part_of(
+                        object,
+                        &piece.name,
+                        piece.mesh,
+                        piece.material,
+                        placement * piece.model_from_mesh,
+                        piece.label_in(object),
+                    );
                 }
             }
         }

@@ -1,0 +1,76 @@
+//! Labels that the scene file gives: classes as it states them, and instances, which it may leave to us.
+
+use super::Assembly;
+use crate::ImportedLabel;
+use enfilade_scene::{NYU40, ObjectId, PartLabel, is_stuff};
+use std::collections::{BTreeSet, HashMap};
+
+/// What a scene file says that a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FileLabel {
+    /// NYU40 class, 1 to 40, or −1.
+    pub semantic: i16,
+    /// Number from 1, or −1 for none; `None` where the file does not say.
+    pub instance: Option<i16>,
+    /// What the label was given to: all of it is one instance where the file states no number.
+    pub whole: Option<ObjectId>,
+}
+
+impl FileLabel {
+    /// No class and no instance.
+    pub(crate) const NONE: Self = Self { semantic: -1, instance: None, whole: None };
+
+    /// A class that is given to a node or prim with all below it.
+    pub(crate) fn given(semantic: i16, whole: ObjectId) -> Self {
+        Self { semantic, instance: None, whole: Some(whole) }
+    }
+}
+
+impl From<PartLabel> for FileLabel {
+    /// Class and instance as they are stated, with an instance of −1 for none.
+    fn from(label: PartLabel) -> Self {
+        Self { semantic: label.semantic, instance: Some(label.instance), whole: None }
+    }
+}
+
+/// The class of NYU40 of this name, however it is written: `night_stand` and `Nightstand` are one.
+pub(crate) fn class_named(name: &str) -> Option<i16> {
+    let letters: String = name.chars().filter(char::is_ascii_alphabetic).map(|c| c.to_ascii_lowercase()).collect();
+    let letters = if letters == "refridgerator" { "refrigerator" } else { &letters }; // the spelling of NYU's own list
+    NYU40.iter().find(|class| class.name == letters).map(|class| class.id)
+}
+
+impl Assembly<'_> {
+    /// The labels of all parts that have one, in their order. Those without a number get the first that the file does not state; it is
+    /// shared by the parts of one class within what the label was given to. Wall, floor and ceiling are not counted.
+    pub(super) fn numbered_labels(&self) -> Vec<ImportedLabel> {
+        let stated: BTreeSet<i16> = self.file_labels.iter().filter_map(|(_, label)| label.instance).collect();
+        let mut free = (1..=i16::MAX).filter(|number| !stated.contains(number));
+        let mut known: HashMap<(u32, i16), i16> = HashMap::new();
+        let number = |(part, label): &(u32, FileLabel)| {
+            let FileLabel { semantic, instance, whole } = *label;
+            let instance = match instance {
+                Some(stated) => stated,
+                None if semantic == -1 || is_stuff(semantic) => -1,
+                None => {
+                    let whole = whole.unwrap_or_else(|| self.scene.object_of(*part));
+                    *known.entry((whole, semantic)).or_insert_with(|| free.next().unwrap_or(-1))
+                }
+            };
+            ImportedLabel { part: *part, label: PartLabel { semantic, instance } }
+        };
+        self.file_labels.iter().map(number).filter(|found| found.label != PartLabel::NONE).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_are_known_however_their_names_are_written() {
+        for (name, class) in [("chair", Some(5)), ("Night stand", Some(32)), ("shower_curtain", Some(28)), ("couch", None), ("", None)] {
+            assert_eq!(class_named(name), class, "{name}");
+        }
+    }
+}
