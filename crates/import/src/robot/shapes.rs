@@ -114,7 +114,7 @@ impl Shapes {
             let is_plain = a.material_at(piece.material).name == PLAIN;
             let material = if is_plain && look.is_some() { self.material(look, a)? } else { piece.material };
             let part = if several { format!("{name}.{}", piece.name) } else { name.to_string() };
-            a.push_part_of(object, &part, piece.mesh, material, file_from_model * piece.model_from_mesh, piece.label);
+            a.push_part_of(object, &part, piece.mesh, material, file_from_model * piece.model_from_mesh, piece.label_in(object));
         }
         Ok(())
     }
