@@ -309,7 +309,7 @@ pub fn border(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Border> {
 
 /// The smooth border of a body of the index `ior` that is `part` of what is there.
 fn smooth_border(ior: f32, alpha: f32, part: f32, tint: impl FnOnce() -> Rgb, at: &Inputs<'_>) -> Option<Border> {
-    let Lobe::Refraction { facets, eta, .. } = glass(ior, alpha, Rgb::WHITE, at) else { return None };
+    let Lobe::Refraction { facets, eta, .. } = glass(ior, alpha, Distribution::Ggx, Rgb::WHITE, at) else { return None };
     if !facets.smooth() {
         return None;
     }
