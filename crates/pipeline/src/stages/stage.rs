@@ -51,7 +51,7 @@ impl Stage {
             Self::Denoise => 3,
             Self::Label => 3,
             Self::Boxes => 1,
-            Self::Preview => 5,
+            Self::Preview => 6,
             Self::Verify => 11,
         }
     }
