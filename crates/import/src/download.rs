@@ -5,7 +5,7 @@
 
 use crate::archive::Archive;
 use crate::assembly::Assembly;
-use crate::{Format, ImportError, Imported, load, sweethome};
+use crate::{Format, ImportError, Imported, sweethome};
 use std::path::{Path, PathBuf};
 
 /// Folders within folders that are looked into, and as many files are listed: a scene lies near the top.
@@ -21,8 +21,11 @@ const SCENES: [Format; 9] =
 /// Formats of meshes: where there is a scene, these are parts of it.
 const MESHES: [Format; 3] = [Format::Obj, Format::Ply, Format::Stl];
 
-/// Imports the scene of a ZIP archive.
-pub(crate) fn load_zip(mut assembly: Assembly) -> Result<Imported, ImportError> {
+/// Imports the scene of a ZIP archive; `by_format` imports what is chosen of it.
+pub(crate) fn load_zip(
+    mut assembly: Assembly,
+    by_format: impl FnOnce(Format, Assembly) -> Result<Imported, ImportError>,
+) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     let bytes = assembly.read_scene_file()?;
     let mut archive =
@@ -38,9 +41,9 @@ pub(crate) fn load_zip(mut assembly: Assembly) -> Result<Imported, ImportError> 
     }
     let chosen = chosen.map_err(|unclear| assembly.malformed("archive", unclear.message("unpack it and give the scene file")))?;
     let warned = chosen.remark();
-    let mut inside = assembly.inside(chosen.format, load::up_axis_of(chosen.format), &archive, &chosen.name);
+    let mut inside = assembly.inside(chosen.format, chosen.format.up_axis(), &archive, &chosen.name);
     warned.into_iter().for_each(|remark| inside.warn("archive", remark));
-    load::by_format(chosen.format, inside)
+    by_format(chosen.format, inside)
 }
 
 /// The file to import of a folder that has one scene file, with a remark where there was a choice; `None` where it has none.

@@ -1,6 +1,6 @@
 //! The scene formats and their file name extensions: the one table of them.
 
-use crate::ImportError;
+use crate::{ImportError, UpAxis};
 use std::path::Path;
 
 /// The scene formats that can be imported, one per module.
@@ -115,6 +115,11 @@ impl Format {
             Self::Collection => "a scene of a collection",
             Self::Package => "a scene package",
         }
+    }
+
+    /// The upward axis where a scene of the format states none.
+    pub(crate) const fn up_axis(self) -> UpAxis {
+        if matches!(self, Self::Stl | Self::Urdf | Self::Sdf) { UpAxis::Z } else { UpAxis::Y }
     }
 
     /// All extensions as they stand in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).

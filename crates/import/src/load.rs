@@ -1,7 +1,7 @@
 //! From the path of a scene file to the importer of its format.
 
 use crate::assembly::Assembly;
-use crate::{Format, ImportError, ImportOptions, Imported, UpAxis};
+use crate::{Format, ImportError, ImportOptions, Imported};
 use crate::{collada, collections, disguise, download, fbx, gltf, mitsuba, obj, package, pbrt, ply, robot, stl, sweethome, usd, vray};
 use enfilade_scene::Cx;
 use std::path::{Path, PathBuf};
@@ -16,13 +16,14 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     options.validate()?;
     if path.is_dir() && Format::of(path).is_err() {
         let (file, remark) = in_folder(path)?.ok_or_else(|| collections::no_scene_in_folder(path))?;
-        let mut assembly = Assembly::new(Format::of(&file)?, &file, up_axis_of(Format::of(&file)?), options, cx);
+        let format = Format::of(&file)?;
+        let mut assembly = Assembly::new(format, &file, format.up_axis(), options, cx);
         remark.into_iter().for_each(|remark| assembly.warn("folder", remark));
-        return by_format(Format::of(&file)?, assembly);
+        return by_format(format, assembly);
     }
     let format = Format::of(path)?;
     disguise::refuse(path, format)?;
-    by_format(format, Assembly::new(format, path, up_axis_of(format), options, cx))
+    by_format(format, Assembly::new(format, path, format.up_axis(), options, cx))
 }
 
 /// The file that [`load`] imports of a folder; `None` where it holds no scene.
@@ -41,13 +42,8 @@ fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<String>)>, ImportE
     download::scene_in_folder(folder)
 }
 
-/// The upward axis of a format that states none.
-pub(crate) fn up_axis_of(format: Format) -> UpAxis {
-    if matches!(format, Format::Stl | Format::Urdf | Format::Sdf) { UpAxis::Z } else { UpAxis::Y }
-}
-
 /// Imports by the importer of a format.
-pub(crate) fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
+fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
     match format {
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
@@ -61,7 +57,7 @@ pub(crate) fn by_format(format: Format, assembly: Assembly) -> Result<Imported, 
         Format::Stl => stl::load(assembly),
         Format::Urdf => robot::load_urdf(assembly),
         Format::Sdf => robot::load_sdf(assembly),
-        Format::Zip => download::load_zip(assembly),
+        Format::Zip => download::load_zip(assembly, by_format),
         Format::SweetHome => sweethome::load(assembly),
         Format::Collection => collections::load(assembly),
         Format::Package => package::load(assembly),

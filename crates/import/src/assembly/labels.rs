@@ -1,9 +1,6 @@
 //! Labels that the scene file gives: classes as it states them, and instances, which it may leave to us.
 
-use super::Assembly;
-use crate::ImportedLabel;
-use enfilade_scene::{NYU40, ObjectId, PartLabel, is_stuff};
-use std::collections::{BTreeSet, HashMap};
+use enfilade_scene::{NYU40, ObjectId, PartLabel};
 
 /// What a scene file says that a part is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,29 +35,6 @@ pub(crate) fn class_named(name: &str) -> Option<i16> {
     let letters: String = name.chars().filter(char::is_ascii_alphabetic).map(|c| c.to_ascii_lowercase()).collect();
     let letters = if letters == "refridgerator" { "refrigerator" } else { &letters }; // the spelling of NYU's own list
     NYU40.iter().find(|class| class.name == letters).map(|class| class.id)
-}
-
-impl Assembly<'_> {
-    /// The labels of all parts that have one, in their order. Those without a number get the first that the file does not state; it is
-    /// shared by the parts of one class within what the label was given to. Wall, floor and ceiling are not counted.
-    pub(super) fn numbered_labels(&self) -> Vec<ImportedLabel> {
-        let stated: BTreeSet<i16> = self.file_labels.iter().filter_map(|(_, label)| label.instance).collect();
-        let mut free = (1..=i16::MAX).filter(|number| !stated.contains(number));
-        let mut known: HashMap<(u32, i16), i16> = HashMap::new();
-        let number = |(part, label): &(u32, FileLabel)| {
-            let FileLabel { semantic, instance, whole } = *label;
-            let instance = match instance {
-                Some(stated) => stated,
-                None if semantic == -1 || is_stuff(semantic) => -1,
-                None => {
-                    let whole = whole.unwrap_or_else(|| self.scene.object_of(*part));
-                    *known.entry((whole, semantic)).or_insert_with(|| free.next().unwrap_or(-1))
-                }
-            };
-            ImportedLabel { part: *part, label: PartLabel { semantic, instance } }
-        };
-        self.file_labels.iter().map(number).filter(|found| found.label != PartLabel::NONE).collect()
-    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod flat;
 mod labels;
 mod light;
 mod names;
+mod numbered;
 mod survey;
 
 pub(crate) use adopt::Piece;

@@ -1,11 +1,13 @@
 //! The buffers of a glTF file: what it has, and what unpacking adds.
 
-use super::container::PADDING;
 use super::meshopt::packed::{extension_of, packed_buffer};
 use super::uri::{Uri, resolve_uri};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use gltf::json::{Root, buffer};
+
+/// Bytes that fill chunks and buffers up to a multiple of four; some programs count them and do not write them.
+pub(super) const PADDING: u64 = 3;
 
 /// Bytes of all buffers.
 pub(super) struct Buffers(Vec<Vec<u8>>);

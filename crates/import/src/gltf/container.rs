@@ -1,7 +1,7 @@
 //! The outer layer of a glTF file: text or binary, and what lies in its buffers.
 
 use super::budget::Budget;
-use super::buffers::Buffers;
+use super::buffers::{Buffers, PADDING};
 use super::uri::{Uri, resolve_uri};
 use super::{draco, far, lumens, meshopt, omissions, unrendered};
 use crate::ImportError;
@@ -42,9 +42,6 @@ const SUPPORTED: [&str; 22] = [
 pub(super) fn is_supported(extension: &str) -> bool {
     SUPPORTED.contains(&extension) || unrendered::is_told(extension)
 }
-
-/// Bytes that fill chunks and buffers up to a multiple of four; some programs count them and do not write them.
-pub(super) const PADDING: u64 = 3;
 
 /// True for an extension without which everything stands where it should: of looks, metadata, sound, behaviour and animation. It is told
 /// as others are that are used and not read.

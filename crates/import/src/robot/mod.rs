@@ -12,13 +12,13 @@
 //!
 //! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
 
+mod elements;
 mod sdf;
 mod shapes;
 mod urdf;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported, UpAxis};
-use enfilade_math::{DAffine3, DMat3, DVec3};
 use roxmltree::{Document, Node};
 
 /// Imports a URDF file.
@@ -50,23 +50,4 @@ fn load(
     let mut shapes = shapes::Shapes::of(a.file());
     place(root, &mut shapes, &mut a)?;
     a.finish()
-}
-
-/// The first element of a name within another.
-fn child<'a, 'd>(node: Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>> {
-    children(node, tag).next()
-}
-
-fn children<'a, 'd, 't>(node: Node<'a, 'd>, tag: &'t str) -> impl Iterator<Item = Node<'a, 'd>> + use<'a, 'd, 't> {
-    node.children().filter(move |n| n.is_element() && n.tag_name().name() == tag)
-}
-
-fn name_of<'d>(node: Node<'d, '_>) -> &'d str {
-    node.attribute("name").map(str::trim).unwrap_or_default()
-}
-
-/// A placement of a translation and angles about the fixed axes x, y, z.
-fn pose(translation: DVec3, angles_rad: DVec3) -> DAffine3 {
-    let turn = DMat3::from_rotation_z(angles_rad.z) * DMat3::from_rotation_y(angles_rad.y) * DMat3::from_rotation_x(angles_rad.x);
-    DAffine3::from_mat3_translation(turn, translation)
 }

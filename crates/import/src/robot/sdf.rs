@@ -1,7 +1,7 @@
 //! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links stand where their poses say.
 
+use super::elements::{child, children, name_of, pose};
 use super::shapes::{Look, Shape, Shapes, find};
-use super::{child, children, name_of, pose};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::collections::vectors::numbers;

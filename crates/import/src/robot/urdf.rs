@@ -1,7 +1,7 @@
 //! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that say where they stand.
 
+use super::elements::{child, children, name_of, pose};
 use super::shapes::{Look, Shape, Shapes};
-use super::{child, children, name_of, pose};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::collections::vectors::numbers;
