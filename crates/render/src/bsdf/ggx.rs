@@ -3,7 +3,7 @@
 //! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
 //! above the surface (z > 0) unless said otherwise.
 
-use super::beckmann;
+use super::{beckmann, fresnel};
 use enfilade_math::{Vec3, angle, warp};
 use enfilade_scene::Distribution;
 
@@ -188,6 +188,29 @@ pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
 #[inline]
 pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
     m * (wo.dot(m) / eta - cos_t) - wo / eta
+}
+
+/// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the
+/// Jacobian from the solid angle of the normal to that of `wi`. `None` when no facet does.
+#[inline]
+pub fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f32)> {
+    if wi.z > 0.0 {
+        let m = (wo + wi).normalize();
+        let cos = wo.dot(m);
+        return Some((m, fresnel::dielectric(cos.clamp(0.0, 1.0), eta).0, 1.0 / (4.0 * cos)));
+    }
+    let m = (wo + wi * eta).try_normalize()?;
+    let m = if m.z < 0.0 { -m } else { m };
+    let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
+    if cos_o <= 0.0 || cos_i >= 0.0 {
+        return None;
+    }
+    let (f, cos_t) = fresnel::dielectric(cos_o.min(1.0), eta);
+    if cos_t == 0.0 {
+        return None;
+    }
+    let denominator = cos_o + eta * cos_i;
+    Some((m, f, eta * eta * cos_i.abs() / (denominator * denominator)))
 }
 
 #[cfg(test)]

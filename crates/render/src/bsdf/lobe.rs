@@ -266,7 +266,7 @@ fn refraction(facets: &Facets, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Valu
     if facets.smooth() || wi.z == 0.0 {
         return NOTHING;
     }
-    let Some((m, f, jacobian)) = refraction_half_vector(wo, wi, eta) else { return NOTHING };
+    let Some((m, f, jacobian)) = ggx::refraction_half_vector(wo, wi, eta) else { return NOTHING };
     let common = |d: f32| d * jacobian * wo.dot(m).max(0.0) / wo.z;
     let sampled = common(ggx::d(m, facets.alpha));
     let value = facets.masking(wo, wi) * if facets.is_ggx() { sampled } else { common(facets.d(m)) };
@@ -277,27 +277,4 @@ fn refraction(facets: &Facets, eta: f32, tint: Rgb, wo: Vec3, wi: Vec3) -> (Valu
         // Radiance is compressed by eta² on entering the denser side.
         (specular(tint * ((1.0 - f) * value / (eta * eta))), (1.0 - f) * density)
     }
-}
-
-/// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the
-/// Jacobian from the solid angle of the normal to that of `wi`. `None` when no facet does.
-#[inline]
-pub(super) fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f32)> {
-    if wi.z > 0.0 {
-        let m = (wo + wi).normalize();
-        let cos = wo.dot(m);
-        return Some((m, fresnel::dielectric(cos.clamp(0.0, 1.0), eta).0, 1.0 / (4.0 * cos)));
-    }
-    let m = (wo + wi * eta).try_normalize()?;
-    let m = if m.z < 0.0 { -m } else { m };
-    let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
-    if cos_o <= 0.0 || cos_i >= 0.0 {
-        return None;
-    }
-    let (f, cos_t) = fresnel::dielectric(cos_o.min(1.0), eta);
-    if cos_t == 0.0 {
-        return None;
-    }
-    let denominator = cos_o + eta * cos_i;
-    Some((m, f, eta * eta * cos_i.abs() / (denominator * denominator)))
 }

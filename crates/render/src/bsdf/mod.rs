@@ -12,9 +12,11 @@ mod beckmann;
 pub mod coat;
 mod coated;
 mod disney;
+mod disney_model;
 mod energy;
 pub mod fresnel;
 pub mod ggx;
+mod inputs;
 mod layers;
 mod lobe;
 mod mixture;
@@ -24,9 +26,10 @@ mod sample;
 mod sheen;
 mod tables;
 
+pub use inputs::Inputs;
 pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
-pub use resolve::{Border, Inputs, border, straight_transmittance};
+pub use resolve::{Border, border, straight_transmittance};
 pub use sample::{Event, Sample, Value};
 pub use tables::{TableMaker, Tables};
 

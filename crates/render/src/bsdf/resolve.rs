@@ -6,47 +6,10 @@ use super::layers::CLEARCOAT_ETA;
 use super::mixture::Mixture;
 use super::rough_diffuse::RoughDiffuse;
 use super::sheen::Sheen;
-use super::{Bsdf, Fresnel, Layers, Lobe, Model, Tables, disney, energy, fresnel, thin_reflectance};
-use crate::texture::{Footprint, Textures};
-use enfilade_math::{Rgb, Vec2};
-use enfilade_scene::{self as scene, ColorParam, Distribution, Principled, ScalarParam};
-
-/// What is needed to read a material at a point.
-#[derive(Clone, Copy)]
-pub struct Inputs<'a> {
-    /// The scene's pictures.
-    pub textures: &'a Textures<'a>,
-    /// Texture coordinates of the point.
-    pub uv: Vec2,
-    /// How much of a texture counts.
-    pub footprint: Footprint,
-    /// The material's tables.
-    pub tables: &'a Tables,
-    /// Cosine of the viewing direction, > 0.
-    pub cos_o: f32,
-    /// True when `wo` is on the side that outward normals point to.
-    pub outside: bool,
-}
-
-impl Inputs<'_> {
-    /// A colour parameter here, on [0,1].
-    #[inline]
-    pub(super) fn reflectance(&self, p: &ColorParam) -> Rgb {
-        self.textures.color(p, self.uv, &self.footprint).map(|v| v.clamp(0.0, 1.0))
-    }
-
-    /// A scalar parameter here.
-    #[inline]
-    pub(super) fn scalar(&self, p: &ScalarParam) -> f32 {
-        self.textures.scalar(p, self.uv, &self.footprint)
-    }
-
-    /// A scalar parameter here, on [0,1].
-    #[inline]
-    pub(super) fn unit_scalar(&self, p: &ScalarParam) -> f32 {
-        self.scalar(p).clamp(0.0, 1.0)
-    }
-}
+use super::{Bsdf, Fresnel, Inputs, Layers, Lobe, Model, disney_model, energy, fresnel, thin_reflectance};
+use crate::texture::Footprint;
+use enfilade_math::Rgb;
+use enfilade_scene::{self as scene, Distribution, Principled};
 
 impl<'a> Bsdf<'a> {
     /// The scattering of `bsdf` at a point.
@@ -79,7 +42,7 @@ impl<'a> Bsdf<'a> {
                 coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear, 1.0)
             }
             scene::Bsdf::Principled(p) => principled(p, at),
-            scene::Bsdf::Disney(p) => disney::disney(p, at),
+            scene::Bsdf::Disney(p) => disney_model::disney(p, at),
             scene::Bsdf::Blend { first, second, weight } => blend([first, second], at.unit_scalar(weight), at),
         }
     }
@@ -254,7 +217,7 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
             let pane = at.reflectance(&p.base_color) * (1.0 - thin_reflectance(at.cos_o, p.ior));
             Some(pane * (clear * layers.passes(at.cos_o, at.cos_o)))
         }
-        scene::Bsdf::Disney(p) if p.is_pane() => Some(disney::straight_transmittance(p, at)),
+        scene::Bsdf::Disney(p) if p.is_pane() => Some(disney_model::straight_transmittance(p, at)),
         scene::Bsdf::Blend { first, second, weight } => {
             let (first, second) = (straight_transmittance(first, at), straight_transmittance(second, at));
             if first.is_none() && second.is_none() {
