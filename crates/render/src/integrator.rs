@@ -124,7 +124,7 @@ impl<'a, 's> Integrator<'a, 's> {
         let throughput = throughput * segment.medium.transmittance(hit.t);
         let emission = surface.emission(self.scene);
         if !emission.is_black() {
-            let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.from_sampled(surface.p), &hit, surface.p);
+            let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.direction_to(surface.p), &hit, surface.p);
             radiance.add(self.origin_of_surface(&surface), throughput * emission * weight, direct);
         }
         Some((surface, throughput))

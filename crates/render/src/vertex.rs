@@ -152,7 +152,7 @@ impl Segment {
 
     /// The unit direction from where it was sampled to the place `p` at its end: its own, but for the shift by solid panes.
     #[inline]
-    pub fn from_sampled(&self, p: Vec3) -> Vec3 {
+    pub fn direction_to(&self, p: Vec3) -> Vec3 {
         match &self.sampled {
             Some((from, _)) if self.shifted => (p - from.p).normalize_or(self.ray.direction),
             _ => self.ray.direction,

@@ -264,6 +264,9 @@ fn plastic_has_the_values_of_mitsuba() {
     }
 }
 
+/// Values of a material for four pairs of directions.
+type FourValues = [f32; 4];
+
 /// Mitsuba 3.9.1, `eval` of `roughplastic` (linear and not) of index 1.5 over 0.7, of `roughconductor` of 0.4 + 2.4i, and of
 /// `roughdielectric` of index 1.5, all with `beckmann`.
 #[test]
@@ -274,7 +277,7 @@ fn beckmanns_facets_have_the_values_of_mitsuba() {
     };
     let above = [(1.0, 0.9, 2.0, 1.0), (0.6, 0.5, 2.5, 1.0), (0.3, 0.4, 3.0, 1.0), (0.8, 0.7, 0.5, 1.0)];
     let both = [(1.0, 0.9, 2.0, -1.0), (0.6, 0.8, 3.0, -1.0), (0.8, 0.7, 2.9, 1.0), (0.8, 0.9, 3.1, -1.0)];
-    let cases: [(f32, [[f32; 4]; 3], [[f32; 4]; 2]); 3] = [
+    let cases: [(f32, [FourValues; 3], [FourValues; 2]); 3] = [
         (
             0.1,
             [[0.19765, 0.100_344, 0.161_788, 0.149_916], [0.140_127, 0.070_868, 0.142_695, 0.105_878], [0.0362, 0.0, 0.489_307, 0.0]],
