@@ -4,7 +4,8 @@
 use crate::ExportError;
 use crate::calibration::Calibration;
 use crate::depth::DEPTH;
-use crate::formats::{points, scannet};
+use crate::formats::points::{self, SurfacePoint};
+use crate::formats::scannet;
 use crate::mesh::{SurfaceMesh, missing_mesh_file, object_meshes};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::Layer;
@@ -29,15 +30,6 @@ pub enum CloudSource {
     Frames,
     /// The scene's mesh: all surfaces, those that no frame shows too, two centimetres apart. Colours are those of the frames, or grey.
     Mesh,
-}
-
-/// A point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SurfacePoint {
-    /// World, metres.
-    pub position: DVec3,
-    /// As displayed, sRGB.
-    pub color: [u8; 3],
 }
 
 /// The points that the frames of a scene show.

@@ -6,10 +6,10 @@
 use crate::assets;
 use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
 use crate::error::Error;
-use crate::intake::{self, Look};
+use crate::intake::{self, Look, labels_by_part};
 use crate::look::{named_camera, place};
 use crate::single::write_output;
-use crate::stages::{FrameCx, add_extra, assign_table, describe, labels_by_part};
+use crate::stages::{FrameCx, add_extra, assign_table, describe};
 use enfilade_dataset::ColorKind;
 use enfilade_denoise::{Denoiser, denoise};
 use enfilade_frame::{DENOISED, Frame, Layer, Values};

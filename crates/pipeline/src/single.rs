@@ -3,8 +3,8 @@
 use crate::assets;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::intake::{self, Held, load_file, settle};
-use crate::stages::{describe, labels_by_part};
+use crate::intake::{self, Held, labels_by_part, load_file, settle};
+use crate::stages::describe;
 use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{scene_in_folder, scene_name};

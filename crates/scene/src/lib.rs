@@ -11,6 +11,7 @@ mod environment;
 mod git_lfs;
 mod labels;
 mod light;
+mod lineage;
 mod material;
 mod motion;
 mod nesting;

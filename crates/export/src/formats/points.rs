@@ -7,7 +7,6 @@ use crate::ExportError;
 use crate::depth::distance_m;
 use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, tone_mapped};
-use crate::room_cloud::SurfacePoint;
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
@@ -18,6 +17,15 @@ const CUBE_M: f64 = 0.01;
 
 /// Frames that are read before they are fused: what bounds the memory.
 const AT_ONCE: usize = 16;
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfacePoint {
+    /// World, metres.
+    pub position: DVec3,
+    /// As displayed, sRGB.
+    pub color: [u8; 3],
+}
 
 /// What a cube holds.
 struct Fused {

@@ -6,6 +6,7 @@
 mod doubled;
 mod enclosed;
 mod held;
+mod labels;
 mod lamps;
 mod panes;
 mod remarks;
@@ -13,6 +14,7 @@ mod seen;
 mod suspect;
 
 pub(crate) use held::Held;
+pub(crate) use labels::labels_by_part;
 pub(crate) use remarks::has_light;
 pub(crate) use seen::Look;
 

@@ -1,9 +1,9 @@
 //! What a look at a scene finds, in sentences that name the key that mends it.
 
+use super::labels::labels_by_part;
 use super::seen::Look;
 use super::suspect::{self, Sizes, UNITS};
 use crate::config::FileSource;
-use crate::stages::labels_by_part;
 use enfilade_dataset::counted;
 use enfilade_import::Imported;
 use enfilade_label::doubts;

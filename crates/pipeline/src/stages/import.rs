@@ -4,13 +4,13 @@ use super::{Input, Inputs, Job, Outcome, Record};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
-use crate::intake;
+use crate::intake::{self, labels_by_part};
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
-use enfilade_import::{EnvironmentOverride, ImportedLabel, scene_in_folder};
-use enfilade_scene::{Labels, PACKAGE_HEAD_BYTES, PartLabel, Scene, WorldMesh, is_current_package};
+use enfilade_import::{EnvironmentOverride, scene_in_folder};
+use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
 use enfilade_show::planview::structure_svg;
 use std::fs::File;
 use std::io::Read;
@@ -176,14 +176,6 @@ impl Watch {
         };
         paths.iter().map(input).collect()
     }
-}
-
-pub(crate) fn labels_by_part(scene: &Scene, labels: &[ImportedLabel]) -> Labels {
-    let mut parts = vec![PartLabel::NONE; scene.parts.len()];
-    for label in labels {
-        parts[label.part as usize] = label.label;
-    }
-    Labels { parts }
 }
 
 /// One line about a scene.

@@ -41,7 +41,7 @@ pub use stage::Stage;
 pub(crate) use advance::{advance, is_up_to_date};
 pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
-pub(crate) use import::{describe, labels_by_part};
+pub(crate) use import::describe;
 pub(crate) use job::{FramesByTrajectory, Job, World};
 pub(crate) use label::{assign_table, read_table};
 pub(crate) use pilot::pilot;

@@ -1,7 +1,7 @@
 //! What a point cloud shows of a building. SpatialLM counts all coordinates of a layout from the least ones of its cloud, and what lies below
 //! them moves there: walls that no point is near to are wrong when they are learned.
 
-use crate::room_cloud::SurfacePoint;
+use crate::formats::points::SurfacePoint;
 use enfilade_math::{DVec2, OrientedBox};
 use enfilade_scene::{Structure, StructureRoom, WallFace};
 
