@@ -7,7 +7,7 @@ use enfilade_scene::{Labels, PartId, Scene, is_stuff};
 use std::collections::BTreeMap;
 
 /// Parts of one instance that are farther apart than this, with nothing between, are hardly one thing, metres.
-const APART_M: f32 = 0.5;
+const APART_M: f32 = 0.8;
 /// Parts that are nearer to each other than this touch, metres.
 const TOUCHING_M: f32 = 0.01;
 /// Instances of more parts than this are not looked at: their pairs would take long.
