@@ -37,17 +37,22 @@ pub(super) fn class(prim: &Prim, unknown: &mut Unknown) -> Option<i16> {
     known
 }
 
-/// The texts of both schemas, in the order of properties.
+/// The texts of both schemas: of the stronger opinion first, of equally strong ones the newer schema's.
 fn semantics(prim: &Prim) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
+    let mut ranked = Vec::new();
     for property in prim.properties() {
-        let omniverse = property.starts_with("semantic:") && property.ends_with(":params:semanticData");
-        if property.starts_with("semantics:labels:") || omniverse {
-            names.extend(prim.value(&property).into_iter().flat_map(|v| v.as_texts()).map(|t| t.trim().to_string()));
+        let is_newer = property.starts_with("semantics:labels:");
+        let is_older = property.starts_with("semantic:") && property.ends_with(":params:semanticData");
+        if !(is_newer || is_older) {
+            continue;
+        }
+        if let Some((value, site)) = prim.value_at(&property) {
+            ranked.push(((prim.rank(site), is_older), value));
         }
     }
-    names.retain(|n| !n.is_empty());
-    names
+    ranked.sort_by_key(|(rank, _)| *rank);
+    let texts = ranked.into_iter().flat_map(|(_, value)| value.as_texts());
+    texts.map(|text| text.trim().to_string()).filter(|text| !text.is_empty()).collect()
 }
 
 /// RoomPlan's category, without what it says of the thing besides: `Door(Isopen: False)` is a door.

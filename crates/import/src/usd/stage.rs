@@ -154,6 +154,11 @@ impl Prim {
         None
     }
 
+    /// How strong the opinions of one of the prim's sites are; 0 for the strongest.
+    pub(super) fn rank(&self, site: &Site) -> usize {
+        self.sites.iter().position(|known| std::ptr::eq(known, site)).unwrap_or(self.sites.len())
+    }
+
     /// An attribute's value.
     pub(super) fn value(&self, attribute: &str) -> Option<&Value> {
         self.value_at(attribute).map(|(value, _)| value)

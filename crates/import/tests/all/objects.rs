@@ -189,6 +189,45 @@ fn semantics_of_prims_give_each_an_instance_of_its_own() {
 }
 
 #[test]
+fn of_two_schemas_the_stronger_opinion_counts_then_the_newer_schema() {
+    // By the strength order of USD (LIVRPS): what a prim says itself is stronger than what it references.
+    let older = |name: &str| format!("string semantic:Semantics:params:semanticData = \"{name}\"");
+    let newer = |name: &str| format!("token[] semantics:labels:class = [\"{name}\"]");
+    let chair = "prepend references = @chair.usda@";
+    let imported = usd(&format!(
+        r#"def Xform "own" ( {chair} ) {{ {} }}
+           def Xform "both" ( {chair} ) {{ {}
+             {} }}
+           class "Old" {{ {} }}
+           def Cube "inherited" ( inherits = </World/Old> ) {{ {} }}
+           def Cube "here" {{ {}
+             {} }}
+           def Xform "unknown" ( {chair} ) {{ {} }}"#,
+        older("lamp"),
+        older("lamp"),
+        newer("table"),
+        older("bed"),
+        newer("sofa"),
+        older("bed"),
+        newer("desk"),
+        older("chair_03"),
+    ));
+    assert_labels(
+        &imported,
+        &[
+            ("World/own/seat", 35, 1),
+            ("World/own/back", 35, 1),
+            ("World/both/seat", 7, 2),
+            ("World/both/back", 7, 2),
+            ("World/inherited", 6, 3),
+            ("World/here", 14, 4),
+            ("World/unknown/seat", 5, 5),
+            ("World/unknown/back", 5, 5),
+        ],
+    );
+}
+
+#[test]
 fn subsets_may_have_labels_of_their_own() {
     let imported = usd(r#"def Mesh "bed" { token[] semantics:labels:class = ["bed"]
              int[] faceVertexCounts = [3, 3]
