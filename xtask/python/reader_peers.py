@@ -6,12 +6,16 @@ up, the frame that we import into:
 
 - OBJ, PLY, glTF and Mitsuba's scenes: y up, and a unit is a metre, as `enfilade import` takes them where nothing is said.
 - USD: by `metersPerUnit` and `upAxis` of the stage, centimetres and y where it states none.
+- STL: z up, and a unit is a metre, as `enfilade import` takes it.
+- COLLADA: by `unit` and `up_axis` of the file's `asset`, metres and y where it states none. assimp turns and scales it to y up and metres
+  itself, trimesh leaves it as it is stored.
 - FBX: assimp turns the axes of `GlobalSettings` to y up itself, and hands their unit on in its metadata, as centimetres.
 """
 
 import json
 import os
 import sys
+import xml.etree.ElementTree as ElementTree
 from collections import Counter
 from collections.abc import Callable, Iterator
 
@@ -19,8 +23,9 @@ import numpy as np
 
 import round_shapes as shapes
 
-# From y up to z up.
+# From y up to z up, and from x up.
 Z_FROM_Y = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+Z_FROM_X = Z_FROM_Y @ np.array([[0, -1.0, 0], [1, 0, 0], [0, 0, 1]])
 
 Piece = tuple[np.ndarray, np.ndarray]
 """Corners of triangles, three after three, in the peer's own frame; and the matrix to metres with z up."""
@@ -30,13 +35,28 @@ def trimesh_pieces(path: str, facts: Counter[str]) -> Iterator[Piece]:
     import trimesh
 
     scene = trimesh.load_scene(path, process=False)
+    world = collada_world(path) if path.lower().endswith(".dae") else unstated_world(path)
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
         geometry = scene.geometry[name]
         if isinstance(geometry, trimesh.Trimesh):
-            yield np.asarray(geometry.vertices)[geometry.faces].reshape(-1, 3), frame(Z_FROM_Y) @ transform
+            yield np.asarray(geometry.vertices)[geometry.faces].reshape(-1, 3), world @ transform
         else:
             facts[type(geometry).__name__] += 1
+
+
+def unstated_world(path: str) -> np.ndarray:
+    """From what a file without unit and axes has to metres with z up."""
+    return frame(np.eye(3) if path.lower().endswith(".stl") else Z_FROM_Y)
+
+
+def collada_world(path: str) -> np.ndarray:
+    """From a COLLADA file's unit and axes to metres with z up."""
+    asset = ElementTree.parse(path).getroot().find("{*}asset")
+    find = lambda name: None if asset is None else asset.find(f"{{*}}{name}")
+    unit, up = find("unit"), find("up_axis")
+    axes = {"X_UP": Z_FROM_X, "Z_UP": np.eye(3)}.get("" if up is None else up.text.strip(), Z_FROM_Y)
+    return frame(axes * (1.0 if unit is None else float(unit.get("meter", 1))))
 
 
 def assimp_pieces(path: str, facts: Counter[str]) -> Iterator[Piece]:
@@ -54,7 +74,7 @@ def assimp_pieces(path: str, facts: Counter[str]) -> Iterator[Piece]:
     corners = [assimp_corners(mesh, facts) for mesh in scene.meshes]
     index = {mesh.struct: k for k, mesh in enumerate(scene.meshes)}
     told = scene.metadata or {}
-    world = frame(Z_FROM_Y * told["UnitScaleFactor"] / 100 if "UnitScaleFactor" in told else Z_FROM_Y)
+    world = frame(Z_FROM_Y * told["UnitScaleFactor"] / 100) if "UnitScaleFactor" in told else unstated_world(path)
     waiting = [(scene.root_node, world)]
     while waiting:
         node, above = waiting.pop()

@@ -34,6 +34,8 @@ FORMATS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "PLY": ((".ply",), ("trimesh", "assimp", "mitsuba")),
     "USD": ((".usd", ".usda", ".usdc", ".usdz"), ("usd-core",)),
     "FBX": ((".fbx",), ("assimp",)),
+    "COLLADA": ((".dae",), ("trimesh", "assimp")),
+    "STL": ((".stl",), ("trimesh", "assimp")),
     "Mitsuba": ((".xml",), ("mitsuba",)),
 }
 # What is read of the packages that the peers are.

@@ -8,7 +8,7 @@ use crate::python;
 use crate::step::finish;
 
 /// What reads beside us, at the versions that the explanations were verified with; then what these need to read all that they can.
-const PACKAGES: [&str; 11] = [
+const PACKAGES: [&str; 12] = [
     "usd-core==26.11",
     "trimesh==5.2.0",
     "mitsuba==3.9.1",
@@ -17,6 +17,7 @@ const PACKAGES: [&str; 11] = [
     "DracoPy",
     "charset-normalizer",
     "lxml",
+    "pycollada",
     "numpy",
     "pillow",
     "scipy",
@@ -30,7 +31,8 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let [folder, rest @ ..] = words else { return Err("expected a folder with files of scenes: cargo xtask readers FOLDER".into()) };
     let folder = std::path::absolute(folder).map_err(|error| format!("{folder}: {error}"))?;
     finish(house.cargo(&["build", "--release", "--locked", "--quiet", "--package", "enfilade", "--bin", "enfilade"]))?;
-    let python = python::made(house, "venv-scenes", "import pxr, trimesh, mitsuba, cmeel, DracoPy, numpy, scipy, lxml, PIL", &PACKAGES)?;
+    let python =
+        python::made(house, "venv-scenes", "import pxr, trimesh, mitsuba, cmeel, collada, DracoPy, numpy, scipy, lxml, PIL", &PACKAGES)?;
     let target = house.target()?;
     let mut compare = house.command(python, &["xtask/python/readers.py"]);
     compare.arg(folder).args(rest);
