@@ -24,6 +24,8 @@ pub(crate) struct Archive {
     /// The archive itself, and those within it that were opened.
     zips: RefCell<Vec<ZipArchive<Cursor<Vec<u8>>>>>,
     left: Cell<u64>,
+    /// Places of the files that were read by their paths.
+    used: RefCell<BTreeSet<usize>>,
 }
 
 impl Archive {
@@ -33,8 +35,14 @@ impl Archive {
     /// What is wrong with them, as the rest of a sentence.
     pub(crate) fn new(file: &Path, bytes: Vec<u8>) -> Result<Self, String> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("not an archive that can be read ({e})"))?;
-        let mut archive =
-            Self { file: file.to_path_buf(), names: Vec::new(), entries: Vec::new(), zips: RefCell::default(), left: Cell::new(MAX_BYTES) };
+        let mut archive = Self {
+            file: file.to_path_buf(),
+            names: Vec::new(),
+            entries: Vec::new(),
+            zips: RefCell::default(),
+            left: Cell::new(MAX_BYTES),
+            used: RefCell::default(),
+        };
         archive.add(zip, "");
         Ok(archive)
     }
@@ -90,16 +98,8 @@ impl Archive {
     /// # Errors
     /// When there is none, it is damaged or encrypted, or too large.
     pub(crate) fn read(&self, name: &str) -> Result<Vec<u8>, Error> {
-        let absent = || Error::new(ErrorKind::NotFound, "it is not in the archive");
-        let (zip, raw) = self.names.iter().position(|n| n == name).and_then(|i| self.entries.get(i)).ok_or_else(absent)?;
-        let mut zips = self.zips.borrow_mut();
-        let entry = zips.get_mut(*zip).ok_or_else(absent)?.by_name(raw).map_err(|e| match e {
-            ZipError::FileNotFound => absent(),
-            other => Error::new(ErrorKind::InvalidData, other.to_string()),
-        })?;
         let limit = MAX_FILE_BYTES.min(self.left.get());
-        let mut bytes = Vec::new();
-        entry.take(limit + 1).read_to_end(&mut bytes)?;
+        let bytes = self.start(name, limit + 1)?;
         if bytes.len() as u64 > limit {
             let problem = format!("it unpacks to more than {limit} bytes, which is all that may be read of it");
             return Err(Error::new(ErrorKind::FileTooLarge, problem));
@@ -108,10 +108,38 @@ impl Archive {
         Ok(bytes)
     }
 
+    /// The first bytes of the file of exactly this name, at most so many; none where it cannot be read.
+    pub(crate) fn head(&self, name: &str, most: u64) -> Vec<u8> {
+        self.start(name, most).unwrap_or_default()
+    }
+
+    fn start(&self, name: &str, most: u64) -> Result<Vec<u8>, Error> {
+        let absent = || Error::new(ErrorKind::NotFound, "it is not in the archive");
+        let (zip, raw) = self.place(name).and_then(|i| self.entries.get(i)).ok_or_else(absent)?;
+        let mut zips = self.zips.borrow_mut();
+        let entry = zips.get_mut(*zip).ok_or_else(absent)?.by_name(raw).map_err(|e| match e {
+            ZipError::FileNotFound => absent(),
+            other => Error::new(ErrorKind::InvalidData, other.to_string()),
+        })?;
+        let mut bytes = Vec::new();
+        entry.take(most).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
     /// The bytes of a file by its path, which begins with the archive's own.
     pub(crate) fn read_path(&self, path: &Path) -> Result<Vec<u8>, Error> {
         let name = self.name_of(path).ok_or_else(|| Error::new(ErrorKind::NotFound, "it is not in the archive"))?;
+        self.used.borrow_mut().extend(self.place(&name));
         self.read(&name)
+    }
+
+    /// True when the file at a path was read by its path.
+    pub(crate) fn was_read(&self, path: &Path) -> bool {
+        self.name_of(path).and_then(|name| self.place(&name)).is_some_and(|place| self.used.borrow().contains(&place))
     }
 
     /// The names in a folder of the archive, by its path, which begins with the archive's own: of folders or of files, in order.

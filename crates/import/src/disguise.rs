@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// Bytes that are looked at.
-const HEAD: u64 = 1 << 16;
+pub(crate) const HEAD: u64 = 1 << 16;
 
 /// Signatures, what a file is that begins so, and what its name should end with where it is a scene.
 const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
@@ -104,7 +104,7 @@ impl Content {
         let text = text.trim_start();
         match text.chars().next()? {
             '<' => markup(text),
-            '[' => text[1..].trim_start().starts_with(['{', '[', '"', ']']).then_some(Self::JsonList),
+            '[' => is_json_value(text[1..].trim_start()).then_some(Self::JsonList),
             '{' => {
                 let is_table = text[1..].trim_start().starts_with(['"', '}']);
                 is_table.then(|| Self::JsonTable(text.contains("\"asset\"") && text.contains("\"version\"")))
@@ -189,12 +189,26 @@ pub(crate) fn refuse(path: &Path, format: Format) -> Result<(), ImportError> {
     let mut head = Vec::new();
     let is_file = path.metadata().is_ok_and(|data| data.is_file());
     let read = File::open(path).ok().filter(|_| is_file).map(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
-    if read != Some(true) || is_git_lfs_pointer(&head) {
+    if read == Some(true) { refuse_head(path, &head, format) } else { Ok(()) }
+}
+
+/// As [`refuse`], of a file that begins with `head`.
+///
+/// # Errors
+/// As there.
+pub(crate) fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<(), ImportError> {
+    if is_git_lfs_pointer(head) {
         return Ok(());
     }
-    let Some(content) = Content::of(&head).filter(|content| content.is_foreign(format)) else { return Ok(()) };
+    let Some(content) = Content::of(head).filter(|content| content.is_foreign(format)) else { return Ok(()) };
     let problem = format!("it is {}, not {}; {}", content.words(), format.words(), content.remedy());
     Err(ImportError::malformed(path, "whole file", problem))
+}
+
+/// Whether JSON may go on so within a list.
+fn is_json_value(rest: &str) -> bool {
+    rest.starts_with(|c: char| matches!(c, '{' | '[' | '"' | ']' | '-') || c.is_ascii_digit())
+        || ["true", "false", "null"].iter().any(|word| rest.starts_with(word))
 }
 
 /// What XML or HTML is.
@@ -253,6 +267,9 @@ mod tests {
             (b"<scene><integrator type=\"path\"/><mesh type=\"obj\"/></scene>", "a scene of Nori"),
             (b"<strange:thing/>", "XML of another program, with <thing> around all"),
             (b" [ {\"id\": 1}]", "a list in JSON"),
+            (b"[1,2,3]", "a list in JSON"),
+            (b"[\n -0.5]", "a list in JSON"),
+            (b"[null]", "a list in JSON"),
             (b"{\"asset\": {\"version\": \"2.0\"}}", "a glTF as text"),
             (b"{\"a\": 1}", "a table in JSON"),
             (b"glTF\x02\0\0\0", "a binary glTF"),

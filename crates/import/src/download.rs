@@ -5,14 +5,13 @@
 
 use crate::archive::Archive;
 use crate::assembly::Assembly;
-use crate::{Format, ImportError, Imported, sweethome};
+use crate::others::{Others, named};
+use crate::{Format, ImportError, Imported, disguise, sweethome};
 use std::path::{Path, PathBuf};
 
 /// Folders within folders that are looked into, and as many files are listed: a scene lies near the top.
 const DEPTH: usize = 4;
 const MAX_FILES: usize = 20_000;
-/// As many scene files a message names.
-const NAMED: usize = 3;
 /// Names of the file that includes the others.
 const MAIN: [&str; 5] = ["scene", "main", "root", "model", "index"];
 /// Formats of whole scenes, the fuller ones first; of the same scene in several, the first is read.
@@ -40,22 +39,23 @@ pub(crate) fn load_zip(
         chosen = choose(archive.names(), &own, &|name| archive.read(name).ok());
     }
     let chosen = chosen.map_err(|unclear| assembly.malformed("archive", unclear.message("unpack it and give the scene file")))?;
-    let warned = chosen.remark();
+    let entry = file.join(&chosen.name);
+    disguise::refuse_head(&entry, &archive.head(&chosen.name, disguise::HEAD), chosen.format)?;
     let mut inside = assembly.inside(chosen.format, chosen.format.up_axis(), &archive, &chosen.name);
-    warned.into_iter().for_each(|remark| inside.warn("archive", remark));
+    inside.chosen_among(chosen.others_in("archive", &file));
     by_format(chosen.format, inside)
 }
 
-/// The file to import of a folder that has one scene file, with a remark where there was a choice; `None` where it has none.
+/// The file to import of a folder that has one scene file, with the others where there was a choice; `None` where it has none.
 ///
 /// # Errors
 /// When it has several, and none is the one that is meant.
-pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<String>)>, ImportError> {
+pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Others)>, ImportError> {
     let mut names = Vec::new();
     list(folder, "", DEPTH, &mut names);
     let own = folder.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     match choose(&names, &own, &|name| std::fs::read(folder.join(name)).ok()) {
-        Ok(chosen) => Ok(Some((folder.join(&chosen.name), chosen.remark()))),
+        Ok(chosen) => Ok(Some((folder.join(&chosen.name), chosen.others_in("folder", folder)))),
         Err(Unclear::None) => Ok(None),
         Err(several) => Err(ImportError::malformed(folder, "folder", several.message("give one of them"))),
     }
@@ -66,7 +66,7 @@ pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<S
 struct Chosen {
     name: String,
     format: Format,
-    /// Other files that are scenes too.
+    /// Other files that are scenes or meshes too.
     others: Vec<String>,
 }
 
@@ -80,10 +80,14 @@ enum Unclear {
 }
 
 impl Chosen {
-    /// What is said where there were others.
-    fn remark(&self) -> Option<String> {
-        let all = self.others.len() + 1;
-        (all > 1).then(|| format!("of {all} scene files {} was read, not {}", self.name, named(&self.others)))
+    /// The others in an archive or a folder. Meshes beside a scene that is put together of mesh files are its parts, read or not, unless they
+    /// are called like the scene.
+    fn others_in(&self, place: &'static str, home: &Path) -> Others {
+        let has_parts = matches!(self.format, Format::Mitsuba | Format::Pbrt | Format::Urdf | Format::Sdf);
+        let is_mesh = |name: &str| Format::of(Path::new(name)).is_ok_and(|format| MESHES.contains(&format));
+        let others = self.others.iter().filter(|name| !(has_parts && is_mesh(name) && stem(name) != stem(&self.name)));
+        let files = others.map(|name| (name.clone(), home.join(name))).collect();
+        Others { place, chosen: self.name.clone(), files }
     }
 }
 
@@ -99,20 +103,15 @@ impl Unclear {
     }
 }
 
-fn named(names: &[String]) -> String {
-    let more = if names.len() > NAMED { ", …" } else { "" };
-    format!("{}{more}", names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", "))
-}
-
 /// Chooses the scene among files: of scenes before meshes, the nearest to the top, one that is called like the download or `scene`, and of
 /// the same scene in several formats the fullest. `read` gives the bytes of a file, where its name does not tell enough.
 fn choose(names: &[String], own: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Result<Chosen, Unclear> {
     let mut candidates: Vec<(usize, &String)> = names.iter().filter_map(|name| Some((rank(name, read)?, name))).collect();
+    let all: Vec<String> = candidates.iter().map(|(_, name)| (*name).clone()).collect();
     let are_meshes = candidates.iter().all(|(rank, _)| *rank >= SCENES.len());
     candidates.retain(|(rank, _)| are_meshes || *rank < SCENES.len());
     let depth = |name: &str| name.matches('/').count();
     let Some(top) = candidates.iter().map(|(_, name)| depth(name)).min() else { return Err(Unclear::None) };
-    let all: Vec<String> = candidates.iter().map(|(_, name)| (*name).clone()).collect();
     candidates.retain(|(_, name)| depth(name) == top);
     let stems = |candidates: &[(usize, &String)]| candidates.iter().map(|(_, name)| stem(name)).collect::<std::collections::BTreeSet<_>>();
     if stems(&candidates).len() > 1 {

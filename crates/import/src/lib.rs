@@ -69,6 +69,7 @@ mod mesh;
 pub mod mitsuba;
 pub mod obj;
 mod options;
+mod others;
 pub mod package;
 pub mod pbrt;
 mod percent;

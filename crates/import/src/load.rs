@@ -1,6 +1,7 @@
 //! From the path of a scene file to the importer of its format.
 
 use crate::assembly::Assembly;
+use crate::others::Others;
 use crate::{Format, ImportError, ImportOptions, Imported};
 use crate::{collada, collections, disguise, download, fbx, gltf, mitsuba, obj, package, pbrt, ply, robot, stl, sweethome, usd, vray};
 use enfilade_scene::Cx;
@@ -15,10 +16,11 @@ use std::path::{Path, PathBuf};
 pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Imported, ImportError> {
     options.validate()?;
     if path.is_dir() && Format::of(path).is_err() {
-        let (file, remark) = in_folder(path)?.ok_or_else(|| collections::no_scene_in_folder(path))?;
+        let (file, others) = in_folder(path)?.ok_or_else(|| collections::no_scene_in_folder(path))?;
         let format = Format::of(&file)?;
+        disguise::refuse(&file, format)?;
         let mut assembly = Assembly::new(format, &file, format.up_axis(), options, cx);
-        remark.into_iter().for_each(|remark| assembly.warn("folder", remark));
+        others.into_iter().for_each(|others| assembly.chosen_among(others));
         return by_format(format, assembly);
     }
     let format = Format::of(path)?;
@@ -34,12 +36,12 @@ pub fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
     Ok(in_folder(folder)?.map(|(file, _)| file))
 }
 
-/// The scene of a folder, and what is said where it was chosen among several.
-fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<String>)>, ImportError> {
+/// The scene of a folder, and the files that it was chosen among.
+fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<Others>)>, ImportError> {
     if let Some(file) = collections::scene_in_folder(folder)? {
         return Ok(Some((file, None)));
     }
-    download::scene_in_folder(folder)
+    Ok(download::scene_in_folder(folder)?.map(|(file, others)| (file, Some(others))))
 }
 
 /// Imports by the importer of a format.

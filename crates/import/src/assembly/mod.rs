@@ -23,6 +23,7 @@ pub(crate) use survey::{FAR_M, origin_of, positions_from};
 
 use crate::archive::Archive;
 use crate::images::{self, Use};
+use crate::others::Others;
 use crate::report::Warnings;
 use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
@@ -40,6 +41,7 @@ pub(crate) struct Assembly<'a> {
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
     archive: Option<&'a Archive>,
+    others: Option<Others>,
     warnings: Warnings<'a>,
     inputs: Vec<PathBuf>,
     missing: Vec<PathBuf>,
@@ -77,6 +79,7 @@ impl<'a> Assembly<'a> {
             options,
             cx,
             archive: None,
+            others: None,
             warnings: Warnings::new(cx),
             inputs: Vec::new(),
             missing: Vec::new(),
@@ -148,6 +151,11 @@ impl<'a> Assembly<'a> {
         self.warnings.push(place, message.into());
     }
 
+    /// Says at the end which of these files the scene was not made of.
+    pub(crate) fn chosen_among(&mut self, others: Others) {
+        self.others = Some(others);
+    }
+
     /// Takes over the warnings of an import that is part of this one.
     pub(crate) fn pass_on(&mut self, warnings: Vec<enfilade_scene::Warning>) {
         warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
@@ -216,12 +224,24 @@ impl<'a> Assembly<'a> {
         if let Some(environment) = &self.options.environment {
             self.replace_environment(environment)?;
         }
+        self.tell_others();
         let file = self.file;
         self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
         let (picture_files, axes) = (self.picture_files, self.axes);
         Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, report })
+    }
+
+    /// Says which of the files that the scene was chosen among it was not made of.
+    fn tell_others(&mut self) {
+        let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let Some(others) = &self.others else { return };
+        let inputs: Vec<PathBuf> = self.inputs.iter().map(|path| whole(path)).collect();
+        let was_read = |path: &Path| self.archive.map_or_else(|| inputs.contains(&whole(path)), |archive| archive.was_read(path));
+        if let Some((place, remark)) = others.remark(was_read) {
+            self.warn(place, remark);
+        }
     }
 
     /// Puts the surroundings of the options in place of the file's own.

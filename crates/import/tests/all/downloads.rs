@@ -75,6 +75,7 @@ fn archives_of_every_shape_hold_the_scene_and_its_pictures() {
             "{names:?}"
         );
         assert_eq!(imported.inputs.len(), 1, "{names:?}: {:?}", imported.inputs);
+        assert!(!warnings(&imported).contains("was read, not"), "{names:?}: nothing was left out: {}", warnings(&imported));
     }
 }
 
@@ -82,7 +83,7 @@ fn archives_of_every_shape_hold_the_scene_and_its_pictures() {
 fn what_was_chosen_among_several_is_told_and_what_cannot_be_chosen_refused() {
     let glb = Gltf::triangle().binary();
     let imported = load(&zip(&[("sofa.glb", &glb), ("sofa.obj", OBJ), ("parts/leg.glb", &glb)]));
-    assert!(warnings(&imported).contains("of 2 scene files sofa.glb was read, not parts/leg.glb"), "{}", warnings(&imported));
+    assert!(warnings(&imported).contains("of 3 scene files sofa.glb was read, not sofa.obj, parts/leg.glb"), "{}", warnings(&imported));
     let folder = Folder::new();
     let error = folder.write("pack.zip", zip(&[("a.glb", &glb), ("b.glb", &glb)])).error("pack.zip");
     assert!(error.contains("found 2 scene files (a.glb, b.glb); unpack it and give the scene file"), "{error}");
@@ -94,6 +95,46 @@ fn what_was_chosen_among_several_is_told_and_what_cannot_be_chosen_refused() {
     assert!(folder.error("pack.zip").contains("needs the texture"));
     let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
     assert!(folder.load_with("pack.zip", &options).is_ok());
+}
+
+#[test]
+fn scenes_of_one_name_in_several_folders_are_told_wherever_one_was_left_out() {
+    let glb = Gltf::triangle().binary();
+    let said = "of 2 scene files b/room.glb was read, not a/room.obj";
+    let files: Files<'_> = &[("a/room.obj", OBJ), ("b/room.glb", &glb)];
+    let imported = load(&zip(files));
+    assert!(imported.report.format == "gltf" && warnings(&imported).contains(said), "{}", warnings(&imported));
+    let folder = Folder::new();
+    for (name, bytes) in files {
+        folder.write(&format!("pack/{name}"), bytes);
+    }
+    let imported = folder.load("pack").unwrap();
+    assert!(warnings(&imported).contains(said), "{}", warnings(&imported));
+    // Meshes are parts of a scene that is put together of them, but for those that are the scene in another format.
+    let mesh = b"<scene version=\"3.0.0\"><shape type=\"obj\"><string name=\"filename\" value=\"../parts/a.obj\"/></shape></scene>";
+    let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let parts: Files<'_> = &[("s/room.xml", mesh), ("parts/a.obj", triangle), ("parts/b.obj", triangle), ("other/room.ply", b"ply\n")];
+    let said = "of 2 scene files s/room.xml was read, not other/room.ply";
+    assert!(warnings(&load(&zip(parts))).contains(said), "{}", warnings(&load(&zip(parts))));
+    for (name, bytes) in parts {
+        folder.write(&format!("parts/{name}"), bytes);
+    }
+    assert!(warnings(&folder.load("parts").unwrap()).contains(said));
+    // Layers of the scene are no other scenes.
+    folder.write("usd/usd.usda", "#usda 1.0\ndef \"A\" (references = @./b.usda@</B>) {}\n");
+    folder.write("usd/b.usda", "#usda 1.0\ndef Cube \"B\" { }\n").write("usd/c.usda", "#usda 1.0\ndef Cube \"C\" { }\n");
+    let imported = folder.load("usd").unwrap();
+    assert!(warnings(&imported).contains("of 2 scene files usd.usda was read, not c.usda"), "{}", warnings(&imported));
+}
+
+#[test]
+fn scenes_in_archives_and_folders_are_refused_as_they_are_alone() {
+    let folder = Folder::new();
+    folder.write("list/scene.gltf", "[1,2,3]").write("list.zip", zip(&[("scene.gltf", b"[1,2,3]")]));
+    for name in ["list", "list.zip"] {
+        let error = folder.error(name);
+        assert!(error.contains("scene.gltf: whole file: it is a list in JSON, not a glTF"), "{error}");
+    }
 }
 
 #[test]

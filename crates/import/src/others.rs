@@ -1,0 +1,31 @@
+//! The scene files of a download that lie beside the one that was read.
+
+use std::path::{Path, PathBuf};
+
+/// As many scene files a message names.
+const NAMED: usize = 3;
+
+/// The scene files that lie beside the one that was chosen.
+pub(crate) struct Others {
+    /// What they lie in, for messages.
+    pub place: &'static str,
+    /// What the chosen one is called there.
+    pub chosen: String,
+    /// What each is called there, and its path.
+    pub files: Vec<(String, PathBuf)>,
+}
+
+impl Others {
+    /// Where and what is said of those that the scene was not made of; `None` where it was made of all.
+    pub(crate) fn remark(&self, was_read: impl Fn(&Path) -> bool) -> Option<(&'static str, String)> {
+        let left: Vec<String> = self.files.iter().filter(|(_, path)| !was_read(path)).map(|(name, _)| name.clone()).collect();
+        let all = left.len() + 1;
+        (all > 1).then(|| (self.place, format!("of {all} scene files {} was read, not {}", self.chosen, named(&left))))
+    }
+}
+
+/// The first of these names, with a sign where there are more.
+pub(crate) fn named(names: &[String]) -> String {
+    let more = if names.len() > NAMED { ", …" } else { "" };
+    format!("{}{more}", names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", "))
+}
