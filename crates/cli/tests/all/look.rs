@@ -46,9 +46,11 @@ fn a_check_tells_what_an_import_would_and_writes_nothing() {
     write_room(d, "room", Lamp::Off);
     let text = succeed(d, &["import", "room.obj", "--check", "--meters-per-unit", "100"]);
     assert!(
-        text.contains("nothing in it shines") && text.contains("it is 400.00 m long") && text.contains("nothing was written"),
+        text.contains("nothing in it shines") && text.contains("rooms are 250.00 m high") && text.contains("nothing was written"),
         "{text}"
     );
+    // It is the number that was stated that is wrong, and the file is not in centimetres.
+    assert!(text.contains("with meters_per_unit = 1 (or --meters-per-unit 1), rooms are 2.50 m high"), "{text}");
     assert_eq!(fs::read_dir(d).unwrap().count(), 2);
     // A sky without a file is in the package.
     succeed(d, &["import", "room.obj", "--environment", "overcast"]);

@@ -67,7 +67,9 @@ fn of_axes(imported: &Imported, lying: &Lying) -> String {
 /// A suspicion about the unit, with the number that is to stand in the place of `source`'s.
 pub(super) fn of_unit(source: &FileSource, format: &str, unit: &Suspicion) -> String {
     let number = plain(source.meters_per_unit * unit.factor);
-    let called = unit.name.map_or(String::new(), |name| format!(", for a file in {name}"));
+    // The names are those of files of whose unit nothing was stated.
+    let name = unit.name.filter(|_| source.meters_per_unit == 1.0);
+    let called = name.map_or(String::new(), |name| format!(", for a file in {name}"));
     let (because, then) = (unit.because.join(", "), unit.then.join(", "));
     let key = match format {
         "package" => format!("importing the file that it was made from with {number} times its meters_per_unit"),
