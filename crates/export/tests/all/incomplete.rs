@@ -2,7 +2,7 @@
 
 use crate::common::{files, pinhole_of, write};
 use enfilade_dataset::Dataset;
-use enfilade_export::{Existing, ExportConfig, FORMATS, Format, export};
+use enfilade_export::{CloudSource, Existing, ExportConfig, FORMATS, Format, export};
 use enfilade_frame::Layer;
 use enfilade_scene::{Heard, Quiet};
 use std::path::Path;
@@ -30,7 +30,8 @@ fn a_frame_without_geometry_is_left_out_of_formats_that_need_it() {
         }
         let heard = Heard::default();
         let out = folder.path().join("out");
-        let config = ExportConfig::new(spec.format, dataset.scenes().unwrap());
+        // The few frames do not show a room to all its walls, which point clouds for layouts ask for.
+        let config = ExportConfig { cloud: CloudSource::Mesh, ..ExportConfig::new(spec.format, dataset.scenes().unwrap()) };
         export(&dataset, &config, &out, Existing::Refuse, &heard).unwrap();
         let told = heard.lines().iter().any(|line| line.contains("room/cam_00 frame 1 is left out: no layer"));
         let needs_it = spec.needs.iter().any(|group| !group.contains(&Layer::Color));

@@ -95,8 +95,8 @@ fn a_file_whose_cameras_are_all_outside_begins_at_found_places_with_a_warning_un
     let room = "<scene version=\"3.0.0\"><sensor type=\"perspective\" id=\"bird\"><float name=\"fov\" value=\"40\"/><transform name=\"to_world\">\
                 <lookat origin=\"9, 9, 9\" target=\"0, 0, 1\" up=\"0, 0, 1\"/></transform></sensor>\
                 <shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/><transform name=\"to_world\"><scale x=\"2\" y=\"1.5\" z=\"1.25\"/>\
-                <translate z=\"1.25\"/></transform></shape></scene>";
-    let made = |cameras: &str| made(folder.path(), ["room.xml", room], cameras);
+                <translate z=\"1.25\"/></transform></shape><emitter type=\"constant\"/></scene>";
+    let made = |cameras: &str| made(folder.path(), ["room.xml", room], &format!("lamps = \"ceiling\"\n{cameras}"));
     let (dataset, found, warnings) = made("");
     assert!(found.ok(), "{:?}", found.scenes[0].failure);
     assert!(warnings.contains("no camera of the file stands in a building"), "{warnings}");
