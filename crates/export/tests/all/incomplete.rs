@@ -3,8 +3,8 @@
 use crate::common::{files, pinhole_of, write};
 use enfilade_dataset::Dataset;
 use enfilade_export::{CloudSource, Existing, ExportConfig, FORMATS, Format, export};
-use enfilade_frame::Layer;
-use enfilade_scene::{Heard, Quiet};
+use enfilade_frame::{Layer, Values};
+use enfilade_scene::{Heard, PartLabel, Quiet};
 use std::path::Path;
 
 /// The dataset as Hypersim's are: without records.
@@ -74,4 +74,47 @@ fn where_no_frame_has_what_is_needed_the_error_says_what() {
     let config = ExportConfig::new(Format::Coco, dataset.scenes().unwrap());
     let error = export(&dataset, &config, &folder.path().join("out"), Existing::Refuse, &Quiet).unwrap_err().to_string();
     assert!(error.contains("room/cam_00 frame 0") && error.contains("no layer semantic_instance; make it (label"), "{error}");
+}
+
+/// Takes the instances from tables and frames of the dataset, and the classes too where `classes` is false.
+fn without_instances(dataset: &Dataset, classes: bool) {
+    let taken = |label: &mut PartLabel| *label = PartLabel { semantic: if classes { label.semantic } else { -1 }, instance: -1 };
+    for scene in dataset.scenes().unwrap() {
+        let mut labels = dataset.read_label_tables(&scene).unwrap();
+        labels.parts.iter_mut().for_each(taken);
+        dataset.write_label_tables(&scene, &labels).unwrap();
+        for camera in dataset.cameras(&scene).unwrap() {
+            for frame in dataset.frame_numbers(&scene, &camera).unwrap() {
+                let mut layers = dataset.read_frame(&scene, &camera, frame, &[Layer::Semantic, Layer::SemanticInstance]).unwrap();
+                let none = Values::I16(vec![-1; layers.pixels()]);
+                if !classes {
+                    layers.insert(Layer::Semantic, none.clone());
+                }
+                layers.insert(Layer::SemanticInstance, none);
+                dataset.write_label_layers(&scene, &camera, frame, &layers, "annotated").unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn an_export_of_instances_that_finds_none_says_so_and_why() {
+    for format in [Format::Coco, Format::Panoptic, Format::Scannet] {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = write(&folder.path().join("dataset"), &pinhole_of(format));
+        let told = |out: &str| {
+            let heard = Heard::default();
+            let config = ExportConfig::new(format, dataset.scenes().unwrap());
+            export(&dataset, &config, &folder.path().join(out), Existing::Refuse, &heard).unwrap();
+            heard.lines().into_iter().filter(|line| line.contains("the export has no instance")).collect::<Vec<_>>()
+        };
+        assert!(told("labelled").is_empty(), "{format:?}");
+        // Of both scenes four parts, a floor, a wall, a table and a chair.
+        without_instances(&dataset, true);
+        let classed = told("classed");
+        assert!(classed.len() == 1 && classed[0].contains("8 parts have a class and none is an instance"), "{format:?}: {classed:?}");
+        without_instances(&dataset, false);
+        let bare = told("bare");
+        assert!(bare.len() == 1 && bare[0].contains("no part has a label; name a label table"), "{format:?}: {bare:?}");
+    }
 }

@@ -6,8 +6,8 @@ use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_import::{ImportOptions, Imported, ImportedLabel, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{
-    Alpha, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Part, PartLabel, PictureFile, PictureFiles,
-    Pixels, Principled, Quiet, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef, Wrap,
+    Alpha, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Object, Part, PartLabel, PictureFile,
+    PictureFiles, Pixels, Principled, Quiet, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef, Wrap,
 };
 
 /// The scene, written and read.
@@ -94,6 +94,28 @@ fn a_home_keeps_its_parts_places_labels_cameras_and_sky() {
     let radiance = |scene: &Scene, image: u32| scene.images[image as usize].texel(100, 60).0;
     let (a, b) = (radiance(&scene, image), radiance(&home.scene, sky) * scale);
     assert!((a.g - b.g).abs() < 1e-5 * b.g.abs().max(1.0), "{a:?} instead of {b:?}");
+}
+
+#[test]
+fn objects_of_parts_come_back_with_their_names_and_what_they_lie_in() {
+    let grey = || Material::diffuse("grey", Rgb::splat(0.5));
+    let mut scene = shelf(vec![grey(), grey(), grey(), grey(), grey()], vec![]);
+    // Two chairs of one name, the first of two parts; a cushion that lies in the second, and a part that belongs to nothing.
+    let object = |name: &str, parent| Object { name: name.into(), parent };
+    scene.objects = vec![object("World", None), object("chair", Some(0)), object("chair", Some(0)), object("a/b \"c\"", Some(2))];
+    for (part, object) in [(0, 1), (1, 1), (2, 2), (3, 3)] {
+        scene.parts[part].object = Some(object);
+    }
+    let (imported, _) = round_trip(&scene, &Labels::default());
+    let lineages: Vec<Vec<&str>> = imported.scene.parts[..4].iter().map(|part| imported.scene.lineage(part)).collect();
+    let expected = [vec!["World", "chair"], vec!["World", "chair"], vec!["World", "chair"], vec!["World", "chair", "a/b \"c\""]];
+    assert_eq!(lineages, expected);
+    let found: Vec<u32> = (0..5).map(|part| imported.scene.object_of(part)).collect();
+    assert!(found[0] == found[1] && (1..5).all(|k| !found[k + 1..].contains(&found[k])), "four things of five parts: {found:?}");
+    // Another round changes nothing.
+    let (again, _) = round_trip(&imported.scene, &Labels::default());
+    assert_eq!((&again.scene.objects, again.scene.parts.len()), (&imported.scene.objects, 5));
+    assert!(again.scene.parts.iter().zip(&imported.scene.parts).all(|(a, b)| (&a.name, a.object) == (&b.name, b.object)));
 }
 
 #[test]
