@@ -33,7 +33,8 @@ pub struct Doubts {
 pub fn doubts(scene: &Scene, labels: &Labels) -> Doubts {
     assert_eq!(scene.parts.len(), labels.parts.len(), "one label per part");
     let boxes: Vec<Bounds3> = scene.parts.iter().map(|part| Bounds3::from_points(scene.world_positions(part))).collect();
-    let (mut of_instance, mut of_object): (BTreeMap<i16, Vec<PartId>>, BTreeMap<(u32, i16), Vec<PartId>>) = Default::default();
+    let mut of_instance = BTreeMap::<i16, Vec<PartId>>::new();
+    let mut of_object = BTreeMap::<(u32, i16), Vec<PartId>>::new();
     for (part, label) in (0..).zip(&labels.parts).filter(|(_, label)| label.instance >= 1) {
         of_instance.entry(label.instance).or_default().push(part);
         of_object.entry((scene.object_of(part), label.semantic)).or_default().push(part);
