@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Index into [`Scene::objects`].
+/// Index into [`Scene::objects`](crate::Scene::objects).
 pub type ObjectId = u32;
 
 /// Something that the scene's file names as one, or that holds such things.
@@ -13,6 +13,6 @@ pub type ObjectId = u32;
 pub struct Object {
     /// What the file calls it, without its parents; others may have the same name.
     pub name: String,
-    /// The object that it lies in, which stands before it in [`Scene::objects`].
+    /// The object that it lies in, which stands before it in [`Scene::objects`](crate::Scene::objects).
     pub parent: Option<ObjectId>,
 }

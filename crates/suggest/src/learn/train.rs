@@ -29,7 +29,7 @@ pub struct LearnConfig {
     /// What a word of the word list counts, as a name that has its class, beside 1 for a name of a scene. Without these, rare classes
     /// would be known by nothing. Default 1.
     pub word_list: f32,
-    /// What such a word counts whose class is meant by the names of fewer than [`FEW`] labelled groups: nothing else is known of it, and what
+    /// What such a word counts whose class is meant by the names of fewer than five labelled groups: nothing else is known of it, and what
     /// its letters seem to say is chance. Default 30.
     pub unseen_word: f32,
 }
