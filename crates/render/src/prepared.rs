@@ -131,7 +131,7 @@ impl<'s> RenderScene<'s> {
         if self.has_bodies && through.is_black() { self.through_panes(ray).0 } else { through }
     }
 
-    /// The same, and what `name` calls the farthest pane on the way that it has a name for, by its part.
+    /// Transmittance along the ray, and what `name` calls the farthest pane on the way that it has a name for, by its part.
     pub(crate) fn transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
         let found = self.unbent_transmittance_and_pane(ray, &name);
         if !(self.has_bodies && found.0.is_black()) {
@@ -147,7 +147,7 @@ impl<'s> RenderScene<'s> {
         self.transmittance_of(ray, |_| ())
     }
 
-    /// The same, and what `name` calls the farthest pane on the way that it has a name for, by its part.
+    /// Transmittance along the ray, and what `name` calls the farthest pane on the way that it has a name for, by its part.
     #[inline]
     pub(crate) fn unbent_transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
         let farthest = Cell::new((0.0, None));

@@ -363,7 +363,7 @@ impl Disney {
         ]
     }
 
-    /// The same, to change.
+    /// The scalar parameters, to change.
     pub fn scalars_mut(&mut self) -> [&mut ScalarParam; 10] {
         [
             &mut self.roughness,

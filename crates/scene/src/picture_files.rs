@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// A picture as it came, compressed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureFile {
-    /// Its media type: `image/png` or `image/jpeg`, the two that every program reads.
+    /// The media type: `image/png` or `image/jpeg`, the two that every program reads.
     pub media_type: &'static str,
     /// The file.
     pub bytes: Vec<u8>,

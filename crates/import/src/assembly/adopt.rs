@@ -13,7 +13,7 @@ pub(crate) struct Piece {
     pub mesh: u32,
     pub material: u32,
     pub model_from_mesh: DAffine3,
-    /// Its object within the model: that of the part, where the model stands in one place.
+    /// The object within the model: that of the part, where the model stands in one place.
     pub object: Option<ObjectId>,
     /// What the model's own file says of it. Its number of the instance counts within the model alone.
     pub label: PartLabel,

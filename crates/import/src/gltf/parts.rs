@@ -22,7 +22,7 @@ pub(super) struct Stand<'n> {
     pub node: &'n Node,
     pub index: usize,
     pub name: String,
-    /// Its object.
+    /// The object that the part belongs to.
     pub object: Option<ObjectId>,
     pub label: FileLabel,
 }

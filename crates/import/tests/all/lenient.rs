@@ -11,7 +11,7 @@ fn corners(imported: &Imported) -> [Vec3; 3] {
     imported.scene.world_corners(&imported.scene.parts[0], 0)
 }
 
-/// The same text as it is, with a byte order mark, and in both orders of UTF-16.
+/// A text as it is, with a byte order mark, and in both orders of UTF-16.
 fn encodings(text: &str) -> [Vec<u8>; 4] {
     let utf16 = |order: fn(u16) -> [u8; 2]| format!("\u{feff}{text}").encode_utf16().flat_map(order).collect::<Vec<u8>>();
     [text.into(), format!("\u{feff}{text}").into(), utf16(u16::to_le_bytes), utf16(u16::to_be_bytes)]

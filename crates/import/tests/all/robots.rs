@@ -22,7 +22,7 @@ fn assert_bounds(imported: &Imported, name: &str, min: [f32; 3], max: [f32; 3]) 
 const TEXT: &str = "solid Plate\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 1\n   vertex 2 0 1\n   vertex 2 2 1\n  endloop\n endfacet\n \
     facet normal 0 0 1\n  outer loop\n   vertex 0 0 1\n   vertex 2 2 1\n   vertex 0 2 1\n  endloop\n endfacet\nendsolid Plate\n";
 
-/// The same, binary, behind a head of 80 bytes.
+/// An STL file in binary, behind a head of 80 bytes.
 fn binary(head: &str) -> Vec<u8> {
     let mut bytes = head.as_bytes().to_vec();
     bytes.resize(80, b' ');

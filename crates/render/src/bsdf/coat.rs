@@ -30,7 +30,7 @@ pub struct CoatSpec {
     pub eta: f32,
     /// Roughness, where it is the same all over the surface.
     pub alpha: Option<f32>,
-    /// Its facets' slopes.
+    /// Slopes of the coat's facets.
     pub distribution: Distribution,
     /// Multiple bounces at the facets.
     pub bounces: Bounces,

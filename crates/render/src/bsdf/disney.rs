@@ -134,7 +134,7 @@ impl Part {
         }
     }
 
-    /// Its interface, for lobes that may be sharp.
+    /// Roughness (alpha) of the interface, for lobes that may be sharp.
     pub fn alpha(&self) -> Option<f32> {
         match *self {
             Self::Diffuse { .. } | Self::Sheen { .. } | Self::Translucent { .. } => None,

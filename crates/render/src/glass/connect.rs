@@ -23,9 +23,9 @@ const SPREAD: f32 = 0.7;
 
 /// A way through glass.
 pub(crate) struct Connection {
-    /// Its first direction, a unit vector.
+    /// The first direction, a unit vector.
     pub wi: Vec3,
-    /// Its last direction, at the light.
+    /// The last direction, at the light.
     pub arrives: Vec3,
     /// Fraction of the light that comes through.
     pub through: Rgb,

@@ -40,7 +40,7 @@ type Halves = [(Role, [f32; CLASSES]); 2];
 
 /// Weight of names in a bin of the curve of confidences.
 const BIN: f32 = 120.0;
-/// The same for names of two, of which there are few.
+/// Names of two that are in a bin, of which there are few.
 const BIN_OF_PAIRS: f32 = 80.0;
 
 impl Split {
