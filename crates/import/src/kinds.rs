@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 /// Places that a warning names.
 const NAMED: usize = 3;
-/// This many warnings that differ in names and numbers alone are one; those that do not differ, and have no numbers, are one always.
+/// Number of warnings that differ in names and numbers alone from which on they are one; those that do not differ, and have no numbers, are one always.
 const MANY: usize = 4;
 
 /// The warnings with those of a kind in one, in the place of the first, with their number and the first places.
