@@ -10,9 +10,9 @@ use toml::Table;
 /// How high a crate stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Floor {
-    /// Of the house.
+    /// A floor of the house.
     Number(u8),
-    /// Beside it, for tests and checks: others may only have it as a development dependency.
+    /// A crate beside the house, for tests and checks: others may only have it as a development dependency.
     Dev,
 }
 

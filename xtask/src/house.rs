@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 /// The repository.
 #[derive(Clone)]
 pub struct House {
-    /// Its root folder.
+    /// Root folder of the house.
     pub root: PathBuf,
     /// Whether tests make their long searches too.
     pub searches: bool,

@@ -24,7 +24,7 @@ pub fn found(house: &House) -> Option<PathBuf> {
     (output.status.success() && folder.is_dir()).then_some(folder)
 }
 
-/// As [`found`], or fetched from the Python package index into a virtual environment below the target folder.
+/// The library as by [`found`], or fetched from the Python package index into a virtual environment below the target folder.
 ///
 /// # Errors
 /// When there is no Python, or no network.

@@ -17,14 +17,14 @@ const STAMP: &str = "docs/pictures.txt";
 
 /// A run of the demo, and a picture that is taken from it as it is.
 struct Shot {
-    /// Beside those of every run.
+    /// Arguments beside those of every run.
     arguments: &'static [&'static str],
     picture: &'static str,
     /// In the demo's dataset.
     place: &'static str,
 }
 
-/// As users run it, and its first view larger and cleaner.
+/// Shots of the demo as users run it, and of its first view, larger and cleaner.
 const SHOTS: [Shot; 2] = [
     Shot { arguments: &[], picture: "docs/demo.jpg", place: "scenes/home/images/scene_cam_00_contact_sheet.jpg" },
     Shot {

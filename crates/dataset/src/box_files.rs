@@ -17,7 +17,7 @@ pub enum BoxKind {
     AxisAligned,
     /// Upright: the rectangle of minimum area in the ground plane.
     ObjectAligned2d,
-    /// Of nearly minimum volume.
+    /// A box of nearly minimum volume.
     ObjectAligned3d,
 }
 

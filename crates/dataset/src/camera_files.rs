@@ -265,7 +265,7 @@ pub struct OpencvCalibration {
 }
 
 impl OpencvCalibration {
-    /// That of a projection.
+    /// The calibration of a projection.
     pub fn of(projection: &Projection) -> Self {
         let plain = |intrinsics, model, distortion| Self { intrinsics, turned: DMat3::IDENTITY, model, distortion };
         match projection {

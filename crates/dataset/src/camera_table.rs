@@ -199,7 +199,7 @@ fn projection(intrinsics: &Intrinsics) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
-/// The same for a tilted image plane: depth is measured across it.
+/// The projection matrix of a tilted image plane: depth is measured across it.
 fn tilted_projection(tilted: &TiltedPinhole) -> DMat4 {
     let uv = tilted.cam_from_uv().inverse().transpose();
     let depth = (FAR_M + NEAR_M) / (FAR_M - NEAR_M);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The user's own list of classes in the mesh folder, where the labels choose from one.
 pub const CLASS_LIST: &str = "semantic_label_descs.csv";
-/// Its columns, as in Hypersim.
+/// Columns of the list, as in Hypersim.
 const COLUMNS: [&str; 5] = ["semantic_id", "semantic_name", "semantic_color_r", "semantic_color_g", "semantic_color_b"];
 
 /// A class that a part can have.
@@ -17,7 +17,7 @@ const COLUMNS: [&str; 5] = ["semantic_id", "semantic_name", "semantic_color_r", 
 pub struct Class {
     /// From 1.
     pub id: i16,
-    /// Its name, unique in the list.
+    /// Name of the class, unique in the list.
     pub name: String,
     /// Display colour, sRGB.
     pub color: [u8; 3],

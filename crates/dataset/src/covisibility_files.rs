@@ -16,8 +16,8 @@ pub struct Covisibility {
     pub frames: Vec<CovisibleFrame>,
     /// What told whether a point is hidden.
     pub hidden_by: HiddenBy,
-    /// Of shape (frames, frames): row i, column j is the share of frame i's grid pixels with a surface whose surface frame j sees, 0 to 1.
-    /// NaN in the rows of frames that show no surface.
+    /// Shares of shape (frames, frames): row i, column j is the share of frame i's grid pixels with a surface whose surface frame j sees, 0
+    /// to 1. NaN in the rows of frames that show no surface.
     pub shares: Vec<f32>,
 }
 
@@ -44,10 +44,10 @@ pub enum HiddenBy {
 }
 
 impl HiddenBy {
-    /// Both.
+    /// All ways to tell what is hidden.
     const ALL: [Self; 2] = [Self::Scene, Self::Distances];
 
-    /// As the table has it.
+    /// Name in the table.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Scene => "scene",

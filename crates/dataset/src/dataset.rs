@@ -66,14 +66,14 @@ impl Dataset {
         self.layout.root()
     }
 
-    /// The same dataset with the cameras of another table, in the form of Hypersim's `metadata_camera_parameters.csv`.
+    /// A dataset that reads the cameras of another table, in the form of Hypersim's `metadata_camera_parameters.csv`.
     #[must_use]
     pub fn with_camera_table(self, table: impl Into<PathBuf>) -> Self {
         Self { camera_table: Some(table.into()), ..self }
     }
 
-    /// The same dataset with pictures, contact sheets and exposures in another folder, which gets the same tree. Nothing is written
-    /// beside the images of others.
+    /// A dataset that writes pictures, contact sheets and exposures to another folder, which gets the same tree. Nothing is written beside
+    /// the images of others.
     #[must_use]
     pub fn with_pictures_in(self, folder: impl Into<PathBuf>) -> Self {
         Self { layout: self.layout.with_pictures_in(folder), ..self }

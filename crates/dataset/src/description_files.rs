@@ -31,13 +31,13 @@ const RELATIONS: [&str; 5] = ["subject_instance_id", "relation", "object_instanc
 /// What an instance is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DescribedInstance {
-    /// Its number, as in the images.
+    /// Number of the instance, as in the images.
     pub instance: i16,
-    /// Its class.
+    /// Class of the instance.
     pub semantic: i16,
     /// Name of the class.
     pub semantic_name: String,
-    /// Its own name: of generated homes' that of the object, else that of its largest part.
+    /// Name of the instance: of generated homes' that of the object, else that of its largest part.
     pub name: String,
     /// What people call it; empty where no word is known.
     pub noun: String,
@@ -72,7 +72,7 @@ impl RelationKind {
     /// All of them.
     pub const ALL: [Self; 7] = [Self::On, Self::In, Self::HangsFrom, Self::Against, Self::Under, Self::Beside, Self::Facing];
 
-    /// Its name in the file.
+    /// Name of the relation in the file.
     pub const fn name(self) -> &'static str {
         match self {
             Self::On => "on",
@@ -112,7 +112,7 @@ pub struct Caption {
     pub camera: String,
     /// Number of the frame.
     pub frame: u32,
-    /// Some sentences.
+    /// Sentences about the frame or scene.
     pub caption: String,
     /// The instances that they speak of.
     pub instances: Vec<i16>,

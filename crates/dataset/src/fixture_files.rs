@@ -26,9 +26,9 @@ pub struct Fixture {
     pub name: String,
     /// Luminance of its radiant intensity, W/sr; `None` for the sky, the sun and windows.
     pub intensity: Option<f32>,
-    /// Its middle in the world, metres; `None` for what has no place.
+    /// Middle of the fixture in the world, metres; `None` for what has no place.
     pub position: Option<Vec3>,
-    /// Its emissive parts or panes, as `render_entity_id` numbers them.
+    /// Emissive parts of the fixture, or its panes, as `render_entity_id` numbers them.
     pub node_ids: Vec<u32>,
     /// Names of its lights without a surface, in the table as a list in JSON.
     pub lights: Vec<String>,

@@ -473,7 +473,7 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path, remedy: &str) -> Resul
     read_text(path)?.map(|text| parse_json(path, &text, remedy)).transpose()
 }
 
-/// The same of a commit record, whose form may be one of a newer program.
+/// Reads a commit record, whose form may be one of a newer program; `None` where there is no file.
 fn read_record<T: DeserializeOwned>(path: &Path, remedy: &str) -> Result<Option<T>, DatasetError> {
     #[derive(Deserialize)]
     struct Head {

@@ -49,7 +49,7 @@ pub struct JudgedView {
     pub frame: u32,
     /// What became of it.
     pub verdict: ViewVerdict,
-    /// Its worst fault, unless it passed.
+    /// Worst fault of the view, unless it passed.
     pub fault: Option<ViewFault>,
 }
 

@@ -42,13 +42,13 @@ pub struct PixelArea {
 }
 
 impl PixelArea {
-    /// The same set with pixel (x, y), which it did not have.
+    /// The set with pixel (x, y), which it did not have.
     #[must_use]
     pub fn with(self, x: i32, y: i32) -> Self {
         self.union(Self { pixels: 1, bounds: [x, y, x + 1, y + 1] })
     }
 
-    /// Both sets, which have no pixel in common.
+    /// The union of two sets that have no pixel in common.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.bounds, other.bounds);
@@ -67,7 +67,7 @@ pub struct InstanceView {
     pub frame: u32,
     /// Instance number.
     pub instance: i16,
-    /// Its class.
+    /// Class of the instance.
     pub semantic: i16,
     /// The pixels of `semantic_instance` that have its number.
     pub visible: PixelArea,

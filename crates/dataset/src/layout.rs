@@ -78,7 +78,7 @@ impl Layout {
         Self { scenes: root.clone(), root, pictures: None }
     }
 
-    /// The same tree with previews, contact sheets and tables of exposures in a tree of the same form under `folder`.
+    /// A layout with previews, contact sheets and tables of exposures in a tree of the same form under `folder`.
     pub(crate) fn with_pictures_in(self, folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
         let pictures = if self.scenes == self.root { Self::flat(folder) } else { Self::new(folder) };
@@ -120,7 +120,7 @@ impl Layout {
         self.root.join("verify.json")
     }
 
-    /// The same as a page for a browser.
+    /// The report of `verify` as a page for a browser.
     pub fn verify_page(&self) -> PathBuf {
         self.root.join("verify.html")
     }
@@ -145,7 +145,7 @@ impl Layout {
         self.root.join("statistics")
     }
 
-    /// Its numbers, as JSON.
+    /// The numbers of the statistics, as JSON.
     pub fn statistics(&self) -> PathBuf {
         self.statistics_dir().join("statistics.json")
     }
@@ -331,7 +331,7 @@ impl Layout {
         self.camera_dir(scene, camera).join("preview")
     }
 
-    /// One of them, under the toolkit's name.
+    /// The plan view of a frame, under the toolkit's name.
     pub fn plan_view(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.plan_views_dir(scene, camera).join(format!("frame.{frame:04}.jpg"))
     }
@@ -351,7 +351,7 @@ impl Layout {
         self.camera_dir(scene, camera).join("rejected")
     }
 
-    /// One of them.
+    /// The picture of a rejected view.
     pub fn rejected_view(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.rejected_dir(scene, camera).join(format!("frame.{frame:04}.jpg"))
     }
@@ -438,12 +438,12 @@ impl Layout {
         self.detail_dir(scene).join("layout.json")
     }
 
-    /// The same as a drawing.
+    /// The rooms of a scene as a drawing.
     pub fn structure_plan(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("layout.svg")
     }
 
-    /// Its planes, which pixels are told to show.
+    /// The planes of the rooms, which pixels are told to show.
     pub fn plane_table(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_planes.csv")
     }

@@ -74,7 +74,7 @@ pub enum FrameStatus {
     Planned,
     /// Rendered; its files are listed.
     Complete,
-    /// It could not be rendered; the reason is given.
+    /// The frame could not be rendered; the reason is given.
     Failed,
     /// Not worth rendering; the reason is given.
     Rejected,

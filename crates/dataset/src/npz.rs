@@ -12,7 +12,7 @@ const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 /// An array of an archive, in C order, little-endian.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NpyArray {
-    /// Its key in the archive.
+    /// Key of the array in the archive.
     pub name: &'static str,
     /// numpy's description of an element, as in `<f4`.
     pub dtype: Cow<'static, str>,

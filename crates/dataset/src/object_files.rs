@@ -66,8 +66,8 @@ impl MeshFiles {
         self.read_geometry(objects, object_of_face.into_iter().map(before).collect())
     }
 
-    /// As [`MeshFiles::read`], where it is known from elsewhere that the first `whole` objects are those that did not come from splitting
-    /// others, and what every face belonged to before. The tables that say so need not fit each other then.
+    /// Reads the mesh as [`MeshFiles::read`] does, where it is known from elsewhere that the first `whole` objects are those that did not
+    /// come from splitting others, and what every face belonged to before. The tables that say so need not fit each other then.
     ///
     /// # Errors
     /// As [`MeshFiles::read`].

@@ -6,7 +6,7 @@ use crate::read::{read_image, sorted_names};
 use crate::{Dataset, DatasetError, FramePair, check_name};
 use enfilade_frame::{Frame, Layer, Values};
 
-/// That a pair has this layer says that it has layers.
+/// Layer by which a pair that has layers is known.
 const FIRST: Layer = Layer::OpticalFlow;
 
 impl Dataset {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(crate) const RECORD_FORMAT: u32 = 1;
 /// Poses that differ by no more, metres and parts of a rotation, are the same: what `verify` allows too.
 const SAME_POSE: f64 = 1e-9;
-/// The same of two calibrations, pixels: the table of cameras has them as matrices.
+/// Greatest difference of two calibrations of the same camera, pixels: the table of cameras has them as matrices.
 const SAME_CAMERA_PX: f64 = 1e-6;
 
 /// Size and checksum of a file.
@@ -72,7 +72,7 @@ pub enum StoppedBy {
     Samples,
     /// Fewer were enough for the noise that was asked for.
     Noise,
-    /// Its time was over.
+    /// The time limit was over.
     #[serde(rename = "time limit")]
     TimeLimit,
 }
@@ -193,7 +193,7 @@ impl FrameRecord {
     }
 }
 
-/// As [`FrameRecord`], for the label layers, which come and go without the frame being rendered again.
+/// A commit record as [`FrameRecord`], but for the label layers, which come and go without the frame being rendered again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LabelRecord {
     /// Version of this form.

@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 pub struct Repacked {
     /// Images.
     pub files: u64,
-    /// Their bytes in the dataset.
+    /// Bytes of these files in the dataset.
     pub bytes_before: u64,
-    /// Their bytes in the copy.
+    /// Bytes of these files in the copy.
     pub bytes_after: u64,
 }
 

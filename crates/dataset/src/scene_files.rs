@@ -13,7 +13,7 @@ use std::path::Path;
 /// What Hypersim writes for a node that belongs to no object.
 const NULL_OBJECT: &str = "_NULL_OBJECT";
 const NODE_COLUMNS: [&str; 4] = ["node_id", "node_name", "object_id", "object_name"];
-/// Of our own scenes alone: 1 where [`Node::is_partly_there`].
+/// Column of our own scenes alone: 1 where [`Node::is_partly_there`].
 const PARTLY_THERE: &str = "partly_there";
 const METERS: &str = "meters_per_asset_unit";
 

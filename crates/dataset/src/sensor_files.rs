@@ -15,7 +15,7 @@ use std::path::Path;
 /// What was drawn for a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedFrame {
-    /// Its number.
+    /// Number of the frame.
     pub frame: u32,
     /// Names and values.
     pub drawn: Vec<(&'static str, f64)>,

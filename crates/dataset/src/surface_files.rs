@@ -5,7 +5,7 @@ use crate::hdf5::{Array, Elements, Packing, Storage, read_array, write_array};
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_frame::f16;
 
-/// That a frame has this file says that it has surfaces.
+/// File by which a frame that has surfaces is known.
 const FIRST: &str = "surface_distance_meters";
 
 /// The surfaces that the ray through each pixel's centre meets, straight on through all of them, row by row, and for each pixel from near to

@@ -11,7 +11,7 @@ pub(crate) struct Table {
     path: PathBuf,
     /// Names of the columns.
     pub header: Vec<String>,
-    /// As many cells in each as there are columns.
+    /// Rows of cells, as many in each as there are columns.
     pub rows: Vec<Vec<String>>,
 }
 

@@ -8,7 +8,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 const HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu,peak_memory_bytes,threads\n";
-/// As tables of older versions begin.
+/// Header of tables of older versions.
 const OLD_HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu\n";
 
 /// How long a frame took, and on how much of the machine.

@@ -17,7 +17,7 @@ pub fn counted(n: usize, thing: &str) -> String {
     counted_as(n, thing, &format!("{thing}s"))
 }
 
-/// As [`counted`], where the plural is not made with an s: `1 mesh`, `2 meshes`.
+/// A number with its noun as [`counted`], where the plural is not made with an s: `1 mesh`, `2 meshes`.
 pub fn counted_as(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }

@@ -23,7 +23,7 @@ impl Denoiser {
         Self(Kind::BuiltIn(NETWORK.clone()))
     }
 
-    /// As [`Self::built_in`], with instructions of choice: for tests and measurements.
+    /// The built-in denoiser with instructions of choice, for tests and measurements.
     pub fn built_in_with(instructions: Instructions) -> Self {
         Self(Kind::BuiltIn(Arc::new(Network::new(instructions))))
     }

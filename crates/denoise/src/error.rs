@@ -11,7 +11,7 @@ pub enum DenoiseError {
         /// Each name or path with the system's answer.
         tried: Vec<String>,
     },
-    /// This program is linked statically, and a C library that is could load another only by chance.
+    /// A statically linked program, which could load a C library that is not only by chance.
     #[error("this program is linked statically and cannot load the library of Open Image Denoise")]
     Static,
     /// A library without a function that we need.
@@ -27,13 +27,13 @@ pub enum DenoiseError {
     Version {
         /// What was loaded.
         library: PathBuf,
-        /// Its version, as in `1.4.3`.
+        /// Version of the library, as in `1.4.3`.
         found: String,
     },
     /// The library's own error.
     #[error("Open Image Denoise: {message} ({kind})")]
     Library {
-        /// Its words.
+        /// Words of the library.
         message: String,
         /// The kind of error.
         kind: &'static str,

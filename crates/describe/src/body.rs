@@ -12,9 +12,9 @@ const CORNERS: usize = 2048;
 pub struct Body {
     /// Number of the instance; −1 for walls, floors and ceilings.
     pub instance: i16,
-    /// Its class.
+    /// Class of the body.
     pub semantic: i16,
-    /// The same if it is one of NYU40, else −1: what rules go by.
+    /// Class of the body if it is one of NYU40, else −1: what rules go by.
     pub class: i16,
     /// The least box with a level base around it, its longer horizontal side first.
     pub upright: OrientedBox,
@@ -27,7 +27,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// Of triangles, with the box around them.
+    /// A body of triangles, with the box around them.
     pub fn new((instance, semantic): (i16, i16), upright: OrientedBox, corners: Vec<[Vec3; 3]>) -> Self {
         Self {
             instance,

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A thing is spoken of when it covers this share of the image.
 const SPOKEN: f64 = 3e-3;
-/// It may be mistaken for another of its name that covers this share.
+/// Share of the image from which on another thing of the same name may be mistaken for the one that is spoken of.
 const NOTICED: f64 = 2e-4;
 /// The things that the first sentence lists, at most, things of one name being one.
 const LISTED: usize = 6;

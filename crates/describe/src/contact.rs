@@ -7,11 +7,11 @@ use enfilade_scene::CEILING;
 
 /// Things sink so far into what is hard under them, metres: feet into a rug's pile.
 const SINK_M: f32 = 0.005;
-/// And into what is soft: cushions.
+/// How far things sink into what is soft, such as cushions, metres.
 const SOFT_SINK_M: f32 = 0.03;
 /// A gap up to which things touch, metres.
 const TOUCH_M: f32 = 0.005;
-/// And soft ones, which lie in waves.
+/// A gap up to which soft things touch, metres: they lie in waves.
 const SOFT_TOUCH_M: f32 = 0.02;
 /// The lowest and the highest of a thing, as far as what carries it is concerned, metres.
 const ENDS_M: f32 = 0.01;
@@ -19,7 +19,7 @@ const ENDS_M: f32 = 0.01;
 pub const AGAINST_M: f32 = 0.1;
 /// Rays from each side of a box: so many rows of so many.
 const GRID: usize = 5;
-/// They leave out this share of the box at each border: corners are rounded, and backs are bent.
+/// Share of a box at each border that the rays leave out: corners are rounded, and backs are bent.
 const MARGIN: f64 = 0.1;
 
 /// From a point along a unit direction.
@@ -44,9 +44,9 @@ fn meet(b: &Body, rays: &[Ray], sink: f32, reach: f32) -> Option<Meeting> {
 
 /// How what carries a thing meets it.
 pub struct Attempt {
-    /// On it, or hanging from it.
+    /// Kind of support: on it, or hanging from it.
     pub kind: RelationKind,
-    /// Those that meet it so, by their place in the list.
+    /// Bodies that meet the thing so, by their place in the list.
     pub met: Vec<(usize, Meeting)>,
 }
 
@@ -100,7 +100,7 @@ fn grid(middle: DVec3, across: [DVec3; 2], lengths: [f64; 2], out: DVec3) -> Vec
     (0..GRID * GRID).map(|k| (point(k).as_vec3(), out.as_vec3())).collect()
 }
 
-/// Of the six ways from the middle of a body along the axes of another's box, on how many the other is met, and whether down is one.
+/// Number of the six ways from the middle of a body, along the axes of another's box, on which the other is met, and whether down is one.
 pub fn enclosed(a: &Body, b: &Body) -> (usize, bool) {
     let middle = a.center().as_vec3();
     let reach = b.bounds.extent().length();

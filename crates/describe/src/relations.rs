@@ -10,29 +10,29 @@ use enfilade_math::{DVec2, DVec3};
 use enfilade_scene::{CEILING, WALL};
 use std::collections::BTreeSet;
 
-/// Of the rays that meet what carries a thing most, another meets at least this share if it carries the thing too.
+/// Share of the rays that meet a thing's main support from which on another thing carries it too.
 const ALSO: f64 = 0.2;
 /// A thing is in another that is met on so many of the six ways from its middle, down among them: on all but that out.
 const IN_WAYS: usize = 5;
-/// And that has it between its sides, seen from above, up to this, metres: what is draped over something is not in it.
+/// Farthest that a thing in another may reach beyond its sides, seen from above, metres: what is draped over something is not in it.
 const WITHIN_M: f32 = 0.005;
 /// Another thing or a wall is met by this share of a side's rays if the thing stands against it.
 const AGAINST_SHARE: f64 = 0.4;
-/// And is no farther away than this share of the thing's longest side: a mug near a lamp does not stand against it.
+/// Greatest gap to what a thing stands against, as a share of its longest side: a mug near a lamp does not stand against it.
 const AGAINST_LENGTHS: f64 = 0.15;
-/// This share of a thing has another above it if it is under it.
+/// Share of a thing that has another above it if it is under it.
 const UNDER_SHARE: f64 = 0.5;
-/// And no higher than this, metres.
+/// Greatest height of what a thing is under above it, metres.
 const UNDER_M: f32 = 2.0;
 /// Things beside each other are at most so far apart, metres.
 const BESIDE_M: f64 = 0.5;
-/// And at most so many lengths of the smaller one.
+/// Greatest gap between things beside each other, in lengths of the smaller one.
 const BESIDE_LENGTHS: f64 = 1.5;
-/// Their heights overlap by this share of the lower one's.
+/// Share of the lower thing's height in which the heights of things beside each other overlap.
 const BESIDE_OVERLAP: f64 = 0.3;
 /// What a thing faces is at most so far away, metres.
 const FACING_M: f64 = 5.5;
-/// And no farther aside, above or below than this angle, degrees.
+/// Greatest angle between a thing's front and what it faces, aside, above or below, degrees.
 const FACING_DEG: f64 = 20.0;
 /// Classes of things that people use from their front, and that so face others: bed, chair, sofa, desk, television, mirror.
 const FACING_CLASSES: [i16; 6] = [4, 5, 6, 14, 19, 25];
@@ -71,7 +71,7 @@ pub fn relations(bodies: &[Body], front: impl Fn(i16) -> Option<DVec2> + Sync) -
     all
 }
 
-/// The others whose bounds come within `reach_m` of a body's.
+/// Other bodies whose bounds come within `reach_m` of a body's.
 fn near(bodies: &[Body], i: usize, reach_m: f64) -> impl Iterator<Item = (usize, &Body)> {
     bodies.iter().enumerate().filter(move |(j, b)| *j != i && bodies[i].bounds_distance_m(b) <= reach_m)
 }
@@ -102,7 +102,7 @@ fn supports(bodies: &[Body]) -> Vec<Support> {
     }
 }
 
-/// Those that are met most.
+/// Bodies that are met most.
 fn foremost(mut met: Vec<(usize, Meeting)>) -> Vec<(usize, Meeting)> {
     let most = met.iter().map(|(_, meeting)| meeting.share).fold(0.0, f64::max);
     met.retain(|(_, meeting)| meeting.share >= ALSO * most);

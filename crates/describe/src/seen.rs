@@ -28,7 +28,7 @@ pub struct Sight {
 /// What a frame shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenFrame {
-    /// Its number.
+    /// Number of the frame.
     pub frame: u32,
     /// Pixels of the image.
     pub pixels: u64,

@@ -15,7 +15,7 @@ const IN_WALL_M: f64 = 0.5;
 
 /// The bodies of a scene and what its instances are.
 pub struct Things {
-    /// Of every instance, in ascending order, then of all else, by class: walls, floors, ceilings, what has no label.
+    /// Bodies of every instance, in ascending order, then of all else, by class: walls, floors, ceilings, what has no label.
     pub bodies: Vec<Body>,
     /// What the instances are, in the same order; their colours are not known yet.
     pub described: Vec<DescribedInstance>,

@@ -10,7 +10,7 @@ pub enum ExploreError {
     Config {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value of the setting, as it was found.
         found: String,
         /// What is allowed.
         expected: &'static str,
@@ -90,7 +90,7 @@ pub enum ExploreError {
     StartBlocked {
         /// Name of the start camera.
         name: String,
-        /// Its position.
+        /// Position of the start camera, metres.
         position: DVec3,
         /// How far was searched.
         radius_m: f64,

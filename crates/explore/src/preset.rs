@@ -44,7 +44,7 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// Its name in configurations.
+    /// Name of the preset in configurations.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Default => "default",

@@ -82,7 +82,7 @@ impl Default for Saliency {
 }
 
 impl Saliency {
-    /// Its exponents and its weight.
+    /// The exponents alpha and beta and the weight of texture; the weight is 0 where the saliency has none.
     pub(crate) fn numbers(&self) -> [f64; 3] {
         match *self {
             Self::Triangles { alpha, beta } | Self::Parts { alpha, beta } | Self::Entropy { alpha, beta } => [alpha, beta, 0.0],

@@ -36,7 +36,7 @@ impl FreeSpace {
 pub struct CarveReport {
     /// Free voxels.
     pub free_voxels: u64,
-    /// Their volume, cubic metres.
+    /// Volume of the free voxels, cubic metres.
     pub free_volume_m3: f64,
     /// Voxels that a surface touches.
     pub occupied_voxels: u64,
@@ -76,7 +76,7 @@ pub struct StartReport {
 /// A place where free space leads out of the building.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Leak {
-    /// Its middle, metres.
+    /// Middle of the leak, metres.
     pub position: DVec3,
     /// The area of the faces between voxels inside and outside, square metres.
     pub area_m2: f64,

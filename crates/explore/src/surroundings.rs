@@ -79,8 +79,8 @@ impl<'a> Surroundings<'a> {
         point.behind && self.has_front[point.part as usize]
     }
 
-    /// Of the level and of the upward directions around a point, the share in which there is no surface, or only the back of one
-    /// whose front is what one sees from around the starts.
+    /// Shares of the level and of the upward directions around a point in which there is no surface, or only the back of one whose front is
+    /// what one sees from around the starts.
     pub fn open_shares(&self, p: DVec3) -> [f64; 2] {
         let leads_out = |direction: DVec3| self.meet(p, direction).is_none_or(|point| self.is_wrong_side(&point));
         let level = |k: usize| {
@@ -92,8 +92,8 @@ impl<'a> Surroundings<'a> {
         [level, upward().filter(|d| leads_out(*d)).count() as f64 / upward().count() as f64]
     }
 
-    /// Of all directions around a point, the share in which there is a surface nearer than `near_m`, or the back of one whose front is
-    /// what one sees from around the starts: next to all of them within a thing, and few in a room.
+    /// Share of all directions around a point in which there is a surface nearer than `near_m`, or the back of one whose front is what one
+    /// sees from around the starts: next to all of them within a thing, and few in a room.
     pub fn enclosed_share(&self, p: DVec3, near_m: f64) -> f64 {
         let closes = |point: &SurfacePoint| point.distance_m < near_m || self.is_wrong_side(point);
         let met = (0..AROUND).filter_map(|k| self.meet(p, warp::fibonacci_sphere(k, AROUND)));

@@ -37,7 +37,7 @@ impl TestImage {
         sorted
     }
 
-    /// Its rays in the world.
+    /// Rays of the image in the world.
     pub(crate) fn rays(&self, pose: &Pose) -> PinholeRays {
         let ray = |x: f64, y: f64| pose.world_from_camera * self.intrinsics.ray(x + 0.5, y + 0.5);
         let corner = ray(0.0, 0.0);
@@ -62,7 +62,7 @@ pub(crate) struct Sight {
     seen: SeenSet,
     /// Pixels of every part; zero between calls.
     areas: Vec<u32>,
-    /// Those with pixels.
+    /// Parts with pixels.
     parts: Vec<PartId>,
 }
 

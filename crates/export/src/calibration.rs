@@ -27,7 +27,7 @@ pub(crate) struct Calibration {
 }
 
 impl Calibration {
-    /// That of a track's camera; `None` for panoramas and grids of rays, which have no K.
+    /// Calibration of a track's camera; `None` for panoramas and grids of rays, which have no K.
     pub fn of(track: &Track) -> Option<Self> {
         let (intrinsics, distortion, turn) = match &track.camera.projection {
             Projection::Pinhole(k) => (*k, Distortion::None, DMat3::IDENTITY),
@@ -42,13 +42,13 @@ impl Calibration {
         Some(Self { intrinsics, distortion, turn })
     }
 
-    /// That of a track whose camera must be a pinhole.
+    /// Calibration of a track whose camera must be a pinhole.
     pub fn of_pinhole(selected: &SelectedFrames<'_>, track: &Track) -> Result<Self, ExportError> {
         let found = Self::of(track).filter(|c| c.distortion == Distortion::None);
         found.ok_or_else(|| selected.unsuitable(track.folder(), "its camera is no pinhole, and the format has no distortion; leave it out"))
     }
 
-    /// That of a track whose camera must be a pinhole of rectangular pixels.
+    /// Calibration of a track whose camera must be a pinhole of rectangular pixels.
     pub fn of_upright_pinhole(selected: &SelectedFrames<'_>, track: &Track) -> Result<Self, ExportError> {
         let found = Self::of_pinhole(selected, track)?;
         if found.intrinsics.skew != 0.0 {

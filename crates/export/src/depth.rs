@@ -46,7 +46,7 @@ pub(crate) fn millimetres(depth_m: f64) -> u16 {
     whole_units(depth_m, 1000.0)
 }
 
-/// As [`millimetres`], with so many units to the metre.
+/// A depth in units of which `per_metre` make a metre, as [`millimetres`].
 pub(crate) fn whole_units(depth_m: f64, per_metre: f64) -> u16 {
     let units = (depth_m * per_metre).round();
     if units > 0.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }

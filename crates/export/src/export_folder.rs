@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 /// What to do with a folder that is at the target and is no export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// It stays, and nothing is exported.
+    /// The folder stays, and nothing is exported.
     Refuse,
-    /// It is renamed to `<name>.old`.
+    /// The folder is renamed to `<name>.old`.
     SetAside,
 }
 
@@ -25,7 +25,7 @@ pub struct Exported {
     pub frames: usize,
     /// Files, the record and the page for people included.
     pub files: usize,
-    /// Their bytes.
+    /// Bytes of these files.
     pub bytes: u64,
 }
 
@@ -162,7 +162,7 @@ fn is_export(path: &Path) -> bool {
     record.is_some_and(|record| record.kind == RECORD_FORMAT)
 }
 
-/// Neither folder may lie in the other: what is replaced must not be what is read.
+/// Refuses a target within the dataset and a dataset within the target: what is replaced must not be what is read.
 fn check_apart(target: &Path, dataset: &Path) -> Result<(), ExportError> {
     let absolute = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.into());
     let (target_at, dataset_at) = (absolute(target), absolute(dataset));

@@ -49,7 +49,7 @@ pub struct FormatSpec {
     pub name: &'static str,
     /// One sentence: what is in it.
     pub about: &'static str,
-    /// Of each group one layer must be there.
+    /// Groups of layers, of each of which one must be there.
     pub needs: &'static [&'static [Layer]],
     /// Layers that are written where they are there; `None`: any layer of the table can be.
     pub takes: Option<&'static [Layer]>,

@@ -18,7 +18,7 @@ pub(crate) struct Intrinsic {
 }
 
 impl Intrinsic {
-    /// That of a pinhole, straight or tilted; `None` for other cameras, which are more than K.
+    /// Intrinsics of a pinhole, straight or tilted; `None` for other cameras, which are more than K.
     pub fn of(projection: &Projection) -> Option<Self> {
         let (k, turn) = match projection {
             Projection::Pinhole(k) => (*k, DMat3::IDENTITY),

@@ -20,13 +20,13 @@ const SAME_SURFACE: f64 = 0.01;
 pub(crate) struct CloudPoint {
     /// World, metres.
     pub position: DVec3,
-    /// As displayed, sRGB.
+    /// Colour as displayed, sRGB.
     pub color: [u8; 3],
     /// At least one.
     pub sightings: Vec<Sighting>,
 }
 
-/// That a frame sees a point.
+/// A point in the image of a frame that sees it.
 pub(crate) struct Sighting {
     /// Index of the frame among those of the cloud.
     pub view: usize,

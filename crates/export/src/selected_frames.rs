@@ -26,7 +26,7 @@ pub(crate) struct Track {
     /// Name of the camera.
     pub name: String,
     pub camera: Camera,
-    /// The whole trajectory.
+    /// Poses of the whole trajectory.
     pub poses: Vec<Pose>,
     /// Indices into `poses` of the frames that are exported.
     pub chosen: Vec<usize>,
@@ -165,7 +165,7 @@ impl<'d> SelectedFrames<'d> {
         self.layers.contains(&layer) && self.dataset.has_layer(&view.track.scene, &view.track.name, view.frame(), layer)
     }
 
-    /// Those of `wanted` that the frame has and that are not left out, as a frame; one of 0 × 0 pixels when there are none.
+    /// Reads the `wanted` layers that the frame has and that are not left out, as a frame; one of 0 × 0 pixels when there are none.
     pub fn read(&self, view: View<'_>, wanted: &[Layer]) -> Result<Frame, ExportError> {
         let there: Vec<Layer> = wanted.iter().copied().filter(|&layer| self.has(view, layer)).collect();
         if there.is_empty() {
@@ -236,7 +236,7 @@ impl<'d> SelectedFrames<'d> {
         self.each_of(&self.views().collect::<Vec<_>>(), work)
     }
 
-    /// As [`SelectedFrames::each`], for some of the frames.
+    /// Works on some of the frames, as [`SelectedFrames::each`] does on all.
     pub fn each_of<T: Send>(
         &self,
         views: &[View<'_>],
@@ -250,7 +250,7 @@ impl<'d> SelectedFrames<'d> {
         Counted::new(self.cx, "frames", frames)
     }
 
-    /// As [`SelectedFrames::each_of`], where these are not all that are counted.
+    /// Works on some of the frames, as [`SelectedFrames::each_of`] does, where these are not all that are counted.
     pub fn each_counted<T: Send>(
         &self,
         counted: &Counted<'_>,

@@ -81,14 +81,14 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// This process on this machine; Slurm's name for the machine wins over its own.
+    /// The attempt of this process on this machine; Slurm's name for the machine wins over its own.
     pub fn here() -> Self {
         let variable = |name: &str| std::env::var(name).ok();
         let host = variable("SLURMD_NODENAME").or_else(|| std::fs::read_to_string("/proc/sys/kernel/hostname").ok());
         Self::new(host.as_deref().map_or("node", str::trim), variable)
     }
 
-    /// This process, on machine `host`, started by whatever `environment` tells.
+    /// The attempt of this process, on machine `host`, started by whatever `environment` tells.
     pub fn new(host: &str, environment: impl Fn(&str) -> Option<String>) -> Self {
         let mut unique = [0; 6];
         // Without random numbers of the system the process and the clock's nanoseconds tell attempts apart.

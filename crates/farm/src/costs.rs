@@ -26,7 +26,8 @@ const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_in
 /// One attempt at one task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AttemptCost {
-    /// Its own record. An attempt that was killed has recorded no time; it counts with the times of the frames that it had committed.
+    /// Record of the attempt. An attempt that was killed has recorded no time; it counts with the times of the frames that it had
+    /// committed.
     pub record: AttemptRecord,
     /// vCPU-seconds of its frames that count.
     pub in_frames_vcpu_s: f64,
@@ -88,7 +89,7 @@ pub struct Statement<'a> {
 /// What all attempts cost at a price.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Priced {
-    /// Its name and rates.
+    /// Name and rates of the price.
     #[serde(flatten)]
     pub price: Price,
     /// All rates together.

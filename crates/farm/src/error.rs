@@ -5,7 +5,7 @@ use std::error::Error as StdError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Of an error for want of threads.
+/// Words of an error for want of threads.
 pub(crate) const START_THREADS: &str = "start threads for";
 
 /// Why something on a farm could not be done.
@@ -14,7 +14,7 @@ pub enum FarmError {
     /// The place of a job.
     #[error("{place:?} is no place for a job: {problem}; expected a folder, or a URL such as s3://bucket/prefix, gs://… or az://…")]
     Place {
-        /// As it was given.
+        /// Place as it was given.
         place: String,
         /// What is wrong with it.
         problem: String,
@@ -24,7 +24,7 @@ pub enum FarmError {
     Store {
         /// The object, or the place.
         name: String,
-        /// Its answer.
+        /// Answer of the store.
         source: object_store::Error,
     },
     /// The store does not keep what every commit rests on.
@@ -50,7 +50,7 @@ pub enum FarmError {
         "after_frame: {program:?} {problem}\n({place} is kept without it, and is not rendered again: do its task again when the program is mended)"
     )]
     Program {
-        /// Its name.
+        /// Name of the program.
         program: String,
         /// The frame.
         place: String,

@@ -63,7 +63,7 @@ impl Finished {
         job.store.put(&name, text)
     }
 
-    /// Its marker, which names no payload yet.
+    /// Marker of the task, which names no payload yet.
     fn marker(&self, task: u32, attempt: &str) -> Marker {
         Marker {
             key: self.key.clone(),

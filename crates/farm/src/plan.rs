@@ -96,7 +96,7 @@ pub struct PlanStatement {
 /// What all frames will cost at a price.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PricedPlan {
-    /// Its name and rates.
+    /// Name and rates of the price.
     #[serde(flatten)]
     pub price: Price,
     /// All rates together.
@@ -131,9 +131,9 @@ pub struct StoredFile {
 /// One scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlannedScene {
-    /// Its name in the dataset.
+    /// Name of the scene in the dataset.
     pub name: String,
-    /// Its files, by path within the dataset's folder.
+    /// Files of the scene, by path within the dataset's folder.
     pub files: BTreeMap<String, StoredFile>,
     /// Number of frames.
     pub frames: u64,

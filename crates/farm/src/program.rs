@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// So much of what a program has said last on standard error goes into messages, bytes.
+/// Bytes of a program's last words on standard error that go into messages.
 const TAIL_BYTES: usize = 2000;
 /// Between two looks whether it has ended: the first, doubled up to the last.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(100)];

@@ -77,7 +77,7 @@ pub fn status(job: &Job) -> Result<Status, FarmError> {
 }
 
 impl Ended {
-    /// As records have it.
+    /// Word for the outcome in records.
     pub fn word(self) -> &'static str {
         match self {
             Self::Done => "done",

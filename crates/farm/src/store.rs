@@ -41,7 +41,7 @@ pub struct Store {
 /// What became of an object that only one may write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Created {
-    /// It is there now, as given.
+    /// The object is there now, as given.
     Yes,
     /// The name is taken: by somebody else, or by an earlier try whose answer was lost.
     Taken,

@@ -68,7 +68,7 @@ impl SubmitOptions {
 pub enum Submitted {
     /// A file was written.
     File(PathBuf),
-    /// It was submitted, as the job of this number.
+    /// The job was submitted, under this number.
     Job(String),
 }
 

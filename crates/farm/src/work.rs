@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 /// The tasks of one worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Assignment {
-    /// These.
+    /// The tasks of these numbers.
     Tasks(Ranges),
     /// The i-th of n shares of all tasks, each of consecutive ones.
     Shard(u32, u32),
@@ -25,8 +25,8 @@ pub enum Assignment {
 const INDEX_VARIABLES: [&str; 2] = ["JOB_COMPLETION_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX"];
 
 impl Assignment {
-    /// Of `tasks` the one at the place that Kubernetes or AWS Batch say in `environment`; the first where neither does, as for a job of
-    /// AWS Batch with a single task.
+    /// The one of `tasks` at the place that Kubernetes or AWS Batch say in `environment`; the first where neither does, as for a job of AWS
+    /// Batch with a single task.
     ///
     /// # Errors
     /// When that is no number, or there are fewer tasks.
@@ -93,9 +93,9 @@ pub struct AttemptRecord {
     pub committed: u32,
     /// Frames that another attempt committed first.
     pub lost: u32,
-    /// Of these, frames of which the other had made other bytes: there should be none.
+    /// Number of these frames of which the other attempt had made other bytes: there should be none.
     pub different: u32,
-    /// Of the committed ones, how many break a law of verification, by law: normally none.
+    /// Number of the committed frames that break a law of verification, by law: normally none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub broken: BTreeMap<String, u32>,
     /// How it ended; `None` while it is at work, and for ever if it was killed.

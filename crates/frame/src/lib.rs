@@ -78,7 +78,7 @@ impl Values {
     }
 }
 
-/// As [`f16::to_f64`], which asks at every value whether the processor has an instruction for it.
+/// The number as float64, as [`f16::to_f64`] gives it, which however asks at every value whether the processor has an instruction for it.
 #[inline]
 fn half_to_f64(value: f16) -> f64 {
     const EXPONENT: u16 = 0x7C00;
@@ -109,9 +109,9 @@ pub const MAX_FIXTURES: usize = 40;
 /// for the rounding of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixtureLayers {
-    /// Its part of `diffuse_illumination`, float16; 0 where `diffuse_reflectance` is.
+    /// The fixture's part of `diffuse_illumination`, float16; 0 where `diffuse_reflectance` is.
     pub diffuse_illumination: Values,
-    /// Its part of `residual`, float16.
+    /// The fixture's part of `residual`, float16.
     pub residual: Values,
 }
 

@@ -3,7 +3,7 @@
 use crate::{Frame, Layer, f16};
 use enfilade_math::Rgb;
 
-/// This times the picture's mean luminance is added to a pixel's own before its error is divided by it: a relative error in the dark is
+/// Share of the picture's mean luminance that is added to a pixel's own before its error is divided by it: a relative error in the dark is
 /// invisible.
 pub const NOISE_FLOOR: f64 = 0.2;
 

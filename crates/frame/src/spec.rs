@@ -71,13 +71,13 @@ pub enum Pass {
     Final,
     /// `scene_cam_XX_geometry_hdf5`: point samples at pixel centres.
     Geometry,
-    /// Also in the geometry folder, but joined from `render_entity_id` after rendering.
+    /// Layers in the geometry folder that are joined from `render_entity_id` after rendering.
     Label,
-    /// Also in the final folder: the layers that were rendered, of frames whose `color` is denoised, where they are kept.
+    /// Layers in the final folder as they were rendered, of frames whose `color` is denoised, where they are kept.
     Rendered,
-    /// Also in the final folder and rendered with it, but only where that is asked for: the light of `color` by its way or its source.
+    /// Layers in the final folder, rendered with it only where that is asked for: the light of `color` by its way or its source.
     Split,
-    /// Also in the geometry folder and sampled like it, but only where that is asked for.
+    /// Layers in the geometry folder, sampled like it, only where that is asked for.
     Extra,
 }
 
@@ -96,9 +96,9 @@ pub enum Validity {
     Void = 0,
     /// Every layer is meaningful.
     Valid = 1,
-    /// As `Valid`, but a colour value exceeded the largest float16 (65504) and is stored as that.
+    /// The pixel is valid, but a colour value exceeded the largest float16 (65504) and is stored as that.
     Saturated = 2,
-    /// As `Valid`, but the pixel has no diffuse reflectance: `diffuse_illumination` is the demodulated irradiance.
+    /// The pixel is valid but has no diffuse reflectance: `diffuse_illumination` is the demodulated irradiance.
     NoDiffuse = 3,
 }
 

@@ -10,7 +10,7 @@ use zip::result::ZipError;
 
 /// A file within an archive may unpack to this many bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
-/// As many archives within an archive are opened.
+/// Greatest number of archives within an archive that are opened.
 const MAX_INNER: usize = 8;
 /// All files of an archive together may unpack to this many bytes: a small file can unpack to a thousand times its size.
 const MAX_BYTES: u64 = 8 << 30;

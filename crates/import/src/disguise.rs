@@ -192,7 +192,7 @@ pub(crate) fn refuse(path: &Path, format: Format) -> Result<(), ImportError> {
     if read == Some(true) { refuse_head(path, &head, format) } else { Ok(()) }
 }
 
-/// As [`refuse`], of a file that begins with `head`.
+/// Refuses a file that begins with `head`, as [`refuse`] does.
 ///
 /// # Errors
 /// As there.

@@ -66,22 +66,22 @@ pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Others)>
 struct Chosen {
     name: String,
     format: Format,
-    /// Other files that are scenes or meshes too.
+    /// Names of other files that are scenes or meshes too.
     others: Vec<String>,
 }
 
 /// Why none was chosen.
 #[derive(Debug)]
 enum Unclear {
-    /// There is no scene.
+    /// No scene.
     None,
     /// There are several, such as these.
     Several(Vec<String>),
 }
 
 impl Chosen {
-    /// The others in an archive or a folder. Meshes beside a scene that is put together of mesh files are its parts, read or not, unless they
-    /// are called like the scene.
+    /// Other scene files in an archive or a folder. Meshes beside a scene that is put together of mesh files are its parts, read or not,
+    /// unless they are called like the scene.
     fn others_in(&self, place: &'static str, home: &Path) -> Others {
         let has_parts = matches!(self.format, Format::Mitsuba | Format::Pbrt | Format::Urdf | Format::Sdf);
         let is_mesh = |name: &str| Format::of(Path::new(name)).is_ok_and(|format| MESHES.contains(&format));

@@ -71,7 +71,7 @@ impl EnvironmentOverride {
         if let EnvironmentSource::Picture(file) = &self.source { Some(file) } else { None }
     }
 
-    /// The same, to change it.
+    /// The picture, to be changed, unless it is a sky.
     pub fn file_mut(&mut self) -> Option<&mut PathBuf> {
         if let EnvironmentSource::Picture(file) = &mut self.source { Some(file) } else { None }
     }
@@ -142,7 +142,7 @@ struct Keys {
     /// An equirectangular picture (HDR, EXR, PFM, or an eight-bit one); its upper edge is straight up, its middle −y.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<PathBuf>,
-    /// Instead of a picture, a sky; its light is in kilo-candela per square metre, and north is +y.
+    /// A sky in place of a picture; its light is in kilo-candela per square metre, and north is +y.
     #[serde(skip_serializing_if = "Option::is_none")]
     sky: Option<Kind>,
     /// Month and day, as in `"06-21"`; a year before them is not looked at.
@@ -203,7 +203,7 @@ impl Keys {
     }
 }
 
-/// Of "06-21" or "2026-06-21".
+/// Month and day of "06-21" or "2026-06-21".
 fn month_and_day(date: &str) -> Result<[u32; 2], String> {
     let numbers: Option<Vec<u32>> = date.split('-').map(|part| part.parse().ok()).collect();
     match numbers.as_deref() {

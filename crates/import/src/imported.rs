@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct ImportedLabel {
     /// The part.
     pub part: PartId,
-    /// Its class and instance.
+    /// Class and instance of the part.
     pub label: PartLabel,
 }
 

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 /// The axis of the file that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum UpAxis {
-    /// Of a room that lies on its side.
+    /// +x is up: a room that lies on its side.
     #[serde(rename = "x")]
     X,
-    /// As in glTF.
+    /// +y is up, as in glTF.
     #[serde(rename = "y")]
     Y,
-    /// As in this workspace.
+    /// +z is up, as in this workspace.
     #[serde(rename = "z")]
     Z,
     /// Against x.
@@ -31,7 +31,7 @@ impl UpAxis {
     /// Every one, the usual ones first.
     pub const ALL: [Self; 6] = [Self::Y, Self::Z, Self::X, Self::MinusX, Self::MinusY, Self::MinusZ];
 
-    /// As it is written in `dataset.toml` and on the command line.
+    /// Name of the axis, as it is written in `dataset.toml` and on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -43,7 +43,7 @@ impl UpAxis {
         }
     }
 
-    /// The one that is nearest to a direction in the file's axes.
+    /// The axis nearest to a direction in the file's axes.
     pub fn nearest(direction: DVec3) -> Self {
         let [x, y, z] = direction.abs().to_array();
         match (x > y.max(z), y > z) {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// As many scene files a message names.
+/// Greatest number of scene files that a message names.
 const NAMED: usize = 3;
 
 /// The scene files that lie beside the one that was chosen.

@@ -146,7 +146,7 @@ impl<'a> Warnings<'a> {
     }
 }
 
-/// Of an import that ends with an error the warnings are told as well: they may say why.
+/// Passes on the warnings of an import that ends with an error as well: they may say why.
 impl Drop for Warnings<'_> {
     fn drop(&mut self) {
         self.tell();

@@ -9,7 +9,7 @@ const MAX_NAMES: usize = 1 << 19;
 /// A file or folder that a pattern means.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Match {
-    /// Its path as the pattern spells it, with its wildcards replaced.
+    /// Path of the file as the pattern spells it, with its wildcards replaced.
     pub path: String,
     /// The last name in it that a wildcard matched; the file's own name where the pattern has none.
     pub name: String,
@@ -55,7 +55,7 @@ pub fn matches(folder: &Path, pattern: &str) -> Result<Vec<Match>, String> {
     Ok(there)
 }
 
-/// The same with the file's own name where no wildcard matched one.
+/// A match under the file's own name where no wildcard matched one.
 fn named(found: Match) -> Match {
     let own = || found.path.rsplit('/').next().unwrap_or_default().to_string();
     if found.name.is_empty() { Match { name: own(), ..found } } else { found }

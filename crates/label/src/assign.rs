@@ -26,9 +26,9 @@ pub struct LabelReport {
 /// A part that no row labels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnlabelledPart {
-    /// Its name.
+    /// Name of the part.
     pub part: String,
-    /// Its material's name.
+    /// Name of the part's material.
     pub material: String,
 }
 

@@ -69,7 +69,8 @@ impl SplitParts {
         self.parts.iter().map(|(&part, split)| (part, split.piece_of.as_slice()))
     }
 
-    /// As [`join`], where `positions` (world, metres) tells the pieces of split parts apart. `labels` has one row per piece.
+    /// Classes and instances of pixels as by [`join`], where `positions` (world, metres) tells the pieces of split parts apart. `labels`
+    /// has one row per piece.
     ///
     /// # Errors
     /// As [`join`].

@@ -13,7 +13,7 @@ pub struct Confusion {
 /// A pixel that cannot be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ConfusionError {
-    /// As many predictions as truths are needed.
+    /// Different numbers of predictions and truths.
     #[error("{predicted} predictions for {truths} true classes; expected as many")]
     Lengths {
         /// Predictions.
@@ -36,9 +36,9 @@ pub enum ConfusionError {
     /// Matrices of different sets of classes.
     #[error("a matrix of {found} classes, expected {expected}")]
     Classes {
-        /// Of the other.
+        /// Classes of the other matrix.
         found: usize,
-        /// Of this one.
+        /// Classes of this matrix.
         expected: usize,
     },
 }

@@ -14,7 +14,7 @@ pub struct Image {
     pub width: usize,
     /// Values per pixel.
     pub channels: usize,
-    /// As many as there are of all.
+    /// The values, height × width × channels of them.
     pub values: Values,
 }
 

@@ -390,7 +390,7 @@ fn get_or_try<T, E>(cell: &OnceLock<T>, make: impl FnOnce() -> Result<T, E>) -> 
     Ok(cell.get_or_init(|| made))
 }
 
-/// Those of `names` that are `wanted`, or all.
+/// The `names` that are `wanted`, or all.
 fn chosen(what: &str, names: Vec<String>, wanted: Option<&[String]>) -> Result<Vec<String>, LoaderError> {
     let Some(wanted) = wanted else { return Ok(names) };
     if let Some(unknown) = wanted.iter().find(|name| !names.contains(name)) {

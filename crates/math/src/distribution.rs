@@ -104,7 +104,7 @@ pub struct Distribution2 {
     rows: Vec<Option<Distribution1>>,
     marginal: Distribution1,
     width: usize,
-    /// Of each cell, its density: one place in memory to look at.
+    /// Density of each cell: one place in memory to look at.
     densities: Vec<f32>,
 }
 

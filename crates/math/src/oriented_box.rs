@@ -16,7 +16,7 @@ use glam::{DMat3, DVec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrientedBox {
-    /// Its middle.
+    /// Middle of the box.
     pub center: DVec3,
     /// Columns are the directions of its sides: orthonormal, right-handed.
     pub world_from_box: DMat3,

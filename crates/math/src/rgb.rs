@@ -90,7 +90,7 @@ impl Rgb {
         self * (1.0 - t) + other * t
     }
 
-    /// As an array.
+    /// The channels as an array: red, green, blue.
     #[inline]
     pub const fn to_array(self) -> [f32; 3] {
         [self.r, self.g, self.b]

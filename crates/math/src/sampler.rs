@@ -64,8 +64,8 @@ impl Sampler {
     }
 }
 
-/// Of each set, the Sobol points whose index has its four bits from `4 * i` on as given and no others, bits in reverse. A point is the
-/// sum of four of them, which takes no branch on bits that nobody can predict.
+/// Sobol points of each set whose index has its four bits from `4 * i` on as given and no others, bits in reverse. A point is the sum of
+/// four of them, which takes no branch on bits that nobody can predict.
 static POINTS: LazyLock<[[[Int4; 16]; 4]; Sampler::SETS as usize]> = LazyLock::new(|| {
     std::array::from_fn(|set| {
         std::array::from_fn(|i| std::array::from_fn(|bits| sobol_int4_rev((bits as u32) << (16 + 4 * i), set as u32)))

@@ -37,7 +37,7 @@ impl CovisibilityConfig {
 /// The grid of a frame's pixels in the world.
 struct Grid {
     step_px: u32,
-    /// Those that show a surface, metres.
+    /// Points of the pixels that show a surface, metres.
     points: Vec<DVec3>,
 }
 

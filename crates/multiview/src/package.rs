@@ -45,7 +45,7 @@ impl ScenePackage {
         Lookout::new(&self.scene).map_err(|error| self.wrong(&error))
     }
 
-    /// The same for what looks through surfaces.
+    /// Prepares the scene for rays that look through surfaces.
     ///
     /// # Errors
     /// As there.

@@ -6,7 +6,7 @@ use enfilade_dataset::{Covisibility, PairRow};
 /// Which pairs are chosen. Bounds are included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairFilter {
-    /// Both shares, of the first frame that the second sees and the other way around, lie between these.
+    /// Bounds of both shares: of the first frame that the second sees, and the other way around.
     pub overlap: [f32; 2],
     /// Distances between the camera centres, metres, lie between these.
     pub baseline_m: [f64; 2],

@@ -22,12 +22,12 @@ pub(crate) enum Around {
     Outside,
     /// None of the pixels around shows anything before the point.
     Free,
-    /// One of them does; `all`: every one does, clearly.
+    /// Some pixel around shows something before the point; `all`: every one does, clearly.
     Before { all: bool },
 }
 
 impl<'a> Surroundings<'a> {
-    /// Of a frame with one distance in metres per pixel of the view, NaN where nothing was hit.
+    /// The surroundings of points in a frame with one distance in metres per pixel of the view, NaN where nothing was hit.
     pub fn new(view: CameraView<'a>, distances_m: Vec<f32>) -> Self {
         Self { view, distances_m }
     }

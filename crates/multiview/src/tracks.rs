@@ -19,7 +19,7 @@ const TRIES: u64 = 64;
 /// How points are seeded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TracksConfig {
-    /// So many points.
+    /// Number of points.
     pub points: u32,
     /// Another seed gives other points.
     pub seed: u64,

@@ -91,7 +91,7 @@ fn piece(k: usize, size: usize, count: usize) -> Range<usize> {
     k * size..((k + 1) * size).min(count)
 }
 
-/// The one place that is compiled for rayon.
+/// Hands pieces to threads: the one place that is compiled for rayon.
 fn hand_out(pieces: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..pieces).into_par_iter().with_max_len(1).for_each(work);
 }

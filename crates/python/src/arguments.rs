@@ -16,7 +16,7 @@ pub enum Names {
 }
 
 impl Names {
-    /// As a list.
+    /// The names as a list.
     pub fn list(&self) -> Vec<String> {
         match self {
             Self::One(name) => vec![name.clone()],
@@ -24,7 +24,7 @@ impl Names {
         }
     }
 
-    /// As a pattern in the form of the command line: names with commas between them.
+    /// The names as a pattern in the form of the command line, with commas between them.
     pub fn pattern(&self) -> String {
         self.list().join(",")
     }
@@ -64,7 +64,7 @@ pub enum Frames {
     Range {
         /// The first.
         start: u32,
-        /// One after the last.
+        /// End of the range, one after its last number.
         stop: u32,
         /// 1.
         step: i64,

@@ -112,7 +112,7 @@ impl Batch {
         })
     }
 
-    /// As a dictionary of arrays whose first axis counts samples.
+    /// The batch as a dictionary of arrays whose first axis counts samples.
     pub fn into_dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let count = self.indices.len();
         let out = PyDict::new(py);

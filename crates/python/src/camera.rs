@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 /// Rotations that are off by more are none: those of single precision are off by less.
 const ORTHONORMAL: f64 = 1e-4;
-/// Those of double precision are off by less.
+/// Greatest error of a number of double precision.
 const EXACT: f64 = 1e-9;
 
 /// A camera at a place, in OpenCV's conventions: camera axes x right, y down, z forward; image coordinates in which (0, 0) is the centre of the

@@ -35,9 +35,9 @@ pub fn add_module(parent: &Bound<'_, PyModule>) -> PyResult<()> {
 /// A price: dollars per vCPU-hour, rates as text, or the file of a table.
 #[derive(FromPyObject)]
 pub enum GivenPrice {
-    /// As a number.
+    /// A price as a number.
     Dollars(f64),
-    /// As the command line has it.
+    /// A price as the command line has it.
     Text(PathBuf),
 }
 
@@ -155,7 +155,7 @@ pub fn submit<'py>(
 pub enum Tasks {
     /// One.
     One(u32),
-    /// As the command line has them: "0-3", "0-8:2" or "1,5,9-12".
+    /// Task numbers as the command line has them: "0-3", "0-8:2" or "1,5,9-12".
     Text(String),
     /// Several.
     Several(Vec<u32>),

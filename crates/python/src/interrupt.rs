@@ -58,7 +58,7 @@ pub fn interruptible<T: Send, E: IntoPy + Send>(py: Python<'_>, work: impl FnOnc
     watched(py, &Bar::none(), work)
 }
 
-/// As [`interruptible`], and shows in `bar` how far it has come.
+/// Runs work as [`interruptible`] does, and shows in `bar` how far it has come.
 pub fn watched<T: Send, E: IntoPy + Send>(
     py: Python<'_>,
     bar: &Bar<'_>,

@@ -29,7 +29,7 @@ pub struct Loader {
 }
 
 impl Loader {
-    /// As `Dataset.loader` says.
+    /// A loader with the options that `Dataset.loader` describes.
     pub fn new(
         samples: Arc<Samples>,
         epoch: u64,

@@ -10,7 +10,7 @@ pub struct Heard(Mutex<Option<State>>);
 /// What work says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
-    /// Of what.
+    /// Name of the work.
     what: String,
     /// Units that are finished.
     done: u64,
@@ -43,7 +43,7 @@ impl<'py> Bar<'py> {
         Self(None)
     }
 
-    /// One where `progress` asks for it; where it says nothing, in notebooks and terminals.
+    /// A bar where `progress` asks for one; where it says nothing, in notebooks and terminals.
     pub fn new(py: Python<'py>, progress: Option<bool>, title: &str) -> PyResult<Self> {
         if progress == Some(false) {
             return Ok(Self(None));

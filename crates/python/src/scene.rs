@@ -96,7 +96,7 @@ impl Scene {
         py.detach(|| self.0.save(&file, encode)).map_err(IntoPy::into_py)
     }
 
-    /// Its name: that of its file without the extension.
+    /// Name of the scene: that of its file without the extension.
     #[getter]
     fn name(&self) -> &str {
         self.0.name()

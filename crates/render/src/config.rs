@@ -15,7 +15,7 @@ pub enum Filter {
     /// Falls off linearly.
     #[default]
     Tent,
-    /// The same everywhere: with a radius of 0.5, the mean over the pixel's square.
+    /// Weighs all samples alike: with a radius of 0.5, the mean over the pixel's square.
     Box,
 }
 

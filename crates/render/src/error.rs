@@ -28,7 +28,7 @@ pub enum RenderError {
     Config {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value of the setting, as it was found.
         found: String,
         /// What it must do, as in "lie between 0 and 1".
         expected: &'static str,

@@ -31,7 +31,7 @@ pub(crate) struct PixelColor {
     pub illumination: [f16; 3],
     pub reflectance: [f16; 3],
     pub residual: [f16; 3],
-    /// Of the luminance of `color`; NaN after one sample.
+    /// Standard error of the luminance of `color`; NaN after one sample.
     pub standard_error: f16,
     pub saturated: bool,
 }

@@ -17,7 +17,7 @@ use enfilade_math::{Ray, Rgb, Rng, Sampler, Vec3, hash_u64};
 /// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
-/// The same, times the throughput alone, where nothing is known of the light, and for the light that mirrors and glass find.
+/// Factor of the throughput alone in that probability, where nothing is known of the light, and for the light that mirrors and glass find.
 const UNKNOWN_GAIN: f32 = 12.0;
 /// Bounds of the probability that a path goes on; the second one where nothing is known of the light.
 const MIN_SURVIVAL: f32 = 0.2;

@@ -71,7 +71,7 @@ impl<'s> Lookout<'s> {
         Self::with(scene, false)
     }
 
-    /// As [`Lookout::new`], for [`Lookout::surfaces`]: rays ask about every surface that they meet, which makes the other ones slower.
+    /// Prepares a scene for [`Lookout::surfaces`] too: rays ask about every surface that they meet, which makes the other ones slower.
     ///
     /// # Errors
     /// As there.

@@ -22,7 +22,7 @@ pub enum PartialError {
     /// Cut short or changed.
     #[error("it is damaged: its length or its checksum is not right")]
     Damaged,
-    /// Of another size, or with another key.
+    /// A file of another size, or with another key.
     #[error("it belongs to another frame or to other settings")]
     OtherFrame,
 }

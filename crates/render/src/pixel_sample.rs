@@ -28,7 +28,7 @@ pub(crate) struct PixelSample {
     pub residual: Rgb,
     /// A·E + R in parts, where they are asked for.
     pub split: Split,
-    /// The same by fixture, where that is asked for; a fixture may be there several times.
+    /// A·E + R by fixture, where that is asked for; a fixture may be there several times.
     pub fixtures: Vec<FixtureLight>,
 }
 
@@ -36,8 +36,8 @@ pub(crate) struct PixelSample {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixtureLight {
     pub fixture: u16,
-    /// Its part of E.
+    /// The fixture's part of E.
     pub illumination: Rgb,
-    /// Its part of R.
+    /// The fixture's part of R.
     pub residual: Rgb,
 }

@@ -101,7 +101,7 @@ impl<'s> RenderScene<'s> {
         &self.told_apart().list
     }
 
-    /// The same, with what belongs to each.
+    /// Fixtures with what belongs to each.
     #[inline]
     pub(crate) fn told_apart(&self) -> &Fixtures {
         self.fixtures.get_or_init(|| Lights::find_fixtures(self))

@@ -173,8 +173,8 @@ impl<'a, 's> FrameRender<'a, 's> {
         self.take(u32::MAX, cx);
     }
 
-    /// As [`FrameRender::pass`], but the first pass is done in parts, which take one sample per pixel and then double the number: for a
-    /// frame that may have to end soon. In the end the samples are the same.
+    /// Passes over the frame as [`FrameRender::pass`] does, but the first pass is done in parts, which take one sample per pixel and then
+    /// double the number: for a frame that may have to end soon. In the end the samples are the same.
     pub fn short_pass(&mut self, cx: &dyn Cx) {
         let max = if self.done == 0 { self.begun().saturating_mul(2).max(1) } else { u32::MAX };
         self.take(max, cx);

@@ -92,7 +92,7 @@ impl Split {
         if index < self.by_path.len() { self.by_path[index] } else { self.by_source[index - self.by_path.len()] }
     }
 
-    /// As [`Split::part`], to be changed.
+    /// A part to be changed, by its index as in [`Split::part`].
     pub fn part_mut(&mut self, index: usize) -> &mut Rgb {
         let paths = self.by_path.len();
         if index < paths { &mut self.by_path[index] } else { &mut self.by_source[index - paths] }

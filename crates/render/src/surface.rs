@@ -186,7 +186,7 @@ impl<'s> Surface<'s> {
         Ray::new(self.face_origin(if cos < 0.0 { -self.ng } else { self.ng }), direction)
     }
 
-    /// This point as one that receives light.
+    /// The point as one that receives light.
     #[inline]
     pub fn light_point(&self) -> LightPoint {
         LightPoint { p: self.p, n: if self.material.bsdf.transmits() { Vec3::ZERO } else { self.ns } }

@@ -33,7 +33,7 @@ struct Range {
 }
 
 impl<'s> Triangles<'s> {
-    /// Of a valid scene. Lamps are always kept.
+    /// Triangles of a valid scene. Lamps are always kept.
     pub fn new(scene: &'s Scene) -> Self {
         Self::keeping(scene, KEPT)
     }

@@ -113,7 +113,7 @@ struct Guided<'a> {
     fraction: f32,
     /// Luminance of the light, found by directions, that is expected to be reflected.
     reflected: f32,
-    /// The same in the brightest place around.
+    /// Luminance of such light in the brightest place around.
     at_most: f32,
 }
 
@@ -206,7 +206,7 @@ impl<'a, 's> Vertex<'a, 's> {
         self.guided.as_ref().map_or(0.0, |guided| guided.reflected)
     }
 
-    /// The same in the brightest place around: paths that are given up here may miss as much.
+    /// Luminance of such light in the brightest place around: paths that are given up here may miss as much.
     #[inline]
     pub fn expected_at_most(&self) -> f32 {
         self.guided.as_ref().map_or(0.0, |guided| guided.at_most)

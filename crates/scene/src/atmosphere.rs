@@ -41,7 +41,7 @@ type Spectrum = [f64; 3];
 
 /// An atmosphere with its tables.
 pub(crate) struct Atmosphere {
-    /// Of haze at sea level, per km: extinction.
+    /// Extinction of haze at sea level, per km.
     haze: Spectrum,
     ground_albedo: f64,
     transmittance: Vec<Spectrum>,

@@ -7,7 +7,7 @@ use std::f32::consts::{PI, TAU};
 /// Light from infinitely far away, from all directions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Environment {
-    /// The same radiance everywhere.
+    /// Light of the same radiance from everywhere.
     Constant {
         /// Radiance.
         radiance: Rgb,

@@ -65,7 +65,7 @@ impl From<f32> for Roughness {
 }
 
 impl From<ScalarParam> for Roughness {
-    /// Of GGX facets.
+    /// Roughness of GGX facets.
     fn from(param: ScalarParam) -> Self {
         Self { param, distribution: Distribution::Ggx }
     }
@@ -171,7 +171,7 @@ pub enum Parameter<'a> {
 pub(crate) enum Constant {
     /// An index of refraction, or the ratio of two.
     Index(f32),
-    /// One per channel.
+    /// A colour, one number per channel.
     Color(Rgb),
 }
 
@@ -337,7 +337,7 @@ pub struct Disney {
     pub clearcoat_gloss: ScalarParam,
     /// True for a sheet without thickness (`principledthin`).
     pub thin: bool,
-    /// Of a sheet, twice the share of diffuse light that goes to the other side.
+    /// Twice the share of diffuse light that a sheet passes to its other side.
     pub diff_trans: ScalarParam,
 }
 

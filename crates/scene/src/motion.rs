@@ -134,7 +134,7 @@ fn body_rotation(pose: &Pose) -> DQuat {
     upper(DQuat::from_mat3(&(pose.world_from_camera * OPENCV)).normalize())
 }
 
-/// Of the two quaternions of a rotation the one with w ≥ 0.
+/// The quaternion with w ≥ 0 of the two that are the same rotation.
 fn upper(q: DQuat) -> DQuat {
     if q.w < 0.0 { -q } else { q }
 }

@@ -35,7 +35,7 @@ pub enum PackageError {
     /// Not the first line of a package.
     #[error("not a scene package (expected it to begin with \"{NAME}{VERSION}\"); import the scene again")]
     Magic,
-    /// Of another version of the program.
+    /// A package of another version of the program.
     #[error("found a scene package of version {found}, expected {VERSION}: it was written by {}; import the scene again", age(*found))]
     Version {
         /// The number in its first line.

@@ -57,7 +57,7 @@ pub struct StructureFit {
 /// What a labelled instance is, finer than by its class.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureThing {
-    /// Its number, as in the images.
+    /// Number of the thing, as in the images.
     pub instance: i16,
     /// Family and number: `coffee_table_1`.
     pub name: String,
@@ -74,7 +74,7 @@ pub struct StructureRoom {
     pub name: String,
     /// What it is for: `bedroom`.
     pub kind: String,
-    /// Its outline seen from above, counter-clockwise; edge i begins at corner i.
+    /// Outline of the room seen from above, counter-clockwise; edge i begins at corner i.
     pub polygon: Vec<[f64; 2]>,
     /// Height of the floor.
     pub floor_z_m: f64,
@@ -114,7 +114,7 @@ pub enum OpeningKind {
 }
 
 impl OpeningKind {
-    /// Its name in the file.
+    /// Name of the kind in the file.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Door => "door",
@@ -131,7 +131,7 @@ pub struct WallOpening {
     pub kind: OpeningKind,
     /// The faces that it goes through: one if the outside is behind it, else two, that of the room first into which a door swings.
     pub walls: Vec<usize>,
-    /// Its corners on the first face: lower left for someone in that room, then counter-clockwise.
+    /// Corners of the opening on the first face: lower left for someone in that room, then counter-clockwise.
     pub corners: [[f64; 3]; 4],
     /// How its door hangs; `None` without one.
     pub leaf: Option<DoorLeaf>,

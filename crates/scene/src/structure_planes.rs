@@ -18,7 +18,7 @@ pub enum PlaneKind {
 }
 
 impl PlaneKind {
-    /// Its name in tables.
+    /// Name of the kind in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Floor => "floor",

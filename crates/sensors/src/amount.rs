@@ -28,7 +28,8 @@ impl Amount {
         [self.low, self.high]
     }
 
-    /// One of them. Every call takes one number of the stream, so that a range in the place of a number leaves the others as they are.
+    /// A number of the amount. Every call takes one number of the stream, so that a range in the place of a number leaves the others as
+    /// they are.
     pub fn draw(&self, rng: &mut Rng) -> f64 {
         let share = rng.next_f64();
         if self.low == self.high { self.low } else { self.low + (self.high - self.low) * share }

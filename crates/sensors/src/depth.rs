@@ -97,7 +97,7 @@ pub(crate) fn check_within(key: &str, amount: Amount, [least, most]: [f64; 2]) -
     Err(format!("{key} is {found}, expected {expected}"))
 }
 
-/// Of a switch that is on.
+/// Default of a switch that is on.
 pub(crate) const fn seen() -> bool {
     true
 }

@@ -29,7 +29,7 @@ pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &ChosenFrames, cx: &d
     Ok(seen)
 }
 
-/// Those of the layers that a frame has; a frame of 0 × 0 pixels where it has none.
+/// Reads those of the layers that a frame has; a frame of 0 × 0 pixels where it has none.
 fn read(dataset: &Dataset, (scene, camera, number): (&str, &str, u32), layers: &[Layer]) -> Result<Frame, SensorError> {
     let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
     Ok(if there.is_empty() { Frame::new(0, 0) } else { dataset.read_frame(scene, camera, number, &there)? })

@@ -11,7 +11,7 @@ pub enum SensorError {
     /// Settings that contradict themselves or leave their domain.
     #[error("sensor {sensor:?}: {problem}")]
     Setting {
-        /// Its name.
+        /// Name of the sensor.
         sensor: String,
         /// The key, what was found, and what is expected.
         problem: String,

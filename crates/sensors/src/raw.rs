@@ -39,7 +39,7 @@ impl Pixels {
         enfilade_parallel::map_up_to(light.len(), measure)
     }
 
-    /// The one value of every pixel that its place in the mosaic lets through.
+    /// Value of every pixel that its place in the mosaic lets through.
     pub fn mosaic(&self, [width, _]: [usize; 2], light: &[[f32; 3]], rng: &Rng) -> Vec<f32> {
         let measure = |i: usize| self.measure(light[i][channel(i % width, i / width)], &mut rng.fork(i as u64));
         enfilade_parallel::map_up_to(light.len(), measure)

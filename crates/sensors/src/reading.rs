@@ -41,7 +41,7 @@ pub enum Data {
     File {
         /// `color.jpg` and the like: what follows the number of the frame in its name.
         name: &'static str,
-        /// The whole file.
+        /// Bytes of the whole file.
         bytes: Vec<u8>,
     },
 }

@@ -63,9 +63,9 @@ const fn one() -> u32 {
 /// What the second eye is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SecondEye {
-    /// It lights everything that the camera sees but for shadows.
+    /// A projector, which lights everything that the camera sees but for shadows.
     Projector,
-    /// It has the camera's field of view, and what lies outside of it has no match.
+    /// A camera of the first one's field of view; what lies outside of it has no match.
     Camera,
 }
 
@@ -171,7 +171,7 @@ impl Triangulation {
     }
 }
 
-/// Of how many parts a pixel of the second eye's image is told apart.
+/// Parts of a pixel of the second eye's image that are told apart.
 const PARTS: f64 = 4.0;
 /// A surface hides those whose disparity is smaller by more than this, pixels: what is nearer by less casts no shadow that a pixel could show.
 const NEARER_PX: f64 = 1.0;

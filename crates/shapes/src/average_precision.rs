@@ -39,11 +39,11 @@ pub fn average_precision(detections: &[(f64, bool)], truths: usize) -> f64 {
 /// Average precision of boxes, masks and meshes, 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Precision {
-    /// Of boxes.
+    /// Average precision of boxes.
     pub bbox: f64,
-    /// Of masks.
+    /// Average precision of masks.
     pub mask: f64,
-    /// Of meshes.
+    /// Average precision of meshes.
     pub mesh: f64,
     /// Objects that were there to be found.
     pub truths: usize,

@@ -20,28 +20,28 @@ pub struct Mask {
 /// An object that is there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Its category.
+    /// Category of the object.
     pub category: u32,
     /// Left, upper, right and lower border, pixels.
     pub bbox: [f64; 4],
-    /// Its pixels.
+    /// Pixels of the object.
     pub mask: Mask,
-    /// Its surface in camera space.
+    /// Surface of the object in camera space.
     pub surface: Surface,
 }
 
 /// An object that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Its category.
+    /// Category of the prediction.
     pub category: u32,
     /// How sure the network is.
     pub score: f64,
     /// Left, upper, right and lower border, pixels.
     pub bbox: [f64; 4],
-    /// Its pixels.
+    /// Pixels of the prediction.
     pub mask: Mask,
-    /// Its surface in camera space.
+    /// Surface of the prediction in camera space.
     pub surface: Surface,
 }
 
@@ -71,7 +71,7 @@ impl Default for Rules {
 /// A detection, judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
-    /// Its category.
+    /// Category of the prediction.
     pub category: u32,
     /// How sure the network is.
     pub score: f64,

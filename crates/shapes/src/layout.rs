@@ -35,7 +35,7 @@ pub struct Info {
 pub struct Image {
     /// From 1.
     pub id: u64,
-    /// Its path.
+    /// Path of the image.
     pub file_name: String,
     /// Pixels.
     pub width: u32,
@@ -44,10 +44,10 @@ pub struct Image {
     /// Scene, camera and frame of a rendered image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<String>,
-    /// Its camera.
+    /// Camera of a rendered image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<String>,
-    /// Its number.
+    /// Frame number of a rendered image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<u32>,
 }
@@ -90,7 +90,7 @@ pub struct Annotation {
 pub struct Rendered {
     /// Number of the instance in its scene.
     pub instance: i16,
-    /// Its class.
+    /// Class of the object.
     pub nyu40: i16,
     /// Metres in one unit of the model.
     pub meters_per_unit: f64,
@@ -113,7 +113,7 @@ pub struct Excluded {
     pub image_id: u64,
     /// Number of the instance in its scene.
     pub instance: i16,
-    /// Its class.
+    /// Class of the object.
     pub nyu40: i16,
     /// Left border, upper border, width and height of what is seen, pixels.
     pub bbox: [f64; 4],
@@ -126,13 +126,13 @@ pub struct Excluded {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
-    /// Its class becomes none of Pix3D's categories.
+    /// The object's class becomes none of Pix3D's categories.
     Class,
     /// A vertex is behind the camera or nearer than 1 cm.
     BehindCamera,
     /// A vertex falls outside of the image.
     OutsideImage,
-    /// Its mesh is not known, or has no extent.
+    /// The object's mesh is not known, or has no extent.
     NoMesh,
 }
 
@@ -146,7 +146,7 @@ pub struct Category {
 }
 
 impl Document {
-    /// One without images.
+    /// A document without images.
     pub fn empty(description: impl Into<String>) -> Self {
         let category = |(id, name): (u32, &str)| Category { id, name: name.into() };
         Self {
@@ -175,7 +175,7 @@ impl Document {
         bytes
     }
 
-    /// The same with those images alone that `keeps` wants, under the same ids.
+    /// The document with only the images that `keeps` wants, under the same ids.
     #[must_use]
     pub fn only(&self, keeps: impl Fn(&Image) -> bool) -> Self {
         let images: Vec<Image> = self.images.iter().filter(|image| keeps(image)).cloned().collect();

@@ -30,7 +30,7 @@ impl Surface {
         Ok(Self { vertices, faces })
     }
 
-    /// Its vertices.
+    /// Vertices of the surface.
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
@@ -101,7 +101,7 @@ pub struct Comparison {
     pub chamfer_l2: f64,
     /// Mean cosine between normals of nearest points, both ways, −1 to 1.
     pub normal_consistency: f64,
-    /// The same of the cosines' absolute values: which way normals point does not matter.
+    /// Mean absolute value of these cosines: which way normals point does not matter.
     pub abs_normal_consistency: f64,
     /// By threshold.
     pub agreement: Vec<Agreement>,
@@ -112,11 +112,11 @@ pub struct Comparison {
 pub struct Agreement {
     /// The distance after scaling.
     pub threshold: f64,
-    /// Of the found surface.
+    /// Share of the found surface's points near the true one.
     pub precision: f64,
-    /// Of the true surface.
+    /// Share of the true surface's points near the found one.
     pub recall: f64,
-    /// Their harmonic mean.
+    /// Harmonic mean of precision and recall.
     pub f1: f64,
 }
 
@@ -158,7 +158,7 @@ pub fn compare(found: &Surface, truth: &Surface, config: &CompareConfig) -> Resu
     })
 }
 
-/// Of every point the squared distance to the nearest other, and the cosine between their normals.
+/// Squared distance from every point to the nearest other, and the cosine between their normals.
 fn nearest(points: &[DVec3], normals: &[DVec3], others: &[DVec3], other_normals: &[DVec3]) -> (Vec<f64>, Vec<f64>) {
     let tree = KdTree::new(others);
     let one = |(&p, n): (&DVec3, &DVec3)| tree.nearest(p).map_or((f64::INFINITY, 0.0), |(i, squared)| (squared, n.dot(other_normals[i])));

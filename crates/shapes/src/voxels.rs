@@ -28,7 +28,7 @@ const NAME: &str = "voxel";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Voxels {
     side: usize,
-    /// Of cell (x, y, z) at (x · side + y) · side + z.
+    /// Occupancy of the cells; cell (x, y, z) is at (x · side + y) · side + z.
     occupied: Vec<bool>,
 }
 

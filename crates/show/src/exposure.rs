@@ -20,7 +20,7 @@ const LEAST_PIXELS: f64 = 0.05;
 pub struct Exposure {
     /// Hypersim's: of the frame alone.
     pub frame: ToneMap,
-    /// The one of the trajectory.
+    /// Exposure of the trajectory.
     pub display: Display,
 }
 
@@ -43,17 +43,17 @@ impl From<Display> for Exposure {
 pub struct Brightness {
     /// Hypersim's percentile of the frame.
     pub percentile: Option<f64>,
-    /// Some of the valid pixels.
+    /// Luminances of some of the valid pixels.
     valid: Vec<f64>,
-    /// Those of them that send mostly diffusely reflected light.
+    /// Luminances of those that send mostly diffusely reflected light.
     diffuse: Vec<f64>,
     /// Logarithms of the red, green and blue that fall on those, added up, and on how many.
     light: ([f64; 3], usize),
 }
 
 impl Brightness {
-    /// Of every `step`-th valid pixel of a frame, but the percentile of all; `None` without `color` and `render_entity_id`. Without
-    /// `residual` no pixel is known to be diffuse.
+    /// Brightness by every `step`-th valid pixel of a frame, but the percentile of all; `None` without `color` and `render_entity_id`.
+    /// Without `residual` no pixel is known to be diffuse.
     pub fn of_frame(frame: &Frame, step: usize) -> Option<Self> {
         let percentile = percentile(valid_brightness(frame)?);
         let (color, ids) = (frame.get(Layer::Color)?, frame.get(Layer::RenderEntityId)?);

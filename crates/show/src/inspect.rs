@@ -25,13 +25,13 @@ pub struct PixelReport {
     pub y: u32,
     /// Number of the part that the pixel's centre sees, -1 where nothing was hit; `None` where the frame does not tell.
     pub entity: Option<i16>,
-    /// Its name, where it is known.
+    /// Name of the part, where it is known.
     pub part: Option<String>,
     /// The material of that part, where it is known.
     pub material: Option<String>,
-    /// Its NYU40 class by name, where the frame has labels.
+    /// NYU40 class of the part by name, where the frame has labels.
     pub class: Option<String>,
-    /// Its instance number.
+    /// Number of the instance.
     pub instance: Option<i16>,
     /// Where the ray through the pixel's centre starts and goes (unit length), in the world; `None` where the picture shows nothing.
     pub ray: Option<([f64; 3], [f64; 3])>,

@@ -147,7 +147,7 @@ pub fn preview(subject: Subject, frame: &Frame, exposure: impl Into<Exposure>) -
     preview_over(subject, frame, exposure, None)
 }
 
-/// As [`preview`], but values are stretched over a given range instead of the frame's own.
+/// A preview as by [`preview`], but with values stretched over a given range instead of the frame's own.
 pub fn preview_over(subject: Subject, frame: &Frame, exposure: impl Into<Exposure>, stretch: Option<&Stretch>) -> Option<Preview> {
     let Exposure { frame: tone, display } = exposure.into();
     let layer = |layer| frame.get(layer);

@@ -59,7 +59,7 @@ impl Inner {
 pub struct Shares([f32; Inner::ALL.len()]);
 
 impl Shares {
-    /// Of one share per kind, in the order of [`Inner::ALL`], in thousandths.
+    /// Shares from one number per kind, in the order of [`Inner::ALL`], in thousandths.
     pub(crate) fn new(shares: [f32; Inner::ALL.len()]) -> Self {
         Self(shares.map(|share| (share * 1000.0).round() / 1000.0))
     }

@@ -1,4 +1,5 @@
-//! The whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence, and the names around it.
+//! A suggester goes the whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence, and the names
+//! around it.
 
 use crate::calibration::{Calibration, Thresholds};
 use crate::chain::{Level, Shares, mix};
@@ -52,7 +53,7 @@ pub struct Suggester {
 pub struct PartNames<'a> {
     /// The part's own name; what stands before a slash is around it, as in `object/part`.
     pub part: &'a str,
-    /// Its material's name.
+    /// Name of the part's material.
     pub material: &'a str,
     /// What it is part of and in, outermost first, with slashes between: parents in a hierarchy, groups.
     pub group: &'a str,

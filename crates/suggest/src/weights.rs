@@ -21,7 +21,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Of rows, in two decimals; weights below [`MIN_WEIGHT`] are left out.
+    /// Weights from rows, in two decimals; those below [`MIN_WEIGHT`] are left out.
     pub(crate) fn new(bias: &[f32; CLASSES], features: &BTreeMap<&str, &[f32]>) -> Self {
         let list = |weights: &[f32]| {
             let rounded = weights.iter().map(|w| (w * 100.0).round() / 100.0);

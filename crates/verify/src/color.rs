@@ -60,7 +60,7 @@ fn recomposition(scan: &mut Scan<'_>, parts: [Layer; 3]) {
     scan.broken(Law::Recomposition, &what, (0..color.len()).filter(differs).map(|i| i / 3));
 }
 
-/// The same for four layers that were rounded each on its own: only what is beyond that differs. Overflown values say nothing.
+/// Checks the sum for four layers that were rounded each on its own: only what is beyond that differs. Overflown values say nothing.
 fn rounded_recomposition(scan: &mut Scan<'_>, layers: [&Values; 4]) {
     let differs = |i: &usize| {
         let [color, a, s, r] = layers.map(|layer| layer.get(*i));

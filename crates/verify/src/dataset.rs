@@ -113,7 +113,7 @@ struct SceneFacts {
     partly_there: Vec<bool>,
     labels: Option<SceneLabels>,
     boxes: Vec<(BoxKind, boxes::Boxes)>,
-    /// Of scenes with a layout whose classes are NYU40's.
+    /// Structure of scenes with a layout whose classes are NYU40's.
     structure: Option<Structure>,
     filmed: Vec<Filmed>,
 }
@@ -122,13 +122,13 @@ struct SceneFacts {
 struct Filmed {
     /// With rotations as orientations.
     trajectory: Trajectory,
-    /// The same with orientations as they are stored.
+    /// The trajectory with orientations as they are stored.
     stored: Trajectory,
     frames: Vec<u32>,
     camera: Option<Camera>,
     /// What its frames show of instances, where there is a table of it.
     views: Option<Vec<InstanceView>>,
-    /// The other camera of a stereo rig.
+    /// Record of the other camera of a stereo rig.
     stereo: Option<StereoRecord>,
     rules: PlanRules,
 }

@@ -25,7 +25,7 @@ const GRAZING: f64 = 0.05;
 /// Pixels on each side of a point's image, in both directions, that are looked at.
 const AROUND: u32 = 2;
 
-/// So many points may lie behind something, or before it, that is thinner than a pixel. It matters where few are counted.
+/// Number of points that may lie behind something, or before it, that is thinner than a pixel. It matters where few are counted.
 pub(super) const BETWEEN_SAMPLES: usize = 2;
 
 /// A frame as it is stored.
@@ -96,7 +96,7 @@ fn name(frame: &CovisibleFrame) -> String {
 }
 
 impl<'a> Listed<'a> {
-    /// Of a view and its distances.
+    /// A list from a view and its distances.
     pub(super) fn new(view: CameraView<'a>, distances: Values) -> Self {
         Self { view, distances, shown: OnceLock::new() }
     }

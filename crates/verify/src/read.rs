@@ -28,8 +28,8 @@ pub(super) struct Stored<'d> {
     pub released: bool,
 }
 
-/// Those of the layers that are there as they are stored, but positions in metres, and how they were rounded. Other types or sizes than
-/// the table's go on the card.
+/// Reads those of the layers that are there as they are stored, but positions in metres, and how they were rounded. Other types or sizes
+/// than the table's go on the card.
 pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: &[Layer], card: &mut Card) -> Option<(Frame, Rounding)> {
     let Stored { dataset, scene, .. } = stored;
     let mut frame: Option<Frame> = None;
@@ -90,7 +90,7 @@ fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
 pub(super) struct SceneLabels {
     /// By render entity.
     pub labels: Labels,
-    /// Of the other pieces of split parts, by render entity.
+    /// Labels of the other pieces of split parts, by render entity.
     pub pieces: Vec<(u32, PartLabel)>,
     /// The greatest class of the scene's list.
     pub last_class: i16,

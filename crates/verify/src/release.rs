@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Excuse {
-    /// It is about something that the data do not claim.
+    /// The law is about something that the data do not claim.
     NotApplicable,
-    /// It is broken in a way that is known.
+    /// The law is broken in a way that is known.
     KnownDefect,
 }
 

@@ -37,7 +37,7 @@ fn usual() -> Option<f64> {
 }
 
 impl PlanRules {
-    /// Those of the plan whose report is at `path`.
+    /// Rules of the plan whose report is at `path`.
     pub(super) fn of(path: &Path) -> Self {
         std::fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
     }

@@ -28,13 +28,13 @@ pub(super) const COMPARED: [Layer; 5] =
 
 /// Pixels around a pixel that must be of its part, and the most of them that a pixel of the other frame may cover.
 const REACH: usize = 2;
-/// So many pixels deep may relief be that falls between the samples: pleats, grooves, leaves.
+/// Depth of relief that may fall between the samples, pixels: pleats, grooves, leaves.
 const RELIEF_PX: f64 = 0.5;
 /// Images of pixels in a row lie evenly when the middle one is off by less than half a pixel.
 const EVEN_PX: f64 = 0.5;
 /// Cosine of the angle that normals of pixels beside each other turn at most where no fold lies between them: 30 degrees.
 const UNFOLDED: f64 = 0.866;
-/// The same where the surface is flat: one degree.
+/// Cosine of that angle where the surface is flat: one degree.
 const FLAT: f64 = 0.99985;
 /// Rounding of float32 in vertices, distances and directions, each half a unit in the last place, with room for slanted triangles.
 const ROUNDING: f64 = 1e-6;
@@ -42,8 +42,8 @@ const ROUNDING: f64 = 1e-6;
 const REFLECTANCE_ROUNDING: f64 = 1.0 / 512.0;
 /// Pairs with fewer pixels to compare say nothing.
 const FEWEST: u64 = 256;
-/// So many pixels of a pair may disagree because a leaf or a fold is finer than a pixel though all samples around are of one part. It
-/// matters for small pictures alone, where the bounds are a pixel or two.
+/// Number of pixels of a pair that may disagree because a leaf or a fold is finer than a pixel though all samples around are of one part.
+/// It matters for small pictures alone, where the bounds are a pixel or two.
 const BETWEEN_SAMPLES: u64 = 12;
 /// A point that lies at most this share farther away than what the other frame shows there counts as seen by it.
 const SEEN: f64 = 0.99;

@@ -15,7 +15,7 @@ const SIGHT_SHARE: f64 = 1.0 - 1e-4;
 pub(super) struct Walls(Bvh);
 
 impl Walls {
-    /// Of a mesh whose unit is a metre; `None` where a face has a vertex that the mesh lacks.
+    /// Walls from a mesh whose unit is a metre; `None` where a face has a vertex that the mesh lacks.
     pub(super) fn new(mesh: &MeshGeometry) -> Option<Self> {
         let corner = |i: u32| mesh.vertices.get(i as usize).map(|p| p.as_vec3());
         let corners = |face: &[u32; 3]| Some([corner(face[0])?, corner(face[1])?, corner(face[2])?]);

@@ -53,17 +53,17 @@ impl Parameter {
         Self { before: Text::Made(before), name: name.into(), value: Text::Made(value.to_bytes()), after: Text::Made(b";".to_vec()) }
     }
 
-    /// Its name.
+    /// Name of the parameter.
     pub fn name(&self) -> &[u8] {
         self.name.bytes()
     }
 
-    /// Its value as it is written.
+    /// Value of the parameter as it is written.
     pub fn raw(&self) -> &[u8] {
         self.value.bytes()
     }
 
-    /// Its value.
+    /// Value of the parameter.
     ///
     /// # Errors
     /// When it is not one, with the place in the file.
@@ -118,12 +118,12 @@ impl Plugin {
         self.kind.bytes()
     }
 
-    /// Its name, by which others refer to it.
+    /// Name of the plugin, by which others refer to it.
     pub fn name(&self) -> &[u8] {
         self.name.bytes()
     }
 
-    /// Its parameters in the order of the file.
+    /// Parameters of the plugin in the order of the file.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
@@ -133,7 +133,7 @@ impl Plugin {
         self.parameters.iter().rev().find(|p| p.name() == name.as_bytes())
     }
 
-    /// Its value; `None` where the plugin does not have it and V-Ray takes its default.
+    /// Value of a parameter; `None` where the plugin does not have it and V-Ray takes its default.
     ///
     /// # Errors
     /// When the value cannot be read.

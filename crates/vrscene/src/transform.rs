@@ -9,7 +9,7 @@ pub type Matrix = [Vector; 3];
 /// An affine map: the matrix, then the offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// Its linear part.
+    /// Linear part of the transform.
     pub matrix: Matrix,
     /// Where it takes the origin, asset units.
     pub offset: [f64; 3],

@@ -336,7 +336,7 @@ fn expected(message: &str, meant: impl Fn(&str) -> bool) -> Option<String> {
     Some(["lie ", "be "].iter().find_map(|verb| range.strip_prefix(verb)).unwrap_or(range).into())
 }
 
-/// As TOML has it, on one line.
+/// A value as TOML has it, on one line.
 fn toml(value: &Value) -> String {
     match value {
         Value::Number(number) => {

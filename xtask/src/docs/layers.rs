@@ -48,7 +48,7 @@ impl Parse for Layer {
 }
 
 impl Layer {
-    /// Its row of the page; `picture` is that in the folder of the page, if there is one.
+    /// Row of the layer on the page; `picture` is that in the folder of the page, if there is one.
     fn row(&self, picture: Option<&str>) -> String {
         let Self { name, unit, space, sentinel, description, .. } = self;
         let picture = picture.map_or(String::new(), |file| format!("![{name}](layers/{file})"));

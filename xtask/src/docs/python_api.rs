@@ -17,7 +17,7 @@ const RUST: &str = "crates/python/src";
 /// A class, function or constant of a stub.
 struct Declared<'s> {
     name: &'s str,
-    /// Its lines.
+    /// Lines of the declaration.
     stub: String,
 }
 

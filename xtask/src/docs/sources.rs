@@ -37,19 +37,19 @@ pub struct Sources {
 
 /// The variants of an enum.
 struct Variants {
-    /// As files have them.
+    /// Names of the variants as files have them.
     names: Vec<String>,
-    /// They hold values, so files have a table with a `kind`.
+    /// True where variants hold values, so that files have a table with a `kind`.
     hold_values: bool,
 }
 
 /// A field of a struct, or of a struct variant.
 pub struct Declared {
-    /// As files have it.
+    /// Name of the field as files have it.
     pub name: String,
-    /// Its Rust type without `Option` and `Spanned`.
+    /// Rust type of the field without `Option` and `Spanned`.
     pub of: Type,
-    /// Its doc comment, on one line.
+    /// Doc comment of the field, on one line.
     pub doc: String,
 }
 
@@ -232,7 +232,7 @@ fn serde_word(attributes: &[Attribute], key: &str) -> Option<String> {
     found
 }
 
-/// As serde renames a variant.
+/// Name of a variant as serde writes it in this style.
 fn renamed(name: &str, style: &str) -> String {
     let separator = match style {
         "snake_case" => "_",

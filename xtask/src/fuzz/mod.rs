@@ -41,7 +41,7 @@ const FLAGS: [&str; 6] = [
 #[derive(Debug, PartialEq)]
 struct Asked {
     seconds: u64,
-    /// Of chance; another one every time where none is given.
+    /// Seed of chance; another one every time where none is given.
     seed: Option<u32>,
     /// Importers and V-Ray alone.
     quick: bool,

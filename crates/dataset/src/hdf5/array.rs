@@ -31,7 +31,7 @@ pub enum Elements {
 pub struct Array {
     /// Length of each axis, slowest first.
     pub shape: Vec<usize>,
-    /// As many as the product of the shape.
+    /// Values, as many as the product of the shape.
     pub values: Elements,
 }
 
@@ -94,7 +94,7 @@ impl Elements {
         }
     }
 
-    /// As many zeros.
+    /// Zeros, `count` of them.
     pub(crate) fn zeroed(element: Element, count: usize) -> Self {
         match element {
             Element::F16 => Self::F16(bytemuck::zeroed_vec(count)),
@@ -130,7 +130,7 @@ impl Elements {
         }
     }
 
-    /// As layer values; gives the elements back when no layer is stored so.
+    /// The elements as layer values; gives the elements back when no layer is stored so.
     pub fn into_values(self) -> Result<Values, Self> {
         match self {
             Self::F16(v) => Ok(Values::F16(v)),

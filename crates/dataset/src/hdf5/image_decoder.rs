@@ -34,7 +34,7 @@ struct Scratch {
     stored: Vec<u8>,
     /// The values of the chunks of one place, a channel chunk after the other.
     raw: Vec<u8>,
-    /// The same, shuffled.
+    /// Bytes of the block, shuffled.
     shuffled: Vec<u8>,
 }
 

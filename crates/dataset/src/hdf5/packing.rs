@@ -57,7 +57,7 @@ impl Packing {
         }
     }
 
-    /// That of [`Storage::Fast`], which has no level.
+    /// Packing of [`Storage::Fast`], which has no level.
     pub(super) fn fast(element: Element) -> Self {
         let shuffle = matches!(element, Element::F16 | Element::F32 | Element::F64);
         Self { chunk: [128, 128], channels_together: true, shuffle, level: 0 }

@@ -20,7 +20,7 @@ pub fn write_array(path: &Path, array: &Array, storage: Storage, attributes: &[(
     write_view(path, array.view(), storage, attributes)
 }
 
-/// As [`write_array`], for borrowed elements.
+/// Writes borrowed elements as [`write_array`] does.
 pub(crate) fn write_view(path: &Path, array: ArrayView, storage: Storage, attributes: &[(&str, &str)]) -> Result<(), DatasetError> {
     let options = H5File::options().no_locking().libver(LibverBound::Earliest);
     let file = options.create(path).map_err(|error| write_error(path, error))?;

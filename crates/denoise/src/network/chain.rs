@@ -20,7 +20,7 @@ pub(super) fn chain(workshop: &Workshop, layers: &[Convolution], sources: &[Sour
     in_bands(workshop, layers, sources, kept, tiles.div_ceil(columns).max(ROWS))
 }
 
-/// As [`chain`], in bands of `band` rows of tiles, or of as many as there are layers.
+/// Runs layers as [`chain`] does, in bands of `band` rows of tiles, or of as many as there are layers.
 fn in_bands(workshop: &Workshop, layers: &[Convolution], sources: &[Source<'_>], kept: Kept, band: usize) -> Tensor {
     let [width, height] = sources[0].size();
     let (rows, band) = (height.div_ceil(4), band.max(layers.len()));

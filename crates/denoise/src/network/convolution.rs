@@ -42,7 +42,7 @@ pub(super) enum Kept {
 }
 
 impl Convolution {
-    /// Of `weights`, in the order output channel, input channel, row, column, and one bias per output channel.
+    /// A layer from `weights`, in the order output channel, input channel, row, column, and one bias per output channel.
     pub fn new(inputs: usize, outputs: usize, weights: &[f32], bias: &[f32]) -> Self {
         assert_eq!((weights.len(), bias.len()), (9 * inputs * outputs, outputs));
         let blocks = outputs.div_ceil(LANES);
@@ -174,7 +174,7 @@ impl<'a> Run<'a> {
         (blocks * self.share) | 1
     }
 
-    /// Likewise in the sums.
+    /// Distance of two points in the sums: odd, for the same reason.
     fn sum_stride(&self) -> usize {
         (self.blocks * self.share) | 1
     }

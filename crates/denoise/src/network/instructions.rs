@@ -24,7 +24,7 @@ pub(super) trait Kernel: Sized {
 }
 
 impl Instructions {
-    /// Those that this processor has, the slowest first: at least one.
+    /// Sets of instructions that this processor has, the slowest first: at least one.
     pub fn available() -> Vec<Self> {
         let mut sets = vec![Set::Portable];
         #[cfg(target_arch = "x86_64")]
@@ -40,7 +40,7 @@ impl Instructions {
         *Self::available().last().expect("every processor has the portable ones")
     }
 
-    /// Their name: `portable`, `AVX2` or `AVX-512`.
+    /// Name of the set: `portable`, `AVX2` or `AVX-512`.
     pub fn name(self) -> &'static str {
         match self.0 {
             Set::Portable => "portable",
@@ -69,7 +69,7 @@ impl Instructions {
         }
     }
 
-    /// So many that the input of a layer stays in a core's cache.
+    /// Number of tiles whose input of a layer stays in a core's cache.
     pub(super) fn tiles_at_a_time(self) -> usize {
         match self.0 {
             #[cfg(target_arch = "x86_64")]

@@ -32,7 +32,7 @@ use weights::Weights;
 /// For high dynamic range, with reflectance and normals that are free of noise; the large one of two, as the library takes at high
 /// quality.
 const WEIGHTS: &[u8] = include_bytes!("../../data/rt_hdr_calb_cnrm_large.tza");
-/// Its name, as it stands in records.
+/// Name of the network, as in records.
 pub(crate) const NAME: &str = "built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)";
 
 /// Channels that the network sees: radiance, reflectance, normal.

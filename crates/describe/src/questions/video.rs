@@ -68,7 +68,7 @@ impl<'a> Shown<'a> {
         body(a).distance_m(body(b))
     }
 
-    /// Some of the unique things, in random order.
+    /// Unique things in random order, `count` of them; `None` where there are fewer.
     fn some(&self, asker: &mut Asker<'_>, count: usize) -> Option<Vec<First<'a>>> {
         let mut list = self.unique.clone();
         asker.shuffle(&mut list);

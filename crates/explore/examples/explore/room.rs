@@ -100,7 +100,7 @@ impl Room {
     }
 }
 
-/// Of the positions of one start all but the last, from which nothing was carved.
+/// All positions of one start but the last, from which nothing was carved.
 fn carved_from(positions: &Value) -> Vec<DVec3> {
     let positions = positions.as_array().expect("a list");
     positions[..positions.len() - 1].iter().map(vector).collect()

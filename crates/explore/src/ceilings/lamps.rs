@@ -23,7 +23,7 @@ const BELOW_M: f32 = 0.3;
 pub struct LampPlace {
     /// Middle of its upper face, metres.
     pub top: Vec3,
-    /// Of the square, metres; its sides are along x and y.
+    /// Side of the square, metres; the sides are along x and y.
     pub side_m: f32,
     /// The part of the ceiling that it has to itself, square metres.
     pub area_m2: f64,

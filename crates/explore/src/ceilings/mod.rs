@@ -40,7 +40,7 @@ pub struct Ceiling {
 /// The ceiling at one plumb line.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Of the grid.
+    /// Column of the grid.
     column: [u32; 2],
     /// Where the line meets the ceiling, metres.
     at: Vec3,
@@ -49,7 +49,7 @@ struct Piece {
 }
 
 impl Ceiling {
-    /// Of all pieces, square metres.
+    /// Area of all pieces, square metres.
     pub fn area_m2(&self) -> f64 {
         self.pieces.len() as f64 * f64::from(self.spacing_m).powi(2)
     }

@@ -54,7 +54,7 @@ pub struct PlanConfig {
     pub min_look_distance_m: f64,
     /// Roll is uniform within plus and minus this, degrees (less than 90).
     pub roll_limit_deg: f64,
-    /// Of the surface points in view, the minimum and maximum share that the view before it saw too, each from 0 to 1; for walks.
+    /// Minimum and maximum share of the surface points in view that the view before saw too, each from 0 to 1; for walks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<[f64; 2]>,
     /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
@@ -193,7 +193,7 @@ pub struct KeyframesConfig {
 }
 
 impl Mode {
-    /// Its name in configurations and reports.
+    /// Name of the mode in configurations and reports.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Walk(_) => "walk",

@@ -108,7 +108,7 @@ fn drawn(planner: &Planner, places: &Places, n: usize, draft: &mut Draft, rng: &
     without_faults(planner, poses, draft)
 }
 
-/// Those of `poses` that have no fault by a coarse look.
+/// The poses that have no fault by a coarse look.
 fn without_faults(planner: &Planner, poses: Vec<Pose>, draft: &mut Draft) -> Vec<Pose> {
     let faults = map(&poses, |pose| planner.gates.coarse_fault(pose));
     faults.iter().flatten().for_each(|fault| draft.rejected.add(*fault));

@@ -51,7 +51,7 @@ impl<'a> Gates<'a> {
         }
     }
 
-    /// As [`Gates::fault`] for a first choice among many: what no surface shows counts by the coarse look.
+    /// Fault of a view by a coarse look, for a first choice among many; otherwise as [`Gates::fault`].
     pub fn coarse_fault(&self, pose: &Pose) -> Option<Fault> {
         let glance = self.glancer.look(pose);
         let void = 1.0 - glance.points.len() as f64 / glance.rays as f64;

@@ -64,9 +64,9 @@ pub fn plan(
     plan_accepted(world, bvh, space, start, &format!("cam_{trajectory_index:02}"), trajectory_index, config, &|_| true, cx)
 }
 
-/// As [`plan`], for a trajectory of any `name`, whose random numbers `trajectory_index` chooses, and with a last word by the caller: a
-/// view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any thread, and
-/// never about the first pose; the other presets do not ask.
+/// Plans a trajectory as [`plan`] does, but of any `name`, whose random numbers `trajectory_index` chooses, and with a last word by the
+/// caller: a view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any thread,
+/// and never about the first pose; the other presets do not ask.
 ///
 /// # Errors
 /// As [`plan`].

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Planned {
     /// Poses numbered from 0 without a gap.
     pub trajectory: Trajectory,
-    /// Its measurements.
+    /// Measurements of the trajectory.
     pub report: PlanReport,
 }
 
@@ -54,11 +54,11 @@ pub struct PlanReport {
 /// The camera that a trajectory begins with, and what became of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlannedStart {
-    /// Its name.
+    /// Name of the start camera.
     pub name: String,
     /// Where it stands, metres.
     pub position: DVec3,
-    /// Its orientation, camera to world.
+    /// Orientation of the start camera, camera to world.
     pub world_from_camera: DMat3,
     /// True where frame 0 is this pose, exactly; false where it was moved or turned.
     pub is_kept: bool,
@@ -69,13 +69,13 @@ pub struct PlannedStart {
 /// The boxes in which the next pose of a walk lies: equations 2 and 3 of Hypersim's supplement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkBoxes {
-    /// Of the camera's position.
+    /// The box in which the camera's position lies.
     pub position: WalkBox,
-    /// Of its target.
+    /// The box in which the camera's target lies.
     pub target: WalkBox,
 }
 
-/// One of them.
+/// A box that bounds the next pose of a walk.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkBox {
     /// How far from the last one at most, along x, y and z, metres.
@@ -183,7 +183,7 @@ pub struct RejectedCounts {
 /// A frame with a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RelaxedFrame {
-    /// Its number.
+    /// Number of the frame.
     pub frame: u32,
     /// What is wrong with it.
     pub fault: Fault,
@@ -212,9 +212,9 @@ pub struct CoverageReport {
 pub struct PartCoverage {
     /// The part; its `node_id` in `metadata_nodes.csv` is one more.
     pub part: PartId,
-    /// Its area, square metres.
+    /// Area of the part, square metres.
     pub area_m2: f64,
-    /// As [`CoverageReport::seen_share`].
+    /// Share of the part's area that the frames see, as [`CoverageReport::seen_share`].
     pub seen_share: Vec<f64>,
 }
 
@@ -258,7 +258,7 @@ impl FrameValues {
 }
 
 impl Spread {
-    /// Of `values`.
+    /// The spread of `values`.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let (mut min, mut max, mut sum, mut n) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0u32);
         for v in values {
@@ -269,7 +269,7 @@ impl Spread {
 }
 
 impl PlanStatistics {
-    /// Of `values`.
+    /// The statistics of `values`.
     pub fn of(values: &FrameValues) -> Self {
         let all = |values: &[f64]| Spread::of(values.iter().copied());
         let some = |values: &[Option<f64>]| Spread::of(values.iter().flatten().copied());

@@ -41,12 +41,12 @@ impl<'a> Rules<'a> {
         Self { bvh, space, config }
     }
 
-    /// Those of `points` where a camera may be that is seen from `last`.
+    /// The `points` seen from `last` where a camera may be.
     pub fn positions_seen_from(&self, last: DVec3, points: Vec<DVec3>) -> Vec<DVec3> {
         flat_map(&points, |&p| (self.is_position(p) && self.sees(last, p)).then_some(p))
     }
 
-    /// Those of `points` where a target may be that is seen from `last`.
+    /// The `points` seen from `last` where a target may be.
     pub fn targets_seen_from(&self, last: DVec3, points: Vec<DVec3>) -> Vec<DVec3> {
         flat_map(&points, |&p| (self.is_free(p) && self.sees(last, p)).then_some(p))
     }
@@ -179,7 +179,7 @@ impl<'a> Rules<'a> {
         self.farthest(position, direction, self.config.min_look_distance_m)
     }
 
-    /// As [`Rules::target`], of directions however steep, at least `nearest_m` away.
+    /// The farthest target, as [`Rules::target`], but in any direction, however steep, and at least `nearest_m` away.
     pub fn farthest(&self, position: DVec3, direction: DVec3, nearest_m: f64) -> Option<DVec3> {
         let voxel_m = self.space.tree.resolution_m();
         let reach = self.distance_m(position, direction).min(self.exit_m(position, direction)) - TARGET_MARGIN_VOXELS * voxel_m;
@@ -222,7 +222,7 @@ pub(super) fn posed(frame: u32, position: DVec3, look_at: DVec3, roll_rad: f64) 
     rolled(frame, position, look_at, roll_rad)
 }
 
-/// As [`posed`], however steep the view is; `None` when it is vertical.
+/// The pose that looks from `position` to `look_at` with this roll, as [`posed`], however steep the view is; `None` when it is vertical.
 pub(super) fn rolled(frame: u32, position: DVec3, look_at: DVec3, roll_rad: f64) -> Option<Pose> {
     let z = (position - look_at).try_normalize()?;
     if z.truncate().length() < VERTICAL {

@@ -8,7 +8,7 @@ use enfilade_math::{DVec3, Rng};
 
 /// A polyline with room around every point of it.
 pub(super) struct Tour {
-    /// Its corners. The first is the place nearest to the start.
+    /// Corners of the tour. The first is the place nearest to the start.
     pub corners: Vec<DVec3>,
     /// Indices of the corners that are waypoints, in order.
     pub waypoints: Vec<usize>,

@@ -99,7 +99,7 @@ type Known = BTreeMap<(u32, i16), InstanceView>;
 
 /// An instance as if nothing hid it.
 struct Whole {
-    /// Its pixels, also those beyond the image.
+    /// Pixels of the whole instance, also those beyond the image.
     area: PixelArea,
     /// 255 on those in the image, 0 elsewhere.
     mask: Vec<u8>,

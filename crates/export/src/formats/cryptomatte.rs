@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// One Cryptomatte layer of an image.
 pub(crate) struct Cryptomatte {
-    /// As in `crypto_instance`; its channels are `<name>00.R` to `.A`.
+    /// Name of the layer, as in `crypto_instance`; its channels are `<name>00.R` to `.A`.
     pub name: &'static str,
     /// Hashes of the names, as floats; 0 where there is none.
     pub ids: Vec<f32>,

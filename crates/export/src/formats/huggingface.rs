@@ -167,7 +167,7 @@ struct Files<'p> {
     name: &'static str,
     count: usize,
     current: Option<ParquetFile>,
-    /// Of the pictures of all.
+    /// Bytes of all pictures.
     bytes: u64,
 }
 

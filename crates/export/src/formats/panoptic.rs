@@ -60,8 +60,8 @@ enum Is {
 }
 
 impl Is {
-    /// Its number, the same in every frame of a scene: colours that people can tell apart, and no two alike, since multiplication by an odd
-    /// number permutes the numbers of 24 bits.
+    /// Number of a segment, the same in every frame of a scene: colours that people can tell apart, and no two alike, since multiplication
+    /// by an odd number permutes the numbers of 24 bits.
     fn id(self) -> u32 {
         let key = match self {
             Self::Stuff { class } => class as u32,

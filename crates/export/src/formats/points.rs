@@ -23,7 +23,7 @@ const AT_ONCE: usize = 16;
 pub(crate) struct SurfacePoint {
     /// World, metres.
     pub position: DVec3,
-    /// As displayed, sRGB.
+    /// Colour as displayed, sRGB.
     pub color: [u8; 3],
 }
 

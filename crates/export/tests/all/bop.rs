@@ -11,8 +11,8 @@ use std::path::Path;
 
 const SIZE: [u32; 2] = [40, 30];
 
-/// As if `boxes` had found that the table is seen in the first frame with `visible` pixels, fills the image up to column `right`, and
-/// reaches as far again beyond its left border.
+/// Writes what `boxes` would have found if the table were seen in the first frame with `visible` pixels, filled the image up to column
+/// `right`, and reached as far again beyond its left border.
 fn write_whole(dataset: &Dataset, visible: PixelArea, right: u32) {
     let [width, height] = SIZE;
     let inside = right * height;

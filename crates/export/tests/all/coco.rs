@@ -14,7 +14,7 @@ fn with_harp(class: i16) -> i16 {
     if class == 5 { HARP } else { class }
 }
 
-/// As if a scene had been annotated with a list of its own: tables, list, and labels of the frames.
+/// Annotates a scene with a list of its own: tables, list, and labels of the frames.
 fn annotate(dataset: &Dataset, scene: &str, list: &str) {
     let mut labels = dataset.read_label_tables(scene).unwrap();
     labels.parts.iter_mut().for_each(|label| label.semantic = with_harp(label.semantic));

@@ -14,7 +14,7 @@ fn exported(format: Format, shard_bytes: u64) -> (tempfile::TempDir, Dataset, Pa
     exported_of(&crate::common::pinhole_of(format), format, shard_bytes)
 }
 
-/// As [`exported`], taken with this camera.
+/// Exports a dataset as [`exported`] does, taken with this camera.
 fn exported_of(camera: &Camera, format: Format, shard_bytes: u64) -> (tempfile::TempDir, Dataset, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let dataset = crate::common::write(&folder.path().join("dataset"), camera);

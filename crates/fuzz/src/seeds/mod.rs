@@ -192,7 +192,7 @@ pub fn usd() -> Vec<Seed> {
     ]
 }
 
-/// The same room as an archive.
+/// Seeds of the same room as an archive.
 pub fn usdz() -> Vec<Seed> {
     vec![seed("room.usdz", include_bytes!("../../../import/tests/usd/room.usdz"))]
 }

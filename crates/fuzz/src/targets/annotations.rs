@@ -85,7 +85,7 @@ pub fn requests(folder: &Path) -> Run {
     })
 }
 
-/// Both servers.
+/// Both servers, ready to be asked.
 struct Asked {
     runtime: Runtime,
     router: Router,

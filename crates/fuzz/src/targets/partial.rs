@@ -64,7 +64,7 @@ pub fn seeds() -> Vec<Seed> {
     vec![begun, kept(&frame, "one_pass")]
 }
 
-/// As in `partial.rs` of the renderer: words of eight bytes, the last one filled up with zeros.
+/// Checksum as in `partial.rs` of the renderer: words of eight bytes, the last one filled up with zeros.
 fn checksum(bytes: &[u8]) -> u64 {
     let word = |chunk: &[u8]| {
         let mut word = [0; 8];

@@ -16,7 +16,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// The finished trees: that of the world, whose root is node 0, and those of the shared meshes.
 pub(super) struct Built {
     pub nodes: Pages<Node>,
-    /// Of all leaves.
+    /// Words of all leaves.
     pub words: Pages<u32>,
     pub placed: Vec<Placed>,
     pub bounds: Bounds3,

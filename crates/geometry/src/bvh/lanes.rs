@@ -49,7 +49,7 @@ impl Sixteen<f32> {
         unsafe { [&*first, &*first.add(1)] }
     }
 
-    /// The other way round.
+    /// Joins two halves to sixteen values.
     #[inline(always)]
     pub fn of_halves([first, last]: [Eight<f32>; 2]) -> Self {
         let mut all = Self([0.0; 16]);

@@ -34,7 +34,7 @@ impl Prepared {
         Self::with_slack(ray.origin, ray.direction, slack(ray, largest_coordinate))
     }
 
-    /// As [`Prepared::new`], with boxes that grow on all sides by `slack`.
+    /// Prepares a ray as [`Prepared::new`] does, with boxes that grow on all sides by `slack`.
     #[inline(always)]
     pub fn with_slack(origin: Vec3, direction: Vec3, slack: f32) -> Self {
         const MAX_INVERSE: f32 = 1e18;

@@ -84,7 +84,7 @@ impl<L: Lanes> TriangleTest<L> {
     }
 }
 
-/// Of the sheared space, by the last one.
+/// Axes of the sheared space, by the last one.
 static AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 /// Twice the area of the triangle of the origin, `p` and `q`; the sign turns over exactly with their order.

@@ -36,10 +36,10 @@ pub(super) trait Wide: Copy {
     /// The smallest of the lanes, none of which may be NaN.
     fn min_lane(self) -> f32;
 
-    /// Of two or more children that the ray enters at `self`, returns the nearest and puts the others on the stack, the farthest first.
+    /// Returns the nearest of two or more children that the ray enters at `self` and puts the others on the stack, the farthest first.
     fn push_by_distance(self, entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32;
 
-    /// Of the children that the ray enters (at least one), returns the last and puts the others on the stack in their order.
+    /// Returns the last of the children that the ray enters (at least one) and puts the others on the stack in their order.
     fn push_in_order(entered: u32, children: &Sixteen<u32>, stack: &mut Stack<'_>) -> u32;
 
     /// Drops what the ray enters beyond `limit`.

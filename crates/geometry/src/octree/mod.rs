@@ -73,9 +73,9 @@ const UNKNOWN: Child = Child::Leaf(Voxel::Unknown);
 /// A cube of one known state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leaf {
-    /// Its voxel with the smallest keys.
+    /// The leaf's voxel with the smallest keys.
     pub key: VoxelKey,
-    /// It has 2^level voxels along each edge.
+    /// Level of the leaf, which has 2^level voxels along each edge.
     pub level: u32,
     /// Free or occupied.
     pub state: Voxel,

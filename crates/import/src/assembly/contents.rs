@@ -77,7 +77,7 @@ impl Assembly<'_> {
         Ok(Some((self.scene.meshes.len() - 1) as u32))
     }
 
-    /// The same for a mesh whose positions are told from `origin`, a point of the mesh's own space.
+    /// Adds a mesh as [`Assembly::push_mesh`] does, whose positions count from `origin`, a point of the mesh's own space.
     ///
     /// # Errors
     /// As [`Self::push_mesh`].

@@ -17,7 +17,7 @@ impl Assembly<'_> {
         self.push_light_at(position_of(&light), light);
     }
 
-    /// The same for a light whose `position` in the file is known in double precision.
+    /// Adds a light whose `position` in the file is known in double precision, otherwise as [`Assembly::push_light`].
     pub(crate) fn push_light_at(&mut self, position: DVec3, light: Light) {
         let metres = self.meters_per_unit as f32;
         let name = light.name().to_string();

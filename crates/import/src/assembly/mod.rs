@@ -60,7 +60,7 @@ pub(crate) struct Assembly<'a> {
     offset_m: Option<[f64; 3]>,
     /// Triangles kept of flattened parts.
     flattened: usize,
-    /// Of the parts that the file labels, in their order.
+    /// Labels of the parts that the file labels, in their order.
     file_labels: Vec<(PartId, FileLabel)>,
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
@@ -110,7 +110,7 @@ impl<'a> Assembly<'a> {
         self.state_space(file_meters_per_unit, file_up.world_from_file());
     }
 
-    /// As [`Assembly::set_units`] for any axes: `world_from_axes` is a rotation or a reflection.
+    /// States unit and axes as [`Assembly::set_units`] does, for any axes: `world_from_axes` is a rotation or a reflection.
     pub(crate) fn state_space(&mut self, file_meters_per_unit: f64, world_from_axes: DMat3) {
         self.axes = self.options.up_axis.map_or(world_from_axes, UpAxis::world_from_file);
         self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
@@ -125,7 +125,7 @@ impl<'a> Assembly<'a> {
         Assembly::new(format, &archive.file().join(entry), up, self.options, self.cx).within(archive)
     }
 
-    /// The same for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
+    /// An assembly for a scene file within an archive: all that it refers to is in there as well, and nowhere else.
     pub(crate) fn within(self, archive: &'a Archive) -> Self {
         Self { archive: Some(archive), inputs: vec![archive.file().to_path_buf()], ..self }
     }

@@ -27,7 +27,7 @@ pub(crate) fn positions_from(origin: DVec3, points: &[DVec3]) -> Vec<Vec3> {
     points.iter().map(|p| (*p - origin).as_vec3()).collect()
 }
 
-/// The same for places that reach so far around their middle. Medians, because a stray place shall not decide.
+/// Origin for places, each with how far it reaches around its middle, as [`origin_of`]. Medians, because a stray place shall not decide.
 fn origin(mut places: Vec<(DVec3, f64)>, meters_per_unit: f64) -> DVec3 {
     places.retain(|(middle, reach)| middle.is_finite() && reach.is_finite());
     let middle = DVec3::from_array([0, 1, 2].map(|axis| median(places.iter().map(|(p, _)| p[axis]).collect())));

@@ -80,13 +80,13 @@ pub(super) fn numbers(node: Node) -> (Vec<f64>, usize) {
     (found.collect(), odd)
 }
 
-/// As many numbers as are wanted; `None` where there are fewer, or something else.
+/// Numbers of an element, as many as are wanted; `None` where there are fewer, or something else.
 pub(super) fn exactly<const N: usize>(node: Node) -> Option<[f64; N]> {
     let (found, odd) = numbers(node);
     found.get(..N).filter(|_| odd == 0)?.try_into().ok()
 }
 
-/// The whole numbers of an element; `None` where something else is among them.
+/// Whole numbers of an element; `None` where something else is among them.
 pub(super) fn indices(node: Node) -> Option<Vec<u32>> {
     let texts = node.children().filter_map(|n| n.text().filter(|_| n.is_text()));
     texts.flat_map(str::split_ascii_whitespace).map(|word| word.parse().ok()).collect()

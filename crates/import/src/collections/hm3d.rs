@@ -199,7 +199,7 @@ fn place(
     Ok(())
 }
 
-/// Some triangles of a mesh, with the vertices that they use.
+/// Mesh of some triangles, with the vertices that they use.
 fn taken(mesh: &Mesh, triangles: &[usize]) -> Mesh {
     let (mut out, mut known) = (Mesh::default(), HashMap::new());
     for triangle in triangles.iter().filter_map(|&t| mesh.triangles.get(t)) {

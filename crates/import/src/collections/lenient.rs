@@ -29,7 +29,7 @@ impl Lenient {
         }
     }
 
-    /// This value as a whole number, where it is one.
+    /// Value as a whole number, where it is one.
     fn whole(self) -> Value {
         let number = self.number();
         match number.as_f64().filter(|v| number.is_f64() && v.fract() == 0.0 && v.abs() < 9e15) {

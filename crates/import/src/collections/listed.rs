@@ -10,7 +10,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Deref;
 
-/// As much of an odd entry is told.
+/// Length up to which an odd entry is quoted.
 const SHOWN: usize = 60;
 
 /// The entries of a list that are what they should be.

@@ -27,9 +27,9 @@ pub(super) struct Objects {
 
 /// An object that is about to be placed.
 pub(super) struct Object {
-    /// Its name, which no other object has.
+    /// Name of the object, which no other has.
     pub name: String,
-    /// Its class and instance.
+    /// Class and instance of the object.
     pub label: PartLabel,
 }
 

@@ -22,7 +22,8 @@ const DIELECTRIC: f32 = 0.04;
 /// Up to this reflectance at normal incidence a surface is a dielectric; diamond reflects 0.17.
 const MAX_DIELECTRIC: f32 = 0.2;
 
-/// The same where a picture varies it. It is lower, since a tint also dims what dark texels reflect at grazing angles.
+/// Up to this reflectance at normal incidence a surface whose reflectance a picture varies is a dielectric. It is lower, since a tint also
+/// dims what dark texels reflect at grazing angles.
 const MAX_DIELECTRIC_PICTURE: f32 = 0.08;
 
 /// At most this many texels (8 bytes each) are computed for a scene.

@@ -11,9 +11,9 @@ use gltf::json::validation::Checked;
 
 /// What moves the vertices of a primitive.
 pub(super) struct Pose<'p> {
-    /// Of morph targets.
+    /// Weights of morph targets.
     pub weights: &'p [f32],
-    /// Of its skin, if it has one.
+    /// Joints of the skin, if the mesh has one.
     pub joints: Option<&'p [DAffine3]>,
 }
 

@@ -12,7 +12,7 @@ const INSTEAD: [(&str, &str); 5] = [
     ("KHR_materials_volume_scatter", "light is absorbed within them, but not scattered"),
 ];
 
-/// As many materials are named.
+/// Greatest number of materials that are named.
 const NAMED: usize = 3;
 
 /// True for an extension that [`report`] tells.

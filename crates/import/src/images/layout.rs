@@ -34,7 +34,7 @@ pub(super) enum Layout {
         bytes: usize,
         masks: [u32; 4],
     },
-    /// So many channels of floats or of whole numbers of 16 bits.
+    /// Channels of float16; the variants after it count those of float32 and of whole numbers of 16 bits.
     Half(usize),
     Float(usize),
     Unorm16(usize),

@@ -33,7 +33,7 @@ pub(super) struct ObjMeshes {
 
 /// What a file has of one group and material.
 pub(super) struct ObjMesh {
-    /// Of the group, else of the material.
+    /// Name of the group, else of the material.
     pub name: String,
     pub material: Option<String>,
     /// `None` where it is empty.

@@ -76,7 +76,7 @@ fn object(node: &Node, kind: Kind) -> Result<Rgb, ImportError> {
     }
 }
 
-/// As many values as wavelengths, which ascend.
+/// Spectrum of pairs: as many values as wavelengths, which ascend.
 fn pairs(node: &Node, wavelengths: &[f64], values: &[f64], kind: Kind) -> Result<Rgb, ImportError> {
     if values.len() < 2 || wavelengths.len() != values.len() || wavelengths.windows(2).any(|w| w[0] >= w[1]) {
         let found = format!("found {} values at {} wavelengths", values.len(), wavelengths.len());

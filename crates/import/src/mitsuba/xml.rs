@@ -20,7 +20,7 @@ const MAX_VALUE: usize = 1 << 20;
 /// An element.
 #[derive(Debug)]
 pub(super) struct Node {
-    /// Its tag in lower case; `luminaire` and `camera` of old versions are `emitter` and `sensor`.
+    /// Tag of the element in lower case; `luminaire` and `camera` of old versions are `emitter` and `sensor`.
     pub tag: String,
     /// The `type` attribute: which plugin; empty for properties.
     pub plugin: String,
@@ -80,7 +80,7 @@ impl Node {
             .collect()
     }
 
-    /// The one number of a `float` or `integer` property; `None` when there is no such property.
+    /// Number of a `float` or `integer` property; `None` when there is no such property.
     pub(super) fn float(&self, name: &str) -> Result<Option<f64>, ImportError> {
         let Some(child) = self.child(name).filter(|c| c.attribute("value").is_some()) else { return Ok(None) };
         child.numbers("value").map(|n| n.first().copied())

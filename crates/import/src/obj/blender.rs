@@ -15,7 +15,7 @@
 pub(super) enum Gloss {
     /// Blinn's exponent, as the format says.
     Exponent,
-    /// Of Blender 2.79 and older.
+    /// Blender's hardness, by version 2.79 and older.
     Hardness,
     /// Blender's roughness; `Ns` of a smooth surface.
     Roughness(f32),

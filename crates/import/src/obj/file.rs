@@ -45,10 +45,10 @@ pub(crate) struct Group {
 
 /// One polygon.
 pub(super) struct Face {
-    /// Its first corner.
+    /// First corner of the face.
     pub(super) first: u32,
     pub(super) line: u32,
-    /// Its smoothing group; 0 is none.
+    /// Smoothing group of the face; 0 is none.
     pub(super) smoothing: u32,
 }
 

@@ -47,7 +47,7 @@ use mtl::GREY;
 use objects::Objects;
 use std::collections::HashMap;
 
-/// As much of a file has its first line.
+/// Bytes of a file that hold its first line.
 const HEAD_BYTES: usize = 256;
 
 /// Imports an OBJ file.

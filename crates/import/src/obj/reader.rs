@@ -67,7 +67,7 @@ struct Parser<'p> {
     material: Option<String>,
     smoothing: u32,
     current: Option<usize>,
-    /// Of texture coordinates and of normals.
+    /// Indices without a value, of texture coordinates and of normals.
     dangling: [Dangling; 2],
 }
 

@@ -134,7 +134,7 @@ impl Params {
         }
     }
 
-    /// The one number of a parameter.
+    /// Single number of a parameter.
     pub(super) fn float(&self, name: &str) -> Result<Option<f64>, ImportError> {
         let Some(param) = self.get(name) else { return Ok(None) };
         match &param.values {
@@ -143,7 +143,7 @@ impl Params {
         }
     }
 
-    /// The one number of a parameter, or a default.
+    /// Single number of a parameter, or a default.
     pub(super) fn float_or(&self, name: &str, default: f64) -> Result<f64, ImportError> {
         Ok(self.float(name)?.unwrap_or(default))
     }

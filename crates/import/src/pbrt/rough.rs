@@ -16,7 +16,7 @@ impl Reader<'_> {
         Ok(self.remapped(roughness, remap))
     }
 
-    /// The same for glass, which is smooth where its roughness is zero. The other materials of version 3 are not: its polynomial is
+    /// GGX alpha of glass, which is smooth where its roughness is zero. The other materials of version 3 are not: its polynomial is
     /// 0.047 there.
     pub(super) fn alpha_of_glass(&mut self, params: &Params) -> Result<ScalarParam, ImportError> {
         let remap = params.flag("remaproughness", true)?;
@@ -25,7 +25,7 @@ impl Reader<'_> {
         Ok(if smooth { 0.0.into() } else { self.remapped(roughness, remap) })
     }
 
-    /// As the file states it; the mean of both directions.
+    /// Roughness as the file states it; the mean of both directions.
     fn roughness(&mut self, params: &Params, prefix: &str, default: f32) -> Result<ScalarParam, ImportError> {
         let names = ["roughness", "uroughness", "vroughness"].map(|n| format!("{prefix}{n}"));
         let both = self.scalar(params, &names[0], default)?;

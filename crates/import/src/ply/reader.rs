@@ -23,7 +23,7 @@ const TEXCOORD: [&str; 1] = ["texcoord"];
 /// What a PLY file holds.
 #[derive(Debug, PartialEq)]
 pub(crate) struct PlyFile {
-    /// Its mesh, with texture coordinates as they are. Without faces it has no triangles.
+    /// Mesh of the file, with texture coordinates as they are. Without faces it has no triangles.
     pub mesh: Mesh,
     /// The point from which its positions are told: zero unless they are far from the origin of their coordinates.
     pub origin: DVec3,

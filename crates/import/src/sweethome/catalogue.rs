@@ -41,7 +41,7 @@ pub struct CatalogueLight {
 pub struct CataloguePiece {
     /// The library's own name for it, which no other piece has.
     pub id: Option<String>,
-    /// Its name for people.
+    /// Name of the model for people.
     pub title: String,
     /// The model's file within the archive.
     pub model: String,
@@ -53,7 +53,7 @@ pub struct CataloguePiece {
     pub rotation: Option<DMat3>,
     /// What shines in it.
     pub lights: Vec<CatalogueLight>,
-    /// Its licence and who made it.
+    /// Licence of the model and who made it.
     pub licence: String,
 }
 
@@ -69,7 +69,7 @@ pub fn catalogue(file: &Path, wanted: impl Fn(CatalogueKind) -> bool) -> Result<
 }
 
 impl CataloguePiece {
-    /// Its model as a scene of its own, in the model's unit and with the model's axes, y up; pictures that are missing become grey.
+    /// Loads the model as a scene of its own, in the model's unit and with the model's axes, y up; pictures that are missing become grey.
     ///
     /// # Errors
     /// When the library, or the model within it, cannot be read.

@@ -51,7 +51,7 @@ impl<'x> Wall<'x> {
         Ok((start.distance(end) > 1e-3 && thickness > 0.0 && height.max(at_end) > 0.0).then_some(wall))
     }
 
-    /// Its two ends on the plan.
+    /// Ends of the wall on the plan.
     pub fn ends(&self) -> [DVec2; 2] {
         [self.start, self.end]
     }

@@ -103,7 +103,7 @@ pub(super) fn add(piece: &Piece, root: &Element, home: &mut Home) -> Result<(), 
     Ok(())
 }
 
-/// Its name and its catalogue's, with a number where there are several.
+/// Name of a piece, with a number where there are several, and with the catalogue's in brackets.
 fn name(element: Element, models: &mut Models) -> String {
     let name = element.text("name").unwrap_or("piece");
     let count = models.names.entry(name.to_string()).or_default();

@@ -53,7 +53,7 @@ impl Bindings {
         self.0.is_empty()
     }
 
-    /// These bindings, and nearer ones.
+    /// Bindings of these and nearer ones together.
     pub(super) fn and(&self, nearer: &Self) -> Self {
         match (self.is_empty(), nearer.is_empty()) {
             (_, true) => self.clone(),

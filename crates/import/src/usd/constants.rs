@@ -15,7 +15,7 @@ const MAX_NUMBERS: usize = 4;
 pub(super) struct Constants(Rc<HashMap<Rc<str>, Value>>);
 
 impl Constants {
-    /// Those that the prims below a prim inherit.
+    /// Values that the prims below a prim inherit.
     pub(super) fn below(&self, prim: &Prim) -> Self {
         let mut all = self.clone();
         for name in prim.properties().iter().filter(|p| p.starts_with("primvars:") && !p.ends_with(":indices")) {
@@ -30,7 +30,7 @@ impl Constants {
         all
     }
 
-    /// The one value of a prim's own primvar, its mean with a warning where it varies, or the inherited value.
+    /// Value of a prim's own primvar, its mean with a warning where it varies, or the inherited value.
     pub(super) fn value<const N: usize>(&self, prim: &Prim, name: &str, sizes: Sizes, a: &mut Assembly) -> Option<[f64; N]> {
         let Some(own) = Primvar::<N>::read(prim, name, "constant", sizes, a) else { return self.0.get(name)?.as_tuple() };
         if !own.is_constant() {

@@ -27,7 +27,7 @@ const WHITE_KELVIN: f64 = 6500.0;
 /// Blender's exporter writes this part of a sun's irradiance, "approximately matching Karma" (`usd_writer_light.cc`), in all versions that
 /// write `normalize` (since 3.6).
 const BLENDERS_SUN: f32 = 0.25;
-/// The same writes this part of the sun's angle across.
+/// Part of the sun's angle that Blender's exporter writes.
 const BLENDERS_ANGLE: f64 = 0.5;
 
 /// A light prim, its placement, and where to put what it becomes.

@@ -86,7 +86,7 @@ impl Polygons {
         Sizes { faces: self.faces.len(), points: self.points.len(), corners: self.corners.len() }
     }
 
-    /// Some of the faces as triangles, with texture coordinates. Where points of one place have several normals or coordinates,
+    /// Mesh of some of the faces as triangles, with texture coordinates. Where points of one place have several normals or coordinates,
     /// they become several vertices.
     pub(super) fn mesh(&self, faces: impl Iterator<Item = usize>, uvs: Option<&Primvar<2>>) -> Mesh {
         let mut mesh = Mesh::default();

@@ -36,7 +36,7 @@ pub(super) struct State {
     pub thing: Option<Thing>,
 }
 
-/// Some faces of a mesh: their scene mesh, the subset's name, and what it binds.
+/// A piece of a mesh: some faces as a scene mesh, the subset's name, and what it binds.
 #[derive(Clone)]
 pub(super) struct Piece {
     pub mesh: u32,
@@ -67,7 +67,7 @@ pub(super) struct Walk<'s> {
     pub(super) things: Things,
     visited: usize,
     pub(super) unknown_labels: Unknown,
-    /// Of what was noted more than once: how often.
+    /// Number of notes beyond the first of each kind.
     hidden: usize,
     pub(super) cages: usize,
     /// Emitting variants of materials, for meshes that are lights.

@@ -14,7 +14,7 @@ impl<'n> Handle<'n> {
         std::str::from_utf8(self.plugin.kind()).unwrap_or_default()
     }
 
-    /// Its name.
+    /// Name of the parameter.
     pub(super) fn name(self) -> String {
         String::from_utf8_lossy(self.plugin.name()).into_owned()
     }
@@ -185,7 +185,7 @@ impl<'n> Handle<'n> {
     }
 }
 
-/// The whole numbers of a list, of whichever kind it is.
+/// Whole numbers of a list, of whichever kind it is.
 pub(super) fn ints(value: &Value) -> Option<Vec<i32>> {
     match value {
         Value::Ints(list) => Some(list.clone()),

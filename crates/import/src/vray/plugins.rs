@@ -26,7 +26,7 @@ pub(super) struct Plugins {
 #[derive(Clone, Copy)]
 pub(super) struct Handle<'n> {
     pub(super) plugins: &'n Plugins,
-    /// Its place among all plugins, which identifies it.
+    /// Place of the plugin among all, which identifies it.
     pub(super) index: usize,
     pub(super) plugin: &'n Plugin,
     pub(super) file: &'n Path,

@@ -192,7 +192,7 @@ fn picture_of(imported: &Imported) -> TextureRef {
     reflectance.texture.expect("a texture")
 }
 
-/// As Autodesk's programs have it: a scale of two shows the picture twice, and a translation of one is its width then.
+/// Pictures are transformed as by Autodesk's programs: a scale of two shows the picture twice, and a translation of one is its width then.
 #[test]
 fn pictures_are_scaled_turned_and_moved_in_this_order() {
     let folder = Folder::new();

@@ -60,7 +60,7 @@ fn poly_haven_furniture_has_the_triangles_that_it_states() {
     }
 }
 
-/// The same rooms from the renderer's own description and converted to glTF: same parts, cameras and surroundings.
+/// Rooms from the renderer's own description and converted to glTF agree: same parts, cameras and surroundings.
 #[test]
 fn mitsuba_rooms_agree_with_their_gltf() {
     let Some(folder) = rooms() else { return };

@@ -9,7 +9,7 @@ use serde_json::json;
 
 /// A corner in UTM, metres: east, north, up. Single precision knows it to half a metre.
 const CORNER: DVec3 = DVec3::new(445_123.4, 5_411_234.6, 31.2);
-/// The other corners of a triangle from there, metres.
+/// Corners of a triangle, seen from the first one, metres.
 const EDGES: [DVec3; 2] = [DVec3::new(0.25, 0.0, 0.0), DVec3::new(0.0, 0.125, 0.5)];
 
 /// Numbers of a point, as files have them.
@@ -21,12 +21,12 @@ fn corners() -> [DVec3; 3] {
     [CORNER, CORNER + EDGES[0], CORNER + EDGES[1]]
 }
 
-/// The same in axes with y up.
+/// A point in axes with y up.
 fn y_up(p: DVec3) -> DVec3 {
     DVec3::new(p.x, p.z, -p.y)
 }
 
-/// That the first part is the triangle, near the origin, and that the report leads back to the file's coordinates.
+/// Asserts that the first part is the triangle, near the origin, and that the report leads back to the file's coordinates.
 fn holds(imported: &Imported, format: &str) {
     let scene = &imported.scene;
     let offset = DVec3::from_array(imported.report.offset_m.unwrap_or_else(|| panic!("{format}: no offset")));

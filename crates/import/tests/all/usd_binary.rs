@@ -167,7 +167,7 @@ fn errors_name_the_file_and_the_place() {
     assert!(folder.write("e.usdc", &old).error("e.usdc").contains("byte 8: found version 0.3.0 of usdc, expected 0.4 to 0.13"));
 }
 
-/// Their tables of paths hold an empty one that the tree leaves out, and tables of nothing hold not even a first number.
+/// Writers' tables of paths hold an empty one that the tree leaves out, and tables of nothing hold not even a first number.
 #[test]
 fn references_without_a_prim_and_empty_layers_are_read() {
     let folder = Folder::new();

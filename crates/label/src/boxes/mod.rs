@@ -86,7 +86,7 @@ pub fn upright_box(points: &[DVec3]) -> Option<OrientedBox> {
     with_x(toward)
 }
 
-/// The same box with its sides in the order and directions of `object_aligned_3d`.
+/// The box with its sides in the order and directions of `object_aligned_3d`.
 fn ordered(b: &OrientedBox, mean: DVec3) -> OrientedBox {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| b.extents[j].total_cmp(&b.extents[i]));

@@ -13,7 +13,7 @@ const BLOCK: i32 = 8 * TILE;
 /// The pixels in which silhouettes are looked for: the image and as much again on every side. A panorama has nothing beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Canvas {
-    /// Of the image.
+    /// Width of the image.
     width: i32,
     height: i32,
     /// Columns to the left and right of the image, and rows above and below.
@@ -25,7 +25,7 @@ pub struct Canvas {
 pub(super) struct Silhouette {
     /// All its pixels.
     pub full: PixelArea,
-    /// Those in the image, counted column by column.
+    /// Pixels in the image, counted column by column.
     pub inside: Vec<u32>,
 }
 

@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 
 /// An instance as rays meet it when nothing else is there.
 pub struct Solid {
-    /// Its number.
+    /// Number of the instance.
     pub instance: i16,
-    /// Its class.
+    /// Class of the instance.
     pub semantic: i16,
     pub(super) bvh: Bvh,
     /// A ball around it.

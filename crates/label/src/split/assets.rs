@@ -53,7 +53,7 @@ pub struct ImageAsset {
 pub struct SharedAsset {
     /// `mesh` or `texture`.
     pub kind: String,
-    /// Its name in the first of the scenes.
+    /// Name of the asset in the first of the scenes.
     pub name: String,
     /// The scenes that have it, by side.
     pub scenes: BTreeMap<String, BTreeSet<String>>,

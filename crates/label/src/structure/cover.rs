@@ -20,7 +20,7 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// Of a storey; `None` where it has no walls and no ceilings.
+    /// The cover of a storey; `None` where it has no walls and no ceilings.
     pub fn new(storey: &Storey<'_>) -> Option<Self> {
         // Not of floors: the ground around a house may be large.
         let all = [&storey.walls, &storey.ceilings];

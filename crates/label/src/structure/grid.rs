@@ -44,7 +44,7 @@ impl Grid {
         }
     }
 
-    /// The same of a triangle, either way round.
+    /// Visits the cells in a triangle, either way round.
     pub fn each_in_triangle(&self, [a, b, c]: [DVec2; 3], visit: impl FnMut(usize)) {
         self.each_in(&if (b - a).perp_dot(c - a) > 0.0 { [a, b, c] } else { [a, c, b] }, visit);
     }

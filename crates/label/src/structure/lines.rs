@@ -24,7 +24,7 @@ const MOST_COLUMNS: f64 = 1e4;
 /// Wall stands where so much of the height between these is covered, metres above the floor: below a window is enough.
 const BAND_M: [f64; 2] = [0.2, 2.2];
 const STANDS: f64 = 0.25;
-/// So much of a run of wall, doors and windows is wall at least, metres, or half of it.
+/// Least length of wall in a run of wall, doors and windows, metres, or half of the run.
 const LEAST_STANDING_M: f64 = 0.4;
 /// Gaps up to here are doorways, which do not make one room of two, metres.
 const DOORWAY_M: f64 = 1.3;

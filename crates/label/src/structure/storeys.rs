@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// Cosine of the angle to the vertical from which on a surface counts as level.
 const LEVEL: f64 = 0.95;
-/// The same below which it counts as upright.
+/// Limit below which a surface counts as upright.
 const UPRIGHT: f64 = 0.17;
 /// Floors that lie closer together belong to one storey, metres.
 const STOREY_M: f64 = 1.8;
@@ -30,7 +30,7 @@ pub struct Storey<'a> {
     pub panes: Vec<&'a LabelledTriangle>,
     /// Surfaces of floors that are not upright.
     pub floors: Vec<&'a LabelledTriangle>,
-    /// The same of ceilings.
+    /// Triangles of ceilings, likewise.
     pub ceilings: Vec<&'a LabelledTriangle>,
 }
 

@@ -12,7 +12,7 @@ pub const WINDOW: i16 = 9;
 /// A triangle of the scene, world, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct LabelledTriangle {
-    /// Its corners.
+    /// Corners of the triangle.
     pub corners: [DVec3; 3],
     /// What it is.
     pub label: PartLabel,

@@ -35,7 +35,7 @@ impl Model {
         }
     }
 
-    /// The whole turned about the vertical, degrees.
+    /// The whole model turned about the vertical, degrees.
     fn turned(mut self, deg: f64) -> Self {
         let turn = enfilade_math::DMat3::from_rotation_z(deg.to_radians());
         self.0.iter_mut().for_each(|t| t.corners = t.corners.map(|p| turn * p));

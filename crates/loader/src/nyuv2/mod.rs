@@ -23,7 +23,7 @@ pub struct NyuChoice {
     pub split: Option<NyuSplit>,
     /// Classes of the layer `semantic`.
     pub classes: NyuClasses,
-    /// Some of [`NYU_LAYERS`].
+    /// Layers of a sample, each in [`NYU_LAYERS`].
     pub layers: Vec<Layer>,
     /// Whether a file with other than the 1449 published images is taken.
     pub partial: bool,

@@ -15,11 +15,11 @@ use std::f32::consts::PI;
 pub struct Coated<'a> {
     /// The coat.
     pub coat: Coat<'a>,
-    /// Its surface.
+    /// Facets of the coat's surface.
     pub facets: Facets,
     /// Demodulated value of the base over cosine × transmittance on the way in.
     base: Rgb,
-    /// The same over the cosine alone, of the part of the base that has no coat.
+    /// Demodulated value over the cosine alone, of the part of the base that has no coat.
     bare: f32,
     /// Transmittance of the coat towards the viewer.
     through_o: f32,

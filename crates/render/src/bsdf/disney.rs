@@ -17,7 +17,7 @@ const COAT_MASKING: f32 = 0.25;
 pub enum Part {
     /// The diffuse base with its retro-reflection, demodulated.
     Diffuse {
-        /// Of the base.
+        /// Roughness of the base.
         roughness: f32,
         /// How much of it is flattened like skin, by Hanrahan and Krueger.
         flatness: f32,

@@ -62,7 +62,7 @@ impl Point {
     }
 }
 
-/// The whole model at a point.
+/// Scattering by the whole model at a point.
 pub fn disney<'a>(p: &scene::Disney, at: &Inputs<'a>) -> Bsdf<'a> {
     let here = Point::new(p, at);
     let mut mixture = Mixture::new();

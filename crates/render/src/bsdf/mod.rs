@@ -129,16 +129,16 @@ impl<'a> Bsdf<'a> {
 /// The albedo of a surface, by how much its lobes blur what they reflect.
 #[derive(Clone, Copy, Debug)]
 pub struct Albedo {
-    /// Of the diffuse lobes.
+    /// Albedo of the diffuse lobes.
     pub diffuse: Rgb,
-    /// Of others that are nearly as blurred.
+    /// Albedo of the other lobes that are nearly as blurred.
     pub glossy: Rgb,
-    /// Of the rest.
+    /// Albedo of the sharp lobes.
     pub sharp: Rgb,
 }
 
 impl Albedo {
-    /// Of what is blurred.
+    /// Albedo of what is blurred.
     pub fn blurred(&self) -> Rgb {
         self.diffuse + self.glossy
     }

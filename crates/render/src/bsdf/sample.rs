@@ -13,7 +13,7 @@ pub struct Value {
 }
 
 impl Value {
-    /// The whole, given the diffuse reflectance.
+    /// Sum of diffuse and other light, given the diffuse reflectance.
     #[inline]
     pub fn total(&self, reflectance: Rgb) -> Rgb {
         reflectance * self.diffuse + self.specular

@@ -13,7 +13,7 @@ pub struct Tables {
     pub coat: Option<Arc<CoatTable>>,
     /// The border of its transparent body, where that is rough.
     pub glass: Option<Arc<GlassTable>>,
-    /// Those of the two that it blends, if it does.
+    /// Tables of the two materials that it blends, if it does.
     pub blended: Option<Box<[Tables; 2]>>,
     /// True where rough diffuse surfaces scatter by Lambert's law.
     pub lambertian: bool,
@@ -28,7 +28,7 @@ pub struct TableMaker {
 }
 
 impl TableMaker {
-    /// One for scenes whose rough diffuse surfaces scatter by Lambert's law.
+    /// Tables for scenes whose rough diffuse surfaces scatter by Lambert's law.
     pub fn lambertian() -> Self {
         Self { lambertian: true, ..Self::default() }
     }

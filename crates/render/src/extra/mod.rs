@@ -23,7 +23,7 @@ const MIRROR_ALPHA: f32 = 0.01;
 /// Panes that are looked through one after the other.
 const MAX_PANES: usize = 64;
 
-/// Of a pixel's width: how far from its centre its corners are looked at. Just inside, where neighbours do not look.
+/// Distance of a pixel's corners from its centre, where they are looked at, in pixel widths: just inside, where neighbours do not look.
 const CORNER: f64 = 0.49;
 
 /// Adds the layers of [`enfilade_frame::Pass::Extra`] to a frame of `view`. `next` is the view of the trajectory's next frame; without
@@ -82,7 +82,7 @@ struct Extra {
     appearance: Appearance,
     /// W/(sr m²).
     emitted: [f32; 3],
-    /// Of the triangle, facing the camera.
+    /// Normal of the triangle, facing the camera.
     normal: Vec3,
     traits: u8,
     /// Metres; NaN when nothing but glass is met.

@@ -54,7 +54,7 @@ impl Aim {
         (own < MAX_SINE * MAX_SINE * square).then(|| [square, own.max(MIN_SINE * MIN_SINE * square)])
     }
 
-    /// As it is seen from `p`; `None` where that is too near.
+    /// Cone of the sphere as seen from `p`; `None` where that is too near.
     #[inline]
     pub fn cone(&self, p: Vec3) -> Option<AimCone> {
         let way = self.center - p;

@@ -34,9 +34,9 @@ pub(super) struct Cells {
     /// Small, because it is asked at every vertex and should stay in the processor's cache. Of two cells whose tags are the same by chance
     /// one may not be found, which does no harm.
     slots: Vec<(u32, u32)>,
-    /// Of each cell, its key.
+    /// Key of each cell.
     keys: Vec<u64>,
-    /// Of each cell, up to [`SITES`] places in it.
+    /// Places in each cell, up to [`SITES`].
     pub sites: Vec<[Option<Site>; SITES]>,
 }
 

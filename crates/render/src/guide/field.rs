@@ -31,7 +31,7 @@ const SPOTS_ACROSS: f32 = 8.0;
 /// The light that arrives in a cell, as a density of directions and its irradiance.
 #[derive(Debug)]
 pub(crate) struct CellLight {
-    /// Of the directions that are not aimed.
+    /// Density of the directions that are not aimed.
     density: SquareDensity,
     aims: Aims,
     /// Irradiance over π of the light that sampled directions find, as opposed to light samples: all indirect light, and that part of
@@ -167,7 +167,7 @@ impl CellLight {
         self.density_of(direction, p, onb, None)
     }
 
-    /// The same, of a direction that was sampled by a sphere's number, or is any.
+    /// Density of a direction that was sampled by a sphere's number, or is any; as [`CellLight::pdf`].
     #[inline]
     fn density_of(&self, direction: Vec3, p: Vec3, onb: &Onb, sampled: Option<usize>) -> f32 {
         let wi = onb.to_local(direction);

@@ -120,7 +120,7 @@ pub(super) fn with_fractions(aimed: &[Aimed], found: f32) -> impl Iterator<Item 
 }
 
 impl BrightPatch {
-    /// This patch with the sphere around it and another one.
+    /// A patch with the sphere around it and another one.
     fn around(&self, other: &Self) -> Self {
         let way = other.center - self.center;
         let distance = way.length();

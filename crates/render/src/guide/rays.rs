@@ -14,7 +14,7 @@ use enfilade_math::{Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 const PANES: usize = 8;
 /// Mirrors and bends by which a gathering ray goes on.
 const MIRRORS: usize = 6;
-/// It goes on with a probability of this times what is mirrored there: the faint reflections of varnish are looked for by few rays.
+/// Factor of what is mirrored in the probability that a ray goes on there: the faint reflections of varnish are looked for by few rays.
 const MIRROR_GAIN: f32 = 4.0;
 
 /// Purposes of a cell's random numbers: its direct light, the rays through its bins by their round, and the search for bright places.
@@ -30,7 +30,7 @@ pub(super) struct GatherHit {
     pub p: Vec3,
     /// The number of what was met, see [`Rays::place`], and the fraction of its light that comes back.
     diffuse: (u32, Rgb),
-    /// The same of what is seen by way of mirrors, gloss and glass.
+    /// Number and fraction of what is seen by way of mirrors, gloss and glass.
     mirrored: (u32, Rgb),
     /// Luminance that sources send along the ray, weighted against light sampling.
     pub emitted: f32,
@@ -155,7 +155,7 @@ impl Rays<'_, '_> {
     }
 }
 
-/// The one of a cell's sites that the ray through a bin leaves from.
+/// Site of a cell that the ray through a bin leaves from.
 pub(super) fn site_of(sites: &[Site], bin: usize, round: usize) -> Site {
     sites[(bin + bin / SIDE + round) % sites.len()]
 }

@@ -39,7 +39,7 @@ pub(super) struct Spot {
 /// The small bright places of a scene.
 pub(super) struct Spots {
     cells: Cells,
-    /// Of each cell.
+    /// Spot of each cell.
     pub spots: Vec<Spot>,
 }
 

@@ -20,7 +20,7 @@ pub(super) trait Emitters: Copy {
     fn bounds(&self) -> Bounds3;
     /// What they emit in all; those without are never drawn.
     fn power(&self) -> f32;
-    /// Both together.
+    /// Bounds of both together.
     fn union(&self, other: &Self) -> Self;
     /// The measure of the directions that they emit to.
     fn orientation_measure(&self) -> f32;
@@ -73,7 +73,7 @@ impl LightBounds {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LightReach {
     center: Vec3,
-    /// Of the ball around the box.
+    /// Radius of the ball around the box.
     radius: f32,
     axis: Vec3,
     power: f32,

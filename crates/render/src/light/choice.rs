@@ -227,10 +227,10 @@ impl Statistics {
 
 /// The statistics of all trials, by cell.
 struct Learned {
-    /// Of each cell: where its statistics begin, `u32::MAX` where there are none.
+    /// Start of each cell's statistics begin, `u32::MAX` where there are none.
     first: Vec<u32>,
     statistics: Vec<Statistics>,
-    /// Of all cells together.
+    /// Statistics of all cells together.
     all: Vec<Statistics>,
 }
 

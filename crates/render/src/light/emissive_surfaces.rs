@@ -23,13 +23,13 @@ const DARKEST: f32 = 0.01;
 #[derive(Debug, Default)]
 pub(super) struct EmissiveSurfaces {
     pub patches: Vec<Patch>,
-    /// Of each patch.
+    /// Bounds of each patch.
     pub bounds: Vec<LightBounds>,
-    /// Of each patch; those of a part follow each other.
+    /// Part of each patch; the patches of a part follow each other.
     pub part_of_patch: Vec<u32>,
     /// By part: first triangle and first entry of `pieces`; `None` for parts that do not emit.
     parts: Vec<Option<(u32, u32)>>,
-    /// Of each triangle of the emissive parts.
+    /// Pieces of each triangle of the emissive parts.
     pieces: Vec<Pieces>,
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Patch {
 /// What a patch emits.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Emission {
-    /// The same everywhere on it.
+    /// Even emission over the whole patch.
     Even { radiance: Rgb, two_sided: bool },
     /// To be looked up at each point.
     Varied,
@@ -52,7 +52,7 @@ pub(super) struct PatchPoint {
 }
 
 impl Patch {
-    /// Of `triangle`, all or a part.
+    /// A patch of `triangle`, all or a part.
     pub fn of_triangle(triangle: u32, corners: [Vec3; 3], normal: Vec3, emission: Emission) -> Self {
         let area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
         Self { shape: Shape::Triangle(corners), triangle, area, normal, emission }

@@ -32,7 +32,7 @@ pub struct Fixture {
     /// Luminance of its radiant intensity, W/sr: radiance × area of surfaces, the largest intensity of lights at a point. 0 for the sky,
     /// the sun and windows.
     pub intensity: f32,
-    /// Its emissive parts, or its panes.
+    /// Emissive parts of the fixture, or its panes.
     pub parts: Vec<PartId>,
     /// Names of its lights.
     pub lights: Vec<String>,
@@ -57,7 +57,7 @@ impl FixtureKind {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Sky, Self::Sun, Self::Window, Self::Lamp, Self::Rest];
 
-    /// Its name in tables.
+    /// Name of the kind in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sky => "sky",
@@ -100,8 +100,8 @@ struct Source {
 }
 
 impl Fixtures {
-    /// Those of a scene. `parts` are the parts of the first emitters of the hierarchy, whose bounds are `bounds`; the others are the lights
-    /// of the scene with the numbers `lights`.
+    /// Finds the fixtures of a scene. `parts` are the parts of the first emitters of the hierarchy, whose bounds are `bounds`; the others
+    /// are the lights of the scene with the numbers `lights`.
     pub(super) fn new(
         scene: &Scene,
         bounds: &[LightBounds],

@@ -44,7 +44,7 @@ pub(super) struct Glinting {
     pub first: u32,
     /// How often it is halved.
     pub depth: u32,
-    /// Of a piece, square metres.
+    /// Area of a piece, square metres.
     pub area: f32,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct GlintBounds {
     pub bounds: Bounds3,
     /// Irradiance × area × reflectance at normal incidence, luminance.
     pub power: f32,
-    /// The same for what the reflectance lacks to one: it is reached at grazing angles.
+    /// Irradiance × area × what the reflectance lacks to one, luminance: it is reached at grazing angles.
     pub grazing: f32,
     /// Direction of the mean normal; unit.
     pub axis: Vec3,

@@ -27,7 +27,7 @@ pub(crate) struct Lights<'s> {
     pub(super) tree: LightTree,
     /// Nodes of the tree that are clusters; the first of the sources.
     pub(super) clusters: Vec<u32>,
-    /// Of each emitter of the tree, `u32::MAX` for those without power.
+    /// Cluster of each emitter of the tree, `u32::MAX` for those without power.
     pub(super) cluster_of_emitter: Vec<u32>,
     /// Distant lights, and a distribution over them by their strength.
     pub(super) distant: Vec<Light>,

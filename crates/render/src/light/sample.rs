@@ -36,7 +36,7 @@ pub(crate) struct LightSample {
 
 /// A place that reflects the sun.
 pub(crate) struct Glint {
-    /// As the ray from the point that receives light meets it.
+    /// Hit of the light as the ray from the point that receives it meets it.
     pub hit: Hit,
     /// Uniform on [0,1): what is left of the random number that chose it.
     pub u: f32,
@@ -78,14 +78,14 @@ impl LightSample {
 /// Radiance from beyond the scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Background {
-    /// Of the sky.
+    /// Radiance of the sky.
     pub environment: Rgb,
-    /// Of the disks of distant lights.
+    /// Radiance of the disks of distant lights.
     pub distant: Rgb,
 }
 
 impl Background {
-    /// Of both.
+    /// Radiance of both.
     #[inline]
     pub fn total(&self) -> Rgb {
         self.environment + self.distant

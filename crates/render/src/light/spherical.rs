@@ -51,7 +51,7 @@ pub(super) struct SphericalRectangle {
     z: f32,
     b: [f32; 2],
     k: f32,
-    /// Its solid angle.
+    /// Solid angle of the triangle.
     pub solid_angle: f32,
 }
 

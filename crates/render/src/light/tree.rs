@@ -17,7 +17,7 @@ const MAX_DEPTH_BY_COST: u32 = 48;
 #[derive(Debug)]
 pub(super) struct LightTree<E: Emitters = LightBounds> {
     nodes: Vec<Node<E::Reach>>,
-    /// Of each node.
+    /// Bounds of each node.
     bounds: Vec<E>,
     parents: Vec<u32>,
     leaf_of_emitter: Vec<u32>,

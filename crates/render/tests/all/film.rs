@@ -72,7 +72,7 @@ fn assert_close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: found {found}, expected {expected} ± {tolerance}");
 }
 
-/// Both sets of parts sum to colour, and three of them to the residual, in every pixel.
+/// Asserts that both sets of parts sum to colour, and three of them to the residual, in every pixel.
 fn assert_sums(frame: &Frame) {
     let sets: [(&[Layer], Layer); 3] = [
         (&SPLIT_BY_PATH, Layer::Color),

@@ -6,7 +6,7 @@
 pub struct CameraError {
     /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value of the setting, as it was found.
     pub found: String,
     /// What it must be.
     pub expected: &'static str,

@@ -54,7 +54,7 @@ impl TiltedPinhole {
         (uv.z > 0.0).then(|| (at(uv.x, self.width), at(-uv.y, self.height)))
     }
 
-    /// The same camera as a straight pinhole that is turned: its calibration, and the rotation from camera space to that pinhole's
+    /// A straight pinhole, turned, that takes the same pictures: its calibration, and the rotation from camera space to that pinhole's
     /// camera space.
     ///
     /// This is the RQ decomposition of the matrix that takes camera space to the image.

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 pub struct SolarMoment {
     /// 1 to 12.
     pub month: u32,
-    /// Of the month, from 1.
+    /// Day of the month, from 1.
     pub day: u32,
     /// Hours of solar time, 0 to 24: at 12 the sun is highest.
     pub solar_hour: f64,

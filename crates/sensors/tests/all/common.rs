@@ -44,7 +44,7 @@ pub fn reading(text: &str, frame: &Frame) -> Reading {
     sensor(text).sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame, motion: None }).unwrap()
 }
 
-/// As a layer.
+/// The reading as a layer.
 pub fn values(text: &str, frame: &Frame) -> (Layer, Values) {
     match reading(text, frame).data {
         Data::Layer(layer, values) => (layer, values),
@@ -52,13 +52,13 @@ pub fn values(text: &str, frame: &Frame) -> (Layer, Values) {
     }
 }
 
-/// As depths, metres.
+/// The reading as depths, metres.
 pub fn depths(text: &str, frame: &Frame) -> Vec<f64> {
     let (_, values) = values(text, frame);
     (0..values.len()).map(|i| values.get(i)).collect()
 }
 
-/// As the beams of a scan.
+/// The reading as the beams of a scan.
 pub fn scan(text: &str, frame: &Frame) -> Scan {
     match reading(text, frame).data {
         Data::File { bytes, .. } => Scan::from_npz(Path::new("scan.npz"), &bytes).unwrap(),
@@ -66,7 +66,7 @@ pub fn scan(text: &str, frame: &Frame) -> Scan {
     }
 }
 
-/// As a picture of 8 bits a channel, or of 16.
+/// The reading as a picture of 8 bits a channel, or of 16.
 pub fn picture(text: &str, frame: &Frame) -> image::DynamicImage {
     match reading(text, frame).data {
         Data::File { bytes, .. } => image::load_from_memory(&bytes).unwrap(),

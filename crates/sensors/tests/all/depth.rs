@@ -8,7 +8,7 @@ fn wall() -> enfilade_frame::Frame {
     facing(|_, _| 4.0, 0.5, [1.0; 3])
 }
 
-/// The same behind a post one metre away, in columns 40 to 49.
+/// A wall four metres away behind a post one metre away, in columns 40 to 49.
 fn post() -> enfilade_frame::Frame {
     facing(|x, _| if (40..50).contains(&x) { 1.0 } else { 4.0 }, 0.5, [1.0; 3])
 }

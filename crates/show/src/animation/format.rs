@@ -13,7 +13,7 @@ impl AnimationFormat {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Mp4, Self::Gif];
 
-    /// Its name, which is the extension of its files too.
+    /// Name of the format, which is the extension of its files too.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mp4 => "mp4",
@@ -49,9 +49,9 @@ pub enum AnimationError {
     /// A picture has another size than the first.
     #[error("a picture of {found} after one of {expected}; all of an animation have one size")]
     Size {
-        /// Its size.
+        /// Size of the picture.
         found: String,
-        /// That of the first.
+        /// Size of the first picture.
         expected: String,
     },
     /// The encoder refuses.

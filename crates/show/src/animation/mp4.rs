@@ -19,9 +19,9 @@ const PICTURES_PER_KEY: u32 = 30;
 /// Pictures of odd sizes are continued by one more row or column of the same, because colour is stored for 2 × 2 pixels, and those
 /// smaller than a block are filled up to one. What stands for several pictures is repeated, so that the rate is constant.
 pub(super) struct Mp4 {
-    /// Of what is added.
+    /// Size of the pictures that are added.
     size: [usize; 2],
-    /// Of what is encoded.
+    /// Size of what is encoded.
     coded: [usize; 2],
     fps: f64,
     encoder: Encoder,

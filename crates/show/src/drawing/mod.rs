@@ -46,7 +46,7 @@ pub(crate) enum Anchor {
 /// A line of writing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Text {
-    /// Its anchor on the baseline.
+    /// Anchor of the text on the baseline.
     pub at: Point,
     /// What it says.
     pub words: String,
@@ -56,7 +56,7 @@ pub(crate) struct Text {
     pub bold: bool,
     /// Which point of it is at `at`.
     pub anchor: Anchor,
-    /// Its colour.
+    /// Colour of the text.
     pub ink: Ink,
     /// A rim around the letters, to be read on any ground.
     pub halo: Option<Ink>,

@@ -21,7 +21,7 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
     written(drawing, "")
 }
 
-/// As [`svg`], with other colours where the browser shows dark pages.
+/// A drawing as [`svg`], with other colours where the browser shows dark pages.
 pub(crate) fn themed_svg(drawing: &Drawing, dark: &Dark) -> String {
     let inks = dark.inks.iter().map(|&(light, dark)| {
         let (light, dark) = (hex(light), hex(dark));

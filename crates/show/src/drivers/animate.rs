@@ -24,7 +24,7 @@ const RANGE_SAMPLES: usize = 4_000_000;
 /// Something of frames that can be animated: a layer, or a preview made of several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Film {
-    /// Its name.
+    /// Name of the film.
     pub name: &'static str,
     subject: Subject,
 }

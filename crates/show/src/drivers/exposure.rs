@@ -16,12 +16,12 @@ const SAMPLES: usize = 4_000_000;
 pub struct Exposures {
     /// Hypersim's, frame by frame.
     frames: Vec<ToneMap>,
-    /// The one of the trajectory.
+    /// Exposure of the trajectory.
     pub display: Display,
 }
 
 impl Exposures {
-    /// Those of the `index`-th frame.
+    /// Exposures of the `index`-th frame.
     pub fn of(&self, index: usize) -> Exposure {
         Exposure { frame: self.frames.get(index).copied().unwrap_or_default(), display: self.display }
     }

@@ -154,10 +154,10 @@ pub enum InspectError {
     /// A file cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// There is no such pixel.
+    /// No such pixel.
     #[error(transparent)]
     Outside(#[from] OutsideError),
-    /// There is no such frame.
+    /// No such frame.
     #[error("{scene}/{camera} has no frame {frame}; its frames: {there}")]
     NoFrame {
         /// Name of the scene.

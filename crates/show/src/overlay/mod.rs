@@ -32,7 +32,7 @@ const STRAIGHT_PX: f64 = 3.0;
 pub struct DrawnBox {
     /// Where it is.
     pub shape: OrientedBox,
-    /// Of its edges.
+    /// Colour of the edges.
     pub color: Color,
     /// What stands at its upper corner; empty for nothing.
     pub text: String,

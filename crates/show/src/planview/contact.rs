@@ -51,7 +51,7 @@ fn columns(pictures: usize) -> usize {
     COLUMNS[usize::from(pictures > FEW)]
 }
 
-/// Of a picture in one of so many columns.
+/// Width of a picture in one of so many columns.
 fn width(columns: usize) -> u32 {
     (WIDTH - 2 * MARGIN - (columns as u32 - 1) * GAP) / columns as u32
 }

@@ -15,9 +15,9 @@ pub(super) struct Section {
 
 /// A picture on the page.
 pub(super) struct Shown {
-    /// Its file, beside the page.
+    /// File of the picture, beside the page.
     pub file: String,
-    /// The same as SVG, beside the page, if there is one.
+    /// File of the picture as SVG, beside the page, if there is one.
     pub svg: Option<String>,
     /// What it shows.
     pub caption: String,

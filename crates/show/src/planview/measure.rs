@@ -51,7 +51,7 @@ impl<'a> Measuring<'a> {
         Self { camera, poses: &trajectory.poses, floor: floor_z(planned, trajectory), surfaces }
     }
 
-    /// Of the poses from index `first` on, which see `sights`; the pose before them sees `before`.
+    /// Measures of the poses from index `first` on, which see `sights`; the pose before them sees `before`.
     pub fn measures(&self, first: usize, sights: &[Sight], before: Option<&Sight>) -> Vec<FrameMeasures> {
         let one = |k: usize| self.measure(first + k, &sights[k], if k == 0 { before } else { Some(&sights[k - 1]) });
         enfilade_parallel::map_up_to(sights.len(), one)

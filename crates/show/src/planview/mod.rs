@@ -112,9 +112,9 @@ const AT_A_TIME: usize = 64;
 /// What is kept of the views of a trajectory.
 #[derive(Default)]
 struct Digest {
-    /// Of every frame.
+    /// Measures of every frame.
     measures: Vec<FrameMeasures>,
-    /// Of those on the sheet.
+    /// Thumbnails of the frames on the sheet.
     thumbnails: Vec<Thumbnail>,
     distances: Distances,
 }

@@ -8,11 +8,11 @@ use enfilade_scene::{Camera, StartCamera, Trajectory, WorldMesh};
 pub struct Planned<'a> {
     /// Name of the scene in the dataset.
     pub scene: &'a str,
-    /// Its triangles.
+    /// Triangles of the scene.
     pub world: &'a WorldMesh,
     /// The hierarchy over them, all solid.
     pub bvh: &'a Bvh,
-    /// Its free space.
+    /// Free space of the scene.
     pub tree: &'a OccupancyTree,
     /// Where carving and planning began.
     pub starts: &'a [StartCamera],

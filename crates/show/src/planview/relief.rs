@@ -26,7 +26,7 @@ const OVERSAMPLING: u32 = 2;
 const EDGE_M: f32 = 0.05;
 /// Brightness of that line, over what it would be without.
 const EDGE_SHADE: f64 = 0.6;
-/// The same for the line between two parts at about the same depth.
+/// Brightness of the line between two parts at about the same depth.
 const SEAM_SHADE: f64 = 0.88;
 /// Pixels from one hatch line to the next, along x.
 const HATCH_PX: u32 = 12;

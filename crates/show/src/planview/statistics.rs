@@ -70,7 +70,7 @@ const QUANTITIES: [Quantity; 9] = [
 
 /// How far the pixels of views see.
 pub(super) struct Distances {
-    /// As [`HYPERSIM_DISTANCE`].
+    /// Counts by the bins of [`HYPERSIM_DISTANCE`].
     counts: [u64; HYPERSIM_DISTANCE.len()],
     /// What lies beyond the last bin counted in.
     total: u64,

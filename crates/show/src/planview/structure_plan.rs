@@ -15,7 +15,7 @@ const PAPER: Color = [255; 3];
 const INK: Color = [34, 35, 42];
 const SOFT: Color = [98, 102, 110];
 const FLOOR: Color = [247, 243, 234];
-/// The same on dark pages.
+/// Colours on dark pages.
 const DARK: Dark =
     Dark { paper: [31, 32, 36], inks: &[(INK, [232, 232, 228]), (SOFT, [160, 164, 172]), (FLOOR, [46, 47, 52]), (PAPER, [31, 32, 36])] };
 /// Points of a quarter of a circle.

@@ -97,7 +97,7 @@ pub struct OverviewTile {
 }
 
 impl OverviewTile {
-    /// The same with no more pixels than an overview of `tiles` trajectories shows.
+    /// A tile with no more pixels than an overview of `tiles` trajectories shows.
     #[must_use]
     pub fn shrunk(self, tiles: usize, config: &SheetConfig) -> Self {
         let width = f64::from(columns(tiles, config).1);
@@ -185,7 +185,7 @@ impl OverviewGrid {
         Self { columns, rows: (tiles as u32).div_ceil(columns), tile: (width, height) }
     }
 
-    /// Of the sheet.
+    /// Width and height of the sheet.
     fn size(&self) -> (u32, u32) {
         let width = 2 * MARGIN + self.columns * self.tile.0 + (self.columns - 1) * 2 * GAP;
         (width, MARGIN + HEADER + self.rows * self.row() + MARGIN - ROW_GAP)

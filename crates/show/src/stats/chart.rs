@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use plotters::style::Color as _;
 use std::ops::Range;
 
-/// Ours.
+/// Colour of our values.
 pub const BLUE: Color = [0, 114, 178];
 /// What ours is compared with.
 pub const VERMILION: Color = [213, 94, 0];
@@ -17,7 +17,7 @@ pub(super) const PAPER: Color = [255; 3];
 pub(super) const INK: Color = [34, 35, 42];
 pub(super) const SOFT: Color = [98, 102, 110];
 pub(super) const GRID: Color = [228, 229, 232];
-/// The same on dark pages: the card of `page` as paper, and Okabe and Ito's lighter blue.
+/// Colours on dark pages: the card of `page` as paper, and Okabe and Ito's lighter blue.
 pub(super) const DARK: Dark =
     Dark { paper: [31, 32, 36], inks: &[(INK, [232, 232, 228]), (SOFT, [160, 164, 172]), (GRID, [52, 54, 60]), (BLUE, [86, 180, 233])] };
 /// Page of a chart, pixels.
@@ -38,7 +38,7 @@ const NAME: u32 = 26;
 /// An axis: its name with the unit, its range, and its ticks with their labels.
 #[derive(Clone, Debug, Default)]
 pub struct Axis {
-    /// Such as "distance (m)".
+    /// Name of the quantity, such as "distance (m)".
     pub name: String,
     /// First value.
     pub low: f64,
@@ -59,7 +59,7 @@ impl Axis {
         Self { name: name.into(), low, high, ticks }
     }
 
-    /// Of logarithms to base ten; ticks at the powers of ten, with their values as labels.
+    /// An axis of logarithms to base ten; ticks at the powers of ten, with their values as labels.
     pub fn log(name: &str, low: f64, high: f64) -> Self {
         let decades = (low.ceil() as i32)..=(high.floor() as i32);
         Self { name: name.into(), low, high, ticks: decades.map(|d| (f64::from(d), power_of_ten(d))).collect() }

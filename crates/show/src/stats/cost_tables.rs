@@ -55,7 +55,7 @@ pub fn write_tables(folder: &Path, report: &CostReport) -> Result<(), DatasetErr
     write_bytes(&folder.join(TASKS), tasks)
 }
 
-/// As the toolkit names jobs.
+/// Name of a job as the toolkit writes it.
 fn job_name(frame: &FrameCost) -> String {
     format!("{}@scene_{}_final", frame.scene, frame.camera)
 }

@@ -31,7 +31,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Of one frame. Without a number of threads, processor time counts as if no thread had ever waited.
+    /// Cost of one frame. Without a number of threads, processor time counts as if no thread had ever waited.
     pub fn of(time: &FrameTime, samples_per_pixel: Option<f64>) -> Self {
         let vcpu_s = time.threads.map_or(time.cpu_s, |threads| time.wall_s * f64::from(threads));
         Self {
@@ -44,7 +44,7 @@ impl Cost {
         }
     }
 
-    /// Of several together: sums, the largest memory, mean samples.
+    /// Cost of several together: sums, the largest memory, mean samples.
     pub fn sum<'a>(costs: impl Iterator<Item = &'a Self>) -> Self {
         let (mut all, mut samples) = (Self::default(), Vec::new());
         for cost in costs {
@@ -97,7 +97,7 @@ pub struct CostReport {
     pub total: Cost,
     /// Dollars of all frames by name of the price.
     pub dollars: BTreeMap<String, f64>,
-    /// The same by rate, of prices with more than one.
+    /// Dollars by name of the price and by rate, of prices with more than one rate.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dollars_by_rate: BTreeMap<String, BTreeMap<String, f64>>,
     /// By scene.
@@ -120,7 +120,7 @@ pub fn is_costs(text: &[u8]) -> bool {
 }
 
 impl CostReport {
-    /// Of frames by scene, camera and number.
+    /// Report on frames by scene, camera and number.
     pub fn new(frames: &[((String, String, u32), Cost)], prices: &[Price]) -> Self {
         let dollars = |cost: &Cost| prices.iter().map(|price| (price.name.clone(), cost.dollars(price))).collect::<BTreeMap<_, _>>();
         let total = Cost::sum(frames.iter().map(|(_, cost)| cost));

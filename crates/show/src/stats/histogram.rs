@@ -58,9 +58,9 @@ impl Bins {
 /// How many values lie in each bin, below the first and above the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
-    /// Its bins.
+    /// Bins of the histogram.
     pub bins: Bins,
-    /// Of each bin.
+    /// Count of each bin.
     pub counts: Vec<u64>,
     /// Below the first bin.
     pub below: u64,
@@ -69,7 +69,7 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// One without values.
+    /// A histogram without values.
     pub fn new(bins: Bins) -> Self {
         Self { bins, counts: vec![0; bins.count], below: 0, above: 0 }
     }
@@ -123,13 +123,13 @@ impl Histogram {
         Some(self.bins.high)
     }
 
-    /// The same with `of` bins in one; `of` must divide their number.
+    /// A histogram with `of` bins in one; `of` must divide their number.
     pub fn coarser(&self, of: usize) -> Self {
         let counts: Vec<u64> = self.counts.chunks(of).map(|chunk| chunk.iter().sum()).collect();
         Self { bins: Bins { count: counts.len(), ..self.bins }, counts, below: self.below, above: self.above }
     }
 
-    /// The same without what lies beyond the bins, which stored histograms do not have.
+    /// A histogram without what lies beyond the bins, which stored histograms do not have.
     pub fn within(&self) -> Self {
         Self { below: 0, above: 0, ..self.clone() }
     }

@@ -69,7 +69,7 @@ fn plots<'a>(title: &str, plots: impl Iterator<Item = &'a Plot>) -> Markup {
     }
 }
 
-/// As SVG, which is sharp on every screen, with the PNG beside it.
+/// A plot as SVG, which is sharp on every screen, with the PNG beside it.
 fn shown_plot(plot: &Plot) -> Markup {
     let file = |extension: &str| format!("plots/{}.{extension}", plot.name);
     html! {

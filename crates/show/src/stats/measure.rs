@@ -29,7 +29,7 @@ const VOLUME_M3: Bins = Bins::linear(0.0, 1000.0, 1000);
 pub struct Light {
     /// Which layer.
     pub layer: Layer,
-    /// As in `metadata_<stem>_brightness_hist_log.hdf5`.
+    /// Stem of the file's name, as in `metadata_<stem>_brightness_hist_log.hdf5`.
     pub stem: &'static str,
     /// For people.
     pub title: &'static str,
@@ -97,7 +97,7 @@ pub struct Counts {
     pub images: u64,
     /// Pixels of all images.
     pub pixels: u64,
-    /// Those that show the scene.
+    /// Pixels that show the scene.
     pub valid: u64,
     /// By layer of [`LIGHTS`].
     pub lights: [LightCounts; 4],
@@ -185,7 +185,7 @@ pub fn class_bin(class: i16) -> usize {
 /// Where the values of an image lie.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Their mean.
+    /// Mean of the values.
     pub mean: f64,
     /// Share 0.05 lies below.
     pub q05: f64,
@@ -196,7 +196,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of values without NaN, which are reordered; `None` when there are none.
+    /// Spread of values without NaN, which are reordered; `None` when there are none.
     pub fn of(values: &mut [f64]) -> Option<Self> {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let [q05, median, q95] = [0.05, 0.5, 0.95].map(|q| quantile(values, q));

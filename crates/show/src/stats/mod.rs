@@ -47,7 +47,7 @@ use std::path::{Path, PathBuf};
 /// Files of costs, which are removed where costs are not asked for.
 const COST_FILES: [&str; 3] = ["costs.json", cost_tables::JOBS, cost_tables::TASKS];
 
-/// Of the files of a chart, as [`write_plot`] writes them.
+/// Extensions of the files of a chart, as [`write_plot`] writes them.
 const EXTENSIONS: [&str; 2] = ["png", "svg"];
 
 /// What is asked for.

@@ -24,7 +24,7 @@ pub struct Outlier {
     pub frame: u32,
     /// In what respect.
     pub quantity: &'static str,
-    /// Its value.
+    /// Value of the image.
     pub value: f64,
     /// The median over the dataset.
     pub median: f64,

@@ -24,7 +24,7 @@ pub struct Plot {
 pub struct Reference {
     /// For legends.
     pub name: String,
-    /// Its counts.
+    /// Counts of the dataset.
     pub counts: Counts,
 }
 
@@ -97,7 +97,7 @@ struct Both<'a> {
 }
 
 impl Both<'_> {
-    /// Ours filled, the reference as a line.
+    /// Series of both: ours filled, the reference as a line.
     fn series(&self, of: impl Fn(&Counts) -> Vec<(f64, f64)>) -> Vec<Named> {
         let ours = ("this dataset".to_string(), BLUE, Series::Area(of(self.ours)));
         let other = self.reference.map(|r| (r.name.clone(), VERMILION, Series::Line(of(&r.counts))));

@@ -37,7 +37,7 @@ pub enum Per {
 }
 
 impl Per {
-    /// As it is written with a rate, in names of columns, and in sentences.
+    /// Words of each: as it is written with a rate, in names of columns, and in sentences.
     const WORDS: [(Self, &'static str, &'static str, &'static str); 2] = [
         (Self::VcpuHour, "vcpu-hour", "_dollars_per_vcpu_hour", "per vCPU-hour"),
         (Self::CoreMinute, "core-minute", "_dollars_per_core_minute", "per core-minute"),
@@ -54,7 +54,7 @@ impl Per {
 /// Something that is paid beside the machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
-    /// Such as "licence".
+    /// Name of the rate, such as "licence".
     pub name: String,
     /// 0 or more.
     pub dollars: f64,
@@ -63,7 +63,7 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// The same for an hour of one thread.
+    /// Dollars for an hour of one thread.
     pub fn dollars_per_vcpu_hour(&self) -> f64 {
         self.dollars * self.per.in_a_vcpu_hour()
     }
@@ -72,9 +72,9 @@ impl Rate {
 /// One way to pay, with its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Price {
-    /// Such as "spot".
+    /// Name of the price, such as "spot".
     pub name: String,
-    /// That of the machine; 0 or more.
+    /// Rate of the machine; 0 or more.
     pub dollars_per_vcpu_hour: f64,
     /// The machine that is paid, where its size is told.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -135,7 +135,7 @@ impl Price {
         format!("{} per vCPU-hour", self.dollars_per_vcpu_hour) + &self.licences.iter().map(licence).collect::<String>()
     }
 
-    /// Of all rates.
+    /// Sum of all rates.
     pub(super) fn all_per_vcpu_hour(&self) -> f64 {
         self.dollars_per_vcpu_hour + self.licences.iter().map(Rate::dollars_per_vcpu_hour).sum::<f64>()
     }

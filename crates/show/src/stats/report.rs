@@ -24,7 +24,7 @@ pub struct Report {
     pub scenes: BTreeMap<String, Summary>,
     /// Images that stand apart by what they show, the farthest first.
     pub outliers: Vec<Outlier>,
-    /// One by one.
+    /// Images by name.
     pub images: Vec<NamedImage>,
 }
 
@@ -100,7 +100,7 @@ impl Quantity {
 }
 
 impl Summary {
-    /// Of counts.
+    /// Summary of counts.
     pub fn of(counts: &Counts) -> Self {
         let classes = |counts: &[u64]| -> BTreeMap<&'static str, u64> {
             let there = counts.iter().enumerate().filter(|(_, count)| **count > 0);
@@ -130,7 +130,7 @@ impl Summary {
 }
 
 impl Report {
-    /// Of everything that was counted.
+    /// Report on everything that was counted.
     pub fn new(gathered: Gathered) -> Self {
         Self {
             format: FORMAT,
@@ -145,9 +145,9 @@ impl Report {
 /// How values of a quantity are compared, with the standard deviation below which differences are trifles.
 #[derive(Clone, Copy)]
 enum By {
-    /// Their ratios: 5 % are a trifle.
+    /// Ratios of the values: 5 % are a trifle.
     Ratio,
-    /// Their differences.
+    /// Differences of the values.
     Difference(f64),
 }
 

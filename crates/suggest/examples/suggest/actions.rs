@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Actions {
     /// Labelled objects, and those of them whose names have words.
     pub objects: [f64; 2],
-    /// One by one: without and with suggestions.
+    /// Actions to label part by part: without and with suggestions.
     pub singly: [f64; 2],
     /// By name: without and with suggestions.
     pub by_name: [f64; 2],

@@ -26,9 +26,9 @@ pub struct Measured {
     pub split: Split,
     /// Our suggestions.
     pub ours: Judgement,
-    /// Those of a lookup of whole names.
+    /// Suggestions by a lookup of whole names.
     pub lookup: Judgement,
-    /// Those of a search for the names of classes.
+    /// Suggestions by a search for the names of classes.
     pub keyword: Judgement,
 }
 

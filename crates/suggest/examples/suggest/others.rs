@@ -16,11 +16,11 @@ pub struct Other {
     pub name: String,
     /// Parts with a label.
     pub parts: usize,
-    /// Of those, the ones with a suggestion of any confidence that is right.
+    /// Labelled parts with a right suggestion of any confidence.
     pub right: usize,
-    /// The ones whose suggestion is sure, and those of them that are right.
+    /// Labelled parts whose suggestion is sure, and those of them that are right.
     pub sure: [usize; 2],
-    /// The same for 95 % precision.
+    /// Labelled parts whose suggestion is sure at 95 % precision, and those of them that are right.
     pub surest: [usize; 2],
 }
 

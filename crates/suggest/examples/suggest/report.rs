@@ -268,7 +268,7 @@ impl Report<'_> {
         writeln!(text, "| **mean of the {n:.0} classes that occur** | | **{:.0}** | **{:.0}** |", 100.0 * precision / n, 100.0 * recall / n)
     }
 
-    /// Ours beside the lookup of whole names; a ratio above 1 is in our favour.
+    /// The benchmark's rows: ours beside the lookup of whole names; a ratio above 1 is in our favour.
     fn rows(&self) -> Vec<serde_json::Value> {
         let round = |x: f64| (x * 1000.0).round() / 1000.0;
         let row = |case: String, ours: f64, peer: f64, ratio: f64| serde_json::json!({ "case": case, "ours": round(ours), "peer": round(peer), "ratio": round(ratio) });

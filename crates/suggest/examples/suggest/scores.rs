@@ -122,7 +122,7 @@ impl Judgement {
         bins.iter().filter(|bin| bin[0] > 0.0).map(|bin| bin[0] * (bin[1] - bin[2]).abs()).sum::<f64>() / total
     }
 
-    /// Of a class, in names: how many have it, precision, recall.
+    /// Scores of a class, in names: how many have it, precision, recall.
     pub fn of_class(&self, class: i16) -> [f64; 3] {
         let has = |row: &Row| row.classes.get(&class).copied().unwrap_or(0.0) / row.objects();
         let said = |row: &&Row| row.suggested.is_some_and(|(suggested, _)| suggested == class);

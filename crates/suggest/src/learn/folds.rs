@@ -27,7 +27,7 @@ pub struct HeldOut {
     pub suggestions: Vec<Option<Suggestion>>,
     /// Per group with labelled objects and a suggestion: the score, and the share that is right.
     pub scores: Vec<Judged>,
-    /// The same with the confidence in place of the score.
+    /// Per group with labelled objects and a suggestion: the confidence, and the share that is right.
     pub confidences: Vec<Judged>,
     /// Labelled names of two, a thing and what is in it, each half asked for by itself.
     pub pairs: Vec<Pair>,

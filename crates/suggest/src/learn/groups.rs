@@ -13,7 +13,7 @@ const CURTAIN: i16 = 16;
 pub struct NamedObject {
     /// The scene.
     pub scene: String,
-    /// Its name.
+    /// Name of the object.
     pub name: String,
     /// NYU40 class, 1 to 40, or −1 when nobody labelled it.
     pub class: i16,

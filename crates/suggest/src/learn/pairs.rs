@@ -23,7 +23,7 @@ pub struct Pair {
     pub group: usize,
     /// Probabilities by the part's own half of the name, whose largest is a confidence.
     inner: Level,
-    /// Those by what is around it.
+    /// Probabilities by what is around the part.
     outer: Level,
 }
 

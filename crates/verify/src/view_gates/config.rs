@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum GateAction {
-    /// It is not rendered, and planning looks for another one where it can.
+    /// The view is not rendered, and planning looks for another one where it can.
     #[default]
     Reject,
-    /// It is rendered as if nothing were wrong, and reported.
+    /// The view is rendered as if nothing were wrong, and reported.
     Report,
 }
 
@@ -70,7 +70,7 @@ const CLOSE: f64 = 0.02;
 pub struct LimitError {
     /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value of the field.
     pub found: f64,
     /// What must be, as in "a share must lie between 0 and 1".
     pub expected: &'static str,

@@ -28,7 +28,7 @@ pub struct ViewMeasures {
 }
 
 impl ViewMeasures {
-    /// Of the geometry layers of a view, in metres, and the place where it is taken.
+    /// Measures from the geometry layers of a view, in metres, and the place where it is taken.
     ///
     /// `wrong_side` says by pixel whether it shows the back of something that has a front. In `seeing` of the pixels the camera sees
     /// at all; the others count for nothing. What is nearer than `min_depth_m` is too near.

@@ -10,7 +10,7 @@ pub struct CameraKeyframe {
     pub frame: i64,
     /// Centre of the camera, asset units.
     pub position: [f64; 3],
-    /// Its axes in the world: x right, y up, z backward, as rows of `world_from_camera`.
+    /// Axes of the camera in the world: x right, y up, z backward, as rows of `world_from_camera`.
     pub world_from_camera: [[f64; 3]; 3],
 }
 

@@ -19,7 +19,7 @@ pub enum IncludeError<E> {
     Circle {
         /// The path as it is written.
         path: String,
-        /// Of the line, in the file that has it.
+        /// Place of the line, in the file that has it.
         place: Place,
     },
     /// Too many files, or includes within includes.
@@ -27,7 +27,7 @@ pub enum IncludeError<E> {
     TooMany {
         /// The path as it is written.
         path: String,
-        /// Of the line, in the file that has it.
+        /// Place of the line, in the file that has it.
         place: Place,
     },
 }

@@ -9,9 +9,9 @@ use crate::{Document, SceneTextError, Value};
 pub enum Normalization {
     /// The frame buffer corrects no colours and shows them linearly.
     V0,
-    /// And lights have photometric units as 3ds Max means them.
+    /// As `V0`, and lights have photometric units as 3ds Max means them.
     V1,
-    /// And pictures are decoded with gamma 2.2.
+    /// As `V1`, and pictures are decoded with gamma 2.2.
     V2,
 }
 

@@ -12,7 +12,7 @@ pub enum Platform {
 }
 
 impl Platform {
-    /// The one that a path is written for, as far as it can be told.
+    /// Platform that a path is written for, as far as it can be told.
     pub fn of(path: &str) -> Self {
         let drive = path.as_bytes().get(1) == Some(&b':');
         if drive || path.contains('\\') { Self::Windows } else { Self::Unix }

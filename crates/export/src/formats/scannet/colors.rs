@@ -11,7 +11,7 @@ use crate::selected_frames::{SelectedFrames, View};
 use enfilade_frame::Layer;
 use enfilade_math::DVec3;
 
-/// Of vertices that no frame shows: grey, and an alpha of 0.
+/// Colour of vertices that no frame shows: grey, and an alpha of 0.
 pub(super) const UNSEEN: [u8; 4] = [128, 128, 128, 0];
 
 /// Relative difference of depth that rounding and smooth normals make, on any surface.

@@ -42,7 +42,7 @@ fn placed(row: &SplitRow) -> Option<(Key<'_>, Partition)> {
     Some(((row.scene.as_str(), row.camera.as_str(), row.frame), *row.partition.as_ref().ok()?))
 }
 
-/// The one side on which frames of the scan are.
+/// Partition of the scan's frames; `None` where they are in several or in none.
 fn side(track: &Track, rows: &BTreeMap<Key<'_>, Partition>) -> Option<Partition> {
     let of_frame = |frame: u32| rows.get(&(track.scene.as_str(), track.name.as_str(), frame)).copied();
     let sides: BTreeSet<Partition> = track.views().filter_map(|view| of_frame(view.frame())).collect();

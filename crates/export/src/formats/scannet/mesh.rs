@@ -40,7 +40,7 @@ struct Group {
     object_id: usize,
     segments: Vec<u32>,
     label: String,
-    /// Ours: its number in `instance-filt`.
+    /// Number of the instance in `instance-filt`; our addition to the format.
     #[serde(skip_serializing_if = "Option::is_none")]
     instance: Option<i16>,
 }

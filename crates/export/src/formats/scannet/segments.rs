@@ -70,9 +70,9 @@ fn weight(mesh: &SurfaceMesh, normals: &[DVec3], [a, b]: [u32; 2]) -> f64 {
 /// Sets of vertices.
 struct Forest {
     parent: Vec<u32>,
-    /// Of roots: vertices of the set.
+    /// Vertices of the set, at roots.
     size: Vec<u32>,
-    /// Of roots: the largest weight that still joins.
+    /// Largest weight that still joins, at roots.
     bound: Vec<f64>,
 }
 

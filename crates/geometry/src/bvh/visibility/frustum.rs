@@ -20,13 +20,13 @@ pub(super) struct Frustum {
     limits: [f32; 4],
     /// By how much a box may be nearer than computed.
     slack: f32,
-    /// Their products with a point at depth 1, less those with `corner`, are its column and row in the tile.
+    /// Vectors whose products with a point at depth 1, less those with `corner`, are the point's column and row in the tile.
     pub pixel: [Vec3; 2],
 }
 
 impl Frustum {
     pub fn new(rays: &PinholeRays, forward: Vec3, [x, y]: [usize; 2], largest_coordinate: f32) -> Self {
-        /// As in the traversal for rays: boxes grow by the error of a test.
+        /// Error of a test, by which boxes grow, as in the traversal for rays.
         const SLACK: f32 = 16.0 * f32::EPSILON;
         let corner = rays.direction(x as f32, y as f32);
         let last = (TILE - 1) as f32;

@@ -69,7 +69,7 @@ pub(super) struct Setup<W> {
     forward: [W; 3],
 }
 
-/// Of sixteen triangles: the first and last column and row of the pixels that each may cover, and the range of its inverse depths.
+/// Pixels and depths that sixteen triangles may cover: the first and last column and row of each, and the range of its inverse depths.
 struct Extent<W> {
     first: [W; 2],
     last: [W; 2],

@@ -56,7 +56,7 @@ pub(super) struct Drawn {
     pub id: u32,
     /// Positive inside.
     pub edges: [Linear<f32>; 3],
-    /// Its inverse depth.
+    /// Inverse depth of the triangle.
     pub z: Linear<f32>,
     /// The inverse depths of its corners. Where it is seen from its edge, rounding could put it anywhere.
     pub z_range: [f32; 2],

@@ -71,7 +71,7 @@ pub(super) struct Surfaces<'h> {
 }
 
 impl<'h> Surfaces<'h> {
-    /// Those of a house; `pictures` is the folder of its pictures, where it is at hand.
+    /// Surfaces of a house; `pictures` is the folder of its pictures, where it is at hand.
     pub fn new(house: &'h House, pictures: Option<PathBuf>) -> Self {
         let all = house.mesh.iter().map(|mesh| (mesh.uid.as_str(), mesh)).collect();
         let paints = house.material.iter().map(|paint| (paint.uid.as_str(), paint)).collect();

@@ -32,7 +32,7 @@ struct Class {
 }
 
 impl Categories {
-    /// Those of a dataset; `wanted` is the handle of the lexicon that the scene names.
+    /// Reads the categories of a dataset; `wanted` is the handle of the lexicon that the scene names.
     ///
     /// # Errors
     /// When a table that is there cannot be read.

@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// An articulated object.
 pub(super) struct Robot {
-    /// Its meshes, in the space of the base link.
+    /// Meshes of the object, in the space of the base link.
     pub pieces: Vec<Piece>,
     /// The frame of the base link's mass in the base link.
     pub inertial: DAffine3,

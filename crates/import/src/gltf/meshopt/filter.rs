@@ -29,7 +29,7 @@ fn of_bytes(bytes: &mut [u8], filter: impl Fn([u8; 4]) -> [u8; 4]) {
     bytes.as_chunks_mut::<4>().0.iter_mut().for_each(|element| *element = filter(*element));
 }
 
-/// Of elements of four numbers of 16 bits.
+/// Filters elements of four numbers of 16 bits.
 fn of_words(bytes: &mut [u8], filter: impl Fn([u16; 4]) -> [u16; 4]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let words = filter([0, 1, 2, 3].map(|i| u16::from_le_bytes([element[2 * i], element[2 * i + 1]])));

@@ -4,7 +4,8 @@ use gltf::json::buffer::View;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// Both extensions have the same properties; the filter of colours and version 1 of attributes are the second's alone, but read in both.
+/// Names of both extensions, which have the same properties; the filter of colours and version 1 of attributes are the second's alone, but
+/// read in both.
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// Packed data.
@@ -30,7 +31,7 @@ pub(super) enum Mode {
     Attributes,
     /// Indices of a list of triangles.
     Triangles,
-    /// Other indices.
+    /// Indices that are no triangles.
     Indices,
 }
 

@@ -97,7 +97,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The whole file, after its first line.
+    /// Reads the whole file, after its first line.
     pub(super) fn file(&mut self) -> Parsed {
         self.skip_lines()?;
         let mut fields = Fields::new();

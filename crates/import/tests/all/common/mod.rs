@@ -118,7 +118,7 @@ impl Gltf {
         views.len() - 1
     }
 
-    /// As `.gltf` text with the buffer as a data URI.
+    /// The document as `.gltf` text with the buffer as a data URI.
     pub fn text(&self) -> String {
         let mut json = self.json.clone();
         let uri = format!("data:application/octet-stream;base64,{}", base64(&self.bytes));
@@ -126,7 +126,7 @@ impl Gltf {
         json.to_string()
     }
 
-    /// As `.glb`.
+    /// The document as `.glb`.
     pub fn binary(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
