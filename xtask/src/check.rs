@@ -18,7 +18,7 @@ const STEPS: [Step; 10] = [
     Step {
         name: "directions",
         about: "imports point down",
-        remedy: "move the code to the floor that needs it, or hand it down as an argument; the floors stand in xtask/src/floors.rs",
+        remedy: "move the code to the floor that needs it, or hand it down as an argument; the floors are in xtask/src/floors.rs",
         run: floors::check,
     },
     Step {
@@ -29,7 +29,7 @@ const STEPS: [Step; 10] = [
     },
     Step {
         name: "dependencies",
-        about: "licences are allowed, sources are crates.io, versions stand in one place",
+        about: "licences are allowed, sources are crates.io, versions are in one place",
         remedy: "choose another crate, or change deny.toml and say why there",
         run: dependencies::check,
     },

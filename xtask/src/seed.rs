@@ -58,7 +58,7 @@ fn missing_places(house: &House, cell: &str) -> Vec<String> {
             let unknown = name.split("::").filter(|part| !declares(text, part) && !text.contains(&format!("impl {part}")));
             found.extend(unknown.map(|part| format!("{file} does not declare {part}")));
         } else {
-            found.push(format!("{name} stands behind no file"));
+            found.push(format!("{name} follows no file"));
         }
     }
     found
@@ -82,7 +82,7 @@ fn missing_tests(house: &House, cell: &str, from: usize) -> Vec<String> {
             None => found.push(format!("there is no {folder} to have {}", std::mem::take(&mut waiting).join(", "))),
         }
     }
-    found.extend(waiting.iter().map(|name| format!("no crate or folder stands behind {name}")));
+    found.extend(waiting.iter().map(|name| format!("no crate or folder follows {name}")));
     found
 }
 
@@ -168,7 +168,7 @@ mod tests {
             ("`carve`", "`Carve`", "explore/carve/mod.rs does not declare Carve"),
             ("next_position", "position_next", "does not declare position_next"),
             ("bad_starts_are", "good_starts_are", "explore has no test good_starts_are_named"),
-            (" (explore)", "", "no crate or folder stands behind bad_starts_are_named"),
+            (" (explore)", "", "no crate or folder follows bad_starts_are_named"),
             ("WalkBox", "WalkBoxes", "has no law WalkBoxes"),
             (" | none", "", "3 cells"),
         ] {

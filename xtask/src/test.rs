@@ -14,7 +14,7 @@ const STEPS: [Step; 5] = [
     Step {
         name: "tests",
         about: "all tests of the workspace pass",
-        remedy: "fix the code or the test; `cargo test -p CRATE NAME` runs one, failing pictures and counts lie in target/evidence",
+        remedy: "fix the code or the test; `cargo test -p CRATE NAME` runs one, failing pictures and counts are in target/evidence",
         run: all_tests,
     },
     Step {
@@ -26,7 +26,7 @@ const STEPS: [Step; 5] = [
     Step {
         name: "demo",
         about: "the program makes a small demo dataset, does nothing the second time, and finds it true",
-        remedy: "the dataset is left in target/acceptance/demo; `enfilade inspect` tells about single pixels of it",
+        remedy: "the dataset is left in target/acceptance/demo; `enfilade inspect` shows single pixels of it",
         run: acceptance::demo,
     },
     Step {

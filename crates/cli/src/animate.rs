@@ -37,7 +37,7 @@ pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {
         Some(none) if written.is_empty() => return Err(Problem::found(none)),
         None if written.is_empty() => {
             let problem = format!("no camera that was chosen has frames in {}", args.dataset.display());
-            return Err(Problem::of_data(problem, "make them with `enfilade run`, which also tells what has failed"));
+            return Err(Problem::of_data(problem, "make them with `enfilade run`, which also reports what failed"));
         }
         _ => missing.iter().for_each(|none| say(&format!("warning: {none}"))),
     }

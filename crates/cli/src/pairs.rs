@@ -33,7 +33,7 @@ pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
             let rows = choose_pairs(&filmed, &found, &filter);
             let hidden = match found.hidden_by {
                 HiddenBy::Scene => "",
-                HiddenBy::Distances => "; what is hidden is told by distances alone, since the scene is not there",
+                HiddenBy::Distances => "; what is hidden was decided by the frames' distances only, since the scene package is missing",
             };
             let n = filmed.len();
             lines.push(format!("{scene}: {}, {} of {} pairs{hidden}", counted(n, "frame"), rows.len(), n * (n - 1) / 2));
@@ -43,7 +43,7 @@ pub fn pairs(args: &PairsArgs, quiet: bool) -> Result<Verdict, Problem> {
     }
     if frames == 0 {
         let problem = format!("no camera that was chosen has frames in {}", args.dataset.display());
-        return Err(Problem::of_data(problem, "make them with `enfilade run`, which also tells what has failed"));
+        return Err(Problem::of_data(problem, "make them with `enfilade run`, which also reports what failed"));
     }
     let list = args.output.clone().unwrap_or_else(|| dataset.layout().pairs());
     write_pairs(&list, &chosen)?;

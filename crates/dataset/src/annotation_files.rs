@@ -47,7 +47,7 @@ impl MeshFiles {
             return Ok(None);
         }
         let wrong = |error: serde_json::Error| {
-            let problem = format!("line 1: not the beginning of a log: {error}; bring back a copy, or move the log away to begin anew");
+            let problem = format!("line 1: not the beginning of a log: {error}; restore a copy, or move the log away to start again");
             DatasetError::text(&path, problem)
         };
         let header: Header = serde_json::from_slice(&header).map_err(wrong)?;

@@ -82,7 +82,7 @@ fn advice(error: &io::Error) -> &'static str {
         }
         io::ErrorKind::NotFound => "check the path; if the dataset was moved or cut short, run the stage that makes this file again",
         io::ErrorKind::NotADirectory | io::ErrorKind::IsADirectory | io::ErrorKind::AlreadyExists => {
-            "something else lies at this path; move it away or choose another output folder"
+            "something else is at this path; move it away or choose another output folder"
         }
         _ => "check the disk, then run again: finished frames are kept",
     }

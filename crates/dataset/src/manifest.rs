@@ -285,10 +285,10 @@ impl Dataset {
     pub fn read_manifest(&self) -> Result<Option<Manifest>, DatasetError> {
         let path = self.layout().manifest();
         refuse_newer_layout(self.root())?;
-        let manifest: Option<Manifest> = read_json(&path, "run again, which writes it anew")?;
+        let manifest: Option<Manifest> = read_json(&path, "run again, which rewrites it")?;
         match manifest {
             Some(manifest) if manifest.format != format() => {
-                let problem = format!("its format is {:?}, expected {:?}; run again, which writes it anew", manifest.format, format());
+                let problem = format!("its format is {:?}, expected {:?}; run again, which rewrites it", manifest.format, format());
                 Err(DatasetError::text(&path, problem))
             }
             manifest => Ok(manifest),
@@ -346,7 +346,7 @@ impl Dataset {
             _ => "render",
         };
         let remedy = match record.is_file() {
-            true if is_recorded => "but it is what its record says, so run again, which writes the manifest anew".to_string(),
+            true if is_recorded => "but it is what its record says, so run again, which rewrites the manifest".to_string(),
             true => format!("delete {} and run the {stage} stage again", record.display()),
             false => "copy it again, or make it again where it was made".to_string(),
         };

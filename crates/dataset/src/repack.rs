@@ -158,9 +158,9 @@ impl<'a> Growing<'a> {
         let place = |path: &Path| fs::canonicalize(path).map_err(DatasetError::at("find", path));
         let (target, source) = (place(out)?, place(dataset)?);
         let problem = if target.starts_with(&source) {
-            "it would lie in the dataset itself; choose another folder"
+            "it would be inside the dataset; choose another folder"
         } else if source.starts_with(&target) {
-            "the dataset lies in that folder; choose another one"
+            "the dataset is inside that folder; choose another one"
         } else if !entries(out)?.is_empty() && !is_copy(out) {
             "the folder is not empty, and what is there was not made by `repack`; choose another one, or move away what is there"
         } else {

@@ -79,7 +79,7 @@ impl Dataset {
     /// When the file is not what it says, or of a newer version of the program.
     pub fn read_structure(&self, scene: &str) -> Result<Option<Structure>, DatasetError> {
         let path = self.layout().structure(scene);
-        let remedy = "import the scene again, which writes it anew";
+        let remedy = "import the scene again, which rewrites it";
         let Some(structure) = read_json::<Structure>(&path, remedy)? else { return Ok(None) };
         structure.check().map_err(|problem| DatasetError::text(&path, format!("{problem}; {remedy}")))?;
         Ok(Some(structure))

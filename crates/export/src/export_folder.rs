@@ -167,9 +167,9 @@ fn check_apart(target: &Path, dataset: &Path) -> Result<(), ExportError> {
     let absolute = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.into());
     let (target_at, dataset_at) = (absolute(target), absolute(dataset));
     let problem = if dataset_at.starts_with(&target_at) {
-        "the dataset lies in it; choose another folder"
+        "the dataset is inside it; choose another folder"
     } else if target_at.starts_with(dataset_at.join("scenes")) {
-        "it lies among the dataset's scenes; choose another folder"
+        "it is among the dataset's scenes; choose another folder"
     } else {
         return Ok(());
     };

@@ -158,7 +158,7 @@ pub(crate) fn read_marker_at(store: &Store, name: &str) -> Result<Option<Marker>
     let marker = serde_json::from_slice(&bytes);
     marker.map(Some).map_err(|error| FarmError::Damaged {
         place: store.full_name(name),
-        problem: format!("{error}; remove it and do its task again, which makes the frame anew"),
+        problem: format!("{error}; remove it and do its task again, which makes the frame again"),
     })
 }
 

@@ -175,7 +175,7 @@ impl Job {
             FarmError::Request(format!("{place} holds no job; plan one: enfilade farm plan dataset.toml -o {into}"))
         };
         let bytes = store.get(PLAN)?.ok_or_else(missing)?;
-        let anew = "plan the job anew in another place";
+        let anew = "plan the job again in another place";
         let wrong = |problem: String| FarmError::Damaged { place: format!("{}/{PLAN}", store.url()), problem };
         // Before the rest, which other versions may put otherwise.
         if let Ok(Planner { program: planner }) = serde_json::from_slice(&bytes)
@@ -392,7 +392,7 @@ mod tests {
         let store = Store::open(folder.path().to_str().unwrap(), std::iter::empty()).unwrap();
         let message = Job::open(store).unwrap_err().to_string();
         assert!(
-            message.contains("was planned by enfilade 9.0.0") && message.contains("use enfilade 9.0.0, or plan the job anew"),
+            message.contains("was planned by enfilade 9.0.0") && message.contains("use enfilade 9.0.0, or plan the job again"),
             "{message}"
         );
     }

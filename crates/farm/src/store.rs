@@ -91,7 +91,7 @@ fn local(place: &str) -> Option<&Path> {
 /// Refuses a folder that has something else than a job, or the beginning of one.
 fn refuse_foreign_folder(folder: &Path) -> Result<(), FarmError> {
     if folder.is_symlink() && !folder.exists() {
-        let problem = "is a link that leads nowhere; make the folder that it leads to, or name another one";
+        let problem = "is a broken link; create its target folder, or name another one";
         return Err(FarmError::Request(format!("{} {problem}", folder.display())));
     }
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
@@ -261,8 +261,8 @@ impl Store {
             self.remove(&name)?;
             let (won, again) = (won?, again?);
             if won != 1 || again == Created::Yes {
-                let later = if again == Created::Yes { "a later one was told so too" } else { "a later one was refused" };
-                let problem = format!("of {PROBE_WRITERS} writers of one new object {won} were told that they made it, and {later}");
+                let later = if again == Created::Yes { "so was a later one" } else { "a later one was refused" };
+                let problem = format!("{won} of {PROBE_WRITERS} writers of one new object were told that they created it, and {later}");
                 return Err(FarmError::Unreliable { place: self.url.clone(), problem });
             }
         }
@@ -377,7 +377,7 @@ mod tests {
         let link = dir.path().join("job");
         std::os::unix::fs::symlink("gone", &link).unwrap();
         let error = Store::begin(link.to_str().unwrap(), std::iter::empty()).unwrap_err().to_string();
-        assert!(error.contains("job is a link that leads nowhere"), "{error}");
+        assert!(error.contains("job is a broken link"), "{error}");
     }
 
     #[test]

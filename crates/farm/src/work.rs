@@ -329,7 +329,7 @@ fn fetch(job: &Job, work: &Work, blake3: &str) -> Result<PathBuf, FarmError> {
 
 /// An object that the plan names is not what it should be; planning into the same place does not put it there again.
 pub(crate) fn damaged_object(job: &Job, name: &str, problem: &str) -> FarmError {
-    let problem = format!("{problem}; plan the job anew, in another place");
+    let problem = format!("{problem}; plan the job again, in another place");
     FarmError::Damaged { place: job.store.full_name(name), problem }
 }
 

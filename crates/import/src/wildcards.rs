@@ -15,7 +15,7 @@ pub struct Match {
     pub name: String,
 }
 
-/// The files and folders that `pattern` means, sorted by their paths. `*` stands for any run of characters within a name and `?` for one;
+/// The files and folders that `pattern` means, sorted by their paths. `*` matches any characters within a name and `?` a single one;
 /// names that begin with a dot are only matched by patterns that do. Relative patterns begin in `folder`.
 ///
 /// ```

@@ -121,7 +121,7 @@ fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
         io::ErrorKind::ReadOnlyFilesystem => Some("the file system is mounted read-only; choose another output folder with -o"),
         io::ErrorKind::NotADirectory => Some("a part of the path is a file; choose another output folder with -o"),
         io::ErrorKind::NotFound => {
-            Some("check the path for a typing mistake; if the files were moved, run again with the dataset.toml that lies with them now")
+            Some("check the path for typing errors; if the files were moved, run again with the dataset.toml beside them")
         }
         _ => None,
     }

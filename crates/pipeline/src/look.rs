@@ -133,7 +133,7 @@ pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx)
     }
     if let Some(outside) = scene.cameras.iter().find(|camera| sees_something(look, camera)) {
         let (camera, words) = of_file(outside);
-        return Ok((camera, format!("{words}, which stands in no room")));
+        return Ok((camera, format!("{words}, which is in no room")));
     }
     let places = find_starts(&look.world, &look.bvh, &StartsConfig::default(), cx);
     if let Some(best) = best_view(look, &places) {
@@ -144,7 +144,7 @@ pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx)
         return Ok(of_file(outside));
     }
     cx.warn(Warning { place: "look".into(), message: "it is seen from outside".into() });
-    Ok((from_outside(look), "outside, since no place in it was found where one could stand".into()))
+    Ok((from_outside(look), "outside, since no place for a camera was found inside".into()))
 }
 
 /// Whether enough of a camera's pixels show something, wherever it stands.

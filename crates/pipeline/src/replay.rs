@@ -93,7 +93,7 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
 fn warn_of_changed(source: &Source, cx: &dyn Cx) {
     let is_changed = |name: &str, then: &FileRecord| FileRecord::of(&source.folder.join(name)).is_ok_and(|found| found != *then);
     for (name, _) in source.record.files.iter().filter(|(name, then)| is_changed(name, then)) {
-        let message = "its bytes in the dataset are not those that the frame's record tells, with which the replay is compared";
+        let message = "its bytes in the dataset differ from those of the frame's record, with which the replay is compared";
         cx.warn(Warning { place: source.folder.join(name).display().to_string(), message: message.into() });
     }
 }
@@ -115,7 +115,7 @@ fn read(file: &Path) -> Result<Source, Error> {
     let no_record = |e: serde_json::Error| Error::usage(format!("{} is no commit record of a frame: {e}", file.display()), hint);
     let record: FrameRecord = serde_json::from_slice(&text).map_err(no_record)?;
     let root = root_of(&file, &record).ok_or_else(|| {
-        Error::usage(format!("{} does not lie where a dataset has the record of {}/{}", file.display(), record.scene, record.camera), hint)
+        Error::usage(format!("{} is not where a dataset keeps the record of {}/{}", file.display(), record.scene, record.camera), hint)
     })?;
     let again = format!("render the frame again: enfilade render {} --scene {} --force", quoted(root.display()), quoted(&record.scene));
     let changed = |what: String| Error::scene(format!("{what}, so the frame cannot be replayed"), again.clone());

@@ -117,8 +117,8 @@ pub(crate) fn refuse_other_text(path: &Path) -> Result<(), Error> {
 /// Refuses a folder that holds something else: it must not be filled with a dataset.
 fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
     if out.is_symlink() && !out.exists() {
-        let message = format!("the output {} is a link that leads nowhere", out.display());
-        return Err(Error::usage(message, "make the folder that it leads to, or name another one"));
+        let message = format!("the output {} is a broken link", out.display());
+        return Err(Error::usage(message, "create its target folder, or name another one"));
     }
     if out.is_file() {
         return Err(Error::usage(format!("the output {} is a file", out.display()), "name a folder that does not exist yet"));
@@ -209,7 +209,7 @@ mod tests {
             let link = dir.path().join(name);
             std::os::unix::fs::symlink(target, &link).unwrap();
             let error = Workdir::create(&link).unwrap_err();
-            assert!(error.is_usage() && error.to_string().ends_with(&format!("{name} is a link that leads nowhere")), "{error}");
+            assert!(error.is_usage() && error.to_string().ends_with(&format!("{name} is a broken link")), "{error}");
         }
     }
 

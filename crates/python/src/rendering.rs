@@ -76,7 +76,7 @@ fn check(layers: Option<&[Layer]>, shot: &Shot) -> PyResult<()> {
     kept.map_or(Ok(()), |layer| {
         let name = layer.spec().name;
         let plain = name.trim_end_matches("_rendered");
-        Err(PyValueError::new_err(format!("{name} is there where frames are denoised; without that {plain} is what was rendered")))
+        Err(PyValueError::new_err(format!("{name} exists only for denoised frames; without denoising, {plain} is the rendered layer")))
     })
 }
 

@@ -1,8 +1,7 @@
 //! Pointers of Git LFS: short texts in the place of files that Git LFS keeps elsewhere and that were not fetched.
 
 /// What such a file is and what to do about it, for messages.
-pub const GIT_LFS_POINTER: &str =
-    "a Git LFS pointer, which stands for a file that was not fetched: run `git lfs pull` in a clone of its repository";
+pub const GIT_LFS_POINTER: &str = "a Git LFS pointer to a file that was not fetched: run `git lfs pull` in a clone of its repository";
 
 /// Longest pointer, bytes, by Git LFS's specification.
 const LONGEST: usize = 1024;

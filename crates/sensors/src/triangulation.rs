@@ -110,7 +110,7 @@ impl Triangulation {
         }
         if !self.baseline_m.is_finite() || (self.baseline_m == 0.0 && self.measures_disparity()) {
             return Err(format!(
-                "baseline_m is {}, expected how far apart the eyes stand, since disparities are measured",
+                "baseline_m is {}, expected the distance of the two eyes, since disparities are measured",
                 self.baseline_m
             ));
         }

@@ -38,7 +38,7 @@ const SECTIONS: [&str; 8] = ["import", "render", "camera", "plan", "carve", "gat
 const GROUPS: [Group; 19] = [
     Group {
         heading: "At the top of the file",
-        about: "All but `name` may also stand in a `[[scene]]`, for that scene alone.",
+        about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",
         of: "Document",
         without: &SECTIONS,
         file: "§\n",

@@ -111,7 +111,7 @@ impl<'h> Site<'h> {
                 Ok(to) if to == link.to => {}
                 Ok(to) => match text[link.range.clone()].rfind(&link.to) {
                     Some(at) => led.replace_range(link.range.start + at..link.range.start + at + link.to.len(), &to),
-                    None => failures.push(format!("{file}:{line}: write the link to {} where it stands, as [text](path)", link.to)),
+                    None => failures.push(format!("{file}:{line}: write the link to {} in place, as [text](path)", link.to)),
                 },
                 Err(reason) => failures.push(format!("{file}:{line}: {reason}")),
             }

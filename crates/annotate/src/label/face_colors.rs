@@ -47,7 +47,7 @@ impl FaceColors {
     pub fn bytes(&self, faces: usize) -> Result<Vec<u8>, String> {
         match self {
             Self::Known(colors) => Ok(colors.as_flattened().to_vec()),
-            Self::Unknown => Err("the scene tells of no materials".into()),
+            Self::Unknown => Err("the scene has no materials".into()),
             Self::Package(path) => {
                 let wrong = |problem: String| format!("{}: {problem}", path.display());
                 let bytes = std::fs::read(path).map_err(|e| wrong(e.to_string()))?;

@@ -29,7 +29,7 @@ pub enum LogError {
     InUse(PathBuf),
     /// It is about another scene.
     #[error(
-        "{} is about another scene ({log}; here {scene}); name another folder with --labels, or move the log away to begin anew", path.display()
+        "{} is about another scene ({log}; here {scene}); name another folder with --labels, or move the log away to start again", path.display()
     )]
     OtherScene {
         /// The file.
@@ -52,7 +52,7 @@ pub enum LogError {
         found: String,
     },
     /// A line is not valid.
-    #[error("{}:{line}: {problem}; remove this line and those after it to go on from there, or bring back a copy", path.display())]
+    #[error("{}:{line}: {problem}; remove this line and those after it to continue from there, or restore a copy", path.display())]
     Line {
         /// The file.
         path: PathBuf,

@@ -194,7 +194,7 @@ impl Session {
     fn told_again(&self, revision: u64) -> Result<Change, Refusal> {
         let change = self.recent.iter().find(|change| change.revision == revision).cloned();
         let error = || format!("this edit was done already, long ago: it made revision {revision} of {}", self.revision);
-        change.ok_or_else(|| Refusal::conflict(error(), "load the page again to see how things stand"))
+        change.ok_or_else(|| Refusal::conflict(error(), "reload the page to see the current state"))
     }
 
     /// The state in which actions are decided.

@@ -30,7 +30,7 @@ pub async fn thumbnail(
     query: Result<Query<ThumbnailQuery>, QueryRejection>,
 ) -> Result<Response, ApiProblem> {
     let place = FramePlace::parse([scene, camera, frame])?;
-    let asked = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "v is the version that the gallery tells"))?.0.v;
+    let asked = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "v is the version given by the gallery"))?.0.v;
     let (bytes, version, kept) = work(viewer, move |viewer| {
         let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
             Layer::Color

@@ -45,7 +45,7 @@ export function commands(act) {
         ["erase", "Erase: press to switch, or hold", ["e"], () => act.toggleErase()],
         ["unique", "Unique instance ids", ["u"], () => state.set({ unique: !state.unique })],
         ["new-instance", "New instance", [" "], () => act.newInstance()],
-        ["go-on", "After each label, go on to the next piece", ["Shift+g"], () => state.toggleGoingOn()],
+        ["go-on", "After each label, go to the next piece", ["Shift+g"], () => state.toggleGoingOn()],
     ]);
     add("Layers", [
         ["layer", "Other layer: instance or class", ["t"], () => state.set({ layer: state.layer === "semantic" ? "instance" : "semantic" })],
@@ -59,7 +59,7 @@ export function commands(act) {
     ]);
     add("Selection", [
         ["assign", "Give the selection the current label", ["Enter"], () => act.assign()],
-        ["thing", "New thing: class and new instance, and go on to the next", ["Shift+Enter"], () => void act.makeThing()],
+        ["thing", "New thing: class and new instance, then go to the next", ["Shift+Enter"], () => void act.makeThing()],
         ["clear-label", "Take the label of this layer away", ["Delete", "Backspace"], () => act.clearLabel()],
         ["confirm", "Confirm the suggestion for the selection", ["y"], () => act.confirmSelection()],
         ["reject", "Reject the suggestion for the selection", ["Shift+y"], () => act.withSelection((pieces) => state.reject(pieces))],
@@ -89,7 +89,7 @@ export function commands(act) {
         ["ceilings", "Hide ceilings", ["q"], () => looking.toggleCeilings()],
         ["whole-scene", "Whole scene", ["Home"], () => looking.wholeScene()],
         ["from-above", "Whole scene from above, without ceilings", ["End"], () => looking.fromAbove()],
-        ["clip", "Show only what lies around the selection, in a clip box", ["Shift+b"], () => act.withSelection((pieces) => looking.clipTo(pieces))],
+        ["clip", "Show only what is around the selection, in a clip box", ["Shift+b"], () => act.withSelection((pieces) => looking.clipTo(pieces))],
         ["clip-lower", "Clip box: lower its top", ["PageDown"], () => looking.moveTop(-CLIP_STEP_M)],
         ["clip-higher", "Clip box: raise its top", ["PageUp"], () => looking.moveTop(CLIP_STEP_M)],
         ["clip-farther", "Clip box: push the side that faces you away", ["Shift+PageDown"], () => looking.moveNearSide(-CLIP_STEP_M)],

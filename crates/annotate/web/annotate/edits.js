@@ -58,7 +58,7 @@ export class Edits extends EventTarget {
         if (!this.offline) return "";
         const silent = !this.stuck || this.stuck.status === 0;
         const kept = this.queue.length === 0 ? "Nothing is lost" : `${counted(this.queue.length)} kept here`;
-        const help = silent ? "Start `enfilade annotate` on the same port to go on." : this.stuck?.help ?? "";
+        const help = silent ? "Start `enfilade annotate` on the same port to continue." : this.stuck?.help ?? "";
         return `${silent ? "The server does not answer." : `The server refuses edits: ${this.stuck?.message}.`} ${kept}; trying again. ${help}`;
     }
 

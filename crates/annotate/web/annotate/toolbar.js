@@ -79,7 +79,7 @@ export function topBar(state, table, act) {
     });
     const realLook = button("real-look", "Real look", () => act.realLook.on);
     realLook.disabled = !act.realLook.isKnown;
-    if (realLook.disabled) realLook.title = "The scene tells of no materials, and has no pictures";
+    if (realLook.disabled) realLook.title = "The scene has neither materials nor pictures";
     byId("view-buttons").append(
         button("whole-scene", "Whole"),
         button("from-above", "Above"),

@@ -36,7 +36,7 @@ export function showHelp(groups) {
     dialog.replaceChildren(
         el("h1", { id: "help-title" }, "Keys"),
         el("div", { class: "keys" }, ...groups.map((group) => el("section", {}, el("h3", {}, group.title), el("dl", {}, ...group.keys.flatMap((key) => [el("dt", {}, ...names(key)), el("dd", {}, key.says)]))))),
-        el("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. Everything that is shown stands in the address."),
+        el("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. The address contains everything that is shown."),
         el("form", { method: "dialog" }, el("button", { class: "primary", autofocus: true }, "Close")),
     );
     dialog.showModal();

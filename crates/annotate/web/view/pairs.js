@@ -36,7 +36,7 @@ export class PairsPanel {
         if (this.problem) return [el("p", {}, this.problem.message), el("p", { class: "quiet" }, this.problem.help)];
         if (!this.known) return [el("p", { class: "quiet" }, "Reading …")];
         const { partners, count, hidden_by, problems } = this.known;
-        const said = `${count === 1 ? "1 frame sees" : `${count} frames see`} surfaces of this one${count > partners.length ? `; here are the ${partners.length} with the largest overlap` : ""}. ${hidden_by === "scene" ? "A ray through the scene" : "The frames' distances alone"} told what hides what.`;
+        const said = `${count === 1 ? "1 frame sees" : `${count} frames see`} surfaces of this one${count > partners.length ? `; here are the ${partners.length} with the largest overlap` : ""}. ${hidden_by === "scene" ? "A ray through the scene" : "The frames' distances alone"} decided what hides what.`;
         return [
             ...problems.map(lossNote),
             el("h2", {}, `Overlap with frame ${store.state.frame}`),

@@ -71,7 +71,7 @@ pub enum Verb {
     Gate(StageArgs),
     /// Scene, trajectories -> frames
     #[command(
-        after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run goes on where it was."
+        after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run continues where it was."
     )]
     Render(RenderArgs),
     /// Frames -> color without noise, from now on; renders nothing again

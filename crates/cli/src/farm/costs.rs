@@ -18,7 +18,7 @@ pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<Co
         machines(&costs.feasible(prices), costs.attempts.len()).iter().for_each(|line| say(line));
     } else {
         say(
-            "The smallest machine is not told: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)",
+            "The smallest machine is unknown: the prices have no sizes (--price with a table of name,dollars_per_vcpu_hour,vcpus,memory_gib)",
         );
     }
     let Some(path) = table else { return Ok(costs) };
@@ -55,7 +55,7 @@ fn lines(costs: &Costs) -> Vec<String> {
 fn machines(found: &Feasible, attempts: usize) -> Vec<String> {
     let told = attempts - found.unknown as usize;
     if told == 0 {
-        return vec!["The smallest machine is not known: no attempt has told its memory".into()];
+        return vec!["The smallest machine is unknown: no attempt recorded its memory".into()];
     }
     let need = format!("{} threads and {:.2} GiB", found.threads, memory_gib(found.peak_memory_bytes));
     let mut lines = vec![match &found.for_all {
@@ -73,7 +73,10 @@ fn machines(found: &Feasible, attempts: usize) -> Vec<String> {
         lines.push(format!("  {} attempts fit none", found.too_large));
     }
     if found.unknown > 0 {
-        lines.push(format!("  {} attempts have not told their memory, as those that were killed, and are left out", found.unknown));
+        lines.push(format!(
+            "  {} attempts did not record their memory, for example because they were killed, and are left out",
+            found.unknown
+        ));
     }
     lines
 }
@@ -108,7 +111,7 @@ mod tests {
         let found = Feasible { for_all: None, too_large: 1, unknown: 1, ..found };
         let text = machines(&found, 4).join("\n");
         assert!(
-            text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts have not told")
+            text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts did not record")
         );
         assert!(machines(&found, 1)[0].contains("not known"));
     }

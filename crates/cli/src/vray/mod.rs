@@ -58,7 +58,7 @@ pub fn vray(args: &VrayArgs, quiet: bool) -> Result<Verdict, Problem> {
             }
             let lights = entities.iter().filter(|entity| entity.light).count();
             let strangers = entities.iter().filter(|entity| !entity.light && entity.object.is_none()).count();
-            Ok(format!("{} nodes, of which {strangers} are no object of the mesh, and {lights} lights numbered", entities.len() - lights))
+            Ok(format!("{} nodes, of which {strangers} are not objects of the mesh, and {lights} lights numbered", entities.len() - lights))
         }),
         Edit::Layers { copy, denoiser, hypersim_surroundings: surroundings } => edited(copy, |scene| {
             enfilade_vrscene::edit::prepare_for_layers(scene);

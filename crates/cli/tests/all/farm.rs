@@ -56,7 +56,7 @@ fn shares_of_the_work_come_together_as_one_machine_would_have_made_them() {
     assert_eq!(succeed(d, &["farm", "status", "job", "--missing"]).trim(), "");
     let text = succeed(d, &["farm", "status", "job", "--price", "0.05", "--attempts", "attempts.csv"]);
     assert!(text.contains("vCPU-hours paid") && text.contains("dollars at 0.05 per vCPU-hour (given)"), "{text}");
-    assert!(text.contains("The smallest machine is not told: the prices have no sizes"), "{text}");
+    assert!(text.contains("The smallest machine is unknown: the prices have no sizes"), "{text}");
     let table = fs::read_to_string(d.join("attempts.csv")).unwrap();
     assert!(table.lines().count() > 6 && table.contains("room@scene_cam_00_final,0,"), "{table}");
     fs::write(d.join("machines.csv"), "name,dollars_per_vcpu_hour,vcpus,memory_gib\ntiny,0.05,1,0.25\nbig,0.05,2,64\nsmall,0.05,1,64\n")

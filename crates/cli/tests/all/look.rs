@@ -84,9 +84,9 @@ fn the_files_own_camera_is_kept_where_it_sees_something_wherever_it_stands() {
     };
     fs::write(d.join("box.xml"), scene("0,0,0")).unwrap();
     let text = succeed(d, &["look", "box.xml"]);
-    assert!(text.contains("view     camera") && text.contains("of the file, which stands in no room"), "{text}");
+    assert!(text.contains("view     camera") && text.contains("of the file, which is in no room"), "{text}");
     // One that looks away shows nothing.
     fs::write(d.join("away.xml"), scene("0,0,8")).unwrap();
     let text = succeed(d, &["look", "away.xml"]);
-    assert!(!text.contains("which stands in no room"), "{text}");
+    assert!(!text.contains("which is in no room"), "{text}");
 }

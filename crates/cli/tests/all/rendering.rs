@@ -119,7 +119,7 @@ fn a_damaged_partial_frame_is_told_and_begun_anew() {
     fs::write(partial.join("cam_07.0003.partial"), "of another trajectory").unwrap();
     let output = enfilade(d, &["run", "dataset.toml", "--frames", "1", "-o", "out"]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && text.contains("cam_00.0000.partial") && text.contains("begun anew"), "{text}");
+    assert!(output.status.success() && text.contains("cam_00.0000.partial") && text.contains("started again"), "{text}");
     assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
     assert_eq!(fs::read_dir(&partial).unwrap().count(), 0);
 }

@@ -102,5 +102,5 @@ fn a_difference_is_told_and_so_is_what_is_missing() {
     fail(d, &["replay", RECORD], 1, &["scene.scene is not there"]);
     fail(d, &["replay", "out/manifest.json"], 2, &["is no commit record of a frame"]);
     fs::copy(&path, d.join("frame.json")).unwrap();
-    fail(d, &["replay", "frame.json"], 2, &["does not lie where a dataset has the record"]);
+    fail(d, &["replay", "frame.json"], 2, &["is not where a dataset keeps the record"]);
 }

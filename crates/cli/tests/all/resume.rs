@@ -57,7 +57,7 @@ fn a_label_table_that_cannot_be_read_changes_nothing() {
     succeed(d, &["run", "dataset.toml", "-o", "out", "--frames", "1"]);
     let before = contents(&d.join("out"));
     fs::write(d.join("bad.csv"), "material,nyu40_id\nwall,many\n").unwrap();
-    fail(d, &["label", "out", "--table", "nope.csv"], 1, &["nope.csv", "check the path for a typing mistake"]);
+    fail(d, &["label", "out", "--table", "nope.csv"], 1, &["nope.csv", "check the path for typing errors"]);
     fail(d, &["label", "out", "--table", "bad.csv"], 1, &["bad.csv"]);
     assert!(succeed(d, &["label", "out"]).contains("nothing to do"));
     assert_same(&contents(&d.join("out")), &before);
@@ -129,7 +129,7 @@ fn sources_that_were_moved_make_the_same_bytes_and_cost_no_frame() {
     let (before, times) = (contents(&d.join("out")), color_times(&d.join("out")));
     fs::rename(d.join("here"), d.join("there")).unwrap();
     // Where they lay is what the dataset knows until it is run again.
-    fail(d, &["label", "out"], 1, &["run again with the dataset.toml that lies with them now"]);
+    fail(d, &["label", "out"], 1, &["run again with the dataset.toml beside them"]);
     succeed(d, &["run", "there/dataset.toml", "-o", "out"]);
     assert_same(&before, &contents(&d.join("out")));
     assert_eq!(times, color_times(&d.join("out")));

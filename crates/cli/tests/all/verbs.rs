@@ -81,7 +81,7 @@ fn stages_run_one_by_one_and_pixels_answer() {
     fail(d, &["inspect", "out", "--camera", "cam_01", "--pixel", "0,0"], 2, &["no camera is named \"cam_01\"", "cam_00"]);
     let text = succeed(d, &["export", "out", "--format", "depth-png", "-o", "depth", "--frames", "0..2"]);
     assert!(text.contains("2 frames") && d.join("depth/room/cam_00/frame.0001.png").is_file(), "{text}");
-    fail(d, &["export", "out", "--format", "depth-png", "-o", "."], 2, &["the dataset lies in it"]);
+    fail(d, &["export", "out", "--format", "depth-png", "-o", "."], 2, &["the dataset is inside it"]);
     fail(d, &["export", "out", "--format", "depth-png", "-o", "depth", "--layers", "colour"], 2, &["the layers are: color"]);
 
     // A layer that was cut short is found by verification and repaired by rendering that frame again.

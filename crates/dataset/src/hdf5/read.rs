@@ -25,7 +25,7 @@ pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     let length = check_length(path)?;
     // The library would walk some such trees for ever, and take the chunks that it does not find for ones that were never written.
     if has_damaged_tree(path, "dataset") {
-        return Err(DatasetError::hdf5(path, format!("the tree that says where its chunks lie is broken: {DAMAGED}")));
+        return Err(DatasetError::hdf5(path, format!("the index of its chunks is broken: {DAMAGED}")));
     }
     // The library takes some of what stands in a file for granted, and panics where it is not so.
     let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));

@@ -210,7 +210,7 @@ impl Header {
             0x08 => {
                 self.known(
                     body.first() == Some(&3),
-                    "its data lie in a way of HDF5 that is not read here; write the file again with h5repack",
+                    "its data use an HDF5 layout that is not read here; write the file again with h5repack",
                 )?;
                 self.layout = Some(match *body.get(1)? {
                     0 => Stored::Compact(body.get(4..4 + usize::from(u16_at(body, 2)?))?.to_vec()),
@@ -225,7 +225,7 @@ impl Header {
             // Filter pipeline.
             0x0b => self.filters = Some(filters(body)?),
             // External files.
-            0x07 => self.known(false, "its data lie in other files")?,
+            0x07 => self.known(false, "its data are in other files")?,
             _ => {}
         }
         Some(())

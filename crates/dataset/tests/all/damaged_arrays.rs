@@ -28,13 +28,13 @@ fn a_tree_that_leads_to_a_node_twice_is_an_error_at_once() {
         let whole = written(&path, &array, storage);
         fs::write(&path, branching_tree(&whole, array.shape.len(), 50)).unwrap();
         let message = read_array(&path).unwrap_err().to_string();
-        assert!(message.contains("branching.hdf5") && message.contains("where its chunks lie"), "{message}");
+        assert!(message.contains("branching.hdf5") && message.contains("the index of its chunks"), "{message}");
         // Also where the superblock keeps no address of the list of names, so that ours does not find the array, and the library does.
         let mut other = branching_tree(&whole, array.shape.len(), 50);
         other[72] = 0;
         fs::write(&path, other).unwrap();
         let message = read_array(&path).unwrap_err().to_string();
-        assert!(message.contains("branching.hdf5") && message.contains("where its chunks lie"), "{message}");
+        assert!(message.contains("branching.hdf5") && message.contains("the index of its chunks"), "{message}");
     }
 }
 
@@ -49,7 +49,7 @@ fn a_chunk_beyond_the_file_is_an_error_and_not_zeros() {
         file[address + 5] ^= 1;
         fs::write(&path, file).unwrap();
         let message = read_array(&path).unwrap_err().to_string();
-        assert!(message.contains("flipped.hdf5") && message.contains("where its chunks lie"), "{message}");
+        assert!(message.contains("flipped.hdf5") && message.contains("the index of its chunks"), "{message}");
     }
     let window = Window { top: 0, left: 0, height: 2, width: 2 };
     assert!(read_window(&path, window).unwrap_err().to_string().contains("flipped.hdf5"));

@@ -209,7 +209,7 @@ fn what_is_no_copy_is_not_replaced_by_one() {
     let message = refused(other.root());
     assert!(message.contains("other") && message.contains("not made by `repack`"), "{message}");
     assert!(refused(&dataset.root().join("scenes")).contains("in the dataset itself"));
-    assert!(refused(folder.path()).contains("the dataset lies in that folder"));
+    assert!(refused(folder.path()).contains("the dataset is inside that folder"));
     assert_eq!(files(folder.path()), before);
 }
 

@@ -244,7 +244,7 @@ fn warn(report: &CarveReport, config: &CarveConfig, cx: &dyn Cx) {
     }
     for (index, start) in report.starts.iter().enumerate().filter(|(_, start)| start.is_open) {
         let message = format!(
-            "stands in the open, at {:.2}: hardly a direction around it meets a surface. What it sees within {} m is taken for free space",
+            "is in the open, at {:.2}: hardly any direction around it meets a surface. What it sees within {} m counts as free space",
             start.asked,
             0.5 * config.extent_m
         );

@@ -250,7 +250,7 @@ fn an_open_place_is_carved_within_the_cube_with_a_warning() {
     assert!((space.free_max - space.free_min).min_element() > 11.5, "{} {}", space.free_min, space.free_max);
     assert_eq!(space.tree.state(DVec3::new(1.0, 0.5, 0.5)), enfilade_geometry::Voxel::Unknown, "inside of the block");
     let warnings = heard.lines();
-    assert!(warnings.len() == 1 && warnings[0].contains("stands in the open"), "{warnings:?}");
+    assert!(warnings.len() == 1 && warnings[0].contains("is in the open"), "{warnings:?}");
     assert!(!crate::is_indoors(&block.bvh, start));
     // A room is none, and there it is known that nothing leaks.
     let room = Room::new(DVec3::ZERO, DVec3::new(4.0, 3.0, 2.5));

@@ -116,7 +116,7 @@ impl<'de> Deserialize<'de> for WalkConfig {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let keys = BTreeMap::<String, IgnoredAny>::deserialize(deserializer)?;
         match keys.into_keys().next() {
-            Some(key) => Err(D::Error::custom(format!("mode walk has no key `{key}`: the keys of walks stand beside `mode`"))),
+            Some(key) => Err(D::Error::custom(format!("mode walk has no key `{key}`: the keys of walks belong beside `mode`"))),
             None => Ok(Self {}),
         }
     }

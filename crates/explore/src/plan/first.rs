@@ -51,7 +51,7 @@ fn kept(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> R
     let look_at = beside().or_else(|| rules.target(position, longest_view(rules, position)));
     let look_at = look_at.ok_or_else(|| nothing_to_look_at(rules, start, position))?;
     let angle = (look_at - position).angle_between(-axes.z_axis).to_degrees();
-    let message = format!("has no free space along its view; its look-at point lies {angle:.0} degrees beside that");
+    let message = format!("has no free space along its view; its look-at point is {angle:.0} degrees beside it");
     cx.warn(Warning { place: format!("camera {:?}", start.name), message });
     Ok(pose(look_at))
 }

@@ -198,7 +198,7 @@ fn describe(planner: &Planner, fault: Fault) -> String {
         ),
         Fault::Open => {
             format!(
-                "stand in the open, with no surface in more than {} of the level or of the upward directions",
+                "are in the open, with no surface in more than {} of the level or of the upward directions",
                 percent(config.max_open_share)
             )
         }

@@ -12,7 +12,7 @@ pub fn openjd_template(submission: &Submission) -> Value {
         "extensions": ["TASK_CHUNKING"],
         "name": submission.name,
         "parameterDefinitions": [
-            { "name": "Store", "type": "STRING", "default": submission.store, "description": "Where the job lies" },
+            { "name": "Store", "type": "STRING", "default": submission.store, "description": "Place of the job" },
             { "name": "Program", "type": "STRING", "default": submission.program, "description": "enfilade on the worker" },
             { "name": "Dataset", "type": "STRING", "default": "dataset", "description": "Folder for the collected dataset" },
         ],

@@ -28,7 +28,7 @@ pub(super) fn place_scene(dae: &Dae, a: &mut Assembly) -> Result<(), ImportError
             }
         }
         None => {
-            a.warn("whole file", "there is no visual scene; every geometry stands where it lies");
+            a.warn("whole file", "there is no visual scene; every geometry was placed as it is");
             for geometry in children(dae.root, "library_geometries").flat_map(|library| children(library, "geometry")) {
                 let name = geometry.attribute("name").or(geometry.attribute("id")).unwrap_or("geometry");
                 placer.geometry(geometry, geometry, name, DAffine3::IDENTITY, None, a)?;
@@ -141,7 +141,7 @@ impl<'d> Placer<'_, 'd> {
             a.warn(called(controller), "it moves no geometry of the file and was left out");
             return Ok(());
         };
-        a.warn("library_controllers", "skins stand in the pose in which they were bound, morphs as their base meshes");
+        a.warn("library_controllers", "skins are in their bind pose, morphs are their base meshes");
         let bound = skin.and_then(|skin| child(skin, "bind_shape_matrix")).and_then(exactly::<16>).map_or(DAffine3::IDENTITY, affine);
         // Joints place a skin by themselves, wherever its node stands.
         let placement = if skin.is_some() { bound } else { file_from_node };

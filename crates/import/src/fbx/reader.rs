@@ -59,7 +59,7 @@ fn problem(error: &ufbx::Error, bytes: &[u8]) -> String {
         ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
             "unpacked it would be far larger than such a file can be; export it again, or split it"
         }
-        ErrorType::NodeDepthLimit => "its nodes lie too deep within one another; flatten the tree and export it again",
+        ErrorType::NodeDepthLimit => "its nodes are nested too deep; flatten the tree and export it again",
         _ if bytes.starts_with(b"Kaydara FBX Binary") => "the file is damaged; copy or export it again",
         _ => "the file is damaged; export it again, as binary FBX",
     };

@@ -115,7 +115,7 @@ impl<'d> Parts<'d> {
     fn skin(&self, stand: &Stand, primitive: &Primitive, places: usize, place: &str, a: &mut Assembly) -> Option<usize> {
         let skin = stand.node.skin?.value();
         if !skin::is_bound(primitive) {
-            a.warn(place, "a node has a skin for it, but it has neither joints nor weights; it stands where the node does");
+            a.warn(place, "a node has a skin for it, but it has neither joints nor weights; it is placed by the node");
             return None;
         }
         if places > 1 {

@@ -54,7 +54,7 @@ impl<'d> Skins<'d> {
                 return Err(bad("joints", format!("it refers to node {joint}, but there are only {}", file_from_node.len())));
             };
             let Some(placement) = placement else {
-                return Err(bad("joints", format!("node {joint} is its own ancestor, so it stands nowhere; export the file again")));
+                return Err(bad("joints", format!("node {joint} is its own ancestor, so it has no place; export the file again")));
             };
             joints.push(*placement * inverse_binds.as_ref().map_or(DAffine3::IDENTITY, |matrices| affine(&matrices[i])));
         }

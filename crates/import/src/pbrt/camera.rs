@@ -36,7 +36,7 @@ impl Reader<'_> {
         let fov_x = match class.as_str() {
             "perspective" => fov_x,
             _ => {
-                self.warn(&params.place, "only perspective cameras are supported; a pinhole of a right angle stands where it stood");
+                self.warn(&params.place, "only perspective cameras are supported; a pinhole 90 degrees wide replaces it");
                 params.ignore_all();
                 2.0 * ((0.5 * FALLBACK_FOV_DEG.to_radians()).tan() * aspect.max(1.0)).atan()
             }

@@ -174,7 +174,7 @@ impl Reader<'_> {
         self.state.active = match tokens.next()?.map(|t| t.kind) {
             Some(Kind::Bare("StartTime" | "All")) => true,
             Some(Kind::Bare("EndTime")) => {
-                self.warn(place, "motion is not supported; everything stands where it is at the first moment");
+                self.warn(place, "motion is not supported; everything is placed as at the first moment");
                 false
             }
             _ => return Err(place.error("expected StartTime, EndTime or All")),

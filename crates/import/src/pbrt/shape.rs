@@ -29,7 +29,7 @@ impl Reader<'_> {
     /// Adds the part of a shape, or keeps it for the object being defined.
     pub(super) fn shape(&mut self, class: &str, params: &Params) -> Result<(), ImportError> {
         if self.object.is_none() && !self.in_world {
-            return Err(params.place.error("the shape stands before WorldBegin; move it behind"));
+            return Err(params.place.error("the shape is before WorldBegin; move it after"));
         }
         let (shape, stem) = match class {
             "plymesh" => {

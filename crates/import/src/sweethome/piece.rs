@@ -36,7 +36,7 @@ pub(super) fn collect<'x>(
         let level = element.text("level").or(level);
         let shown = element.flag("visible", true) && home.shows(level);
         match element.tag() {
-            "furnitureGroup" if shown && depth == 0 => return Err(element.error("groups lie too deep within one another; ungroup some")),
+            "furnitureGroup" if shown && depth == 0 => return Err(element.error("groups are nested too deep; ungroup some")),
             "furnitureGroup" if shown => collect(&element, level, depth - 1, home, out)?,
             "pieceOfFurniture" | "doorOrWindow" | "light" | "shelfUnit" if shown => {
                 out.push(Piece::read(element, home.elevation_of(level))?);

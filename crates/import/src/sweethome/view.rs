@@ -48,7 +48,7 @@ fn add_cameras(root: &Element, aspect: f64, home: &mut Home) -> Result<(), Impor
     }
     let path = all.iter().filter(|c| c.text("attribute") == Some("cameraPath")).count();
     if path > 0 {
-        home.a.warn("<camera>", format!("the camera path of {path} points was left out; trajectories are planned anew"));
+        home.a.warn("<camera>", format!("the camera path of {path} points was left out; trajectories are planned again"));
     }
     Ok(())
 }

@@ -68,7 +68,10 @@ impl Composer {
         let Some(layer) = self.files.find(at, user, a)? else { return Ok(()) };
         if open.contains(&layer.location) || open.len() > MAX_ARCS {
             let way = open.iter().map(|l| &**l).chain([&*layer.location]).collect::<Vec<_>>().join(" → ");
-            return Err(a.malformed("subLayers", format!("sublayers stand in a circle or too deep: {way}; take one of them out")));
+            return Err(a.malformed(
+                "subLayers",
+                format!("sublayers refer to each other in a circle, or are nested too deep: {way}; take one of them out"),
+            ));
         }
         // A layer that comes in twice counts where it is strongest.
         if out.iter().any(|l| l.location == layer.location) {

@@ -138,7 +138,7 @@ impl Files {
         match archive.get(inner) {
             Some(bytes) => Ok((bytes.to_vec(), format!("{file}[{inner}]"))),
             None => {
-                let problem = format!("it refers to {inner}, which is not in the archive {file}; pack the archive anew");
+                let problem = format!("it refers to {inner}, which is not in the archive {file}; pack the archive again");
                 Err(Unread::Absent(a.malformed(user, problem)))
             }
         }

@@ -44,7 +44,7 @@ pub(super) fn source(stage: &mut Stage, prim: &Rc<Prim>, property: &str, a: &mut
         }
         (prim, property) = (next.clone(), name.to_string());
     }
-    Err(a.malformed(format!("{}.{property}", prim.path), "its connections stand in a circle; take one of them out"))
+    Err(a.malformed(format!("{}.{property}", prim.path), "its connections form a circle; remove one of them"))
 }
 
 /// The name of a shader's implementation: `info:id`, or an MDL module and what of it. MaterialX's nodes for the shaders of previews

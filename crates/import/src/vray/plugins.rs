@@ -61,7 +61,7 @@ impl Plugins {
                     if !std::mem::replace(&mut self.timed, true) {
                         a.warn(
                             format!("{}: #time", time.place()),
-                            "the scene is told moment by moment; each plugin was used as it is told first",
+                            "the scene is animated; each plugin was used as it is at the first moment",
                         );
                     }
                 }

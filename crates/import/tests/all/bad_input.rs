@@ -133,7 +133,7 @@ fn missing_textures_are_an_error_unless_allowed() {
 fn pointers_of_git_lfs_are_named_in_every_format_and_for_every_file() {
     const POINTER: &str = "version https://git-lfs.github.com/spec/v1\noid sha256:00112233\nsize 28200\n";
     let folder = Folder::new();
-    let expected = "this is a Git LFS pointer, which stands for a file that was not fetched: run `git lfs pull`";
+    let expected = "this is a Git LFS pointer to a file that was not fetched: run `git lfs pull`";
     for extension in Format::ALL.iter().flat_map(|(_, extensions)| *extensions) {
         let name = format!("a.{extension}");
         let message = folder.write(&name, POINTER).error(&name);

@@ -107,7 +107,7 @@ fn what_is_unbound_is_told() {
     let attributes = g.json["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap();
     attributes.retain(|name, _| !name.ends_with("S_0"));
     let imported = load(&g);
-    assert!(warnings(&imported).contains("neither joints nor weights; it stands where the node does"));
+    assert!(warnings(&imported).contains("neither joints nor weights; it is placed by the node"));
     assert_eq!(imported.scene.parts[0].world_from_mesh.translation.x, 100.0);
 }
 

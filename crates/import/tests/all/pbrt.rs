@@ -250,7 +250,7 @@ fn mistakes_have_line_and_column_and_gaps_are_reported() {
     );
     assert!(error("Shape \"plymesh\" \"string filename\" \"gone.ply\"").contains("gone.ply, which cannot be read"));
     assert!(error("Material \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"").contains("the texture \"t\", which is not defined"));
-    assert!(folder.write("b.pbrt", "Shape \"sphere\"").error("b.pbrt").contains("the shape stands before WorldBegin"));
+    assert!(folder.write("b.pbrt", "Shape \"sphere\"").error("b.pbrt").contains("the shape is before WorldBegin"));
     let mixed = "MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n\
      NamedMaterial \"a\"\nShape \"sphere\"";
     assert!(error(mixed).contains("materials are mixed in a circle"));

@@ -361,7 +361,7 @@ fn what_cannot_be_read_says_where_and_what_to_do() {
     );
     assert!(error("f.sh3d", home("<wall")).contains("f.sh3d/Home.xml: line 3"));
     let deep = "<furnitureGroup name='g'>".repeat(100) + &"</furnitureGroup>".repeat(100);
-    assert!(error("g.sh3d", home(&deep)).contains("groups lie too deep"));
+    assert!(error("g.sh3d", home(&deep)).contains("groups are nested too deep"));
 }
 
 #[test]

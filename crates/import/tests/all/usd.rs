@@ -269,7 +269,7 @@ fn the_first_sample_comes_before_the_value_without_time_of_the_same_layer() {
 fn circles_of_layers_and_endless_references_are_errors_that_name_them() {
     let folder = Folder::new();
     folder.write("s.usda", "#usda 1.0\n( subLayers = [@s.usda@] )\n");
-    assert!(folder.error("s.usda").contains("sublayers stand in a circle or too deep: s.usda → s.usda"));
+    assert!(folder.error("s.usda").contains("sublayers refer to each other in a circle, or are nested too deep: s.usda → s.usda"));
     // References that multiply: 2^40 prims of 80.
     let mut doubling = String::new();
     for i in 0..40 {

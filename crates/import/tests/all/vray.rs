@@ -97,7 +97,7 @@ fn of_a_scene_told_moment_by_moment_the_first_counts() {
     let imported = load_text(&folder, &["#time 0\n", TRIANGLE, NODE, GREY, UNITS, again].concat());
     assert_eq!(imported.scene.parts.len(), 1);
     let text = warnings(&imported);
-    assert!(text.matches("told moment by moment").count() == 1 && !text.contains("another plugin of this name"), "{text}");
+    assert!(text.matches("the scene is animated").count() == 1 && !text.contains("another plugin of this name"), "{text}");
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
     }
     let broken = library.broken();
     if config.allow_broken_assets {
-        broken.into_iter().for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; ours stands in") }));
+        broken.into_iter().for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; our own piece is used instead") }));
     } else if let Some(first) = broken.first() {
         return Err(refuse_broken(first));
     }
@@ -177,6 +177,6 @@ fn of_root(root: &Path, allow_broken: bool, notes: &Notes, cx: &dyn Cx) -> Resul
 }
 
 fn refuse_broken(message: &str) -> Error {
-    let hint = "repair or remove the file, write `use = false` for it in assets.toml, or set allow_broken_assets to go on without it";
+    let hint = "repair or remove the file, write `use = false` for it in assets.toml, or set allow_broken_assets to continue without it";
     Error::usage(message.to_string(), hint)
 }

@@ -214,7 +214,7 @@ impl Entry {
             if !classes.iter().any(|known| known.eq_ignore_ascii_case(class)) {
                 return Some(unknown("class", class, &classes));
             }
-            return Some((format!("no thing of class {class:?} stands that way"), "correct `stands`, or leave it out".into()));
+            return Some((format!("no thing of class {class:?} can be placed that way"), "correct `stands`, or leave it out".into()));
         }
         if let Some(size) = self.size.filter(|size| !size.iter().all(|v| v.is_finite() && *v > 0.0)) {
             return Some((format!("size is {size:?}"), "give width, depth and height in metres, each above zero".into()));
@@ -256,7 +256,7 @@ mod tests {
             ("[models.\"b.glb\"]\nfamily = \"sofa\"\n", "there is no such model", "a.glb"),
             ("[models.\"a.glb\"]\nsize = [1, 0, 1]\n", "size is [1.0, 0.0, 1.0]", "above zero"),
             ("[models.\"a.glb\"]\nweight = -1\n", "weight is -1", "use = false"),
-            ("[models.\"a.glb\"]\nclass = \"sofa\"\nstands = \"ceiling\"\n", "no thing of class \"sofa\" stands that way", "stands"),
+            ("[models.\"a.glb\"]\nclass = \"sofa\"\nstands = \"ceiling\"\n", "no thing of class \"sofa\" can be placed that way", "stands"),
             ("[models.\"a.glb\"]\ncolour = 3\n", "unknown field `colour`", "docs/homes.md"),
         ] {
             let error = read(text).unwrap_err();

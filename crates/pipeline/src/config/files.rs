@@ -26,7 +26,7 @@ pub(super) fn entries<'a>(
     expanded: &str,
     folder: &Path,
 ) -> Result<Vec<Entry<'a>>, (String, String)> {
-    let help = "`*` stands for any run of characters within a name and `?` for one; paths begin in the folder of the configuration";
+    let help = "`*` matches any characters within a name and `?` a single one; paths begin in the folder of the configuration";
     let found = matches(folder, expanded).map_err(|problem| (problem, help.to_string()))?;
     if found.is_empty() {
         let message = format!("no file is called {expanded:?} in {}", whole(folder).display());

@@ -108,7 +108,7 @@ impl Resolver<'_> {
             }
             (Some(files), _) => {
                 let help = "leave them out: each file that `files` means is a scene, named after its file";
-                Err(self.refuse(files, "`files` stands beside `name`, `file`, `home` or `count`", help))
+                Err(self.refuse(files, "`files` cannot be combined with `name`, `file`, `home` or `count`", help))
             }
         }
     }
@@ -121,7 +121,7 @@ impl Resolver<'_> {
             return Err(self.refuse(count, message, "for example: count = 100"));
         }
         if keys.home.is_none() {
-            return Err(self.refuse(count, "`count` stands without `home`", "only homes are generated: add home = {}, or leave it out"));
+            return Err(self.refuse(count, "`count` needs `home`", "only homes are generated: add home = {}, or leave it out"));
         }
         let digits = (homes - 1).to_string().len();
         let entry = |nth| {
@@ -394,7 +394,7 @@ impl Resolver<'_> {
         let folder = self.source.file.parent().unwrap_or(Path::new(""));
         let found = folder.join(self.expanded(path, place)?);
         if !found.is_file() {
-            let help = "check the path for a typing mistake; it begins in the folder of the configuration";
+            let help = "check the path for typing errors; it begins in the folder of the configuration";
             return Err(self.refuse(place, format!("there is no {what} {}", found.display()), help));
         }
         Ok(self.looked_at.borrow_mut().insert(found.clone()).then_some(found))

@@ -671,7 +671,7 @@ fn patterns_that_mean_nothing_or_stand_beside_a_name_are_refused_at_their_place(
     let message = error("[[scene]]\nfiles = \"hssd/scenes/*.glb\"\n");
     assert!(message.contains("there is \"hssd/scenes\", but nothing in it is called \"*.glb\"; "), "{message}");
     let message = error("[[scene]]\nname = \"a\"\nfiles = \"*.glb\"\n");
-    assert!(message.contains("dataset.toml:3:9: `files` stands beside `name`, `file`, `home` or `count`"), "{message}");
+    assert!(message.contains("dataset.toml:3:9: `files` cannot be combined with `name`, `file`, `home` or `count`"), "{message}");
     let message = error("[[scene]]\nfiles = \"hssd/scenes/*\"\n[[scene]]\nname = \"2\"\nfile = \"2.glb\"\n");
     assert!(message.contains("two scenes have the name \"2\""), "{message}");
     let message = error("[[scene]]\nfile = \"2.glb\"\n");
@@ -695,7 +695,7 @@ fn a_table_of_many_homes_numbers_them_and_their_seeds() {
     let text = wrong("count = 0\nhome = {}");
     assert!(text.contains("dataset.toml:3:9: count must lie between 1 and 100000, found 0"), "{text}");
     let text = wrong("count = 2\nfile = \"a.glb\"");
-    assert!(text.contains("dataset.toml:3:9: `count` stands without `home`"), "{text}");
+    assert!(text.contains("dataset.toml:3:9: `count` needs `home`"), "{text}");
     let text = error("[[scene]]\nname = \"a\"\ncount = 3\nhome = {}\n[[scene]]\nname = \"b\"\nhome = {}\nseed = 2\n");
     assert!(text.contains("the scenes \"a_2\" and \"b\" would be the same home"), "{text}");
 }

@@ -85,7 +85,7 @@ pub(super) fn lost(scene: &Scene) -> Option<String> {
     (!names.is_empty()).then(|| {
         format!(
             "what is called {}{more} lets no light through: many exporters leave out that glass does; if it is clear, panes = [{}] (or --panes \
-             \"{}\") makes panes of it, and \"*\" stands for any characters in names",
+             \"{}\") makes panes of it; \"*\" matches any characters in names",
             named.join(", "),
             named.join(", "),
             plain.join(",")

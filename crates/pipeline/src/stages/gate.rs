@@ -30,7 +30,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     forget(job)?;
     let (layout, name, config) = (job.dataset.layout(), &job.scene.name, &config(job)?);
     if *config != job.scene.gate {
-        let message = "a start camera stands in the open, so no view is rejected for what is open around it or has no depth".into();
+        let message = "a start camera is in the open, so no view is rejected for open surroundings or missing depth".into();
         cx.warn(Warning { place: "gates".into(), message });
     }
     let (scene, world) = (job.load_scene()?, job.load_world()?);
@@ -148,7 +148,7 @@ fn warn(trajectory: &Trajectory, views: &[Judged], cx: &StageCx) {
     let verb = match rejected {
         0 => "not worth rendering, but rendered",
         n if n == faulty.len() => "rejected and not rendered",
-        _ => "rejected and not rendered, but for that of the start camera",
+        _ => "rejected and not rendered, except the start camera's own",
     };
     let (n, all, why) = (faulty.len(), counted(views.len(), "view"), tally(views));
     let mut message = format!("{n} of {all} {verb}: {why} (frames {}{more})", named.join(", "));

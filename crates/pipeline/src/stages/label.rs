@@ -139,7 +139,7 @@ fn other_scene(job: &Job, files: &MeshFiles) -> Error {
         "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
         files.file(ANNOTATION_LOG).display()
     );
-    let mut hint = "import the scene as it was annotated, or move the log away to label anew".to_string();
+    let mut hint = "import the scene as it was annotated, or move the log away to label again".to_string();
     let (table, out, name) = (files.file("labels.csv"), quoted(job.out().display()), quoted(&job.scene.name));
     if table.is_file() {
         let command = format!("enfilade label {out} --scene {name} --table {}", quoted(table.display()));

@@ -96,7 +96,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 /// Sets the scene's row of the table that scenes share, and tells where what stood there could not be read.
 fn write_camera_row(job: &Job, camera: &Camera, cx: &StageCx) -> Result<(), Error> {
     if let Some(damage) = job.dataset.write_camera_parameters(&job.scene.name, camera).map_err(Error::stage)? {
-        let message = format!("{damage}; the table was begun anew, and the next `plan` or `run` of the other scenes adds their rows");
+        let message = format!("{damage}; the table was started again, and the next `plan` or `run` of the other scenes adds their rows");
         cx.warn(Warning { place: "table of cameras".into(), message });
     }
     Ok(())

@@ -32,7 +32,7 @@ pub(super) fn render(
         match rendering.restore(&bytes, key) {
             Ok(()) | Err(PartialError::OtherFrame) => {}
             Err(problem) => {
-                let message = format!("{problem}; the frame was begun anew");
+                let message = format!("{problem}; the frame was started again");
                 cx.warn(Warning { place: path.display().to_string(), message });
             }
         }

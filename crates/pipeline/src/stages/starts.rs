@@ -29,7 +29,7 @@ pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Resul
         match carve(&starts) {
             Err(ExploreError::StartInWall { .. }) if scene.cameras.contains(&starts[0]) => {
                 let instead = found(job, world, cx)?;
-                warn_of_replacement(&scene, "every camera of the file stands in a wall or an object", &instead, cx);
+                warn_of_replacement(&scene, "every camera of the file is inside a wall or an object", &instead, cx);
                 instead
             }
             space => return Ok((starts, space.map_err(Error::stage)?)),
@@ -49,7 +49,7 @@ fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<
     }
     if !inside.is_empty() {
         for camera in outside {
-            let message = format!("stands outside, and is left out; to begin there, choose it: cameras = [{:?}]", camera.name);
+            let message = format!("is outside and was left out; to begin there, select it: cameras = [{:?}]", camera.name);
             cx.warn(Warning { place: format!("camera {:?}", camera.name), message });
         }
         return Ok(inside);
@@ -58,7 +58,7 @@ fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<
     if places.is_empty() {
         return Ok(outside);
     }
-    warn_of_replacement(scene, "no camera of the file stands in a building", &places, cx);
+    warn_of_replacement(scene, "no camera of the file is in a building", &places, cx);
     Ok(places)
 }
 
@@ -80,7 +80,7 @@ fn starts_config(job: &Job) -> StartsConfig {
 fn found(job: &Job, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
     let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), cx);
     if found.is_empty() {
-        let message = "no place was found in the scene where a camera could stand";
+        let message = "no place for a camera was found in the scene";
         return Err(Error::scene(message, "say where to begin: cameras = [{ position = [x, y, z], look_at = [x, y, z] }] (metres, z up)"));
     }
     Ok(found)
@@ -98,7 +98,7 @@ fn chosen(scene: &Scene, index: usize, choice: &CameraChoice, size: [u32; 2]) ->
             let pose = Pose::look_at(0, position, look_at, DVec3::Z).filter(|p| p.world_from_camera.is_finite() && position.is_finite());
             let pose = pose.ok_or_else(|| {
                 let message = format!("camera {index}: it cannot look from {position} to {look_at}");
-                Error::scene(message, "the two points must differ, and not lie one above the other")
+                Error::scene(message, "the two points must differ, and one must not be straight above the other")
             })?;
             Ok(StartCamera {
                 name: format!("camera {index}"),

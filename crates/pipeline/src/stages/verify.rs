@@ -63,7 +63,7 @@ fn cause(job: &Job, report: &VerifyReport) -> Option<(String, String)> {
     }
     broken.contains(&Law::Worthwhile).then(|| {
         let page = job.dataset.layout().gates_page(&job.scene.name);
-        let cause = "most cameras stand in things, outside of the building or right before a wall, or the unit of the scene is another";
+        let cause = "most cameras are inside things, outside the building or right in front of a wall, or the unit of the scene is wrong";
         let remedy =
             "place the cameras elsewhere (cameras = \"found\" looks for places), or set other limits or action = \"report\" in [gate]";
         (cause.to_string(), format!("see {}; {remedy}", page.display()))

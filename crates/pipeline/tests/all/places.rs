@@ -65,7 +65,7 @@ fn a_thing_under_a_sky_is_carved_walked_around_and_rendered_with_a_warning() {
     assert!(summary.ok(), "{:?}", summary.scenes[0].failure);
     assert!(report(&dataset).start.unwrap().is_kept);
     assert_eq!(dataset.frame_numbers("s", "cam_00").unwrap(), [0, 1, 2], "no gate rejects views for being open");
-    assert!(warnings.contains("stands in the open"), "{warnings}");
+    assert!(warnings.contains("is in the open"), "{warnings}");
 }
 
 #[test]
@@ -99,9 +99,9 @@ fn a_file_whose_cameras_are_all_outside_begins_at_found_places_with_a_warning_un
     let made = |cameras: &str| made(folder.path(), ["room.xml", room], &format!("lamps = \"ceiling\"\n{cameras}"));
     let (dataset, found, warnings) = made("");
     assert!(found.ok(), "{:?}", found.scenes[0].failure);
-    assert!(warnings.contains("no camera of the file stands in a building"), "{warnings}");
+    assert!(warnings.contains("no camera of the file is in a building"), "{warnings}");
     assert_eq!(report(&dataset).start.unwrap().name, "start_00");
     let (_, chosen, warnings) = made("cameras = [\"bird\"]\n");
     assert!(chosen.ok(), "{:?}", chosen.scenes[0].failure);
-    assert!(warnings.contains("stands in the open"), "{warnings}");
+    assert!(warnings.contains("is in the open"), "{warnings}");
 }

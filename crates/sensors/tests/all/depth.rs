@@ -189,7 +189,7 @@ fn settings_out_of_their_domain_are_refused_by_name() {
         ("[[time_of_flight]]\nname = \"tof\"\nmixing = 1.5", ["\"tof\"", "mixing is 1.5, expected 0 to 1"]),
         ("[[time_of_flight]]\nname = \"tof\"\nnoise_m = [-1, 2]", ["\"tof\"", "noise_m is [-1, 2], expected at least 0"]),
         ("[[time_of_flight]]\nname = \"tof\"\nrange_m = [3, 1]", ["range_m is [3, 1]", "the nearer one first"]),
-        ("[[stereo]]\nname = \"s\"\nnoise_px = 1", ["baseline_m is 0", "expected how far apart"]),
+        ("[[stereo]]\nname = \"s\"\nnoise_px = 1", ["baseline_m is 0", "expected the distance of the two eyes"]),
         ("[[stereo]]\nname = \"s\"\nbaseline_m = 0.1\nwindow_px = 4", ["window_px is 4", "odd"]),
         ("[[time_of_flight]]\nname = \"tof\"\nnoise_m = 0.1\nglass = \"behind\"", ["goes without noise_m", "reflectance"]),
         ("[[stereo]]\nname = \"s\"\nrange_m = [0, inf]", ["range_m is [0, inf]", "expected two distances"]),

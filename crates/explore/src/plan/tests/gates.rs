@@ -236,7 +236,7 @@ fn an_open_start_is_taken_as_it_is_with_a_warning() {
     let (space, heard) = (carved(&room), Heard::default());
     let config = PlanConfig { frames: 2, max_void_share: 1.0, ..quick() };
     plan(&room.world, &room.bvh, &space, &start(), 0, &config, &heard).unwrap();
-    assert!(heard.lines().join("\n").contains("stands in the open"));
+    assert!(heard.lines().join("\n").contains("is in the open"));
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn of_axes(imported: &Imported, lying: &Lying) -> String {
     let axis = UpAxis::nearest(imported.axes.transpose() * lying.up).name();
     let how = if lying.up == DVec3::NEG_Z { "it seems to stand on its head" } else { "it seems to lie on its side" };
     let witness = |witness: &Witness| match witness {
-        Witness::Names => "what is called floor and ceiling lies so",
+        Witness::Names => "the surfaces named floor and ceiling are oriented so",
         Witness::Cameras => "the upper sides of its cameras point so",
         Witness::Surfaces => "its largest surfaces are as far apart that way as floor and ceiling are",
     };
