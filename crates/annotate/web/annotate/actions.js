@@ -63,7 +63,7 @@ export class Actions {
     /** Says that there is no class to give. @returns {null} */
     tellNoClass() {
         const { refused } = this.state;
-        toast(refused === null ? "There is no class to give." : `No class has the number ${refused}, so nothing was labelled.`, "Type another number, or click a class.");
+        toast(refused === null ? "No class is chosen." : `No class has the number ${refused}, so nothing was labelled.`, "Type another number, or click a class.");
         return null;
     }
 
@@ -207,7 +207,7 @@ export class Actions {
             if (piece !== null) this.state.set({ painting: { piece, faces: new Set(), erase: false } });
             return;
         }
-        if (painting.faces.size === 0) return toast("No face is painted.", "Drag over the faces that are to become a piece of their own, or press Escape.");
+        if (painting.faces.size === 0) return toast("No face is painted.", "Drag over the faces that will become a new piece, or press Escape.");
         const change = await this.edits.send({ type: "split", piece: painting.piece, by: { faces: [...painting.faces] } });
         if (!change) return;
         this.endPainting();
@@ -256,7 +256,7 @@ export class Actions {
             const one = this.unlabelled[(((place < 0 && by < 0 ? 0 : place) + by * i) % length + length) % length];
             if (this.isMissing(one.piece)) return this.looking.goToPiece(one.piece, one.best_view);
         }
-        const all = { semantic: "Every piece has a class.", instance: "Everything with a class has an instance.", done: "Nothing waits to be approved.", question: "No question is open." };
+        const all = { semantic: "Every piece has a class.", instance: "Everything with a class has an instance.", done: "Nothing is waiting for approval.", question: "No question is open." };
         toast(all[this.lacking], "", "good");
     }
 

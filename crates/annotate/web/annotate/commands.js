@@ -60,7 +60,7 @@ export function commands(act) {
     add("Selection", [
         ["assign", "Give the selection the current label", ["Enter"], () => act.assign()],
         ["thing", "New thing: class and new instance, then go to the next", ["Shift+Enter"], () => void act.makeThing()],
-        ["clear-label", "Take the label of this layer away", ["Delete", "Backspace"], () => act.clearLabel()],
+        ["clear-label", "Remove the label of this layer", ["Delete", "Backspace"], () => act.clearLabel()],
         ["confirm", "Confirm the suggestion for the selection", ["y"], () => act.confirmSelection()],
         ["reject", "Reject the suggestion for the selection", ["Shift+y"], () => act.withSelection((pieces) => state.reject(pieces))],
         ["same-name", "Select all with the same name", ["n"], () => act.sameName()],
@@ -85,7 +85,7 @@ export function commands(act) {
         ["isolate", "Isolate the selection", ["v"], () => (state.isolated ? looking.isolate([]) : act.withSelection((pieces) => looking.isolate(pieces)))],
         ["hide", "Hide the selection", ["h"], () => act.withSelection((pieces) => looking.hide(pieces))],
         ["show-all", "Show everything", ["Shift+h"], () => looking.showAll()],
-        ["real-look", "Things as they look, or their labels", ["Shift+r"], () => void act.realLook.toggle()],
+        ["real-look", "Real look or labels", ["Shift+r"], () => void act.realLook.toggle()],
         ["ceilings", "Hide ceilings", ["q"], () => looking.toggleCeilings()],
         ["whole-scene", "Whole scene", ["Home"], () => looking.wholeScene()],
         ["from-above", "Whole scene from above, without ceilings", ["End"], () => looking.fromAbove()],

@@ -32,7 +32,7 @@ export function piecesPanel(state, act) {
         instance: (piece) => state.pieces.instance[piece],
         area: (piece) => state.pieces.areas_m2[piece],
     });
-    const list = new PieceList("Pieces", "No piece has such a name.", {
+    const list = new PieceList("Pieces", "No piece has this name.", {
         row: (piece) => {
             const { semantic, instance, areas_m2 } = state.pieces;
             const area = areas_m2[piece];

@@ -57,7 +57,7 @@ export function unlabelledPanel(state, act, table) {
 /** What is said of the selection. @param {import("./state.js").State} state @param {Map<string, import("./commands.js").Command>} table */
 function reviewButtons(state, table) {
     const buttons = [["done", "Done"], ["approve", "Approve"], ["question", "Question"], ["to-do", "To do"]].map(([id, text]) => commandButton(state, table, id, text));
-    const row = el("div", { class: "review", role: "group", "aria-label": "How far the selection is" }, ...buttons);
+    const row = el("div", { class: "review", role: "group", "aria-label": "Review state of the selection" }, ...buttons);
     state.on(["selection"], () => {
         for (const button of buttons) button.disabled = state.selection.size === 0;
     });

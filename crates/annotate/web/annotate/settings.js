@@ -3,7 +3,7 @@
 import { el, spaced } from "../shared/dom.js";
 
 /** Faces that are drawn while the camera moves: the value, and its name. */
-const PACES = [["", "as many as flow"], ["50000", "50 000"], ["200000", "200 000"], ["1000000", "1 000 000"], ["Infinity", "all"]];
+const PACES = [["", "as many as run smoothly"], ["50000", "50 000"], ["200000", "200 000"], ["1000000", "1 000 000"], ["Infinity", "all"]];
 
 /**
  * The dialog, and what opens it.
@@ -38,7 +38,7 @@ export function settingsDialog(state, stage) {
         el("dt", {}, "Faces"), el("dd", { class: "number" }, spaced(faces)), el("dt", {}, "Vertices"), el("dd", { class: "number" }, spaced(vertices)),
         el("dt", {}, "Pieces"), pieces, el("dt", {}, "Size"), el("dd", { class: "number" }, `${size} m`), el("dt", {}, "Drawn by"), el("dd", {}, stage.graphics));
     const dialog = el("dialog", { class: "settings", "aria-label": "Camera and scene" }, el("h2", {}, "Camera and scene"), speed.row, near.row,
-        el("p", { class: "quiet" }, "What is nearer is neither drawn nor touched: so one looks into closed rooms."),
+        el("p", { class: "quiet" }, "Anything nearer is neither drawn nor changed, so you can look into closed rooms."),
         el("label", { class: "setting" }, el("span", {}, "Faces while moving"), pace), el("p", { class: "quiet" }, "At rest all faces are drawn."), facts, el("form", { method: "dialog" }, el("button", { autofocus: true }, "Close")));
     document.body.append(dialog);
     return () => {

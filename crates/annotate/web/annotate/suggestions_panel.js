@@ -72,7 +72,7 @@ export function suggestionsPanel(state, act) {
     }
     const propose = () => state.set({ proposed: new Set(all()) });
     slider.addEventListener("input", refresh);
-    const note = el("p", { class: "quiet words" }, state.scene.has_suggestions ? "Learned from names of parts and materials. Y confirms and Shift+Y rejects what is selected." : "No name of this scene is known, so there is nothing to suggest.");
+    const note = el("p", { class: "quiet words" }, state.scene.has_suggestions ? "Learned from names of parts and materials. Y confirms and Shift+Y rejects what is selected." : "The names of this scene are unknown, so there are no suggestions.");
     const panel = el("div", { class: "suggested" }, el("div", { class: "head" }, slider, threshold, confirm), list.element, note);
     panel.addEventListener("shown", () => {
         list.draw();

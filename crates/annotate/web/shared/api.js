@@ -23,7 +23,7 @@ async function request(path, options) {
         response = await fetch(path, options);
     } catch (error) {
         if (error instanceof DOMException && error.name === "AbortError") throw error;
-        throw new ApiError(0, "The server does not answer.", "Start it again; everything that was done is kept.");
+        throw new ApiError(0, "The server does not answer.", "Start it again; nothing that you did is lost.");
     }
     if (response.ok) return response;
     const said = await response.json().catch(() => ({}));

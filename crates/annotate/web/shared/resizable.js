@@ -18,7 +18,7 @@ export function resizable(panel, edge) {
     const root = document.documentElement;
     const [variable, store] = [`--${panel.id}-width`, `enfilade.width.${panel.id}`];
     const border = el("div", { class: `resizer ${edge}`, role: "separator", tabindex: "0", "aria-orientation": "vertical", "aria-controls": panel.id, "aria-label": "Width of the panel",
-        title: "Drag, or use the arrow keys; a double click takes the width back" });
+        title: "Drag, or use the arrow keys; a double click resets the width" });
     const width = () => panel.getBoundingClientRect().width;
     const most = () => Math.max(LEAST_PX, window.innerWidth * MOST_SHARE);
     const set = (/** @type {number} */ px) => {

@@ -77,7 +77,7 @@ function classesPart(session) {
     const { store } = session;
     const choose = (/** @type {number} */ id) => store.set({ class: store.state.class === id ? 0 : Math.max(0, id), instance: 0 });
     const row = (/** @type {[number, import("./areas.js").Area]} */ [id, area]) =>
-        el("tr", { "data-class": id, "data-key": `class-${id}`, tabIndex: 0, "aria-selected": String(store.state.class === id), title: "Show this class alone", onclick: () => choose(id),
+        el("tr", { "data-class": id, "data-key": `class-${id}`, tabIndex: 0, "aria-selected": String(store.state.class === id), title: "Show only this class", onclick: () => choose(id),
             onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && choose(id) }, el("td", {}, el("span", { class: "swatch", style: `background:${cssColor(session.looks.color("semantic", id))}` }), ` ${session.looks.className(id)}`),
             el("td", { class: "number" }, id > 0 ? String(id) : "–"), el("td", { class: "number" }, percent(area.pixels / all)));
     const whole = store.state.class ? el("button", { type: "button", "data-key": "all-classes", onclick: () => store.set({ class: 0 }) }, "Show all") : null;
