@@ -17,7 +17,7 @@ const SOFT_TOUCH_M: f32 = 0.02;
 const ENDS_M: f32 = 0.01;
 /// A gap up to which people say that something stands against a wall, metres.
 pub const AGAINST_M: f32 = 0.1;
-/// Rays from each side of a box: so many rows of so many.
+/// Rows of rays from each side of a box, and rays in each row.
 const GRID: usize = 5;
 /// Share of a box at each border that the rays leave out: corners are rounded, and backs are bent.
 const MARGIN: f64 = 0.1;

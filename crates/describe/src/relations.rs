@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// Share of the rays that meet a thing's main support from which on another thing carries it too.
 const ALSO: f64 = 0.2;
-/// A thing is in another that is met on so many of the six ways from its middle, down among them: on all but that out.
+/// Number of the six ways from a thing's middle, down among them, on which it meets another that it is in: on all but the way out.
 const IN_WAYS: usize = 5;
 /// Farthest that a thing in another may reach beyond its sides, seen from above, metres: what is draped over something is not in it.
 const WITHIN_M: f32 = 0.005;
@@ -77,7 +77,7 @@ fn near(bodies: &[Body], i: usize, reach_m: f64) -> impl Iterator<Item = (usize,
 }
 
 /// What carries each thing. What is no thing carries itself; then, round by round, what that carries in the most telling way; where this leads
-/// no farther, those go on that have the most telling of the other ways.
+/// no farther, those continue that have the most telling of the other ways.
 fn supports(bodies: &[Body]) -> Vec<Support> {
     let attempts = |i: usize| {
         let others: Vec<(usize, &Body)> = near(bodies, i, 0.03).collect();

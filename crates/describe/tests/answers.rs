@@ -162,7 +162,7 @@ fn every_answer_is_found_in_another_way_too() {
         *kinds.entry(&question.question_type).or_default() += 1;
         check(&told, question);
     }
-    // All kinds were asked, but for what a study does not have.
+    // All kinds were asked, except for what a study does not have.
     for kind in ["object_counting", "object_size_estimation", "room_size_estimation", "object_abs_distance", "object_rel_distance"] {
         assert!(kinds.contains_key(kind), "{kinds:?}");
     }

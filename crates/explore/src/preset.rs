@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 /// | score | by [`crate::Saliency`] | the same | distinct triangles, with emptiness as one of them, times the square of the share of surface |
 /// | views of little | sorted out | taken | taken |
 /// | no candidate | more samples, then smaller steps, then the least bad one | more samples, then an error | an error, where the program aborts |
-/// | random numbers | a stream for each trajectory | the same | Armadillo's, from the seed, for each trajectory anew |
+/// | random numbers | a stream for each trajectory | the same | Armadillo's, from the seed, for each trajectory again |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Preset {

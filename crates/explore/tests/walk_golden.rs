@@ -1,4 +1,4 @@
-//! Trajectories of preset `hypersim` against those that Hypersim's own program made. Skipped where its results are not at hand.
+//! Trajectories of preset `hypersim` against those that Hypersim's own program made. Skipped where its results are not available.
 
 #[allow(dead_code, reason = "each test uses a part of it")]
 #[path = "../examples/explore/room.rs"]

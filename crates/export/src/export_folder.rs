@@ -148,7 +148,7 @@ impl Drop for ExportFolder {
     }
 }
 
-/// True when something lies at `path` but for an empty folder.
+/// True when something lies at `path` except for an empty folder.
 fn is_taken(path: &Path) -> bool {
     match fs::read_dir(path) {
         Ok(mut entries) => entries.next().is_some(),

@@ -245,7 +245,7 @@ impl<'d> SelectedFrames<'d> {
         self.each_counted(&self.counted(views.len()), views, work)
     }
 
-    /// None of so many frames is done.
+    /// A counter of the given number of frames, none of them done.
     pub fn counted(&self, frames: usize) -> Counted<'d> {
         Counted::new(self.cx, "frames", frames)
     }

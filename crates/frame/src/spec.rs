@@ -223,10 +223,10 @@ pub const DENOISED: [(Layer, Layer); 3] = [
     (Layer::Color, Layer::ColorRendered),
 ];
 
-/// Layers whose sum is `color`, but for the rounding of each: by the light's way from the first surface to the camera.
+/// Layers whose sum is `color`, up to the rounding of each: by the light's way from the first surface to the camera.
 pub const SPLIT_BY_PATH: [Layer; 5] = [Layer::DiffuseDirect, Layer::DiffuseIndirect, Layer::Specular, Layer::Transmission, Layer::Emission];
 
-/// Layers whose sum is `color`, but for the rounding of each: by what the light comes from.
+/// Layers whose sum is `color`, up to the rounding of each: by what the light comes from.
 pub const SPLIT_BY_SOURCE: [Layer; 4] = [Layer::LightEnvironment, Layer::LightDistant, Layer::LightSurfaces, Layer::LightPoints];
 
 impl Layer {

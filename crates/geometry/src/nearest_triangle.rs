@@ -3,9 +3,9 @@
 use crate::nearest::nearest_point;
 use enfilade_math::{Bounds3, DVec3, Vec3};
 
-/// The distance between two surfaces is looked for from so many of the nearest points that are given.
+/// Number of the nearest given points from which the distance between two surfaces is searched.
 const STARTS: usize = 8;
-/// By so many steps there and back.
+/// Number of steps there and back.
 const STEPS: usize = 12;
 
 /// Triangles in a leaf.

@@ -108,7 +108,7 @@ impl Archive {
         Ok(bytes)
     }
 
-    /// The first bytes of the file of exactly this name, at most so many; none where it cannot be read.
+    /// The first bytes of the file of exactly this name, at most as many as given; none where it cannot be read.
     pub(crate) fn head(&self, name: &str, most: u64) -> Vec<u8> {
         self.start(name, most).unwrap_or_default()
     }

@@ -205,7 +205,7 @@ pub(crate) fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<()
     Err(ImportError::malformed(path, "whole file", problem))
 }
 
-/// Whether JSON may go on so within a list.
+/// Whether JSON may continue so within a list.
 fn is_json_value(rest: &str) -> bool {
     rest.starts_with(|c: char| matches!(c, '{' | '[' | '"' | ']' | '-') || c.is_ascii_digit())
         || ["true", "false", "null"].iter().any(|word| rest.starts_with(word))

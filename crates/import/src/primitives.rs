@@ -1,6 +1,6 @@
 //! Analytic shapes as meshes, as Mitsuba defines them. Texture coordinates have v downward here.
 //!
-//! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one, but for lamps.
+//! Round shapes are inscribed polygons of [`SEGMENTS`] sides: their area is 0.07 % below the true one, except for lamps.
 
 use crate::mesh::area;
 use enfilade_geometry::Mesh;

@@ -87,7 +87,7 @@ impl ImportReport {
         Self { format, counts: Counts::of(scene), offset_m: None, warnings }
     }
 
-    /// Counts anew what the scene contains, after somebody has changed it.
+    /// Counts again what the scene contains, after somebody has changed it.
     pub fn recount(&mut self, scene: &Scene) {
         self.counts = Counts::of(scene);
     }

@@ -107,7 +107,7 @@ impl Samples {
     /// The frame that sample `index` is.
     ///
     /// # Panics
-    /// When there are not so many.
+    /// When there are fewer.
     pub fn place(&self, index: usize) -> FrameName<'_> {
         let frame = &self.frames[index];
         let camera = &self.cameras[frame.camera];
@@ -121,7 +121,7 @@ impl Samples {
     /// rays it takes.
     ///
     /// # Panics
-    /// When there are not so many samples.
+    /// When there are fewer samples.
     pub fn sample(&self, index: usize, epoch: u64) -> Result<Sample, LoaderError> {
         let (FrameName { scene, camera, frame }, options) = (self.place(index), &self.options);
         // Decode the layers, or the part of them that the crop shows

@@ -38,7 +38,7 @@ struct State {
 }
 
 impl Stream {
-    /// Begins to decode the samples whose indices `order` lists, on so many threads; at most `ahead` samples are held in memory.
+    /// Begins to decode the samples whose indices `order` lists, on the given number of threads; at most `ahead` samples are held in memory.
     pub fn new(samples: Arc<Samples>, order: Vec<usize>, epoch: u64, threads: usize, ahead: usize) -> Self {
         let (state, changed) = Default::default();
         let work = Arc::new(Work { samples, order, epoch, ahead: ahead.max(1), state, changed });

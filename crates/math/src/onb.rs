@@ -24,7 +24,7 @@ pub struct Onb {
 }
 
 impl Onb {
-    /// A basis whose z axis is the unit vector `z`; continuous but for one direction.
+    /// A basis whose z axis is the unit vector `z`; continuous except for one direction.
     ///
     /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
     #[inline]

@@ -61,7 +61,7 @@ impl NaturalSpline {
         self.knots.partition_point(|knot| *knot <= t).clamp(1, self.knots.len() - 1) - 1
     }
 
-    /// The curve at `t`; before the first knot and after the last the stretch beside them goes on.
+    /// The curve at `t`; before the first knot and after the last the stretch beside them continues.
     pub fn at(&self, t: f64) -> DVec3 {
         let n = self.points.len();
         if n == 1 {

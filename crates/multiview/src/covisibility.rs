@@ -3,7 +3,7 @@
 //! A grid of each frame's pixels is carried into every other frame by stored distance, camera and pose. A point that falls outside of the
 //! image is not seen. One before which none of the four pixels around it shows anything is seen. Of all others a ray through the scene
 //! tells whether it is hidden; where the scene is not there, it counts as hidden when the four pixels show something clearly nearer. So
-//! the shares are those of `flow_visibility`, but for what is finer than the pixels of the frame that looks.
+//! the shares are those of `flow_visibility`, except for what is finer than the pixels of the frame that looks.
 
 use crate::surroundings::{Around, Surroundings};
 use crate::{Filmed, MultiviewError, ScenePackage};
@@ -15,7 +15,7 @@ use enfilade_scene::{Counted, Cx};
 /// How covisibility is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CovisibilityConfig {
-    /// About so many pixels of each frame are carried into the others, evenly over the image; at least 1. A share of one half is known to
+    /// Approximate number of pixels of each frame that are projected into the others, evenly over the image; at least 1. A share of one half is known to
     /// 0.009 (one standard error) with 3000.
     pub grid_pixels: u32,
 }

@@ -1,6 +1,6 @@
 //! Maps over many items on rayon's threads.
 //!
-//! Rayon's own iterators are compiled anew for every closure, some ten thousand lines of intermediate code each, which was two fifths of what
+//! Rayon's own iterators are compiled again for every closure, some ten thousand lines of intermediate code each, which was two fifths of what
 //! the compiler made of the planner. Here items are cut into pieces, what hands pieces to threads is compiled once, and only the loop over
 //! a piece is made for a closure, so that items cost no more. Values come in the order of the items, whatever the number of threads.
 //!

@@ -54,7 +54,7 @@ impl Integrator<'_, '_> {
             illumination += self.add_scattered(&mut sample, &weight, &arriving, crosses);
         }
 
-        // Sample the direction in which the path goes on. The first surface always has one: Russian roulette begins after it.
+        // Sample the direction in which the path continues. The first surface always has one: Russian roulette begins after it.
         let u = sampler.set(bsdf_set(0));
         if let Some((weight, mut next)) = vertex.scatter([u[0], u[1], u[2]], &segment) {
             next.window = self.window(&vertex.surface, &next);

@@ -14,12 +14,12 @@ use crate::texture::Cone;
 use crate::vertex::{Medium, Segment, Vertex, sides_agree};
 use enfilade_math::{Ray, Rgb, Rng, Sampler, Vec3, hash_u64};
 
-/// A path goes on with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
+/// A path continues with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
 /// Factor of the throughput alone in that probability, where nothing is known of the light, and for the light that mirrors and glass find.
 const UNKNOWN_GAIN: f32 = 12.0;
-/// Bounds of the probability that a path goes on; the second one where nothing is known of the light.
+/// Bounds of the probability that a path continues; the second one where nothing is known of the light.
 const MIN_SURVIVAL: f32 = 0.2;
 const MIN_SURVIVAL_UNKNOWN: f32 = 0.05;
 const MAX_SURVIVAL: f32 = 0.95;
@@ -84,7 +84,7 @@ impl<'a, 's> Integrator<'a, 's> {
         Origin { kind: LightKind::Surfaces, fixture: self.fixture(|| self.scene.told_apart().of_part(part())) }
     }
 
-    /// The farthest window along a path that goes on as `next` from a `surface`, since its direction last changed.
+    /// The farthest window along a path that continues as `next` from a `surface`, since its direction last changed.
     #[inline]
     pub fn window(&self, surface: &Surface<'s>, next: &Segment) -> Option<u16> {
         if !(self.config.fixtures && next.straight) {
@@ -146,7 +146,7 @@ impl<'a, 's> Integrator<'a, 's> {
         }
     }
 
-    /// Where a segment goes on as light samples reach through panes, thin or solid, and what comes through.
+    /// Where a segment continues as light samples reach through panes, thin or solid, and what comes through.
     fn straight_on(&self, segment: &Segment, surface: &Surface<'s>) -> Option<(Rgb, Segment)> {
         if let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) {
             let ray = surface.ray(segment.ray.direction);
@@ -156,7 +156,7 @@ impl<'a, 's> Integrator<'a, 's> {
         (next.straight || next.inside.is_some()).then_some((passed, next))
     }
 
-    /// Where a path goes on, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None`
+    /// Where a path continues, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None`
     /// where it ends. Two arguments concern Russian roulette alone: `so_far`, the throughput to the camera ([`roulette_throughput`]), and
     /// `expected`, the luminance that the first surface is expected to reflect of the light that sampled directions find there (0: unknown).
     #[inline]

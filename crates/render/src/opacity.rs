@@ -12,7 +12,7 @@ use std::cell::RefCell;
 
 /// What a camera ray shows.
 pub(crate) struct Seen {
-    /// Where its path goes on; `None` where it shows the background.
+    /// Where its path continues; `None` where it shows the background.
     pub hit: Option<Hit>,
     /// The expected value of the diffuse reflectance there, which is zero for the background; `None` where there is nothing to draw.
     pub reflectance: Option<Rgb>,

@@ -1,4 +1,4 @@
-//! A frame in the making as bytes, so that it can go on in another process.
+//! A frame in the making as bytes, so that it can continue in another process.
 //!
 //! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
 //! where light is split, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is
@@ -13,7 +13,7 @@ const VERSION: u32 = 4;
 /// Words before the key.
 const HEADER: usize = 7;
 
-/// Why a frame cannot go on from bytes.
+/// Why a frame cannot continue from bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PartialError {
     /// Another kind of file, or written by another version.

@@ -77,7 +77,7 @@ pub fn render_frame(
 /// rendering.pass(&Quiet);
 /// assert_eq!(rendering.samples(), 16.0);
 ///
-/// // The key names everything that the frame depends on. A frame that goes on from the saved bytes ends as if it had not been interrupted.
+/// // The key names everything that the frame depends on. A frame that continues from the saved bytes ends as if it had not been interrupted.
 /// let saved = rendering.save(b"scene, view and settings");
 /// let mut resumed = FrameRender::new(&prepared, &guide, &view, &config)?;
 /// resumed.restore(&saved, b"scene, view and settings")?;
@@ -226,7 +226,7 @@ impl<'a, 's> FrameRender<'a, 's> {
             self.settle(wanted);
         }
 
-        // When these are taken and the noise is still above its target, go on.
+        // When these are taken and the noise is still above its target, continue.
         if self.is_done()
             && schedule.first_passes < schedule.passes
             && let Some(wanted) = self.more()

@@ -215,7 +215,7 @@ pub(crate) fn shadow_ray(origin: Vec3, wi: Vec3, target: Option<Vec3>) -> Ray {
     }
 }
 
-/// Unit normals of corners that differ by no more are the same but for rounding.
+/// Unit normals of corners that differ by no more are the same up to rounding.
 const EVEN: f32 = 1e-5;
 
 /// Viewing cosines are never smaller, so that nothing divides by zero at the horizon.

@@ -1,4 +1,4 @@
-//! The vertices of a path and the segments between them: where a path goes on, and with which density.
+//! The vertices of a path and the segments between them: where a path continues, and with which density.
 //!
 //! Directions are sampled from a mixture of the BSDF and, on diffuse surfaces, of what the guide has learned of the light there (Müller,
 //! Gross & Novák 2017, "Practical Path Guiding", mix them in the same way).
@@ -27,7 +27,7 @@ pub(crate) struct Segment {
     pub crossed: bool,
     /// True when that was a pane, which leaves the direction as it was; the last border of a solid one counts too.
     pub straight: bool,
-    /// True when it goes on beside the line on which it was sampled, since it has gone through solid panes.
+    /// True when it continues beside the line on which it was sampled, since it has gone through solid panes.
     pub shifted: bool,
     /// The way into the body that it is in, as long as it may leave it as through a pane.
     pub inside: Option<Inside>,
@@ -150,7 +150,7 @@ impl Segment {
         }
     }
 
-    /// The unit direction from where it was sampled to the place `p` at its end: its own, but for the shift by solid panes.
+    /// The unit direction from where it was sampled to the place `p` at its end: its own, except for the shift by solid panes.
     #[inline]
     pub fn direction_to(&self, p: Vec3) -> Vec3 {
         match &self.sampled {

@@ -1,4 +1,4 @@
-//! Random walks to the surfaces that matter for a view: they start at its camera and go on by sampling BSDFs. What steers the samples of a
+//! Random walks to the surfaces that matter for a view: they start at its camera and continue by sampling BSDFs. What steers the samples of a
 //! rendering is learned at the surfaces that they visit.
 
 use crate::bsdf::Bsdf;

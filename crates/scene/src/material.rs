@@ -290,7 +290,7 @@ pub struct Principled {
 }
 
 impl Default for Principled {
-    /// glTF's defaults, but for a dielectric instead of a metal.
+    /// glTF's defaults, except for a dielectric instead of a metal.
     fn default() -> Self {
         Self {
             base_color: Rgb::WHITE.into(),

@@ -49,7 +49,7 @@ pub enum Wrap {
     /// The image repeats.
     #[default]
     Repeat,
-    /// The border texel goes on.
+    /// The border texel continues.
     Clamp,
     /// The image repeats mirrored.
     Mirror,

@@ -45,7 +45,7 @@ pub struct CameraSensor {
     /// 90th percentile of brightness, and `linear` values are as they are.
     #[serde(default)]
     pub exposure: Option<Amount>,
-    /// Exposure is changed by so many stops: factors of two.
+    /// Change of the exposure in stops: factors of two.
     #[serde(default = "Amount::nothing")]
     pub stops: Amount,
     /// How much of the fall-off of light with the fourth power of the cosine to the optical axis is left, 0 to 1.
@@ -60,7 +60,7 @@ pub struct CameraSensor {
     /// Standard deviation of what the sensor's electronics add, electrons.
     #[serde(default = "Amount::nothing")]
     pub read_noise_electrons: Amount,
-    /// The sensor's values are whole numbers of so many bits.
+    /// Number of bits of the sensor's values.
     #[serde(default)]
     pub adc_bits: Option<u8>,
     /// Every pixel of the sensor sees one colour, and the others are interpolated between its neighbours.

@@ -143,7 +143,7 @@ impl Surfaces<'_> {
         let (column, row) = (x as usize, y as usize);
         let pixel = row * width + column;
         let nearest = self.point(pixel)?;
-        // Beside the pixel and above or below it: on the beam's side of its centre, if the part goes on there.
+        // Beside the pixel and above or below it: on the beam's side of its centre, if the part continues there.
         let beside = |at: usize, fraction: f64, side: usize| {
             let (before, after) = (at.checked_sub(1), Some(at + 1).filter(|&at| at < side));
             if fraction < 0.5 { [before, after] } else { [after, before] }

@@ -126,7 +126,7 @@ impl TimeOfFlight {
     }
 }
 
-/// Distances and signals where every pixel, but for what would lie beyond the border, gets the share `mixing` of its light from its
+/// Distances and signals where every pixel, except for what would lie beyond the border, gets the share `mixing` of its light from its
 /// neighbours: two parts from each of the four beside it to one from those at its corners.
 fn mixed([width, height]: [usize; 2], distances_m: &[f32], signals: &[f64], mixing: f64) -> (Vec<f32>, Vec<f64>) {
     let mixed = |i: usize| {

@@ -63,7 +63,7 @@ const fn one() -> u32 {
 /// What the second eye is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SecondEye {
-    /// A projector, which lights everything that the camera sees but for shadows.
+    /// A projector, which lights everything that the camera sees except for shadows.
     Projector,
     /// A camera of the first one's field of view; what lies outside of it has no match.
     Camera,
@@ -157,7 +157,7 @@ impl Triangulation {
         Ok(Reading { drawn, data: Data::Layer(Layer::DepthZMeters, Values::F32(depths)) })
     }
 
-    /// Planar depth of the surfaces that are there, seen or not, metres: what is stored, but for what is behind glass.
+    /// Planar depth of the surfaces that are there, seen or not, metres: what is stored, except for what is behind glass.
     fn depths_m(&self, subject: &Subject<'_>) -> Result<Vec<f32>, SensorError> {
         let distances = self.optics().distances_m(&self.name, subject)?;
         let (stored, first) = (subject.floats(&self.name, Layer::DepthZMeters)?, subject.floats(&self.name, Layer::DepthMeters)?);

@@ -2,7 +2,7 @@
 //!
 //! Hypersim's tone map cuts every channel off at white, so that sunlit floors lose their texture and lamps change their hue, and keeps the
 //! colour of the light, which eyes and cameras take back. Here the highlights are compressed by Khronos' PBR Neutral tone mapper
-//! (2024, "Khronos PBR Neutral Tone Mapper", constants as published), which leaves what is darker as it is, but for the 4 % that it
+//! (2024, "Khronos PBR Neutral Tone Mapper", constants as published), which leaves what is darker as it is, except for the 4 % that it
 //! takes for reflections. Then comes the same gamma.
 
 use enfilade_frame::tonemap::{BLACK, ToneMap, encode};

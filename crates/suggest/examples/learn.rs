@@ -1,4 +1,4 @@
-//! Learns the tables of `data/` anew: `cargo run --release -p enfilade-suggest --example learn -- object_names_nyu40.csv... -o crates/suggest/data`
+//! Learns the tables of `data/` again: `cargo run --release -p enfilade-suggest --example learn -- object_names_nyu40.csv... -o crates/suggest/data`
 //!
 //! Each input is a CSV with the columns scene, `object_name`, `nyu40_id` and `instance_id`. The same inputs give the same bytes.
 

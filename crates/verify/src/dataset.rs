@@ -416,7 +416,7 @@ mod tests {
         (report.failures().map(|law| law.law).collect(), report.to_text())
     }
 
-    /// Writes the manifest anew, so that it agrees with what was changed on purpose.
+    /// Writes the manifest again, so that it agrees with what was changed on purpose.
     fn refresh(dataset: &Dataset) {
         dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
     }

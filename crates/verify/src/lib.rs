@@ -2,7 +2,7 @@
 //!
 //! [`LAWS`] states them. A [`Card`] collects the worst value of each; a [`VerifyReport`] is its outcome, for machines and
 //! people, together with what the [gates](frame_gates) measured of each frame and how well neighbouring frames agree. Every law is
-//! computed here anew from the stored values, in double precision, with nothing taken from the renderer.
+//! computed here again from the stored values, in double precision, with nothing taken from the renderer.
 
 mod boxes;
 mod camera_files;

@@ -84,7 +84,7 @@ pub struct GateResult {
 }
 
 impl VerifyReport {
-    /// The report of a card over so many scenes, with the values of all frames and pairs.
+    /// The report of a card over this number of scenes, with the values of all frames and pairs.
     pub(super) fn new(card: &Card, scenes: usize, frame_values: Vec<FrameValues>, pairs: Vec<PairValues>, excused: Vec<Excused>) -> Self {
         let laws: Vec<LawResult> = LAWS.iter().filter_map(|spec| Some(LawResult::new(spec.law, card.finding(spec.law)?))).collect();
         let gates: Vec<GateResult> = GATES.iter().filter_map(|spec| GateResult::new(spec.gate, &frame_values)).collect();

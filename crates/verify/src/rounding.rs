@@ -10,9 +10,9 @@ use enfilade_math::DVec3;
 /// How the distances and positions of a frame were rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rounding {
-    /// Distances are float16.
+    /// True where distances are float16.
     pub distance: bool,
-    /// Positions are float16, in units of so many metres.
+    /// Metres in the unit of positions where these are float16; `None` where they are not.
     pub position: Option<f64>,
 }
 

@@ -94,7 +94,7 @@ impl PairValues {
 }
 
 impl Compared {
-    /// Share of the pixels that disagree, but for the few that things between the samples explain.
+    /// Share of the pixels that disagree, except for the few that things between the samples explain.
     fn share(self) -> f64 {
         self.disagree.saturating_sub(BETWEEN_SAMPLES) as f64 / self.pixels.max(1) as f64
     }

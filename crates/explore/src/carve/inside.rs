@@ -71,7 +71,7 @@ pub(super) struct Inside(BTreeMap<Cube, u64>);
 impl Inside {
     /// Floods the free space from `starts`; `None` when none of them is inside.
     pub(super) fn find(grid: &VoxelGrid, enclosure: &Enclosure, starts: &[DVec3]) -> Option<Self> {
-        // Flood from the starts, cube by cube. A cube is judged by one point in it; the flood goes on from those that are enclosed.
+        // Flood from the starts, cube by cube. A cube is judged by one point in it; the flood continues from those that are enclosed.
         let mut judged: BTreeMap<Cube, bool> = BTreeMap::new();
         let mut wave: Vec<Cube> = starts.iter().map(|start| grid.cube_at(*start)).filter(|cube| grid.free_in(*cube) != 0).collect();
         while !wave.is_empty() {

@@ -74,7 +74,7 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
             }
         };
 
-        // Cast all rays, and go on from somewhere in what they freed.
+        // Cast all rays, and continue from somewhere in what they freed.
         for iteration in 0..config.iterations {
             scene.carve_from(position)?;
             report.positions.push(position);

@@ -39,7 +39,7 @@ fn may_be_kept(rules: &Rules, start: &StartCamera) -> bool {
 }
 
 /// The start camera's pose. Its target lies on the optical axis, as far as free space reaches before the first surface. When there is no
-/// such point, the one nearest to the image centre stands in, from which the targets of a walk go on.
+/// such point, the one nearest to the image centre stands in, from which the targets of a walk continue.
 fn kept(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
     let (position, axes) = (start.position, start.world_from_camera);
     let pose = |look_at| Pose { frame: 0, position, look_at, world_from_camera: axes };

@@ -51,7 +51,7 @@ pub use report::{
 ///
 /// # Errors
 /// A configuration out of its domain, a start camera with no clear position near it or nothing to look at, or a mode that finds no
-/// way to go on. Poses made by hand are not planned: [`follow`] is for them.
+/// way to continue. Poses made by hand are not planned: [`follow`] is for them.
 pub fn plan(
     world: &WorldMesh,
     bvh: &Bvh,

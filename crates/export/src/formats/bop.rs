@@ -239,7 +239,7 @@ fn visible_area(frame: &Frame, instance: &Instance) -> PixelArea {
     PixelArea { pixels: instance.pixels.len() as u64, bounds: [x_min, y_min, x_max + 1, y_max + 1] }
 }
 
-/// The whole of an instance that the frame shows; the visible part where no more is known of this frame. Labels that were made anew since
+/// The whole of an instance that the frame shows; the visible part where no more is known of this frame. Labels that were made again since
 /// are noticed by what is visible.
 fn whole(
     selected: &SelectedFrames<'_>,

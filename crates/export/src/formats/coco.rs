@@ -128,7 +128,7 @@ fn categories_of(selected: &SelectedFrames<'_>, scene: &str) -> Result<Vec<Categ
     Ok(classes.list().iter().map(category).collect())
 }
 
-/// The frame's picture, and what the file says of it but for the ids.
+/// The frame's picture, and what the file says of it except the ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,
@@ -142,7 +142,7 @@ fn write_frame(
     Ok((image, instances(&frame).into_iter().filter_map(classed).collect()))
 }
 
-/// Writes a frame's picture; what the file says of it but for the id.
+/// Writes a frame's picture; what the file says of it except the id.
 pub(super) fn write_image(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>, frame: &Frame) -> Result<Image, ExportError> {
     let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
     out.write(&format!("images/{name}"), &color_jpeg(selected, view, frame)?)?;

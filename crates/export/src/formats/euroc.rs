@@ -3,7 +3,7 @@
 //!
 //! Times are nanoseconds, and frame 0 is at [`START_S`]: 19 digits as in EuRoC's own files, so that names in order of text are in order of time
 //! and programs that cut off the last nine digits find seconds before them. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
-//! identity, but for cameras with a tilted image plane, which are turned. The world is that of the dataset, z up.
+//! identity, except for cameras with a tilted image plane, which are turned. The world is that of the dataset, z up.
 
 use crate::ExportError;
 use crate::calibration::Calibration;

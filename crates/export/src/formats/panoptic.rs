@@ -104,7 +104,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     out.write("annotations/panoptic.json", text.as_bytes())
 }
 
-/// The frame's picture and segments, and what the file says of them but for the ids.
+/// The frame's picture and segments, and what the file says of them except the ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,

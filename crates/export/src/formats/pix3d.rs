@@ -163,7 +163,7 @@ fn instance_views(selected: &SelectedFrames<'_>, track: &Track) -> Result<BTreeM
     }
 }
 
-/// The frame's picture and masks, and what the file says of it but for the ids.
+/// The frame's picture and masks, and what the file says of it except the ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,

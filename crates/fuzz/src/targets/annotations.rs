@@ -113,7 +113,7 @@ impl Asked {
         Some(self.runtime.block_on(self.router.clone().oneshot(request)).unwrap_or_else(|never| match never {}))
     }
 
-    /// Forgets what was done, so that the next one begins anew.
+    /// Forgets what was done, so that the next one begins again.
     fn close(&mut self) {
         self.router = Router::new();
         drop(std::fs::remove_dir_all(&self.labels));

@@ -1,4 +1,4 @@
-//! Frames in the making, from which a run goes on.
+//! Frames in the making, from which a run continues.
 
 use crate::{Run, Seed, seeds};
 use enfilade_math::{DVec3, hash_u64};

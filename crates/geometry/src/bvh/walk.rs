@@ -116,7 +116,7 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 W::retain(&mut stack, best.t);
             }
         } else {
-            // An inner node: test its boxes, go on with the nearest child (or, where any hit will do, the most promising), keep the others.
+            // An inner node: test its boxes, continue with the nearest child (or, where any hit will do, the most promising), keep the others.
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             if let Some(next) = stack.last() {

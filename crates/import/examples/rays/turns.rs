@@ -130,7 +130,7 @@ fn differences(row: &Row) -> String {
     row.engines[1..].iter().map(other).collect()
 }
 
-/// Checks that the engines found the same, but for single rays along edges, which may go on to something far away.
+/// Checks that the engines found the same, except for single rays along edges, which may go on to something far away.
 fn agree(room: &str, row: &Row) -> Result<(), Failure> {
     const ODD_RAYS: f64 = 1e-4;
     const ODD_SUM: f64 = 1e-3;

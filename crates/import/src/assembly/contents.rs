@@ -12,7 +12,7 @@ use std::path::Path;
 /// Below this ratio of a placement's determinant to the product of its axes' lengths, it flattens what it places.
 const SINGULAR: f64 = 1e-12;
 
-/// Objects lie in at most so many others: more tell nobody anything.
+/// Greatest depth of nested objects: more levels carry no information.
 const MAX_DEPTH: u8 = 64;
 
 impl Assembly<'_> {

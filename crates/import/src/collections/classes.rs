@@ -63,7 +63,7 @@ mod tests {
         }
     }
 
-    /// Where the word list knows a category as one phrase, both say the same, but for what Matterport3D's own table says otherwise.
+    /// Where the word list knows a category as one phrase, both say the same, except for what Matterport3D's own table says otherwise.
     #[test]
     fn classes_are_those_of_the_word_list() {
         let known: HashMap<Vec<String>, i16> = Lexicon::builtin().unwrap().entries().into_iter().collect();

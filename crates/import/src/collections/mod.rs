@@ -1,6 +1,6 @@
 //! Scenes of published collections, in the layouts that they are published in, with their models, categories and instances.
 //!
-//! None of the collections was at hand: everything here was made from public descriptions and from the code that reads them, which the
+//! None of the collections was available: everything here was made from public descriptions and from the code that reads them, which the
 //! module of each layout names, and tested with small files in the same layouts.
 //!
 //! | layout | what is given |

@@ -18,12 +18,12 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// The most bytes that so many packed bytes may become now.
+    /// The most bytes that this number of packed bytes may become now.
     pub(super) fn most(&self, packed: usize) -> u64 {
         RATIO * packed as u64 + self.shared_left
     }
 
-    /// Counts data that unpack to so many bytes.
+    /// Counts data that unpack to this number of bytes.
     ///
     /// # Errors
     /// When that is too much to be believed, as the rest of a sentence.

@@ -13,7 +13,7 @@ pub(super) const PADDING: u64 = 3;
 pub(super) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
-    /// Reads the buffers of a file, but for those that only stand in for packed data, as these may be placeholders. `binary` is the binary
+    /// Reads the buffers of a file, except for those that only stand in for packed data, as these may be placeholders. `binary` is the binary
     /// chunk of a `.glb`.
     ///
     /// # Errors

@@ -78,7 +78,7 @@ pub(super) struct Converter<'c, 'a> {
 }
 
 impl Converter<'_, '_> {
-    /// The material, but for its index and its coordinate set.
+    /// The material, except for its index and its coordinate set.
     pub(super) fn material(&mut self, name: String, json: &Json) -> Result<FileMaterial, ImportError> {
         let pbr = &json.pbr_metallic_roughness;
         let gloss = json.extensions.as_ref().and_then(|e| e.pbr_specular_glossiness.as_ref());

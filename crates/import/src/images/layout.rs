@@ -29,7 +29,7 @@ pub(super) enum Layout {
         signed: bool,
     },
     Bc7,
-    /// Whole numbers of so many bytes, of which masks cut out red, green, blue and alpha.
+    /// Whole numbers of `bytes` bytes, from which masks cut out red, green, blue and alpha.
     Masked {
         bytes: usize,
         masks: [u32; 4],
@@ -158,7 +158,7 @@ fn of_16_bits(texel: &[u8]) -> [u8; 4] {
     [first, channel(1).unwrap_or(first), channel(2).unwrap_or(first), channel(3).unwrap_or(255)]
 }
 
-/// Colours of so many channels a texel: of one it is grey, and a fourth is left out.
+/// Colours with this number of channels a texel: one is grey, and a fourth is left out.
 fn rgb(values: impl Iterator<Item = f32>, channels: usize) -> Vec<[f32; 3]> {
     let values: Vec<f32> = values.collect();
     values.chunks_exact(channels).map(|t| if channels < 3 { [t[0]; 3] } else { [t[0], t[1], t[2]] }).collect()

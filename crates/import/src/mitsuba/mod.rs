@@ -11,7 +11,7 @@
 //! | spectra | `rgb`, `srgb`, `spectrum` (one value, wavelengths, a file, or of the type `blackbody`, `d65`, `uniform`, `regular`, `irregular`), `blackbody`, `float`; metals and substances by name |
 //! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
-//! | skipped in silence | integrators, samplers, films (but for their size), reconstruction filters: they are no part of the scene |
+//! | skipped in silence | integrators, samplers, films (except for their size), reconstruction filters: they are no part of the scene |
 //! | dropped with a warning | media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, colours of vertices that no `mesh_attribute` asks for, whatever else has no counterpart |
 //!
 //! # Sides

@@ -14,8 +14,8 @@
 //! | spectra | `rgb`, `color`, `xyz`, `blackbody`, wavelengths, `.spd` files; metals, glasses and illuminants by name |
 //! | lights | `point`, `spot`, `distant`, `infinite` (maps of both layouts), `diffuse` area lights; `power`, `illuminance`, `scale`, `twosided` |
 //! | cameras | `perspective`, as a pinhole |
-//! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` but for its size: they say how to render, not what |
-//! | dropped with a warning | media (but for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (points stand in), portals, colour spaces other than sRGB, sensors and exposure |
+//! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` except for its size: they say how to render, not what |
+//! | dropped with a warning | media (except for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (points stand in), portals, colour spaces other than sRGB, sensors and exposure |
 //!
 //! The crates that read pbrt's text know one version each (`pbrt4` 0.2 the fourth, `rs_pbrt`, a renderer, the third), keep no place for
 //! messages and say nothing about what a scene means, which is most of the work; so the reading is our own.

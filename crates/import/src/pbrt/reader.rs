@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         self.a.warn(place.text(), message);
     }
 
-    /// Warns of the parameters that nothing asked for, but for those in `silent`.
+    /// Warns of the parameters that nothing asked for, except for those in `silent`.
     pub(super) fn report_unused(&mut self, params: &Params, silent: &[&str]) {
         let names: Vec<String> = params.unused().map(|p| p.name.clone()).filter(|n| !silent.contains(&n.as_str())).collect();
         if !names.is_empty() {

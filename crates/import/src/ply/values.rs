@@ -4,7 +4,7 @@ use super::header::{Element, Encoding, Header, Kind, Problem};
 
 /// The numbers of the body, one after the other.
 ///
-/// In text files a row is a line. One that goes on in the next line is read, as many programs do, but a row that does not end where its
+/// In text files a row is a line. One that continues in the next line is read, as many programs do, but a row that does not end where its
 /// line does is refused: its file and its header disagree, and all rows behind it would shift.
 pub(super) struct Values<'b> {
     encoding: Encoding,

@@ -1,7 +1,7 @@
 //! Homes (`.sh3d`) and furniture libraries (`.sh3f`, or `.zip`) of Sweet Home 3D.
 //!
 //! Both are archives, read in memory. A home is described by its `Home.xml`, which versions from 5.3 on write; the older form, Java
-//! objects, is an error that says to save the home anew. Lengths are centimetres, which [`crate::ImportOptions::meters_per_unit`]
+//! objects, is an error that says to save the home again. Lengths are centimetres, which [`crate::ImportOptions::meters_per_unit`]
 //! multiplies; the plan's x is the world's x, and the plan's y, which runs down the plan, the world's −y.
 //!
 //! | element | what becomes of it |

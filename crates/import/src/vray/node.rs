@@ -36,7 +36,7 @@ impl<'n> Reader<'n, '_> {
         let channel = materials.iter().find_map(|(_, made)| made.channel).unwrap_or(1);
         let object = self.a.push_object(&node.name(), None);
         for (id, mesh) in self.geometry(geometry, channel, by_id)? {
-            // Ids beyond the list begin it anew, as in 3ds Max.
+            // Ids beyond the list begin it again, as in 3ds Max.
             let found = materials.iter().find(|(own, _)| *own == id || !by_id);
             let found = found.or_else(|| materials.get(usize::try_from(id).unwrap_or(0) % materials.len().max(1)));
             let Some((_, made)) = found else { continue };

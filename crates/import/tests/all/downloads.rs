@@ -110,7 +110,7 @@ fn scenes_of_one_name_in_several_folders_are_told_wherever_one_was_left_out() {
     }
     let imported = folder.load("pack").unwrap();
     assert!(warnings(&imported).contains(said), "{}", warnings(&imported));
-    // Meshes are parts of a scene that is put together of them, but for those that are the scene in another format.
+    // Meshes are parts of a scene that is put together of them, except for those that are the scene in another format.
     let mesh = b"<scene version=\"3.0.0\"><shape type=\"obj\"><string name=\"filename\" value=\"../parts/a.obj\"/></shape></scene>";
     let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let parts: Files<'_> = &[("s/room.xml", mesh), ("parts/a.obj", triangle), ("parts/b.obj", triangle), ("other/room.ply", b"ply\n")];

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// A room with a floor, a wall and two chairs, of which one model is at hand.
+/// A room with a floor, a wall and two chairs, of which one model is available.
 fn house() -> Value {
     let quad = |y: f64| json!([0, y, 0, 4, y, 0, 4, y, 3, 0, y, 3]);
     json!({

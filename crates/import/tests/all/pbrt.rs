@@ -42,7 +42,7 @@ fn materials_of_version_3() {
         matches!(of("Material \"glass\" \"float index\" 1.33 \"rgb Kt\" [1 .5 1]"), Bsdf::Dielectric { eta: 1.33, alpha, transmittance, .. }
             if alpha.factor == 0.0 && transmittance.factor.g == 0.5)
     );
-    // That of 0 is 0.04725, but for glass, which is smooth there.
+    // That of 0 is 0.04725, except for glass, which is smooth there.
     let metal = of("Material \"metal\" \"float roughness\" 0");
     assert!(matches!(metal, Bsdf::Conductor { alpha, .. } if (alpha.factor - 0.04725).abs() < 1e-4));
     let plastic = of("Material \"plastic\" \"float roughness\" 0");

@@ -116,7 +116,7 @@ impl NyuV2 {
     /// Number of a sample's image in the file, counted from 1 as MATLAB and the published split do.
     ///
     /// # Panics
-    /// When there are not so many samples.
+    /// When there are fewer samples.
     pub fn frame(&self, index: usize) -> u32 {
         self.images[index] as u32 + 1
     }
@@ -127,7 +127,7 @@ impl NyuV2 {
     /// When the file is damaged.
     ///
     /// # Panics
-    /// When there are not so many samples.
+    /// When there are fewer samples.
     pub fn sample(&self, index: usize) -> Result<Sample, LoaderError> {
         let (image, height, width) = (self.images[index], self.height, self.width);
         let mut layers = Vec::with_capacity(self.arrays.len());

@@ -118,7 +118,7 @@ fn all_kinds() -> Vec<(&'static str, Camera, Vec<Pose>)> {
     kinds.into_iter().enumerate().map(|(i, (name, camera))| (name, camera, vec![pose(i, 0), pose(i, 1)])).collect()
 }
 
-/// Whether a triangle crosses the segment from `a` to `b`, but for its last thousandth (Möller and Trumbore 1997).
+/// Whether a triangle crosses the segment from `a` to `b`, except for its last thousandth (Möller and Trumbore 1997).
 fn crosses(triangle: [Vec3; 3], a: DVec3, b: DVec3) -> bool {
     let [p, q, r] = triangle.map(Vec3::as_dvec3);
     let (along, e1, e2) = (b - a, q - p, r - p);

@@ -184,7 +184,7 @@ pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
 }
 
 /// `wo` bent at a facet with the normal `m`, on whose other side the index is `eta` times that on this one and the refracted direction's
-/// cosine is `cos_t`. Of unit length but for rounding.
+/// cosine is `cos_t`. Of unit length up to rounding.
 #[inline]
 pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
     m * (wo.dot(m) / eta - cos_t) - wo / eta

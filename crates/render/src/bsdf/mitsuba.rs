@@ -10,7 +10,7 @@ use enfilade_testkit::{ChiSquare, Mean};
 const DIRECTIONS: [(f32, f32, f32, f32); 6] =
     [(1.0, 0.9, 2.0, 1.0), (0.6, 0.5, 2.5, 1.0), (0.3, 0.4, 3.0, 1.0), (0.8, 0.7, 0.5, 1.0), (0.6, 0.7, 3.0, -1.0), (0.9, 0.95, 2.8, -1.0)];
 
-/// Mitsuba's defaults, but for the colour.
+/// Mitsuba's defaults, except for the colour.
 fn plain() -> Disney {
     Disney {
         base_color: Rgb::new(0.7, 0.4, 0.2).into(),

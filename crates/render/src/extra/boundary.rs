@@ -40,7 +40,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// 1 when this is in front of its neighbour across a jump, 2 behind one, 0 where the surface goes on.
+    /// 1 when this is in front of its neighbour across a jump, 2 behind one, 0 where the surface continues.
     fn beside(&self, other: &Self) -> u8 {
         match (self.distance.is_nan(), other.distance.is_nan()) {
             (true, true) => 0,

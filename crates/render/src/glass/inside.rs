@@ -1,4 +1,4 @@
-//! What a path remembers of its way into a body, so that it goes on unbent where it leaves through a parallel border.
+//! What a path remembers of its way into a body, so that it continues unbent where it leaves through a parallel border.
 
 use crate::light::LightPoint;
 use enfilade_math::{Rgb, Vec3};

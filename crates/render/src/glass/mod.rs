@@ -6,7 +6,7 @@
 //!
 //! - **Panes**: a ray that enters a body and leaves it through flat borders that lie parallel keeps its direction ([`inside`]). Light
 //!   samples of every light reach through them, and the power heuristic weights these against sampled directions as it does in the open: a
-//!   path that leaves a body so goes on as if it had not been bent. The reflections between both borders are added up with the ray that
+//!   path that leaves a body so continues as if it had not been bent. The reflections between both borders are added up with the ray that
 //!   passes at once, a few millimetres beside where they leave: exact where the light and the pane are wide. For a light at a point the
 //!   direction is corrected until the shot meets it, and the light is spread as the shot's end says, so the shift by thick glass is exact.
 //! - **Other glass** (globes, bulbs, blocks seen through two sides): lights without a surface, which no sampled direction meets, are aimed at

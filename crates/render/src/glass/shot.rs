@@ -19,7 +19,7 @@ const MIN_COSINE: f32 = 1e-3;
 pub(super) enum End {
     /// Where it comes nearest to a point or, where the point lies on a surface of this normal, in the plane of that.
     Near(Vec3, Vec3),
-    /// After so many metres.
+    /// After this length, metres.
     After(f32),
 }
 

@@ -1,4 +1,4 @@
-//! One sample of what a surface mirrors or refracts, by which gathering rays and photons go on.
+//! One sample of what a surface mirrors or refracts, by which gathering rays and photons continue.
 
 use crate::bsdf::{Bsdf, Sample};
 use crate::surface::Surface;

@@ -12,9 +12,9 @@ use enfilade_math::{Onb, Ray, Rgb, Rng, Vec3, hash_u64, offset_origin, warp};
 
 /// Panes that a gathering ray passes.
 const PANES: usize = 8;
-/// Mirrors and bends by which a gathering ray goes on.
+/// Mirrors and bends by which a gathering ray continues.
 const MIRRORS: usize = 6;
-/// Factor of what is mirrored in the probability that a ray goes on there: the faint reflections of varnish are looked for by few rays.
+/// Factor of what is mirrored in the probability that a ray continues there: the faint reflections of varnish are looked for by few rays.
 const MIRROR_GAIN: f32 = 4.0;
 
 /// Purposes of a cell's random numbers: its direct light, the rays through its bins by their round, and the search for bright places.

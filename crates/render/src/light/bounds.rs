@@ -8,7 +8,7 @@ use enfilade_math::{Bounds3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::fmt::Debug;
 
-/// Cosine of the emission angle of cones, whose emission is straight ahead: zero but for rounding.
+/// Cosine of the emission angle of cones, whose emission is straight ahead: zero up to rounding.
 const STRAIGHT_AHEAD: f32 = 0.99;
 
 /// What a node knows of the emitters below it.

@@ -25,7 +25,7 @@ const NEIGHBOUR: f32 = 0.15;
 const PRIOR_FRACTION: f32 = 0.12;
 const FEW_TRIALS: f32 = 4.0;
 
-/// The root mean square of a glint's contributions, as a multiple of the mean: they are small but for a few places.
+/// The root mean square of a glint's contributions, as a multiple of the mean: they are small except for a few places.
 const GLINT_GAIN: f32 = 4.0;
 
 /// Probabilities of the sources over a grid of cells.

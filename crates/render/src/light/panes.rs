@@ -15,7 +15,7 @@ const MIN_SIDE_M: f32 = 0.15;
 /// Rays that ask whether the sky shines through a part, and how many of them must find it.
 const RAYS: u32 = 96;
 const MIN_FOUND: u32 = 6;
-/// Rays begin this far before a pane, metres: behind no picture light goes on as far.
+/// Rays begin this far before a pane, metres: behind no picture light continues as far.
 const BEFORE_M: f32 = 0.3;
 
 impl Lights<'_> {

@@ -175,7 +175,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
     assert!(compared > 5000, "{compared}");
 }
 
-/// A screen that is dark but for one corner.
+/// A screen that is dark except for one corner.
 fn screen_material(scene: &mut Scene) -> Material {
     let (w, h) = (64u32, 32u32);
     let texels = (0..w * h).map(|i| if i % w > 52 && i / w < 6 { [40.0, 30.0, 20.0] } else { [0.02; 3] }).collect();

@@ -1,4 +1,4 @@
-//! The film as a whole: light in parts, the standard error, and frames that go on where they were interrupted.
+//! The film as a whole: light in parts, the standard error, and frames that continue where they were interrupted.
 
 use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
 use enfilade_geometry::Mesh;
@@ -583,7 +583,7 @@ fn a_noise_target_takes_what_it_needs_however_many_samples_it_might_take() {
     let (samples, passes) = (whole.samples(), kept.len());
     assert!(whole.met_noise_target() && samples < 400.0, "noise {:?} after {samples} samples", whole.noise());
     assert!(passes as f64 <= (samples / f64::from(FrameRender::PASS)).ceil() + 4.0, "{passes} passes for {samples} samples");
-    // It goes on the same from any of them.
+    // It continues the same from any of them.
     for kept in [&kept[passes / 2], &kept[passes - 1]] {
         let mut next = new();
         next.restore(kept, b"key").unwrap();

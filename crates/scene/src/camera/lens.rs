@@ -77,7 +77,7 @@ impl ThinLens {
 /// When the picture is exposed. A frame's pose is the camera's in the middle of the exposure of the image's middle row.
 ///
 /// Between two frames of a trajectory the camera moves straight and turns evenly about a fixed axis; before the first and after the
-/// last it goes on as it did.
+/// last it continues as it did.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shutter {

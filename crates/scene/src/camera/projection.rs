@@ -89,7 +89,7 @@ impl Projection {
         }
     }
 
-    /// The viewing axis of K in camera space, unit length: planar depth that goes with K is measured along it. It is −z but for a tilted
+    /// The viewing axis of K in camera space, unit length: planar depth that goes with K is measured along it. It is −z except for a tilted
     /// image plane, whose K is that of a turned camera ([`TiltedPinhole::straightened`]).
     pub fn image_axis(&self) -> DVec3 {
         match self {

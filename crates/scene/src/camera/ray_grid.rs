@@ -66,7 +66,7 @@ impl RayGrid {
         self.slopes.iter().map(|s| s.extend(-1.0))
     }
 
-    /// Direction through the image point (x, y), with z = −1. Beyond the image the border's cells go on.
+    /// Direction through the image point (x, y), with z = −1. Beyond the image the border's cells continue.
     pub fn ray(&self, x: f64, y: f64) -> DVec3 {
         self.slope(self.grid_from_image() * DVec2::new(x, y)).0.extend(-1.0)
     }

@@ -5,7 +5,7 @@ use crate::Pose;
 use enfilade_math::{DMat3, DQuat, DVec2, DVec3};
 
 /// The row of a rolling shutter that shows a point is searched for in this many stretches of the image: two before its middle row, while
-/// the camera comes from the pose before, and two after it, while it goes on to the next.
+/// the camera comes from the pose before, and two after it, while it continues to the next.
 const STRETCHES: usize = 4;
 /// The search ends at a row from which the point appears no farther away than this, pixels: less than float32 resolves in an image.
 const ROW_TOLERANCE: f64 = 1e-6;
@@ -262,7 +262,7 @@ mod tests {
             assert!(position.distance(expected.position) < 1e-14);
             assert!((turned - expected.world_from_camera).to_cols_array().iter().all(|v| v.abs() < 1e-14), "at {time_s}");
         }
-        // Beyond the ends the motion goes on.
+        // Beyond the ends the motion continues.
         let first = CameraView::of_frame(&camera, &poses, 0).placement(-0.25);
         assert!(first.0.distance(DVec3::new(-0.5, 0.0, 1.0)) < 1e-14);
         let last = CameraView::of_frame(&camera, &poses, 2).placement(0.25);

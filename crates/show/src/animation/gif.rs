@@ -1,4 +1,4 @@
-//! GIF: 256 colours per picture, chosen anew for each and dithered where there are more.
+//! GIF: 256 colours per picture, chosen again for each and dithered where there are more.
 
 use super::colors::few_colors;
 use super::format::{AnimationError, AnimationFormat, refused};

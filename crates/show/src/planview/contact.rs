@@ -51,7 +51,7 @@ fn columns(pictures: usize) -> usize {
     COLUMNS[usize::from(pictures > FEW)]
 }
 
-/// Width of a picture in one of so many columns.
+/// Width of a picture where there are this many columns.
 fn width(columns: usize) -> u32 {
     (WIDTH - 2 * MARGIN - (columns as u32 - 1) * GAP) / columns as u32
 }

@@ -25,7 +25,7 @@ const CHART_HEIGHT: [u32; 2] = [620, 1150];
 const FOOTER: u32 = 40;
 /// Free space is drawn with this much around it, metres.
 const SURROUNDINGS_M: f64 = 0.35;
-/// Every so many poses one is numbered, and its target joined to it.
+/// Interval of poses at which one is numbered and joined to its target.
 const NUMBERED: usize = 10;
 
 const WHITE: Ink = Ink::solid([255; 3]);

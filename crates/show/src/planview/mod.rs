@@ -90,7 +90,7 @@ fn draw_trajectory(
     Ok(Section { camera: trajectory.name.clone(), about: about(&subject), pictures })
 }
 
-/// Removes the previews of what was planned for a scene, as when it is planned anew.
+/// Removes the previews of what was planned for a scene, as when it is planned again.
 ///
 /// # Errors
 /// When a file cannot be removed.

@@ -23,7 +23,7 @@ const HISTOGRAM: f32 = 148.0;
 const SERIES: f32 = 58.0;
 /// Bins of a histogram, about.
 const BINS: f64 = 24.0;
-/// An axis is at least as wide as so many bins.
+/// Least width of an axis, in bins.
 const LEAST_BINS: f64 = 10.0;
 const BAR: Ink = Ink::solid([74, 118, 168]);
 const GRID: Ink = Ink::solid([226, 228, 232]);

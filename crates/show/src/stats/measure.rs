@@ -233,7 +233,7 @@ pub struct Image {
     pub pixels_per_class: BTreeMap<i16, u64>,
 }
 
-/// Bins of an image's own histograms are so many of the dataset's.
+/// Bins of the dataset's histograms in a bin of an image's own.
 const COARSE: usize = 50;
 
 /// What one image comes to, its counts, and the instances that it shows. `projection` is that of its camera, where it is known.

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 /// What the file calls itself.
 const FORMAT: &str = "enfilade statistics 1";
-/// Bins of the file's histograms are so many of the stored ones.
+/// Stored bins in a bin of the file's histograms.
 const COARSE: usize = 10;
 
 /// The file.

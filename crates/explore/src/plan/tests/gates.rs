@@ -10,7 +10,7 @@ const HOUSE_MIN: DVec3 = DVec3::new(0.0, 0.0, 0.0);
 const HOUSE_MAX: DVec3 = DVec3::new(5.9, 4.9, 2.6);
 
 /// A house in the open: walls without thickness that look inward, a window of 1.2 m without a pane in one of them, and a gap of
-/// 3 cm in another. The ground goes on outside.
+/// 3 cm in another. The ground continues outside.
 fn house_with_window(ceiling: bool) -> Room {
     let quad = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| [[a, b, c], [a, c, d]].map(|t| t.map(|p| p.as_vec3()));
     let (min, max) = (HOUSE_MIN, HOUSE_MAX);

@@ -169,7 +169,7 @@ fn draw_tile<W: Wide>(bvh: &Bvh, tile: &mut Tile, frustum: &Frustum) {
                 }
             }
         } else {
-            // An inner node: go on with the nearest child in the pyramid that is not hidden, keep the others for later.
+            // An inner node: continue with the nearest child in the pyramid that is not hidden, keep the others for later.
             // SAFETY: as above, and there is a root.
             let node = unsafe { bvh.nodes.get_unchecked(current as usize) };
             let (mut entered, z) = planes.enter(node, pixels.farthest_z());

@@ -9,7 +9,7 @@
 //! | `scene.room[].children` | each a piece of furniture or a mesh, by `ref`: scaled by `scale`, turned by `rot` (a quaternion x y z w), moved to `pos` |
 //! | `furniture` | the model `<jid>/raw_model.obj`, if it is `valid`; its category is `category` of `model_info.json`, else the `super-category` there, else the house's own |
 //! | `mesh` | `xyz`, `normal`, `uv`, `faces`, as `<type> (<room>)`; the class by its type: walls, floors, ceilings, doors, windows and what is built in |
-//! | `material` | the picture `<jid>/texture.png` with the linear part of `UVTransform`, as in the toolbox; where that is not at hand, `color`; else grey |
+//! | `material` | the picture `<jid>/texture.png` with the linear part of `UVTransform`, as in the toolbox; where that is not available, `color`; else grey |
 //! | `lights` | rectangles and spheres (`VRayLight`) with place, size, strength and temperature, and the sun (`VraySun`) with a sky; others are left out, and told |
 //! | `extension`, `groups` | not used |
 
@@ -88,7 +88,7 @@ struct Placer<'h> {
     surfaces: Surfaces<'h>,
     models: Models,
     objects: Objects,
-    /// Models that are not at hand, and of how many pieces.
+    /// Models that are not available, and of how many pieces.
     lost: BTreeMap<&'h str, usize>,
     /// Pieces of furniture in the rooms.
     wanted: usize,

@@ -66,12 +66,12 @@ pub(super) struct Surfaces<'h> {
     /// `None` for those without faces.
     meshes: HashMap<&'h str, Option<u32>>,
     materials: HashMap<&'h str, u32>,
-    /// Whether it was told that pictures are not at hand.
+    /// Whether it was told that pictures are not available.
     told: bool,
 }
 
 impl<'h> Surfaces<'h> {
-    /// Surfaces of a house; `pictures` is the folder of its pictures, where it is at hand.
+    /// Surfaces of a house; `pictures` is the folder of its pictures, where it is available.
     pub fn new(house: &'h House, pictures: Option<PathBuf>) -> Self {
         let all = house.mesh.iter().map(|mesh| (mesh.uid.as_str(), mesh)).collect();
         let paints = house.material.iter().map(|paint| (paint.uid.as_str(), paint)).collect();
@@ -126,7 +126,7 @@ impl<'h> Surfaces<'h> {
         Ok(index)
     }
 
-    /// The picture of a material, where it has one that is at hand.
+    /// The picture of a material, where it has one that is available.
     fn picture(&mut self, paint: &Paint, a: &mut Assembly) -> Result<Option<TextureRef>, ImportError> {
         if paint.jid.is_empty() || (paint.texture.is_empty() && self.pictures.is_none()) {
             return Ok(None);

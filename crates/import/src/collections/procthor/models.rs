@@ -36,7 +36,7 @@ struct Asset {
     kind: Option<String>,
 }
 
-/// What is at hand of the assets.
+/// Assets that are available.
 pub(super) struct Library {
     folders: Vec<PathBuf>,
     models: Models,
@@ -73,7 +73,7 @@ impl Library {
         Ok(Self { folders, models: Models::default(), assets, cube: None, boxes, lost, bare: 0 })
     }
 
-    /// The model of an asset, where it is at hand.
+    /// The model of an asset, where it is available.
     fn model(&mut self, asset: &str, a: &mut Assembly) -> Result<Option<Rc<Model>>, ImportError> {
         let is_name = !asset.is_empty() && !asset.contains(['/', '\\']) && asset != "..";
         let named = |folder: &PathBuf| {

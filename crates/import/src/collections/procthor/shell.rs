@@ -14,7 +14,7 @@ use serde_json::Value;
 
 /// How far the sheet of a wall stands inside of its room, metres.
 const INSIDE: f64 = 0.005;
-/// Reflectances of walls and ceilings, and of floors, whose pictures are not at hand.
+/// Reflectances of walls and ceilings, and of floors, whose pictures are not available.
 const PLASTER: f32 = 0.75;
 const BOARDS: f32 = 0.4;
 /// Classes of NYU40.

@@ -13,7 +13,7 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// Decodes a stream to no more than so many bytes of attributes.
+    /// Decodes a stream to at most the given number of bytes of attributes.
     ///
     /// # Errors
     /// When it is damaged or holds more, as the rest of a sentence.
@@ -36,7 +36,7 @@ impl Stream {
         self.has_triangles.then(|| self.mesh.faces().iter().flatten().flat_map(|point| point.0.to_le_bytes()).collect())
     }
 
-    /// The attribute of that number, as an accessor of so many components of this type has it.
+    /// The attribute of that number, in the form of an accessor with these components of this type.
     ///
     /// # Errors
     /// When there is none, or it has another number of components, as the rest of a sentence.

@@ -11,7 +11,7 @@ const BLOCK: usize = 256;
 /// Bits of a difference in a group by the two bits of its header: of version 0, and of version 1 where the control of the byte is 0 or 1.
 const BITS: [[u32; 4]; 3] = [[0, 2, 4, 8], [0, 1, 2, 4], [1, 2, 4, 8]];
 
-/// Unpacks so many elements of `stride` bytes, a multiple of 4.
+/// Unpacks the given number of elements of `stride` bytes, a multiple of 4.
 ///
 /// # Errors
 /// When the data are damaged, as the rest of a sentence.
@@ -73,7 +73,7 @@ fn read_block(bytes: &mut Bytes, version: u8, count: usize, differences: &mut [[
     Ok(())
 }
 
-/// Reads 16 differences of so many bits; the largest number of fewer than eight bits says that a whole byte follows behind the group.
+/// Reads 16 differences of the given number of bits; the largest number of fewer than eight bits says that a whole byte follows behind the group.
 fn read_group(bytes: &mut Bytes, bits: u32, group: &mut [u8; 16]) -> Result<(), String> {
     if bits == 0 {
         group.fill(0);
@@ -86,7 +86,7 @@ fn read_group(bytes: &mut Bytes, bits: u32, group: &mut [u8; 16]) -> Result<(), 
     }
     let (in_byte, follows) = (8 / bits as usize, (1u8 << bits) - 1);
     for (i, difference) in group.iter_mut().enumerate() {
-        // The highest bits come first, but for single ones.
+        // The highest bits come first, except for single ones.
         let place = if bits == 1 { i % 8 } else { in_byte - 1 - i % in_byte };
         let head = heads[i / in_byte] >> (place * bits as usize) & follows;
         *difference = if head == follows { bytes.byte()? } else { head };

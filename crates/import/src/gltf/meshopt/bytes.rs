@@ -7,7 +7,7 @@ pub(super) struct Bytes<'b>(pub &'b [u8]);
 pub(super) const CUT_SHORT: &str = "ends within its packed data; the file is damaged, so export it again";
 
 impl<'b> Bytes<'b> {
-    /// The next so many bytes.
+    /// The next bytes, as many as given.
     pub(super) fn take(&mut self, count: usize) -> Result<&'b [u8], String> {
         let (taken, rest) = self.0.split_at_checked(count).ok_or(CUT_SHORT)?;
         self.0 = rest;

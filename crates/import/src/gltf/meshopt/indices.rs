@@ -10,7 +10,7 @@ const TABLE: usize = 16;
 /// Bytes at the end of other indices, which mean nothing.
 const PADDING: usize = 4;
 
-/// Unpacks so many indices of triangles, a multiple of 3.
+/// Unpacks the given number of indices of triangles, a multiple of 3.
 ///
 /// # Errors
 /// When the data are damaged, as the rest of a sentence.
@@ -27,7 +27,7 @@ pub(super) fn triangles(packed: &[u8], count: usize) -> Result<Vec<u32>, String>
     Ok(indices)
 }
 
-/// Unpacks so many other indices.
+/// Unpacks the given number of other indices.
 ///
 /// # Errors
 /// When the data are damaged, as the rest of a sentence.
@@ -49,7 +49,7 @@ pub(super) fn sequence(packed: &[u8], count: usize) -> Result<Vec<u32>, String> 
     Ok(indices)
 }
 
-/// What lies between the first byte, which says what it is, and so many bytes at the end.
+/// The bytes between the first one, which gives the kind, and the given number of bytes at the end.
 fn body<'b>(packed: &'b [u8], magic: u8, what: &str, tail: usize) -> Result<&'b [u8], String> {
     match packed.first() {
         Some(&found) if found == magic => {}
