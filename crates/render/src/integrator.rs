@@ -6,7 +6,7 @@
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
 use crate::guide::Guide;
-use crate::light::{Background, LightKind, LightSample, power_heuristic};
+use crate::light::{Background, LightKind, LightPoint, LightSample, power_heuristic};
 use crate::prepared::{AlphaTest, RenderScene};
 use crate::split::{Arriving, Origin};
 use crate::surface::Surface;
@@ -124,6 +124,10 @@ impl<'a, 's> Integrator<'a, 's> {
         let throughput = throughput * segment.medium.transmittance(hit.t);
         let emission = surface.emission(self.scene);
         if !emission.is_black() {
+            // Beside the edge of a thick pane the shifted way exists where the straight one misses the pane: light samples do not look there.
+            let by_lights =
+                |(from, _): &&(LightPoint, f32)| !segment.shifted || self.scene.meets_panes(from, segment.medium, surface.p, surface.ng);
+            let sampled = sampled.filter(by_lights);
             let weight = lights.surface_weight(self.scene, &self.guide.choice, sampled, segment.direction_to(surface.p), &hit, surface.p);
             radiance.add(self.origin_of_surface(&surface), throughput * emission * weight, direct);
         }

@@ -1,11 +1,11 @@
 //! The way from a surface through glass to a light.
 
 use super::shot::{End, Passed, Shot};
-use crate::light::LightSample;
+use crate::light::{LightPoint, LightSample};
 use crate::prepared::RenderScene;
-use crate::surface::Surface;
+use crate::surface::{Surface, shadow_ray};
 use crate::vertex::Medium;
-use enfilade_math::{Onb, Rgb, Rng, Vec2, Vec3, warp};
+use enfilade_math::{Onb, Ray, Rgb, Rng, Vec2, Vec3, offset_origin, warp};
 
 /// Newton's steps, and how often a step that leads nowhere is halved.
 const STEPS: usize = 16;
@@ -76,8 +76,7 @@ impl<'s> RenderScene<'s> {
         let goal = target.map_or(Goal::Direction(wi), |p| Goal::Point(p, normal));
 
         // Through panes there is one way.
-        let shot = self.shoot(&surface.ray(wi), medium, goal.end());
-        if shot.is_some_and(|shot| shot.parallel) {
+        if self.passes_panes(&surface.ray(wi), medium, goal.end()) {
             let found = self.aim(surface, medium, wi, goal).filter(|way| way.parallel);
             if found.is_some() || !delta {
                 return found;
@@ -105,6 +104,20 @@ impl<'s> RenderScene<'s> {
             found.ways += 1.0;
         }
         Some(found)
+    }
+
+    /// Whether [`RenderScene::connect`] looks for the way through panes from `from` to the point `p` of an emissive surface with the unit
+    /// normal `normal`: the straight way there meets panes and nothing else. `medium` is that at both ends.
+    pub(crate) fn meets_panes(&self, from: &LightPoint, medium: Medium, p: Vec3, normal: Vec3) -> bool {
+        let Some(direction) = (p - from.p).try_normalize() else { return false };
+        let aside = if from.n == Vec3::ZERO { direction } else { from.n * from.n.dot(direction).signum() };
+        let ray = Ray::new(offset_origin(from.p, aside), direction);
+        self.glass_ahead(&shadow_ray(ray.origin, direction, Some(p))).is_some() && self.passes_panes(&ray, medium, End::Near(p, normal))
+    }
+
+    /// Whether only panes are on a ray's way to its end.
+    fn passes_panes(&self, ray: &Ray, medium: Medium, end: End) -> bool {
+        self.shoot(ray, medium, end).is_some_and(|shot| shot.parallel)
     }
 
     /// Corrects the first direction of a shot until it meets its goal.

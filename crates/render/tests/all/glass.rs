@@ -228,6 +228,51 @@ fn a_bright_ceiling_behind_a_thick_block_counts_once() {
     assert!(all > expected && all < 1.12 * expected, "{all} for {expected}");
 }
 
+/// Irradiance over π at (x, 0, 0) by a lamp at a height, `lamp` wide along x and from −1 to 1 along y, behind a block that fills x > 0 and
+/// whose face at x = 0 lets nothing through: what arrives past the block, and what arrives through it.
+fn lamp_beside_the_edge(x: f64, lamp: [f64; 2], [bottom, top, height]: [f64; 3]) -> [f64; 2] {
+    // Points of the plane of the lamp, each seen past the edge in one direction; then directions, each shifted to one point.
+    let (n, mut found) = (2000, [0.0; 2]);
+    let cell = [(lamp[1] - lamp[0]) / f64::from(n), 2.0 / f64::from(n)];
+    let at = |i: u32, from: f64, size: f64| from + (f64::from(i) + 0.5) * size;
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let to = DVec3::new(at(i, lamp[0], cell[0]) - x, at(j, -1.0, cell[1]), height);
+        if -x / to.x * height > top {
+            found[0] += height * height / to.length_squared().powi(2) * cell[0] * cell[1] / PI;
+        }
+    }
+    let size = 6.0 / f64::from(n);
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let aside = DVec3::new(at(i, 0.0, size), at(j, -3.0, size), 1.0);
+        let cos = 1.0 / aside.length();
+        let inner = (1.0 - (1.0 - cos * cos) / (ETA * ETA)).sqrt();
+        let reach = height - (top - bottom) * (1.0 - cos / (ETA * inner));
+        let [enters, ends] = [x + aside.x * bottom, x + aside.x * reach];
+        if enters > 0.0 && ends > lamp[0] && ends < lamp[1] && (aside.y * reach).abs() < 1.0 {
+            found[1] += cos.powi(4) * pane_passes(cos, top - bottom, 0.0) * size * size / PI;
+        }
+    }
+    found
+}
+
+#[test]
+fn a_lamp_that_only_a_thick_block_shifts_into_view_is_not_lost() {
+    let (x, lamp, heights) = (-0.5, [0.7, 1.1], [1.0, 1.6, 3.0]);
+    let expected = lamp_beside_the_edge(x, lamp, heights);
+    assert!(expected[0] == 0.0 && expected[1] > 0.0, "{expected:?}");
+    // A third of it comes from points that lie behind the black face on the straight way.
+    let mut emitter = Material::diffuse("lamp", Rgb::BLACK);
+    emitter.emission = Rgb::WHITE.into();
+    let [left, right] = lamp.map(|x| x as f32);
+    let corners = [[left, -1.0, 3.0], [left, 1.0, 3.0], [right, 1.0, 3.0], [right, -1.0, 3.0]].map(Vec3::from).to_vec();
+    let lamp = Mesh { positions: corners, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
+    let face = block([-0.01, -9.0, 1.0], [-1e-4, 9.0, 1.6]);
+    let things =
+        vec![(block([0.0, -9.0, 1.0], [9.0, 9.0, 1.6]), glass(0.0)), (face, Material::diffuse("face", Rgb::BLACK)), (lamp, emitter)];
+    let found = illumination(&floor_at(&above_floor(things), x, &direct(1024)));
+    assert_close("beside the edge", found, expected[1], 0.01);
+}
+
 #[test]
 fn a_white_sky_behind_a_pane_counts_once() {
     let mut scene = above_floor(vec![(block([-60.0, -60.0, 1.0], [60.0, 60.0, 1.006]), glass(30.0))]);
