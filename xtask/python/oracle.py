@@ -31,7 +31,7 @@ SIGNIFICANT = 4.0
 ROUNDING = 2.0**-12
 
 # Samples per seed where the default (32) is not enough, and other depths.
-SAMPLES = {"dielectric": 128, "roughdielectric": 64, "roughdielectric-beckmann": 64, "principled-spec-trans": 64, "slab": 128, "pane": 128, "envmap": 64, "area-textured": 64}
+SAMPLES = {"dielectric": 128, "roughdielectric": 64, "roughdielectric-beckmann": 64, "principled-spec-trans": 64, "slab": 128, "pane": 256, "envmap": 64, "area-textured": 64}
 DEPTHS = {"cornell-3": 3}
 
 
