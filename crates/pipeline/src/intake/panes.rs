@@ -33,6 +33,8 @@ const CALLED: [&str; 16] = [
 /// Words that may stand behind one of these.
 const BEHIND: [&str; 12] =
     ["clear", "transparent", "window", "door", "panel", "shader", "mat", "thin", "simple", "architectural", "tinted", "surface"];
+/// Words that say of glass that it lets no light through on purpose: hobs, screens, lampshades.
+const OPAQUE: [&str; 8] = ["black", "opal", "opaline", "milk", "milky", "opaque", "painted", "mirror"];
 /// Names that a remark has.
 const NAMED: usize = 3;
 /// Metalness from which on a surface is a mirror.
@@ -76,7 +78,11 @@ pub(super) fn lost(scene: &Scene) -> Option<String> {
     let mut names: Vec<&str> = Vec::new();
     for part in &scene.parts {
         let material = &scene.materials[part.material as usize];
-        let name = [material.name.as_str(), part.name.as_str()].into_iter().find(|name| is_called_glass(name));
+        let called = [material.name.as_str(), part.name.as_str()];
+        if called.iter().any(|name| is_opaque_on_purpose(name)) {
+            continue;
+        }
+        let name = called.into_iter().find(|name| is_called_glass(name));
         names.extend(name.filter(|name| is_opaque(material) && !names.contains(name)));
     }
     let named: Vec<String> = names.iter().take(NAMED).map(|name| format!("{name:?}")).collect();
@@ -91,6 +97,11 @@ pub(super) fn lost(scene: &Scene) -> Option<String> {
             plain.join(",")
         )
     })
+}
+
+/// Whether a name says of glass that it lets no light through.
+fn is_opaque_on_purpose(name: &str) -> bool {
+    words(name).iter().any(|word| OPAQUE.contains(&word.as_str()))
 }
 
 /// Whether a name ends with a word for glass, but for words that may stand behind it: a glass table is a table.
@@ -151,6 +162,12 @@ mod tests {
         for name in ["glass_table", "window", "glass frame", "fibreglass", "Glasses", "panel", "", "grass"] {
             assert!(!is_called_glass(name), "{name}");
         }
+    }
+
+    #[test]
+    fn black_and_opal_glass_is_opaque_on_purpose() {
+        assert!(["black glass", "Opal_Glass.002", "mat_milkGlass"].into_iter().all(is_opaque_on_purpose));
+        assert!(!["Glass", "window_glass_tinted", "backdoor glass"].into_iter().any(is_opaque_on_purpose));
     }
 
     #[test]
