@@ -1,6 +1,6 @@
 //! How a verb ends, and how it speaks.
 
-use enfilade_pipeline::Failure;
+use enfilade_pipeline::{Failure, ProductOutcome};
 use std::io::{ErrorKind, Write};
 use std::sync::OnceLock;
 
@@ -65,6 +65,14 @@ impl Problem {
     pub fn of_scene(scene: &str, failure: &Failure) -> Self {
         let message = format!("{scene}: `{}` failed: {}", failure.stage.name(), failure.message);
         Self { message, hint: failure.hint.clone(), usage: false }
+    }
+
+    /// Why a product could not be made; `None` where it was.
+    pub fn of_product(outcome: &ProductOutcome) -> Option<Self> {
+        let (message, hint) = outcome.failure.as_ref()?;
+        let place = outcome.scene.as_deref().map_or(String::new(), |scene| format!("{scene}: "));
+        let message = format!("{place}{} could not be made: {message}", outcome.product.name());
+        Some(Self { message, hint: hint.clone(), usage: false })
     }
 
     /// Says it on standard error.

@@ -1,6 +1,6 @@
 //! What a run says while it goes on: a live line on a terminal, plain lines at intervals anywhere else.
 
-use enfilade_pipeline::{Event, Reporter, Stage};
+use enfilade_pipeline::{Event, Product, Reporter, Stage};
 use enfilade_scene::{Cx, Warning};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
@@ -92,28 +92,39 @@ impl Drop for Progress {
 
 impl Reporter for Progress {
     fn on(&self, scene: &str, stage: Stage, event: Event) {
+        self.hear(scene, stage.name(), event);
+    }
+
+    fn on_product(&self, scene: &str, product: Product, event: Event) {
+        self.hear(if scene.is_empty() { "dataset" } else { scene }, product.name(), event);
+    }
+}
+
+impl Progress {
+    /// Shows what happens to a stage or a product of a scene.
+    fn hear(&self, scene: &str, name: &'static str, event: Event) {
         let mut state = self.lock();
         if state.quiet {
             return;
         }
         match event {
-            Event::Started => state.start(scene, stage.name()),
+            Event::Started => state.start(scene, name),
             Event::Progress { what, done, total } => state.progress(what, done, total),
             Event::Warned(warning) => state.warn(warning),
             Event::UpToDate => {
                 state.heading(scene);
-                state.line(&format!("  {:<8} nothing to do", stage.name()));
+                state.line(&format!("  {name:<8} nothing to do"));
             }
             Event::Finished { summary, wall_s } => {
                 state.count_the_rest();
                 state.end();
-                state.line(&format!("  {:<8} {summary} ({wall_s:.1} s)", stage.name()));
+                state.line(&format!("  {name:<8} {summary} ({wall_s:.1} s)"));
             }
             // The reason is told once, at the end.
             Event::Failed { .. } => {
                 state.heading(scene);
                 state.end();
-                state.line(&format!("  {:<8} FAILED", stage.name()));
+                state.line(&format!("  {name:<8} FAILED"));
             }
         }
     }

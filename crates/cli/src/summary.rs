@@ -20,6 +20,7 @@ pub fn print_table(summary: &Summary) {
             Problem::of_scene(&scene.name, failure).print();
         }
     }
+    summary.all_products().filter_map(Problem::of_product).for_each(|problem| problem.print());
     print_warnings(summary);
     let failed = summary.scenes.iter().filter(|s| s.failure.is_some()).count();
     if failed > 0 {

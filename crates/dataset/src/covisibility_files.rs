@@ -5,7 +5,7 @@
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::Table;
-use crate::{Dataset, DatasetError, check_name, remove_folder, remove_if_there, replace_file};
+use crate::{Dataset, DatasetError, check_name, replace_file};
 
 const HEADER: [&str; 6] = ["frame_index", "camera_name", "frame_id", "grid_step_px", "surface_pixels", "hidden_by"];
 
@@ -106,23 +106,6 @@ impl Dataset {
             ),
         ];
         replace_file(&self.layout().covisibility(scene), |aside| write_array(aside, &array, Storage::Compressed, &attributes))
-    }
-
-    /// Removes what relates frames of a scene to each other, before frames are made again: the matrix with its list, layers that lead from
-    /// frame to frame, tracks, surfaces along rays, and the dataset's list of pairs.
-    ///
-    /// # Errors
-    /// When the scene's folder cannot be read, or a file cannot be removed.
-    pub fn forget_relations(&self, scene: &str) -> Result<(), DatasetError> {
-        let layout = self.layout();
-        let files = [layout.pairs(), layout.covisibility(scene), layout.covisibility_frames(scene)];
-        files.iter().try_for_each(|path| remove_if_there(path))?;
-        let cameras = self.cameras_by_files(scene)?;
-        cameras.iter().try_for_each(|camera| {
-            remove_if_there(&layout.tracks(scene, camera))?;
-            self.forget_surfaces(scene, camera)?;
-            remove_folder(&layout.pair_layers_dir(scene, camera))
-        })
     }
 
     /// The matrix of a scene.

@@ -1,7 +1,6 @@
 //! What the instances of a scene are, how they stand to each other, and what is said and asked about its frames:
 //! `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/<camera>/captions.jsonl` and `questions.jsonl`.
 
-use crate::atomic::remove_if_there;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_math::{DVec2, DVec3};
@@ -239,19 +238,6 @@ impl Dataset {
         check_name("camera name", camera)?;
         write_lines(&self.layout().captions(scene, camera), captions)?;
         write_lines(&self.layout().questions(scene, camera), questions)
-    }
-
-    /// Removes all that is said of a scene and its frames, before frames are made again.
-    ///
-    /// # Errors
-    /// When a file cannot be removed.
-    pub fn forget_words(&self, scene: &str) -> Result<(), DatasetError> {
-        let layout = self.layout();
-        [layout.described_instances(scene), layout.instance_relations(scene)].iter().try_for_each(|path| remove_if_there(path))?;
-        self.cameras_by_files(scene)?.iter().try_for_each(|camera| {
-            remove_if_there(&layout.captions(scene, camera))?;
-            remove_if_there(&layout.questions(scene, camera))
-        })
     }
 }
 

@@ -1,15 +1,16 @@
 //! Fixtures: `_detail/metadata_fixtures.csv`, and for each of them the files `fixture_NN_diffuse_illumination` and `fixture_NN_residual`
 //! of every frame, beside its other layers; and in `relit/<mix>/` what mixes of them make of frames.
 
-use crate::atomic::{begin_folder, remove_folder, remove_if_there};
-use crate::frames::write_layer;
+use crate::atomic::{begin_folder, remove_if_there};
+use crate::frames::{read_json, write_layer};
 use crate::layout::FIXTURE_PARTS;
-use crate::read::{read_image, sorted_names};
+use crate::read::{frame_numbers_in, read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_frame::{FixtureLayers, Frame, Layer, MAX_FIXTURES, Values};
 use enfilade_math::Vec3;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::path::PathBuf;
 
 /// How the rules of a mix are kept.
@@ -140,6 +141,32 @@ impl Dataset {
         begin_folder(&folder, &folder.join(RULES), rules)
     }
 
+    /// The names of the mixes that have pictures.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn mixes(&self) -> Result<Vec<String>, DatasetError> {
+        let folder = self.layout().relit_dir();
+        let names = if folder.is_dir() { sorted_names(&folder)? } else { Vec::new() };
+        Ok(names.into_iter().filter(|name| folder.join(name).join(RULES).is_file()).collect())
+    }
+
+    /// The rules of a mix; `None` where there are none.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn mix_rules<T: DeserializeOwned>(&self, mix: &str) -> Result<Option<T>, DatasetError> {
+        read_json(&self.layout().relit_dir().join(mix).join(RULES), "remove it, and light the frames again")
+    }
+
+    /// The numbers of a camera's frames that a mix was made of, sorted.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn relit_frame_numbers(&self, mix: &str, [scene, camera]: [&str; 2]) -> Result<Vec<u32>, DatasetError> {
+        frame_numbers_in(&self.layout().relit_dir().join(mix).join(scene).join(camera))
+    }
+
     /// Writes what a mix of fixtures makes of a frame (scene, camera, number): layers, and the bytes of a JPEG picture.
     ///
     /// # Errors
@@ -160,16 +187,6 @@ impl Dataset {
     /// When the file is missing, damaged, or not an image of the layer's channels.
     pub fn read_relit_layer(&self, mix: &str, frame: (&str, &str, u32), layer: Layer) -> Result<([usize; 2], Values), DatasetError> {
         read_image(&self.layout().relit(mix, frame, &format!("{}.hdf5", layer.spec().name)), layer, None)
-    }
-
-    /// Removes what mixes have made of the frames of a scene, before these change.
-    ///
-    /// # Errors
-    /// When a folder cannot be removed.
-    pub fn forget_relit(&self, scene: &str) -> Result<(), DatasetError> {
-        let folder = self.layout().relit_dir();
-        let mixes = if folder.is_dir() { sorted_names(&folder)? } else { Vec::new() };
-        mixes.iter().try_for_each(|mix| remove_folder(&folder.join(mix).join(scene)))
     }
 
     /// The files of the fixtures that a frame has in memory.

@@ -2,13 +2,14 @@
 
 use crate::DatasetError;
 use crate::tables::Table;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const NAMES: [&str; 5] = ["scene_name", "first_camera_name", "first_frame_id", "second_camera_name", "second_frame_id"];
 const VALUES: [&str; 4] = ["first_seen_by_second", "second_seen_by_first", "baseline_m", "angle_deg"];
 
 /// Two frames of a scene.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FramePair {
     /// Name of the scene.
     pub scene: String,

@@ -243,6 +243,18 @@ pub(crate) fn frame_number(name: &str, rest: &str) -> Option<u32> {
     name.strip_prefix("frame.")?.strip_suffix(rest)?.strip_suffix('.')?.parse().ok()
 }
 
+/// The numbers of the frames that a folder has files of, by their names, sorted; none where there is no folder.
+pub(crate) fn frame_numbers_in(folder: &Path) -> Result<Vec<u32>, DatasetError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let number = |name: &String| name.strip_prefix("frame.")?.split_once('.')?.0.parse().ok();
+    let mut numbers: Vec<u32> = sorted_names(folder)?.iter().filter_map(number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    Ok(numbers)
+}
+
 /// The names in a folder, sorted.
 pub(crate) fn sorted_names(folder: &Path) -> Result<Vec<String>, DatasetError> {
     let entries = std::fs::read_dir(folder).map_err(DatasetError::at("read the folder", folder))?;

@@ -1,9 +1,9 @@
 //! What sensors make of frames: `sensors/<sensor>/<scene>/<camera>/frame.IIII.<what>`, and beside it what was drawn for every frame.
 
-use crate::atomic::{begin_folder, remove_folder};
+use crate::atomic::begin_folder;
 use crate::frames::{read_json, write_layer};
 use crate::npz::{NpyArray, npz, read_npy};
-use crate::read::{read_image, sorted_names};
+use crate::read::{frame_numbers_in, read_image, sorted_names};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, write_bytes};
 use enfilade_frame::{Layer, Values};
@@ -117,27 +117,7 @@ impl Dataset {
     /// # Errors
     /// When the folder cannot be read.
     pub fn sensed_frame_numbers(&self, sensor: &str, [scene, camera]: [&str; 2]) -> Result<Vec<u32>, DatasetError> {
-        let table = self.layout().sensed_frames(sensor, scene, camera);
-        let folder = table.parent().unwrap_or(&table);
-        if !folder.is_dir() {
-            return Ok(Vec::new());
-        }
-        let number = |name: &String| name.strip_prefix("frame.")?.split_once('.')?.0.parse().ok();
-        let mut numbers: Vec<u32> = sorted_names(folder)?.iter().filter_map(number).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        Ok(numbers)
-    }
-
-    /// Removes what was made of the frames of a scene one by one, before these are made again: by sensors and mixes of lamps, planes, words.
-    ///
-    /// # Errors
-    /// When a file or folder cannot be removed.
-    pub fn forget_derived(&self, scene: &str) -> Result<(), DatasetError> {
-        self.forget_planes(scene)?;
-        self.forget_words(scene)?;
-        self.sensors()?.iter().try_for_each(|sensor| remove_folder(&self.layout().sensor_dir(sensor).join(scene)))?;
-        self.forget_relit(scene)
+        frame_numbers_in(&self.layout().sensor_dir(sensor).join(scene).join(camera))
     }
 
     /// Writes a reading with the unit and the meaning of a layer.

@@ -1,6 +1,6 @@
 //! Surfaces along the rays of a frame's pixels: `_detail/<camera>/surfaces/frame.IIII.<what>.hdf5`.
 
-use crate::atomic::{create_parent, remove_folder, remove_if_there, rename, temporary};
+use crate::atomic::{create_parent, remove_if_there, rename, temporary};
 use crate::hdf5::{Array, Elements, Packing, Storage, read_array, write_array};
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_frame::f16;
@@ -148,14 +148,6 @@ impl Dataset {
     /// True when a frame has surfaces.
     pub fn has_surfaces(&self, scene: &str, camera: &str, frame: u32) -> bool {
         self.layout().surfaces(scene, camera, frame, FIRST).is_file()
-    }
-
-    /// Removes the surfaces of a camera's frames, before their labels change.
-    ///
-    /// # Errors
-    /// When the folder cannot be removed.
-    pub fn forget_surfaces(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
-        remove_folder(&self.layout().surfaces_dir(scene, camera))
     }
 }
 

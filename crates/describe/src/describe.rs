@@ -5,7 +5,7 @@ use crate::questions::{Asker, of_frame, of_video};
 use crate::relations::relations;
 use crate::seen::{self, SeenFrame};
 use crate::things::Things;
-use enfilade_dataset::{Caption, Dataset, DatasetError};
+use enfilade_dataset::{Caption, Dataset, DatasetError, remove_if_there};
 use enfilade_math::DVec3;
 use enfilade_scene::Cx;
 use std::collections::BTreeMap;
@@ -29,7 +29,7 @@ pub struct Described {
 /// # Errors
 /// When a file of the scene or a layer of a frame is damaged, the mesh is missing, or a file cannot be written.
 pub fn describe(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Option<Described>, DatasetError> {
-    dataset.forget_words(scene)?;
+    remove_words(dataset, scene)?;
     let Some(things) = Things::read(dataset, scene)? else { return Ok(None) };
     let mut filmed: Vec<(String, Vec<(SeenFrame, DVec3)>)> = Vec::new();
     for camera in dataset.cameras(scene)? {
@@ -66,4 +66,12 @@ pub fn describe(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Option<De
         total.questions += asker.asked.len();
     }
     Ok(Some(total))
+}
+
+/// Removes what was said before: of cameras that have no frames any more nothing takes its place.
+fn remove_words(dataset: &Dataset, scene: &str) -> Result<(), DatasetError> {
+    let layout = dataset.layout();
+    let mut files = vec![layout.described_instances(scene), layout.instance_relations(scene)];
+    files.extend(dataset.cameras_by_files(scene)?.iter().flat_map(|name| [layout.captions(scene, name), layout.questions(scene, name)]));
+    files.iter().try_for_each(|path| remove_if_there(path))
 }

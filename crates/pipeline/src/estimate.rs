@@ -3,10 +3,12 @@
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
 use crate::forecast::Forecast;
+use crate::products::try_out;
 use crate::report::{Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::run::{Session, first_of, store_config, told_failure};
 use crate::stages::{FramesByTrajectory, Job, STAGES, Stage, StageSpec, is_up_to_date, missing_frames, pilot};
 use crate::workdir::Workdir;
+use enfilade_dataset::Dataset;
 use std::path::Path;
 
 /// How scenes fared before rendering, and the forecasts of those that came through.
@@ -65,7 +67,8 @@ fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) 
     if frames.is_empty() {
         return Ok(Forecast::default());
     }
-    Ok(Forecast::of(&pilot(job, frames, &StageCx::new(&job.scene.name, Stage::Render, reporter))?))
+    let products = |aside: &Dataset| try_out(job.dataset, &job.scene.name, &job.scene.products, aside);
+    Ok(Forecast::of(&pilot(job, frames, &products, &StageCx::new(&job.scene.name, Stage::Render, reporter))?))
 }
 
 impl Session<'_> {
@@ -85,7 +88,7 @@ impl Session<'_> {
             outcomes.push(outcome);
         }
         let warnings = self.unknown_scenes().into_iter().collect();
-        Ok((Summary { scenes: outcomes, warnings, wall_s: time.wall_s() }, forecasts))
+        Ok((Summary { scenes: outcomes, warnings, products: Vec::new(), wall_s: time.wall_s() }, forecasts))
     }
 
     /// Forecasts what the `frames` of a scene take, with its name, unless its `outcome` is a failure by now.

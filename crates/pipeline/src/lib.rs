@@ -14,6 +14,7 @@ mod in_memory;
 mod intake;
 mod look;
 mod parts;
+mod products;
 mod relight;
 mod replay;
 mod report;
@@ -45,9 +46,13 @@ pub use forecast::{Expected, Forecast};
 pub use in_memory::{LoadedScene, Shot};
 pub use look::{Looked, look};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
+pub use products::{
+    FlowPairs, FrameChoice, Made, MakeOptions, MixRequest, OutOfDate, PRODUCTS, PairsRequest, Product, ProductOptions, ProductSpec,
+    Request, Scope, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes,
+};
 pub use relight::relight;
 pub use replay::{Replay, ReplayedFile, replay};
-pub use report::{Event, Failure, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
+pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};

@@ -142,7 +142,7 @@ pub fn finish(out: &Path, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let (workdir, config) = open(out)?;
     let scenes = config.select(None)?;
     let later: Vec<&StageSpec> = STAGES.iter().filter(|spec| spec.stage >= Stage::Render).collect();
-    Session::new(&config, &workdir)?.run(&scenes, &later, false, reporter)
+    Session::with_products(&config, &workdir)?.run(&scenes, &later, false, reporter)
 }
 
 /// Puts the label tables, which lie elsewhere, into the work folder.

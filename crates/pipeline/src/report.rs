@@ -1,9 +1,11 @@
 //! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
 
+use crate::products::Product;
 use crate::stages::Stage;
 use enfilade_dataset::FrameTime;
 use enfilade_scene::{Cx, Warning};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// What happens to a stage of a scene.
@@ -42,6 +44,9 @@ pub enum Event<'a> {
 pub trait Reporter: Sync {
     /// Something happened to `stage` of `scene`.
     fn on(&self, scene: &str, stage: Stage, event: Event);
+
+    /// Something happened to `product` of `scene`, whose name is empty for the dataset as a whole.
+    fn on_product(&self, _scene: &str, _product: Product, _event: Event) {}
 }
 
 /// A [`Reporter`] that hears nothing.
@@ -58,19 +63,27 @@ pub struct Summary {
     pub scenes: Vec<SceneOutcome>,
     /// What concerns the dataset as a whole and should be known, a line each.
     pub warnings: Vec<String>,
+    /// What became of products of the dataset as a whole.
+    pub products: Vec<ProductOutcome>,
     /// Seconds on the wall clock.
     pub wall_s: f64,
 }
 
 impl Summary {
-    /// True when every scene came through.
+    /// True when every scene and every product came through.
     pub fn ok(&self) -> bool {
-        self.scenes.iter().all(|s| s.failure.is_none())
+        self.scenes.iter().all(|s| s.failure.is_none()) && self.all_products().all(|product| product.failure.is_none())
     }
 
-    /// True when no stage had anything to do.
+    /// What became of products, in scenes and in the dataset as a whole.
+    pub fn all_products(&self) -> impl Iterator<Item = &ProductOutcome> {
+        self.scenes.iter().flat_map(|scene| &scene.products).chain(&self.products)
+    }
+
+    /// True when no stage and no product had anything to do.
     pub fn nothing_done(&self) -> bool {
-        self.ok() && self.scenes.iter().flat_map(|s| &s.stages).all(|s| s.up_to_date)
+        let is_idle = self.scenes.iter().flat_map(|s| &s.stages).all(|s| s.up_to_date);
+        self.ok() && is_idle && self.all_products().all(|product| product.made == 0)
     }
 }
 
@@ -81,6 +94,8 @@ pub struct SceneOutcome {
     pub name: String,
     /// The stages that came through, in order.
     pub stages: Vec<StageOutcome>,
+    /// What became of its products.
+    pub products: Vec<ProductOutcome>,
     /// The stage that did not, if one did not.
     pub failure: Option<Failure>,
 }
@@ -105,6 +120,21 @@ pub struct StageOutcome {
     pub warnings: usize,
     /// Seconds on the wall clock, of this run.
     pub wall_s: f64,
+}
+
+/// What became of a product of a scene, or of the dataset as a whole.
+#[derive(Clone, Debug)]
+pub struct ProductOutcome {
+    /// Which.
+    pub product: Product,
+    /// The scene; `None` for the dataset as a whole.
+    pub scene: Option<String>,
+    /// Parts that were made.
+    pub made: usize,
+    /// What was made, in lines.
+    pub lines: Vec<String>,
+    /// Why it could not be made, and what to do.
+    pub failure: Option<(String, Option<String>)>,
 }
 
 /// Why a scene stopped.
@@ -151,6 +181,43 @@ impl Cx for StageCx<'_> {
     fn warn(&self, warning: Warning) {
         self.event(Event::Warned(&warning));
         self.warnings.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(warning);
+    }
+}
+
+/// The [`Cx`] that the makers of products get: passes everything on, after saying that the product is begun.
+pub(crate) struct ProductCx<'a> {
+    /// The scene; empty for the dataset as a whole.
+    scene: &'a str,
+    product: Product,
+    reporter: &'a dyn Reporter,
+    has_begun: AtomicBool,
+}
+
+impl<'a> ProductCx<'a> {
+    pub fn new(scene: &'a str, product: Product, reporter: &'a dyn Reporter) -> Self {
+        Self { scene, product, reporter, has_begun: AtomicBool::new(false) }
+    }
+
+    pub fn event(&self, event: Event) {
+        self.reporter.on_product(self.scene, self.product, event);
+    }
+
+    fn begin(&self) {
+        if !self.has_begun.swap(true, Ordering::Relaxed) {
+            self.event(Event::Started);
+        }
+    }
+}
+
+impl Cx for ProductCx<'_> {
+    fn progress(&self, what: &str, done: u64, total: u64) {
+        self.begin();
+        self.event(Event::Progress { what, done, total });
+    }
+
+    fn warn(&self, warning: Warning) {
+        self.begin();
+        self.event(Event::Warned(&warning));
     }
 }
 

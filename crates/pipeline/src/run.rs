@@ -2,13 +2,14 @@
 
 use crate::config::{Config, RenderChoices, SceneConfig};
 use crate::error::Error;
-use crate::report::{Event, Failure, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
+use crate::products::{PairsRequest, Place, Request, adopt, bring_up_to_date, not_judged, told_out_of_date};
+use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::scene_types::write_scene_types;
 use crate::split::write_split;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
 use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, Workdir, read_json};
-use enfilade_dataset::{CameraEntry, Dataset, DatasetError, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
+use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
 use enfilade_scene::{Cx, Quiet, Warning};
 use enfilade_show::drivers::write_overview;
 use enfilade_show::report_card::write_report;
@@ -47,7 +48,7 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     let workdir = Workdir::create(out)?;
     store_config(&workdir, config)?;
     let stages: Vec<&StageSpec> = STAGES.iter().collect();
-    let session = Session::new(config, &workdir)?;
+    let session = Session::with_products(config, &workdir)?;
     session.check_denoisers(&scenes)?;
     let mut summary = session.run(&scenes, &stages, false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
@@ -92,12 +93,12 @@ pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &
 /// the next [`run`] verifies it again.
 ///
 /// # Errors
-/// When the manifest cannot be read.
-pub fn verify(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
+/// When the manifest, or a file that a product is made from, cannot be read.
+pub fn verify(dataset: &Dataset, scenes: &[String], cx: &dyn Cx) -> Result<VerifyReport, Error> {
     let manifest = dataset.read_manifest()?;
     let mut reports = Vec::new();
     for scene in scenes {
-        let report = verify_listed_scene(dataset, manifest.as_ref(), scene, cx);
+        let report = verify_listed_scene(dataset, manifest.as_ref(), scene, &not_judged(dataset, scene)?, cx);
         if !report.passed {
             forget_passing(dataset, scene, cx);
         }
@@ -205,16 +206,36 @@ pub(crate) fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &
     Failure { stage, message, hint: error.hint() }
 }
 
+/// The pairs of frames that the configuration asks for: one list for all scenes that it asks them of.
+fn configured_pairs(config: &Config) -> Vec<Request> {
+    let of_scene = |scene: &SceneConfig| {
+        scene.products.iter().find_map(|request| if let Request::Pairs(pairs) = request { Some(pairs.clone()) } else { None })
+    };
+    let asked: Vec<(String, PairsRequest)> =
+        config.scenes.iter().filter_map(|scene| Some((scene.name.clone(), of_scene(scene)?))).collect();
+    let Some((_, pairs)) = asked.first() else { return Vec::new() };
+    let names = asked.iter().map(|(name, _)| name.clone()).collect();
+    let scenes = if asked.len() == config.scenes.len() { None } else { Some(names) };
+    vec![Request::Pairs(PairsRequest { scenes, ..pairs.clone() })]
+}
+
 /// A run over scenes.
 pub(crate) struct Session<'a> {
     pub config: &'a Config,
     pub workdir: &'a Workdir,
     pub dataset: Dataset,
+    /// Whether products are made too, and not the stages alone.
+    makes_products: bool,
 }
 
 impl<'a> Session<'a> {
     pub fn new(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
-        Ok(Self { config, workdir, dataset: Dataset::create(workdir.out()).map_err(Error::stage)? })
+        Ok(Self { config, workdir, dataset: Dataset::create(workdir.out()).map_err(Error::stage)?, makes_products: false })
+    }
+
+    /// As [`Session::new`], for runs that bring products up to date as well.
+    pub fn with_products(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
+        Ok(Self { makes_products: true, ..Self::new(config, workdir)? })
     }
 
     /// Runs `stages` over `scenes`.
@@ -236,13 +257,45 @@ impl<'a> Session<'a> {
             .and_then(|warnings| self.write_card(stages, &outcomes).map(|()| warnings))
             .and_then(|warnings| self.write_statistics(stages).map(|()| warnings));
 
-        let warnings = finished.as_ref().ok().cloned().unwrap_or_default();
-        let summary = Summary { scenes: outcomes, warnings, wall_s: time.wall_s() };
+        let mut warnings = finished.as_ref().ok().cloned().unwrap_or_default();
+        let products = self.make_products_of_dataset(&mut outcomes, reporter);
+        warnings.extend(self.out_of_date());
+        let summary = Summary { scenes: outcomes, warnings, products, wall_s: time.wall_s() };
         match finished {
             // Where a scene has failed, as on a full disk, the user must see that; the next run writes these files.
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
+    }
+
+    /// Brings the products of a scene up to date that need nothing of the dataset as a whole.
+    fn make_products_of(&self, scene: &SceneConfig, late: bool, reporter: &dyn Reporter) -> Vec<ProductOutcome> {
+        let of_scene = |request: &Request| match request {
+            Request::Pairs(pairs) => pairs.covisibility(),
+            other => other.clone(),
+        };
+        let configured: Vec<Request> = scene.products.iter().map(of_scene).collect();
+        bring_up_to_date(&self.dataset, Place::Scene(&scene.name), &configured, late, reporter)
+    }
+
+    /// Brings the products of the dataset as a whole up to date, and those of scenes that come after them.
+    fn make_products_of_dataset(&self, outcomes: &mut [SceneOutcome], reporter: &dyn Reporter) -> Vec<ProductOutcome> {
+        if !self.makes_products {
+            return Vec::new();
+        }
+        let configured = configured_pairs(self.config);
+        let products = bring_up_to_date(&self.dataset, Place::Dataset, configured.as_slice(), false, reporter);
+        for outcome in outcomes.iter_mut().filter(|outcome| outcome.failure.is_none()) {
+            let scene = self.config.scenes.iter().find(|scene| scene.name == outcome.name);
+            outcome.products.extend(scene.into_iter().flat_map(|scene| self.make_products_of(scene, true, reporter)));
+        }
+        products
+    }
+
+    /// A line about products that are out of date; `None` where none is.
+    fn out_of_date(&self) -> Option<String> {
+        let told = self.dataset.scenes().map_err(Error::stage).and_then(|scenes| told_out_of_date(&self.dataset, &scenes));
+        told.unwrap_or_else(|error| Some(format!("which products are out of date is not known: {}", error.explain())))
     }
 
     /// The `stages`, and after rendering alone those of labels that the scene has been through: frames that are rendered again lose what was
@@ -270,15 +323,12 @@ impl<'a> Session<'a> {
         reporter: &dyn Reporter,
     ) -> SceneOutcome {
         let job = Job::new(self.config, scene, &self.dataset, self.workdir, force);
-        let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), failure: None };
+        let mut outcome = SceneOutcome { name: scene.name.clone(), stages: Vec::new(), products: Vec::new(), failure: None };
         for spec in stages {
-            let ready = || match spec.stage {
-                // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
-                Stage::Verify => self.write_manifest(earlier, Some(&scene.name)),
-                // A missing library is told before hours of rendering, not after them.
-                Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(&job),
-                _ => Ok(()),
-            };
+            if spec.stage == Stage::Verify && self.makes_products {
+                outcome.products = self.make_products_of(scene, false, reporter);
+            }
+            let ready = || self.prepare_stage(spec.stage, stages, &job, earlier);
             match advance(spec, &job, ready, StageCx::new(&scene.name, spec.stage, reporter)) {
                 Ok(done) => outcome.stages.push(done),
                 Err(error) => {
@@ -288,6 +338,21 @@ impl<'a> Session<'a> {
             }
         }
         outcome
+    }
+
+    /// Does what a stage needs that is about to run.
+    fn prepare_stage(&self, stage: Stage, stages: &[&StageSpec], job: &Job, earlier: &[SceneOutcome]) -> Result<(), Error> {
+        adopt(&self.dataset, &job.scene.name)?;
+        match stage {
+            // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
+            Stage::Verify => {
+                job.leave_out(not_judged(&self.dataset, &job.scene.name)?);
+                self.write_manifest(earlier, Some(&job.scene.name))
+            }
+            // A missing library is told before hours of rendering, not after them.
+            Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(job),
+            _ => Ok(()),
+        }
     }
 
     /// Looks for the libraries that denoise at once, and not after the stages that come before rendering.
@@ -333,7 +398,11 @@ impl<'a> Session<'a> {
         for scene in self.dataset.scenes().map_err(Error::stage)? {
             let stopped = outcomes.iter().filter(|outcome| outcome.name == scene).any(|outcome| outcome.stopped_before(Stage::Verify));
             let kept = if stopped { None } else { read_json(&self.workdir.scene_file(&scene, CARD)?) };
-            reports.push(kept.unwrap_or_else(|| verify_listed_scene(&self.dataset, manifest.as_ref(), &scene, &Quiet)));
+            let report = match kept {
+                Some(report) => report,
+                None => verify_listed_scene(&self.dataset, manifest.as_ref(), &scene, &not_judged(&self.dataset, &scene)?, &Quiet),
+            };
+            reports.push(report);
         }
         let report = join_reports(&self.dataset, reports);
         write_report(&self.dataset, &report).map_err(Error::stage)

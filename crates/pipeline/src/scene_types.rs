@@ -2,6 +2,7 @@
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::products::not_judged;
 use enfilade_dataset::{Dataset, Manifest, SceneTypeRow, scene_type};
 use enfilade_scene::{Structure, StructureRoom};
 use std::collections::BTreeMap;
@@ -16,7 +17,8 @@ pub(crate) fn write_scene_types(dataset: &Dataset, config: &Config, manifest: &M
     for (scene, entry) in &manifest.scenes {
         let told = config.scenes.iter().find(|known| known.name == *scene).and_then(|known| scene_type(known.scene_type.as_deref()?));
         // What is missing or damaged is told by the stages that need it.
-        let structure = dataset.read_structure(scene).ok().flatten();
+        let is_fresh = !not_judged(dataset, scene)?.has(&dataset.layout().structure(scene));
+        let structure = dataset.read_structure(scene).ok().flatten().filter(|_| is_fresh);
         for camera in entry.cameras.keys() {
             let room = structure.as_ref().and_then(|structure| most_seen_from(dataset, structure, scene, camera));
             let of_room = room.map_or(OTHER, |room| type_of_room(&room.kind));

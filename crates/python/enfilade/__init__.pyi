@@ -275,6 +275,30 @@ def stage(
 ) -> dict[str, Any]: ...
 def verify(dataset: Path, *, scenes: Names | None = None) -> dict[str, Any]: ...
 def split(dataset: Path, *, seed: int | None = None, shares: Sequence[float] | None = None) -> dict[str, Any]: ...
+def make(
+    dataset: Path,
+    what: Names | None = None,
+    *,
+    stale: bool = False,
+    force: bool = False,
+    scenes: Names | None = None,
+    cameras: Names | None = None,
+    frames: int | range | None = None,
+    pixels: int | None = None,
+    overlap: Sequence[float] | None = None,
+    baseline: Sequence[float] | None = None,
+    angle: Sequence[float] | None = None,
+    pairs: Path | None = None,
+    step: int | None = None,
+    between: Sequence[tuple[str, int]] | None = None,
+    points: int | None = None,
+    seed: int | None = None,
+    layers: int | None = None,
+    sensors: Path | None = None,
+    mixes: Path | None = None,
+    camera_table: Path | None = None,
+    progress: bool | None = None,
+) -> list[dict[str, Any]]: ...
 def repack(dataset: Path, output: Path, *, layers: Names | None = None) -> dict[str, int]: ...
 def export(
     dataset: Path,

@@ -2,7 +2,7 @@
 
 use crate::errors::IntoPy;
 use crate::progress::{Bar, Heard};
-use enfilade_pipeline::{Event, Reporter, Stage};
+use enfilade_pipeline::{Event, Product, Reporter, Stage};
 use enfilade_scene::{Cx, Warning};
 use pyo3::prelude::*;
 use std::panic::resume_unwind;
@@ -35,10 +35,21 @@ impl Interrupt {
 
 impl Reporter for Interrupt {
     fn on(&self, scene: &str, stage: Stage, event: Event) {
+        self.tell(scene, stage.name(), event);
+    }
+
+    fn on_product(&self, scene: &str, product: Product, event: Event) {
+        self.tell(if scene.is_empty() { "dataset" } else { scene }, product.name(), event);
+    }
+}
+
+impl Interrupt {
+    /// Tells of a stage or a product of a scene.
+    fn tell(&self, scene: &str, name: &str, event: Event) {
         self.check();
         match event {
-            Event::Started => self.heard.hear(&format!("{scene}: {}", stage.name()), 0, 1),
-            Event::Progress { what, done, total } => self.heard.hear(&format!("{scene}: {}, {what}", stage.name()), done, total),
+            Event::Started => self.heard.hear(&format!("{scene}: {name}"), 0, 1),
+            Event::Progress { what, done, total } => self.heard.hear(&format!("{scene}: {name}, {what}"), done, total),
             _ => {}
         }
     }

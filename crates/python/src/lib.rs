@@ -14,6 +14,7 @@ mod farm;
 mod interrupt;
 mod json;
 mod loader;
+mod make;
 mod map_style;
 mod metrics;
 mod nyu;
@@ -55,6 +56,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(verbs::stage, module)?,
         wrap_pyfunction!(verbs::verify, module)?,
         wrap_pyfunction!(verbs::split, module)?,
+        wrap_pyfunction!(make::make, module)?,
         wrap_pyfunction!(verbs::repack, module)?,
         wrap_pyfunction!(verbs::export, module)?,
         wrap_pyfunction!(scene_files::import_scene, module)?,

@@ -192,14 +192,25 @@ pub fn conclude<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, 
         });
         json!({ "scene": scene.name, "stages": stages.collect::<Vec<_>>() })
     });
-    let done =
-        json::to_python(py, &json!({ "scenes": scenes.collect::<Vec<_>>(), "warnings": summary.warnings, "wall_s": summary.wall_s }))?;
+    let products = summary.all_products().map(|outcome| -> Value {
+        json!({ "product": outcome.product.name(), "scene": outcome.scene, "made": outcome.made, "lines": outcome.lines })
+    });
+    let done = json::to_python(
+        py,
+        &json!({ "scenes": scenes.collect::<Vec<_>>(), "products": products.collect::<Vec<_>>(), "warnings": summary.warnings, "wall_s": summary.wall_s }),
+    )?;
     let failures = summary.scenes.iter().filter_map(|scene| Some((scene, scene.failure.as_ref()?)));
+    let unmade = summary.all_products().filter_map(|outcome| {
+        let (message, hint) = outcome.failure.as_ref()?;
+        let hint = hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
+        Some(format!("{}: {} could not be made: {message}{hint}", outcome.scene.as_deref().unwrap_or("dataset"), outcome.product.name()))
+    });
     let failures: Vec<String> = failures
         .map(|(scene, failure)| {
             let hint = failure.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
             format!("{}: {} failed: {}{hint}", scene.name, failure.stage.name(), failure.message)
         })
+        .chain(unmade)
         .collect();
     if failures.is_empty() {
         return Ok(done);

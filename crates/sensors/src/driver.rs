@@ -29,6 +29,17 @@ pub fn sense(dataset: &Dataset, sensors: &Sensors, chosen: &ChosenFrames, cx: &d
     Ok(seen)
 }
 
+/// Shows frames of a camera to sensors, whose folders were begun, and writes their readings.
+///
+/// # Errors
+/// When a frame cannot be read or be seen by a sensor, or a file cannot be written.
+pub fn sense_frames(dataset: &Dataset, sensors: &[Sensor], of: [&str; 2], frames: &[u32], cx: &dyn Cx) -> Result<(), SensorError> {
+    let mut layers: Vec<Layer> = sensors.iter().flat_map(Sensor::layers).collect();
+    layers.sort_unstable();
+    layers.dedup();
+    show(dataset, sensors, &layers, of, frames, cx)
+}
+
 /// Reads those of the layers that a frame has; a frame of 0 × 0 pixels where it has none.
 fn read(dataset: &Dataset, (scene, camera, number): (&str, &str, u32), layers: &[Layer]) -> Result<Frame, SensorError> {
     let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();

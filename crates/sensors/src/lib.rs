@@ -24,7 +24,7 @@ mod triangulation;
 pub use amount::Amount;
 pub use camera::{CameraFormat, CameraSensor};
 pub use depth::Glass;
-pub use driver::sense;
+pub use driver::{sense, sense_frames};
 pub use error::SensorError;
 pub use imu::Imu;
 pub use lidar::Lidar;

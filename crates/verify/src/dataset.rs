@@ -4,6 +4,7 @@ use super::card::Card;
 use super::frame_values::FrameValues;
 use super::law::Law;
 use super::many_views::Listed;
+use super::not_judged::NotJudged;
 use super::read::{SceneLabels, Stored, check_mesh, read_frame, read_labels, read_tree, readable};
 use super::relations;
 use super::release::{self, Excused};
@@ -33,16 +34,22 @@ use std::collections::BTreeMap;
 /// # Errors
 /// When the manifest cannot be read.
 pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<VerifyReport, DatasetError> {
-    Ok(verify_listed_scene(dataset, dataset.read_manifest()?.as_ref(), scene, cx))
+    Ok(verify_listed_scene(dataset, dataset.read_manifest()?.as_ref(), scene, &NotJudged::default(), cx))
 }
 
-/// [`verify_scene`] with the dataset's manifest, which that of many scenes takes long to read.
-pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene: &str, cx: &dyn Cx) -> VerifyReport {
+/// [`verify_scene`] with the dataset's manifest, which that of many scenes takes long to read, and without files that are `not_judged`.
+pub fn verify_listed_scene(
+    dataset: &Dataset,
+    manifest: Option<&Manifest>,
+    scene: &str,
+    not_judged: &NotJudged,
+    cx: &dyn Cx,
+) -> VerifyReport {
     let mut card = Card::default();
     if !dataset.is_released(scene) {
         whole::check_manifest(&mut card, dataset, manifest, scene);
     }
-    let facts = SceneFacts::read(dataset, scene, &mut card);
+    let facts = SceneFacts::read(dataset, scene, not_judged, &mut card);
     facts.check(dataset, &mut card);
     let frames: Vec<(&Filmed, usize)> = facts.frames().collect();
     let counted = Counted::new(cx, "frames", frames.len());
@@ -61,7 +68,7 @@ pub fn verify_listed_scene(dataset: &Dataset, manifest: Option<&Manifest>, scene
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
-    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).chain(unchecked).collect();
+    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).chain(unchecked).chain(not_judged.note(scene)).collect();
     VerifyReport::new(&card, 1, values, pairs, excused).with_notes(notes)
 }
 
@@ -83,7 +90,7 @@ pub struct FrameVerifier(SceneFacts);
 impl FrameVerifier {
     /// For frames of a scene whose tables and trajectories are there. What is wrong with these is left to [`verify_scene`].
     pub fn new(dataset: &Dataset, scene: &str) -> Self {
-        Self(SceneFacts::read(dataset, scene, &mut Card::default()))
+        Self(SceneFacts::read(dataset, scene, &NotJudged::default(), &mut Card::default()))
     }
 
     /// The statements of the laws that a frame breaks; normally none.
@@ -116,6 +123,8 @@ struct SceneFacts {
     /// Structure of scenes with a layout whose classes are NYU40's.
     structure: Option<Structure>,
     filmed: Vec<Filmed>,
+    /// Files of products that are out of date.
+    not_judged: NotJudged,
 }
 
 /// A trajectory, what it was filmed with, and the numbers of the frames that are there.
@@ -135,7 +144,7 @@ struct Filmed {
 
 impl SceneFacts {
     /// Reads them. What cannot be read goes on the card.
-    fn read(dataset: &Dataset, name: &str, card: &mut Card) -> Self {
+    fn read(dataset: &Dataset, name: &str, not_judged: &NotJudged, card: &mut Card) -> Self {
         let nodes = dataset.read_nodes(name);
         // Parts of archives are often downloaded without tables.
         let left_out = dataset.is_released(name) && nodes.as_ref().is_err_and(DatasetError::is_not_found);
@@ -143,7 +152,8 @@ impl SceneFacts {
         card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
         let nodes = nodes.unwrap_or_default();
         let labels = read_labels(dataset, name, &nodes, card);
-        let structure = readable(card, dataset.read_structure(name)).flatten();
+        let is_judged = !not_judged.has(&dataset.layout().structure(name));
+        let structure = if is_judged { readable(card, dataset.read_structure(name)).flatten() } else { None };
         Self {
             name: name.to_string(),
             released: dataset.is_released(name),
@@ -153,6 +163,7 @@ impl SceneFacts {
             labels,
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
+            not_judged: not_judged.clone(),
         }
     }
 
@@ -241,14 +252,17 @@ impl SceneFacts {
     /// What relates frames to each other, and instances.
     fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
         let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
-        described::check(dataset, &self.name, card);
-        relations::check(dataset, (&self.name, &cameras), &|camera, number| self.listed(dataset, camera, number), card);
+        if !self.not_judged.has(&dataset.layout().instance_relations(&self.name)) {
+            described::check(dataset, &self.name, card);
+        }
+        let listed = |camera: &str, number| self.listed(dataset, camera, number);
+        relations::check(dataset, (&self.name, &cameras), &self.not_judged, &listed, card);
     }
 
     /// What sensors have made of frames; tells what could not be checked.
     fn check_sensed(&self, dataset: &Dataset, card: &mut Card) -> Vec<String> {
         let cameras = self.filmed.iter().filter_map(|filmed| Some((filmed.trajectory.name.as_str(), filmed.camera.as_ref()?)));
-        sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), card)
+        sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), &self.not_judged, card)
     }
 
     /// A frame's distances, where it is there.
@@ -310,7 +324,9 @@ impl SceneFacts {
             last_class: known.map_or(NYU40.len() as i16, |known| known.last_class),
         };
         found.card.merge(check_frame(&frame, &view, &place));
-        surfaces::check(dataset, [&self.name, name], number, &frame, &view, &mut found.card);
+        if !self.not_judged.has_of_frame(&dataset.layout().surfaces_dir(&self.name, name), number) {
+            surfaces::check(dataset, [&self.name, name], number, &frame, &view, &mut found.card);
+        }
         let fixtures = record.as_ref().map_or(0, FrameRecord::fixtures);
         if fixtures > 0 {
             let mut scan = Scan::new(&frame, &view, &place);
@@ -320,7 +336,9 @@ impl SceneFacts {
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
         if let Some(structure) = &self.structure {
             structure::check(structure, &frame, &place, &mut found.card);
-            plane_ids::check(dataset, [&self.name, name], number, structure, &frame, &mut found.card);
+            if !self.not_judged.has(&dataset.layout().plane_ids(&self.name, name, number)) {
+                plane_ids::check(dataset, [&self.name, name], number, structure, &frame, &mut found.card);
+            }
         }
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);

@@ -5,6 +5,7 @@ use super::boxes::there;
 use super::card::Card;
 use super::law::Law;
 use super::many_views::{self, BETWEEN_SAMPLES, Listed};
+use super::not_judged::NotJudged;
 use super::pair_flow::{self, PairLayers};
 use super::read::readable;
 use super::tracks;
@@ -15,15 +16,25 @@ use enfilade_frame::Layer;
 type Listing<'l, 'a> = &'l (dyn Fn(&str, u32) -> Option<Listed<'a>> + Sync);
 
 /// Checks what a scene has of these; only frames that are there are compared. What cannot be read goes on the card.
-pub(super) fn check(dataset: &Dataset, (scene, cameras): (&str, &[&str]), listed: Listing<'_, '_>, card: &mut Card) {
-    if let Some(stored) = there(dataset.read_covisibility(scene)).and_then(|read| readable(card, read)) {
+pub(super) fn check(
+    dataset: &Dataset,
+    (scene, cameras): (&str, &[&str]),
+    not_judged: &NotJudged,
+    listed: Listing<'_, '_>,
+    card: &mut Card,
+) {
+    let layout = dataset.layout();
+    if !not_judged.has(&layout.covisibility(scene))
+        && let Some(stored) = there(dataset.read_covisibility(scene)).and_then(|read| readable(card, read))
+    {
         many_views::check(scene, &stored, |frame| listed(&frame.camera, frame.frame), card);
     }
     let pairs = cameras.iter().filter_map(|camera| readable(card, dataset.pairs_with_layers(scene, camera)));
-    let pairs: Vec<FramePair> = pairs.flatten().collect();
+    let is_judged = |pair: &FramePair| !not_judged.has(&layout.pair_layer(pair, Layer::OpticalFlow));
+    let pairs: Vec<FramePair> = pairs.flatten().filter(is_judged).collect();
     let cards: Vec<Card> = enfilade_parallel::map(&pairs, |pair| check_pair(dataset, pair, listed));
     cards.into_iter().for_each(|found| card.merge(found));
-    for camera in cameras {
+    for camera in cameras.iter().filter(|camera| !not_judged.has(&layout.tracks(scene, camera))) {
         if let Some(stored) = there(dataset.read_tracks(scene, camera)).and_then(|read| readable(card, read)) {
             check_tracks(&format!("{scene}/{camera}"), &stored, &|number| listed(camera, number), card);
         }

@@ -2,13 +2,14 @@
 
 use super::card::Card;
 use super::law::Law;
+use super::not_judged::NotJudged;
 use super::read::readable;
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_scene::Camera;
 use enfilade_sensors::{Data, Sensor};
 
 /// Checks the readings of a scene's cameras. What cannot be read goes on the card; notes tell of what could not be checked.
-pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)], card: &mut Card) -> Vec<String> {
+pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)], not_judged: &NotJudged, card: &mut Card) -> Vec<String> {
     let mut notes = Vec::new();
     for name in readable(card, dataset.sensors()).unwrap_or_default() {
         let Some(sensor) = readable(card, dataset.sensor_settings::<Sensor>(&name)).flatten() else { continue };
@@ -26,7 +27,9 @@ pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)],
             continue;
         }
         for (camera, model) in cameras {
-            let frames = readable(card, dataset.sensed_frame_numbers(&name, [scene, camera])).unwrap_or_default();
+            let mut frames = readable(card, dataset.sensed_frame_numbers(&name, [scene, camera])).unwrap_or_default();
+            let folder = dataset.layout().sensor_dir(&name).join(scene).join(camera);
+            frames.retain(|&number| !not_judged.has_of_frame(&folder, number));
             let check = |&number: &u32| check_frame(dataset, &sensor, (scene, camera, number), model);
             let cards: Vec<Card> = enfilade_parallel::map(&frames, check);
             cards.into_iter().for_each(|found| card.merge(found));

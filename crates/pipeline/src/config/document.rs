@@ -4,6 +4,7 @@ use super::camera::CameraConfig;
 use super::choices::Quality;
 use super::farm::FarmKeys;
 use super::patch::{CarvePatch, GatePatch, PlanPatch, RenderPatch};
+use super::products::ProductKey;
 use super::settings::{CameraChoice, Lamps};
 use enfilade_explore::Preset;
 use enfilade_import::EnvironmentOverride;
@@ -32,6 +33,8 @@ pub(super) struct Document {
     pub quality: Option<Quality>,
     /// Label table, a CSV file; without it labels are those that come with the scene.
     pub labels: Option<Spanned<String>>,
+    /// What is made of finished frames as well: words such as `"pairs"` and `"words"`, and tables such as `{ sensors = "sensors.toml" }`.
+    pub products: Option<Spanned<Vec<ProductKey>>>,
     #[serde(default)]
     pub import: ImportKeys,
     #[serde(default)]
@@ -97,6 +100,7 @@ pub(super) struct SceneKeys {
     pub allow_missing_textures: Option<bool>,
     pub allow_missing_meshes: Option<bool>,
     pub labels: Option<Spanned<String>>,
+    pub products: Option<Spanned<Vec<ProductKey>>>,
     /// Name of the scene in the label table; its own name unless it is given.
     pub label_scene: Option<String>,
     /// What kind of room it is, in Hypersim's words, such as `"Living room"` or `"Office (home)"`: for `metadata_camera_trajectories.csv`. Homes

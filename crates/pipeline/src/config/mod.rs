@@ -14,6 +14,7 @@ mod files;
 mod locate;
 mod patch;
 mod presets;
+mod products;
 mod resolve;
 mod select;
 mod sensors;

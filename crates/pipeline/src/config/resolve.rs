@@ -15,6 +15,7 @@ use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
+use crate::products::Request;
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
@@ -157,6 +158,7 @@ impl Resolver<'_> {
             color: COLOR,
             keep_rendered: keep_rendered(),
             denoiser: None,
+            products: self.products(keys)?,
             name,
         };
         scene.render.samples = QUALITY.samples();
@@ -177,6 +179,22 @@ impl Resolver<'_> {
             self.check_grid(&scene, camera)?;
         }
         Ok(scene)
+    }
+
+    /// What is asked for of a scene; its own key replaces that of the file.
+    fn products(&self, keys: &SceneKeys) -> Result<Vec<Request>, ConfigError> {
+        let Some(list) = keys.products.as_ref().or(self.document.products.as_ref()) else { return Ok(Vec::new()) };
+        let folder = self.source.file.parent().unwrap_or(Path::new(""));
+        let mut requests = Vec::new();
+        for key in list.get_ref() {
+            let file = key.file().map(|file| self.expanded(file, list)).transpose()?;
+            let path = |_: &str| Ok(folder.join(file.as_deref().unwrap_or_default()));
+            requests.extend(key.requests(&path).map_err(|wrong| {
+                let help = wrong.hint().unwrap_or_else(|| "docs/ground-truth.md has the products and their options".into());
+                self.refuse(list, wrong.to_string(), help)
+            })?);
+        }
+        Ok(requests)
     }
 
     fn farm(&self) -> Result<FarmConfig, ConfigError> {

@@ -8,6 +8,7 @@ use super::expand::expand;
 use super::farm::FarmConfig;
 use super::select::select;
 use crate::error::Error;
+use crate::products::Request;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
@@ -92,6 +93,9 @@ pub struct SceneConfig {
     /// the program.
     #[serde(default)]
     pub denoiser: Option<String>,
+    /// What is made of it beside the outputs of the stages.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub products: Vec<Request>,
 }
 
 /// Where a scene comes from.

@@ -6,7 +6,7 @@ use enfilade_dataset::{Fixture, check_name};
 use enfilade_math::Rgb;
 use enfilade_render::FixtureKind;
 use enfilade_scene::decoded_text;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The columns of the table.
@@ -14,14 +14,15 @@ const COLUMNS: [&str; 5] = ["mix", "fixture", "r", "g", "b"];
 const HINT: &str = "a table of mixes has the columns mix, fixture, r, g and b, as in docs/relight.md";
 
 /// A mix: what each fixture's light is multiplied by.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(super) struct Mix {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Mix {
+    /// Its name, and that of its folder.
     pub name: String,
     rules: Vec<Rule>,
 }
 
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Rule {
     #[serde(skip)]
     line: u64,
@@ -37,6 +38,13 @@ impl Mix {
     }
 }
 
+/// The line that it was read from does not count.
+impl PartialEq for Rule {
+    fn eq(&self, other: &Self) -> bool {
+        self.fixture == other.fixture && self.factor == other.factor
+    }
+}
+
 impl Rule {
     fn means(&self, fixture: &Fixture) -> bool {
         match self.fixture.parse::<u32>() {
@@ -48,8 +56,17 @@ impl Rule {
     }
 }
 
+/// The mixes of the table `file`; where the fixtures of scenes are given, rows that mean none of them are refused.
+pub(crate) fn mixes_of(file: &Path, fixtures: Option<&[Fixture]>) -> Result<Vec<Mix>, Error> {
+    let mixes = read(file)?;
+    if let Some(fixtures) = fixtures {
+        check(file, &mixes, &fixtures.iter().collect::<Vec<_>>())?;
+    }
+    Ok(mixes)
+}
+
 /// Reads and checks the table `file`.
-pub(super) fn read(file: &Path) -> Result<Vec<Mix>, Error> {
+fn read(file: &Path) -> Result<Vec<Mix>, Error> {
     let unreadable = |error: std::io::Error| Error::usage(format!("cannot read {}: {error}", file.display()), HINT);
     parse(file, &std::fs::read(file).map_err(unreadable)?)
 }
@@ -100,7 +117,7 @@ fn parse(file: &Path, text: &[u8]) -> Result<Vec<Mix>, Error> {
 }
 
 /// Refuses rows that mean no fixture of any scene by its number or name; kinds may be named that a scene lacks.
-pub(super) fn check(file: &Path, mixes: &[Mix], fixtures: &[&Fixture]) -> Result<(), Error> {
+fn check(file: &Path, mixes: &[Mix], fixtures: &[&Fixture]) -> Result<(), Error> {
     let is_kind = |rule: &Rule| FixtureKind::ALL.iter().any(|kind| kind.name() == rule.fixture);
     let idle = |rule: &&Rule| !is_kind(rule) && !fixtures.iter().any(|fixture| rule.means(fixture));
     let Some(rule) = mixes.iter().flat_map(|mix| &mix.rules).find(idle) else { return Ok(()) };

@@ -8,12 +8,12 @@ use enfilade_denoise::{Denoiser, INPUTS, denoise};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
 use enfilade_math::Rgb;
-use enfilade_scene::{Counted, Cx, Warning};
+use enfilade_scene::{Counted, Cx};
 use enfilade_show::display::Display;
 use enfilade_show::exposure::Exposure;
 use enfilade_show::preview::{PreviewSpec, Subject};
-use mixes::Mix;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// So many mixes are made at once: each takes 24 bytes per pixel.
@@ -25,48 +25,60 @@ const PICTURE: PreviewSpec = PreviewSpec { pass: enfilade_frame::Pass::Final, na
 /// What denoising and exposure go by: the frame's own.
 const GUIDES: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
 
-/// Lights frames by the mixes of the table `file`, and writes `color`, `diffuse_illumination` and `residual` of each, and a picture, below
-/// `relit/MIX/SCENE/CAMERA` of the dataset. They are denoised where the frame's own are, by the network in the program. What is there of mixes of
-/// the same names and other rules is removed first. Gives the number of frames, of which each has as many pictures as there are mixes.
+pub(crate) use mixes::{Mix, mixes_of};
+
+/// Lights frames of a scene, by camera and number, each by its mixes, and writes `color`, `diffuse_illumination` and `residual` of each, and a
+/// picture, below `relit/MIX/SCENE/CAMERA` of the dataset. They are denoised where the frame's own are, by the network in the program.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub(crate) fn relight_frames(
+    dataset: &Dataset,
+    scene: &str,
+    frames: &BTreeMap<(&str, u32), Vec<&Mix>>,
+    fixtures: &[Fixture],
+    cx: &dyn Cx,
+) -> Result<(), Error> {
+    let denoiser = Denoiser::built_in();
+    let mut exposures: BTreeMap<&str, Vec<ToneMapRow>> = BTreeMap::new();
+    for (camera, _) in frames.keys() {
+        exposures.insert(camera, dataset.read_tone_maps(scene, camera)?);
+    }
+    let counted = Counted::new(cx, "frames", frames.len());
+    // One after the other: each holds several mixes, and denoising uses all threads.
+    frames.iter().try_for_each(|((camera, number), mixes)| {
+        let exposure = exposures[camera].iter().find(|row| row.frame == *number).map(exposure);
+        counted.unit(|| {
+            let mut mixes = mixes.chunks(AT_ONCE);
+            mixes.try_for_each(|mixes| relight_frame(dataset, (scene, camera, *number), fixtures, mixes, exposure, &denoiser))
+        })
+    })
+}
+
+/// Lights frames by the mixes of the table `file`. Gives the number of frames, of which each has as many pictures as there are mixes.
 ///
 /// # Errors
 /// When the table is wrong or means fixtures that no scene has, no chosen scene has fixtures, or a file cannot be read or written.
 pub fn relight(dataset: &Dataset, file: &Path, chosen: &ChosenFrames, cx: &dyn Cx) -> Result<usize, Error> {
-    let mixes = mixes::read(file)?;
     let fixtures = |scene: &String| Ok((scene.clone(), dataset.read_fixtures(scene)?));
     let lit: Vec<(String, Vec<Fixture>)> = chosen.scenes.iter().map(fixtures).collect::<Result<_, DatasetError>>()?;
-    let all: Vec<&Fixture> = lit.iter().flat_map(|(_, fixtures)| fixtures).collect();
+    let all: Vec<Fixture> = lit.iter().flat_map(|(_, fixtures)| fixtures.clone()).collect();
     if all.is_empty() {
         let message = "no scene that was chosen has the light of its fixtures apart".to_string();
         return Err(Error::usage(message, "render it with --fixtures (or fixtures = true below [render])"));
     }
-    mixes::check(file, &mixes, &all)?;
-    for (scene, _) in lit.iter().filter(|(_, fixtures)| fixtures.is_empty()) {
-        let message = "it is left out, since the light of its fixtures is not apart; render it with --fixtures".into();
-        cx.warn(Warning { place: scene.clone(), message });
-    }
+    let mixes = mixes_of(file, Some(&all))?;
     for mix in &mixes {
         dataset.begin_mix(&mix.name, mix)?;
     }
-
-    // Light the frames of every camera.
-    let denoiser = Denoiser::built_in();
     let mut count = 0;
     for (scene, fixtures) in lit.iter().filter(|(_, fixtures)| !fixtures.is_empty()) {
-        for (camera, frames) in chosen.of_scene(dataset, scene, cx)? {
-            let exposures = dataset.read_tone_maps(scene, &camera)?;
-            let counted = Counted::new(cx, "frames", frames.len());
-            let light = |&number: &u32| {
-                let exposure = exposures.iter().find(|row| row.frame == number).map(exposure);
-                counted.unit(|| {
-                    let mut mixes = mixes.chunks(AT_ONCE);
-                    mixes.try_for_each(|mixes| relight_frame(dataset, (scene, &camera, number), fixtures, mixes, exposure, &denoiser))
-                })
-            };
-            // One after the other: each holds several mixes, and denoising uses all threads.
-            frames.iter().try_for_each(light)?;
-            count += frames.len();
-        }
+        let cameras = chosen.of_scene(dataset, scene, cx)?;
+        let named =
+            cameras.iter().flat_map(|(camera, frames)| frames.iter().map(|frame| ((camera.as_str(), *frame), mixes.iter().collect())));
+        let frames: BTreeMap<(&str, u32), Vec<&Mix>> = named.collect();
+        relight_frames(dataset, scene, &frames, fixtures, cx)?;
+        count += frames.len();
     }
     Ok(count)
 }
@@ -81,7 +93,7 @@ fn relight_frame(
     dataset: &Dataset,
     frame: (&str, &str, u32),
     fixtures: &[Fixture],
-    mixes: &[Mix],
+    mixes: &[&Mix],
     exposure: Option<Exposure>,
     denoiser: &Denoiser,
 ) -> Result<(), Error> {
@@ -188,13 +200,11 @@ mod tests {
         let picture = |mix: &str| folder.path().join(format!("relit/{mix}/room/cam_00/frame.0001.display.jpg"));
         assert!(picture("red").is_file());
 
-        // Other rules take the place of all that is there; frames that change lose it.
+        // Other rules take the place of all that is there.
         std::fs::write(&file, table.replace("red,lamp,1", "red,lamp,0.5")).unwrap();
         let none = ChosenFrames { frames: Some(9..10), ..chosen };
         assert_eq!(relight(&dataset, &file, &none, &enfilade_scene::Quiet).unwrap(), 0);
         assert!(!picture("red").exists() && picture("same").is_file());
-        dataset.forget_derived("room").unwrap();
-        assert!(!picture("same").exists());
     }
 
     #[test]

@@ -36,9 +36,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             left.push((camera, *frame, record));
         }
     }
-    if !left.is_empty() {
-        job.dataset.forget_relit(&job.scene.name).map_err(Error::stage)?;
-    }
     let denoiser = if left.iter().any(|(_, _, record)| is_denoised_now(job, record)) { Some(open(job)?) } else { None };
     let mut denoised = 0;
     for (done, (camera, frame, record)) in left.iter().enumerate() {

@@ -108,7 +108,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().chain(&OBJECTS).map(|file| layout.mesh_file(name, file)));
-    job.dataset.forget_planes(name).map_err(Error::stage)?;
     let drawn = [layout.structure(name), layout.structure_plan(name)];
     match &structure {
         Some(structure) => {
@@ -116,9 +115,15 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             write_bytes(&drawn[1], structure_svg(structure))?;
             outputs.extend(drawn);
         }
-        None => drawn.iter().try_for_each(|file| remove_if_there(file))?,
+        None => remove_built_rooms(job, &drawn)?,
     }
     Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+}
+
+/// Removes the rooms of a home that the scene was before. Those that were fitted to its labels are a product of their own.
+fn remove_built_rooms(job: &Job, files: &[PathBuf]) -> Result<(), Error> {
+    let is_fitted = matches!(job.dataset.read_structure(&job.scene.name), Ok(Some(structure)) if structure.fit.is_some());
+    if is_fitted { Ok(()) } else { Ok(files.iter().try_for_each(|file| remove_if_there(file))?) }
 }
 
 /// Whether a file that importing wrote may be another by now, because people annotated the scene.

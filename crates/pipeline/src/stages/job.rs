@@ -8,6 +8,7 @@ use enfilade_dataset::{Dataset, DatasetError, quoted};
 use enfilade_frame::Pass;
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
+use enfilade_verify::NotJudged;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -30,6 +31,7 @@ struct Loaded {
     scene: Option<Arc<Scene>>,
     world: Option<Arc<World>>,
     filmed: Option<Filmed>,
+    not_judged: NotJudged,
 }
 
 /// Trajectories and what each is filmed with.
@@ -63,6 +65,16 @@ impl<'a> Job<'a> {
     /// A file of the scene's work folder.
     pub fn work_file(&self, name: &str) -> Result<PathBuf, Error> {
         self.workdir.scene_file(&self.scene.name, name)
+    }
+
+    /// Leaves files of products that are out of date out of verification.
+    pub fn leave_out(&self, not_judged: NotJudged) {
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner).not_judged = not_judged;
+    }
+
+    /// The files that are left out of verification.
+    pub fn not_judged(&self) -> NotJudged {
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner).not_judged.clone()
     }
 
     /// The scene package.

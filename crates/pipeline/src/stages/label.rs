@@ -51,18 +51,11 @@ fn annotation_tables(job: &Job) -> Vec<PathBuf> {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    job.dataset.forget_words(&job.scene.name).map_err(Error::stage)?;
     let (known, report) = known(job, cx)?;
     let hash = known.hash().0;
     let frames = job.frames()?;
     let is_stale = |(camera, frame): &(String, u32)| job.force || !job.dataset.labels_are_complete(&job.scene.name, camera, *frame, &hash);
     let stale: BTreeSet<&(String, u32)> = frames.iter().filter(|frame| is_stale(frame)).collect();
-    if !stale.is_empty() {
-        job.dataset.forget_planes(&job.scene.name).map_err(Error::stage)?;
-    }
-    for camera in stale.iter().map(|(camera, _)| camera).collect::<BTreeSet<_>>() {
-        job.dataset.forget_surfaces(&job.scene.name, camera).map_err(Error::stage)?;
-    }
     for (done, of) in frames.iter().enumerate() {
         if stale.contains(of) {
             label_frame(job, &of.0, of.1, &known, &hash)?;

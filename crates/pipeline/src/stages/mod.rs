@@ -30,12 +30,11 @@ mod verify;
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use record::{Input, Inputs, Outcome, Output, Record};
+use record::{Input, Inputs, Outcome, Record};
 use std::path::{Path, PathBuf};
 
 pub use finisher::FinishedFrame;
 pub use shift::Part;
-use stage::HASHED_AS;
 pub use stage::Stage;
 
 pub(crate) use advance::{advance, is_up_to_date};
@@ -47,8 +46,10 @@ pub(crate) use label::{assign_table, read_table};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
+pub(crate) use record::Output;
 pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program, render_frames, views};
 pub(crate) use shift::Shift;
+pub(crate) use stage::HASHED_AS;
 pub(crate) use verify::CARD;
 
 /// What a stage is.

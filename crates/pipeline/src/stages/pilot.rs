@@ -30,8 +30,11 @@ const PROBES: [f64; 2] = [12.0, 96.0];
 const FRAMES: usize = 6;
 const TRAJECTORIES: usize = 4;
 
+/// Makes the products of a scene in a dataset of one frame.
+pub(crate) type Products<'p> = &'p dyn Fn(&Dataset) -> Result<(), Error>;
+
 /// Tries out the rendering of `frames`, at least one, of a scene whose trajectories are planned.
-pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Result<ScenePilot, Error> {
+pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, products: Products, cx: &StageCx) -> Result<ScenePilot, Error> {
     cx.event(Event::Started);
     let time = Stopwatch::start();
     job.forget_world();
@@ -66,7 +69,7 @@ pub(crate) fn pilot(job: &Job, frames: &FramesByTrajectory, cx: &StageCx) -> Res
             found.probes.push(probe_frame(&prepared, &guide, &views[wanted[i]], &config)?);
         }
         if let (0, Some(&middle)) = (step, wanted.get(wanted.len() / 2)) {
-            try_frame(job, (camera, trajectory, middle), (&prepared, &guide, &views), &mut found)?;
+            try_frame(job, (camera, trajectory, middle), (&prepared, &guide, &views), products, &mut found)?;
         }
     }
     found.before_cpu_s = scene_cpu_s + guides_cpu_s * filmed.len() as f64 / tried.len().max(1) as f64;
@@ -127,11 +130,12 @@ fn try_frame(
     job: &Job,
     filmed: (&Camera, &Trajectory, usize),
     (prepared, guide, views): (&RenderScene<'_>, &Guide, &[CameraView<'_>]),
+    products: Products,
     found: &mut ScenePilot,
 ) -> Result<(), Error> {
     let folder = job.work_file(FOLDER)?;
     remove_folder(&folder)?;
-    let result = try_frame_in(job, &folder, filmed, (prepared, guide, views), found);
+    let result = try_frame_in(job, &folder, filmed, (prepared, guide, views), products, found);
     remove_folder(&folder)?;
     result
 }
@@ -141,6 +145,7 @@ fn try_frame_in(
     folder: &Path,
     (camera, trajectory, index): (&Camera, &Trajectory, usize),
     (prepared, guide, views): (&RenderScene<'_>, &Guide, &[CameraView<'_>]),
+    products: Products,
     found: &mut ScenePilot,
 ) -> Result<(), Error> {
     let name = &job.scene.name;
@@ -178,8 +183,9 @@ fn try_frame_in(
     dataset.write_camera_parameters(name, camera).map_err(Error::stage)?;
     let folder = dataset.layout().scene_dir(name);
     let before_bytes = bytes_below(&folder, &|file| !is_of_frame(file));
-    later_stages(job, &dataset, &scratch, found)?;
-    found.frame_bytes = bytes_below(&folder, &is_of_frame);
+    later_stages(job, &dataset, &scratch, products, found)?;
+    let layout = dataset.layout();
+    found.frame_bytes = bytes_below(&folder, &is_of_frame) + folder_bytes(&layout.sensors_dir()) + folder_bytes(&layout.relit_dir());
     // Tables and contact sheets: another frame adds only a row or a small picture.
     found.scene_bytes = bytes_below(&folder, &|file| !is_of_frame(file)).saturating_sub(before_bytes);
     // The parts of `boxes` that do not depend on frames.
@@ -191,8 +197,8 @@ fn try_frame_in(
     Ok(())
 }
 
-/// Runs the stages after rendering on the frame, and notes their time. That a frame of two samples breaks a law does not matter here.
-fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, found: &mut ScenePilot) -> Result<(), Error> {
+/// Runs the stages after rendering on the frame, makes its products, and notes the time. That a frame of two samples breaks a law does not matter here.
+fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, products: Products, found: &mut ScenePilot) -> Result<(), Error> {
     let name = &job.scene.name;
     for file in [PACKAGE, "labels.json"] {
         let (from, to) = (job.work_file(file)?, scratch.scene_file(name, file)?);
@@ -206,6 +212,7 @@ fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, found: &mut Sce
             _ => {}
         }
     }
+    products(dataset)?;
     found.later_frame_cpu_s = time.cpu_s();
     Ok(())
 }

@@ -41,12 +41,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
     progressive::forget_all_but(job, unfinished)?;
 
-    // Forget what was made of frames that are made anew.
     let rendered: usize = missing.iter().map(|m| m.frames.len()).sum();
-    if rendered > 0 {
-        job.dataset.forget_relations(&job.scene.name).map_err(Error::stage)?;
-        job.dataset.forget_derived(&job.scene.name).map_err(Error::stage)?;
-    }
     if !job.scene.render.fixtures {
         job.dataset.write_fixtures(&job.scene.name, &[]).map_err(Error::stage)?;
     }
@@ -299,11 +294,9 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
         layout.layer_dir(name, camera, Pass::Geometry),
         layout.preview_dir(name, camera, Pass::Final),
         layout.preview_dir(name, camera, Pass::Geometry),
-        layout.surfaces_dir(name, camera),
         layout.after_frame_dir(name, camera),
     ];
     // Records first: a frame without one does not count.
-    let mut is_removed = false;
     for folder in folders {
         let Ok(entries) = std::fs::read_dir(&folder) else { continue };
         for entry in entries {
@@ -312,16 +305,12 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
             if number.is_none_or(|n| keep.contains(n)) {
                 continue;
             }
-            is_removed = true;
             if path.is_dir() {
                 remove_folder(&path)?;
             } else {
                 std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
             }
         }
-    }
-    if is_removed {
-        job.dataset.forget_derived(name).map_err(Error::stage)?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use crate::workdir::Hash;
 use enfilade_dataset::{counted, quoted, remove_if_there, write_json};
 use enfilade_scene::{Light, Part, Scene};
 use enfilade_verify::frame_gates::GATES;
-use enfilade_verify::{LAWS, Law, VerifyReport, verify_scene};
+use enfilade_verify::{LAWS, Law, VerifyReport, verify_listed_scene};
 
 /// The scene's part of the report card, in its work folder; written also when a check does not pass.
 pub(crate) const CARD: &str = "card.json";
@@ -35,7 +35,8 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let report = verify_scene(job.dataset, name, cx).map_err(Error::stage)?;
+    let manifest = job.dataset.read_manifest().map_err(Error::stage)?;
+    let report = verify_listed_scene(job.dataset, manifest.as_ref(), name, &job.not_judged(), cx);
     let card = job.work_file(CARD)?;
     write_json(&card, &report)?;
     if !report.passed {

@@ -10,6 +10,7 @@ mod intake;
 mod layouts;
 mod places;
 mod presets;
+mod products;
 mod rooms;
 mod stored;
 mod suspicions;

@@ -1,0 +1,320 @@
+//! Making products: what is asked for now, or what is out of date.
+
+use super::adopt::adopt;
+use super::pairs;
+use super::product::Product;
+use super::record::{MadePart, Place, Record, has_records};
+use super::request::Request;
+use super::sources::Subject;
+use super::stale::{States, Wanted, specs_in};
+use super::table::{Asked, PRODUCTS, ProductSpec, Scope};
+use super::{flow, relit, rooms, words};
+use crate::error::Error;
+use crate::report::{Event, ProductCx, ProductOutcome, Reporter, Stopwatch};
+use crate::stages::Output;
+use crate::workdir::Workdir;
+use enfilade_dataset::{Dataset, WORKDIR, remove_if_there};
+use enfilade_scene::{Cx, Quiet};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// How products are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MakeOptions {
+    /// Makes also what is up to date.
+    pub force: bool,
+}
+
+/// What became of a product in a scene, or in the dataset as a whole.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Made {
+    /// Which.
+    pub product: Product,
+    /// The scene; `None` for the dataset as a whole.
+    pub scene: Option<String>,
+    /// Parts that were made.
+    pub made: usize,
+    /// Parts that were up to date.
+    pub kept: usize,
+    /// What was made, in lines; without them nothing was to be done.
+    pub lines: Vec<String>,
+}
+
+/// Makes what `requests` ask for of these scenes, and first what that is made from. What is up to date is left alone. Requests are kept: what
+/// they have made is made again by them once it is out of date.
+///
+/// # Errors
+/// When nothing that is asked for can be made of these scenes, another process works on the dataset, or a file cannot be read or written.
+pub fn make(dataset: &Dataset, scenes: &[String], requests: &[Request], options: MakeOptions, cx: &dyn Cx) -> Result<Vec<Made>, Error> {
+    let _lock = locked(dataset)?;
+    scenes.iter().try_for_each(|scene| adopt(dataset, scene))?;
+    take_over_settings(dataset, requests)?;
+    let mut all = Vec::new();
+    for spec in &PRODUCTS {
+        let asked: Vec<Request> = requests.iter().filter(|request| request.product() == spec.product).cloned().collect();
+        if asked.is_empty() {
+            continue;
+        }
+        let done = if spec.scope == Scope::Dataset {
+            pairs::make_listed(dataset, scenes, &asked, options, cx)?
+        } else {
+            make_in_scenes(dataset, scenes, spec, &asked, options, cx)?
+        };
+        if done.iter().all(|made| made.made + made.kept == 0) {
+            return Err(nothing_to_make(dataset, spec.product));
+        }
+        all.extend(done);
+    }
+    Ok(all)
+}
+
+/// Makes again what is out of date in these scenes and in the dataset as a whole, as it was asked for; of `only` these products where any are
+/// named.
+///
+/// # Errors
+/// As [`make`].
+pub fn make_stale(dataset: &Dataset, scenes: &[String], only: &[Product], cx: &dyn Cx) -> Result<Vec<Made>, Error> {
+    let _lock = locked(dataset)?;
+    let is_meant = |spec: &ProductSpec| only.is_empty() || only.contains(&spec.product);
+    let mut all = Vec::new();
+    for late in [false, true] {
+        for scene in scenes {
+            let place = Place::Scene(scene);
+            for spec in specs_in(place).filter(|spec| spec.is_late() == late && is_meant(spec)) {
+                all.push(made(spec.product, place, update(dataset, place, spec.product, &[], MakeOptions::default(), cx)?));
+            }
+        }
+        for spec in specs_in(Place::Dataset).filter(|spec| !late && is_meant(spec)) {
+            all.push(made(spec.product, Place::Dataset, update(dataset, Place::Dataset, spec.product, &[], MakeOptions::default(), cx)?));
+        }
+    }
+    all.retain(|made| made.made > 0);
+    Ok(all)
+}
+
+/// The dataset's lock, where it has a work folder.
+pub(super) fn locked(dataset: &Dataset) -> Result<Option<Workdir>, Error> {
+    if dataset.root().join(WORKDIR).is_dir() { Workdir::open(dataset.root()).map(Some) } else { Ok(None) }
+}
+
+/// A sensor or a mix has one setting in all scenes: what other scenes have of it is out of date from now on.
+fn take_over_settings(dataset: &Dataset, requests: &[Request]) -> Result<(), Error> {
+    for product in [Product::Sensors, Product::Relit] {
+        let newer: Vec<&Request> = requests.iter().filter(|request| request.product() == product).collect();
+        if newer.is_empty() {
+            continue;
+        }
+        for scene in dataset.scenes().map_err(Error::stage)? {
+            let place = Place::Scene(&scene);
+            let Some(mut record) = Record::read(dataset, place, product) else { continue };
+            let before = record.requests.clone();
+            for request in &mut record.requests {
+                if let Some(changed) = newer.iter().find_map(|newer| request.with_settings_of(newer)) {
+                    *request = changed;
+                }
+            }
+            if record.requests != before {
+                record.write(dataset, place, product)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn make_in_scenes(
+    dataset: &Dataset,
+    scenes: &[String],
+    spec: &ProductSpec,
+    asked: &[Request],
+    options: MakeOptions,
+    cx: &dyn Cx,
+) -> Result<Vec<Made>, Error> {
+    let subjects: Vec<Subject> = scenes.iter().map(|scene| Subject::new(dataset, Place::Scene(scene))).collect();
+    // Before the first of many scenes costs time.
+    for request in asked {
+        match request {
+            Request::Flow { .. } => flow::check(&subjects, request)?,
+            Request::Mix { .. } => relit::check(&subjects, cx)?,
+            _ => {}
+        }
+    }
+    let mut done = Vec::new();
+    for scene in scenes {
+        let place = Place::Scene(scene);
+        done.push(made(spec.product, place, update(dataset, place, spec.product, asked, options, cx)?));
+    }
+    match spec.product {
+        Product::Rooms => rooms::refuse_none(&subjects)?,
+        Product::Words => words::refuse_none(&subjects)?,
+        _ => {}
+    }
+    Ok(done)
+}
+
+pub(super) fn nothing_to_make(dataset: &Dataset, product: Product) -> Error {
+    match product {
+        Product::Flow => Error::scene("no pair of frames that are there was chosen", "choose others, or render them: enfilade run"),
+        Product::Covisibility | Product::Pairs => {
+            let message = format!("no camera that was chosen has frames in {}", dataset.root().display());
+            Error::scene(message, "make them with `enfilade run`, which also tells what has failed")
+        }
+        _ => Error::scene("no frame that is there was chosen", "choose others, or render them: enfilade run"),
+    }
+}
+
+fn made(product: Product, place: Place, updated: Updated) -> Made {
+    Made { product, scene: place.scene().map(String::from), made: updated.made, kept: updated.kept, lines: updated.lines }
+}
+
+/// What became of a product in a place.
+#[derive(Debug, Default)]
+pub(super) struct Updated {
+    pub made: usize,
+    pub kept: usize,
+    pub lines: Vec<String>,
+}
+
+/// Brings the products of a place up to date that were asked for, by the configuration (`configured`) or otherwise; those that are `late` or
+/// those that are not. One that cannot be made keeps none of the others from being made.
+pub(crate) fn bring_up_to_date(
+    dataset: &Dataset,
+    place: Place,
+    configured: &[Request],
+    late: bool,
+    reporter: &dyn Reporter,
+) -> Vec<ProductOutcome> {
+    if configured.is_empty() && !has_records(dataset, place) {
+        return Vec::new();
+    }
+    let scene = place.scene();
+    let one = |spec: &ProductSpec| {
+        let own: Vec<Request> = configured.iter().filter(|request| request.product() == spec.product).cloned().collect();
+        configure(dataset, place, spec.product, &own)?;
+        let (cx, time) = (ProductCx::new(scene.unwrap_or_default(), spec.product, reporter), Stopwatch::start());
+        let updated = update(dataset, place, spec.product, &[], MakeOptions::default(), &cx);
+        match &updated {
+            Ok(updated) if updated.made > 0 => cx.event(Event::Finished { summary: &updated.lines.join("; "), wall_s: time.wall_s() }),
+            Ok(_) => {}
+            Err(error) => cx.event(Event::Failed { message: &error.explain() }),
+        }
+        updated
+    };
+    let outcome = |spec: &ProductSpec| {
+        let (updated, failure) = match one(spec) {
+            Ok(updated) => (updated, None),
+            Err(error) => (Updated::default(), Some((error.explain(), error.hint()))),
+        };
+        let is_known = updated.made + updated.kept > 0 || failure.is_some();
+        let scene = scene.map(String::from);
+        is_known.then_some(ProductOutcome { product: spec.product, scene, made: updated.made, lines: updated.lines, failure })
+    };
+    specs_in(place).filter(|spec| spec.is_late() == late).filter_map(outcome).collect()
+}
+
+/// Makes what is asked for of a scene in the dataset `aside`, which has one frame of it: what products of all frames cost beyond that, it does
+/// not tell.
+pub(crate) fn try_out(dataset: &Dataset, scene: &str, configured: &[Request], aside: &Dataset) -> Result<(), Error> {
+    for spec in specs_in(Place::Scene(scene)) {
+        let record = Record::read(dataset, Place::Scene(scene), spec.product).unwrap_or_default();
+        let own = configured.iter().filter(|request| request.product() == spec.product);
+        let asked: Vec<Request> = record.requests.iter().chain(own).cloned().collect();
+        if !asked.is_empty() {
+            update(aside, Place::Scene(scene), spec.product, &asked, MakeOptions::default(), &Quiet)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds what the configuration asks for, and did not when it was last looked at. A verb may have asked for something else since.
+fn configure(dataset: &Dataset, place: Place, product: Product, configured: &[Request]) -> Result<(), Error> {
+    let found = Record::read(dataset, place, product);
+    if found.as_ref().map_or(configured.is_empty(), |record| record.configured == configured) {
+        return Ok(());
+    }
+    let mut record = found.unwrap_or_default();
+    let last = std::mem::replace(&mut record.configured, configured.to_vec());
+    configured.iter().filter(|request| !last.contains(request)).for_each(|request| record.ask(request));
+    record.write(dataset, place, product)
+}
+
+/// Makes what `asked` asks for of a product in a place; without any request, all that was ever asked for. What is up to date stays, unless it
+/// is asked for by force.
+pub(super) fn update(
+    dataset: &Dataset,
+    place: Place,
+    product: Product,
+    asked: &[Request],
+    options: MakeOptions,
+    cx: &dyn Cx,
+) -> Result<Updated, Error> {
+    let found = Record::read(dataset, place, product);
+    if found.is_none() && asked.is_empty() {
+        return Ok(Updated::default());
+    }
+    let mut record = found.unwrap_or_default();
+    asked.iter().for_each(|request| record.ask(request));
+    update_inputs(dataset, place, product, &record, cx)?;
+
+    // Find what is to be made.
+    let mut states = States::new(dataset, place);
+    states.subject.warn_of_damaged_frames(cx)?;
+    let wanted = states.wanted_by(product, &record)?;
+    if wanted.is_empty() {
+        return Ok(Updated::default());
+    }
+    let is_meant = |wanted: &&Wanted| asked.is_empty() || asked.contains(&record.requests[wanted.request]);
+    let (todo, fresh): (Vec<&Wanted>, Vec<&Wanted>) = wanted.iter().filter(is_meant).partition(|part| options.force || !part.is_fresh);
+    if todo.is_empty() && fresh.is_empty() && !asked.is_empty() {
+        return Ok(Updated::default());
+    }
+
+    // From here on the record must not speak of the files that are about to change.
+    todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
+    let is_left_over = |name: &String| wanted.iter().all(|wanted| wanted.part.name != *name);
+    if todo.is_empty() && !record.parts.keys().any(is_left_over) {
+        if !asked.is_empty() {
+            record.write(dataset, place, product)?;
+        }
+        return Ok(Updated { kept: fresh.len(), ..Updated::default() });
+    }
+    record.write(dataset, place, product)?;
+
+    // Make it, and say what it was made from.
+    let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(&record, part) }).collect();
+    let lines = if parts.is_empty() { Vec::new() } else { (product.spec().make)(&states.subject, &parts, cx)? };
+    states.subject.forget_contents();
+    let updated = Updated { made: todo.len(), kept: fresh.len(), lines };
+    let before: BTreeSet<PathBuf> = files_of(&record);
+    for part in &todo {
+        let files = (product.spec().files)(&states.subject, &part.part)?;
+        let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
+        record.parts.insert(part.part.name.clone(), MadePart { from: Some(part.key.clone()), files });
+    }
+
+    // Remove what was made of frames that are gone, and under other names.
+    let names: BTreeSet<&String> = wanted.iter().map(|wanted| &wanted.part.name).collect();
+    record.parts.retain(|name, _| names.contains(name));
+    before.difference(&files_of(&record)).try_for_each(|path| remove_if_there(&dataset.root().join(path)))?;
+    record.write(dataset, place, product)?;
+    Ok(updated)
+}
+
+fn files_of(record: &Record) -> BTreeSet<PathBuf> {
+    record.parts.values().flat_map(|part| &part.files).map(|file| file.path.clone()).collect()
+}
+
+/// Brings what a product is made from up to date.
+fn update_inputs(dataset: &Dataset, place: Place, product: Product, record: &Record, cx: &dyn Cx) -> Result<(), Error> {
+    for input in product.spec().after().filter(|input| record.requests.iter().any(|request| request.is_made_after(*input))) {
+        match (place, input.spec().scope) {
+            (_, Scope::Dataset) => drop(update(dataset, Place::Dataset, input, &[], MakeOptions::default(), cx)?),
+            (Place::Scene(_), _) => drop(update(dataset, place, input, &[], MakeOptions::default(), cx)?),
+            (Place::Dataset, _) => {
+                for scene in dataset.scenes().map_err(Error::stage)? {
+                    update(dataset, Place::Scene(&scene), input, &[], MakeOptions::default(), cx)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}

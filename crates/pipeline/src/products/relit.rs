@@ -1,0 +1,117 @@
+//! Frames as mixes of lamps light them: a part for each mix and frame.
+
+use super::adopt::choices;
+use super::choice::FrameChoice;
+use super::record::Part;
+use super::request::Request;
+use super::sources::Subject;
+use super::table::Asked;
+use crate::error::Error;
+use crate::relight::{Mix, mixes_of, relight_frames};
+use crate::workdir::Hash;
+use enfilade_dataset::{Dataset, DatasetError, Fixture, counted};
+use enfilade_scene::{Cx, Warning};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A mix of lamps: which are on, how bright, and in which colour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct MixRequest(Mix);
+
+impl MixRequest {
+    /// The name of the mix.
+    pub fn name(&self) -> &str {
+        &self.0.name
+    }
+}
+
+/// A request for each mix of the table `file`.
+///
+/// # Errors
+/// When the table is wrong or means fixtures that no scene has, or none of the scenes has fixtures.
+pub fn read_mixes(file: &Path, dataset: &Dataset, scenes: &[String], of: &FrameChoice) -> Result<Vec<Request>, Error> {
+    let fixtures = |scene: &String| dataset.read_fixtures(scene).map_err(Error::stage);
+    let all: Vec<Fixture> = scenes.iter().map(fixtures).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    if all.is_empty() {
+        return Err(no_fixtures());
+    }
+    let mixes = mixes_of(file, Some(&all))?;
+    Ok(mixes.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: of.clone() }).collect())
+}
+
+/// A request for each mix of the table `file`, whatever fixtures there will be.
+pub(crate) fn mixes_for_later(file: &Path) -> Result<Vec<Request>, Error> {
+    Ok(mixes_of(file, None)?.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: FrameChoice::default() }).collect())
+}
+
+fn no_fixtures() -> Error {
+    let message = "no scene that was chosen has the light of its fixtures apart".to_string();
+    Error::usage(message, "render it with --fixtures (or fixtures = true below [render])")
+}
+
+/// Refuses scenes none of which has fixtures, and warns of those that have none.
+pub(super) fn check(subjects: &[Subject], cx: &dyn Cx) -> Result<(), Error> {
+    let is_unlit = |subject: &&Subject| subject.dataset.read_fixtures(subject.scene).is_ok_and(|fixtures| fixtures.is_empty());
+    let unlit: Vec<&Subject> = subjects.iter().filter(is_unlit).collect();
+    if unlit.len() == subjects.len() {
+        return Err(no_fixtures());
+    }
+    for subject in unlit {
+        let message = "it is left out, since the light of its fixtures is not apart; render it with --fixtures".into();
+        cx.warn(Warning { place: subject.scene.into(), message });
+    }
+    Ok(())
+}
+
+pub(super) fn parts(subject: &Subject, request: &Request) -> Result<Vec<Part>, Error> {
+    let Request::Mix { mix, of } = request else { return Ok(Vec::new()) };
+    if subject.dataset.read_fixtures(subject.scene).map_err(Error::stage)?.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (frames, settings) = (subject.chosen(|camera, frame| of.has(camera, frame))?, Hash::of(mix));
+    let part = |frame: (String, u32)| Part {
+        name: format!("{}/{}/{:04}", mix.name(), frame.0, frame.1),
+        frames: vec![frame],
+        settings: settings.clone(),
+    };
+    Ok(frames.into_iter().map(part).collect())
+}
+
+/// Mixes of the same frames are made together: the light of each fixture is read once.
+pub(super) fn make(subject: &Subject, asked: &[Asked], cx: &dyn Cx) -> Result<Vec<String>, Error> {
+    let (dataset, scene) = (subject.dataset, subject.scene);
+    let fixtures = dataset.read_fixtures(scene).map_err(Error::stage)?;
+    let mut frames: BTreeMap<(&str, u32), Vec<&Mix>> = BTreeMap::new();
+    for Asked { part, request } in asked {
+        let Request::Mix { mix, .. } = request else { continue };
+        let (camera, frame) = &part.frames[0];
+        frames.entry((camera, *frame)).or_default().push(&mix.0);
+    }
+    for mix in frames.values().flatten() {
+        dataset.begin_mix(&mix.name, mix).map_err(Error::stage)?;
+    }
+    relight_frames(dataset, scene, &frames, &fixtures, cx)?;
+    Ok(vec![format!("{scene}: {} by every mix", counted(frames.len(), "frame"))])
+}
+
+pub(super) fn files(subject: &Subject, part: &Part) -> Result<Vec<PathBuf>, Error> {
+    let (camera, frame) = &part.frames[0];
+    let mix = part.name.split('/').next().unwrap_or_default();
+    let folder = subject.dataset.layout().relit_dir().join(mix).join(subject.scene).join(camera);
+    Ok(subject.files_of_frame(&folder, *frame))
+}
+
+/// What would have made the pictures that are there of a scene.
+pub(super) fn found(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError> {
+    let mut requests = Vec::new();
+    for name in dataset.mixes()? {
+        let Some(mix) = dataset.mix_rules::<Mix>(&name)? else { continue };
+        for camera in dataset.cameras(scene)? {
+            let numbers = dataset.relit_frame_numbers(&name, [scene, &camera])?;
+            requests.extend(choices(&camera, &numbers).map(|of| Request::Mix { mix: MixRequest(mix.clone()), of }));
+        }
+    }
+    Ok(requests)
+}

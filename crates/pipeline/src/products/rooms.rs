@@ -1,0 +1,118 @@
+//! Rooms of scenes that came without them, fitted to labelled surfaces, and which of their planes each pixel shows: a part for the scene, and
+//! one for each frame.
+
+use super::record::Part;
+use super::request::Request;
+use super::sources::Subject;
+use super::table::Asked;
+use crate::error::Error;
+use crate::workdir::Hash;
+use enfilade_dataset::{counted, counted_as, remove_if_there, write_bytes};
+use enfilade_label::structure::{fit_structure, labelled_triangles, write_planes};
+use enfilade_scene::{Cx, Structure};
+use enfilade_show::planview::structure_svg;
+use std::path::PathBuf;
+
+/// Name of the part that is of the scene.
+const SCENE: &str = "scene";
+
+pub(super) fn parts(subject: &Subject, request: &Request) -> Result<Vec<Part>, Error> {
+    let Request::Rooms { of } = request else { return Ok(Vec::new()) };
+    let settings = Hash::of(&built(subject)?);
+    let frames = subject.chosen(|camera, frame| of.has(camera, frame))?;
+    let of_scene = Part { name: SCENE.into(), frames: Vec::new(), settings: settings.clone() };
+    let of_frames = frames.into_iter().map(|frame| Part::of_frame(frame, settings.clone()));
+    Ok(std::iter::once(of_scene).chain(of_frames).collect())
+}
+
+/// The rooms that the scene came with, which the import has written.
+fn built(subject: &Subject) -> Result<Option<Structure>, Error> {
+    let structure = subject.dataset.read_structure(subject.scene).map_err(Error::stage)?;
+    Ok(structure.filter(|structure| structure.fit.is_none()))
+}
+
+pub(super) fn make(subject: &Subject, asked: &[Asked], cx: &dyn Cx) -> Result<Vec<String>, Error> {
+    let (dataset, scene) = (subject.dataset, subject.scene);
+    let structure = if asked.iter().any(|asked| asked.part.name == SCENE) {
+        structure_of(subject)?
+    } else {
+        dataset.read_structure(scene).map_err(Error::stage)?
+    };
+    let Some(structure) = structure else { return Ok(vec![format!("{scene}: no labelled walls and floors that enclose a room")]) };
+    dataset.write_plane_table(scene, &structure.planes()).map_err(Error::stage)?;
+    let frames: Vec<&(String, u32)> = asked.iter().flat_map(|asked| &asked.part.frames).collect();
+    for of_camera in frames.chunk_by(|a, b| a.0 == b.0) {
+        let numbers: Vec<u32> = of_camera.iter().map(|(_, number)| *number).collect();
+        write_planes(dataset, [scene, &of_camera[0].0], &structure, &numbers, cx).map_err(Error::stage)?;
+    }
+    Ok(vec![format!("{scene}: {}, planes of {}", summary(&structure), counted(frames.len(), "frame"))])
+}
+
+/// The rooms that the scene came with, or else those that are fitted to its labels as they are now.
+fn structure_of(subject: &Subject) -> Result<Option<Structure>, Error> {
+    if let Some(built) = built(subject)? {
+        return Ok(Some(built));
+    }
+    let (dataset, scene, layout) = (subject.dataset, subject.scene, subject.dataset.layout());
+    let fitted = fitted(subject)?;
+    match &fitted {
+        Some(structure) => {
+            dataset.write_structure(scene, structure).map_err(Error::stage)?;
+            write_bytes(&layout.structure_plan(scene), structure_svg(structure))?;
+        }
+        None => {
+            let old = [layout.plane_table(scene), layout.structure(scene), layout.structure_plan(scene)];
+            old.iter().try_for_each(|path| remove_if_there(path))?;
+        }
+    }
+    Ok(fitted)
+}
+
+fn fitted(subject: &Subject) -> Result<Option<Structure>, Error> {
+    let (dataset, scene) = (subject.dataset, subject.scene);
+    if dataset.mesh_files(scene).read_classes().map_err(Error::stage)?.is_some_and(|classes| !classes.are_nyu40()) {
+        return Ok(None);
+    }
+    let triangles = match labelled_triangles(dataset, scene) {
+        Err(error) if error.is_not_found() => return Ok(None),
+        triangles => triangles.map_err(Error::stage)?,
+    };
+    Ok(fit_structure(&triangles))
+}
+
+pub(super) fn files(subject: &Subject, part: &Part) -> Result<Vec<PathBuf>, Error> {
+    let (layout, scene) = (subject.dataset.layout(), subject.scene);
+    let paths = match part.frames.first() {
+        None => vec![layout.plane_table(scene), layout.structure(scene), layout.structure_plan(scene)],
+        Some((camera, frame)) => vec![layout.plane_ids(scene, camera, *frame)],
+    };
+    Ok(paths.into_iter().filter(|path| path.is_file()).collect())
+}
+
+/// Refuses scenes none of which has rooms.
+pub(super) fn refuse_none(subjects: &[Subject]) -> Result<(), Error> {
+    let has_rooms = |subject: &Subject| subject.dataset.layout().plane_table(subject.scene).is_file();
+    let Some(first) = subjects.first().filter(|_| !subjects.iter().any(has_rooms)) else { return Ok(()) };
+    Err(Error::scene(
+        format!("no scene of {} that was chosen has rooms", first.dataset.root().display()),
+        "label walls, floors and ceilings by NYU40's classes: `enfilade suggest` proposes a table, `enfilade annotate` opens a scene",
+    ))
+}
+
+fn summary(structure: &Structure) -> String {
+    let Structure { rooms, walls, openings, fit, .. } = structure;
+    let counts = format!(
+        "{}, {}, {}",
+        counted(rooms.len(), "room"),
+        counted(walls.len(), "wall face"),
+        counted_as(openings.len(), "door or window", "doors and windows")
+    );
+    match fit {
+        None => format!("{counts} as it was built"),
+        Some(fit) => format!(
+            "{counts}, fitted: {:.0} % of walls, floors and ceilings within 2 cm, 95 % within {:.0} cm",
+            100.0 * fit.near_share,
+            100.0 * fit.p95_m
+        ),
+    }
+}

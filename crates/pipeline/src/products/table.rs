@@ -1,0 +1,198 @@
+//! The table of products.
+
+use super::product::Product;
+use super::record::Part;
+use super::request::Request;
+use super::sources::{Source, Subject};
+use super::{flow, pairs, relit, rooms, sensors, surfaces, tracks, words};
+use crate::error::Error;
+use enfilade_frame::Layer;
+use enfilade_scene::Cx;
+use std::path::PathBuf;
+
+/// What the parts of a product belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// The dataset as a whole: one part.
+    Dataset,
+    /// A scene: one part.
+    Scene,
+    /// A camera: one part for each.
+    Camera,
+    /// A frame, or a pair of frames: a part for each.
+    Frame,
+}
+
+/// What a product is.
+pub struct ProductSpec {
+    /// Which one.
+    pub product: Product,
+    /// The word for it on the command line, in `dataset.toml` and in the name of its record.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// What its parts belong to.
+    pub scope: Scope,
+    /// What its parts are made from, beside the options of the request.
+    pub(crate) reads: &'static [Source],
+    /// Changes whenever the same inputs give other files.
+    pub(crate) version: u32,
+    /// The layers that it reads of each frame of a part.
+    pub(crate) layers: fn(&Request) -> Vec<Layer>,
+    /// The parts that a request asks for.
+    pub(crate) parts: fn(&Subject, &Request) -> Result<Vec<Part>, Error>,
+    /// Makes parts, and says in lines what it made.
+    pub(crate) make: fn(&Subject, &[Asked], &dyn Cx) -> Result<Vec<String>, Error>,
+    /// The files of a part that was made, those that are there.
+    pub(crate) files: fn(&Subject, &Part) -> Result<Vec<PathBuf>, Error>,
+}
+
+/// A part that is to be made, and the request that asks for it.
+pub(crate) struct Asked<'a> {
+    pub part: &'a Part,
+    pub request: &'a Request,
+}
+
+/// All products in the order in which they are made: each after those that it reads.
+pub const PRODUCTS: [ProductSpec; 9] = [
+    ProductSpec {
+        product: Product::Covisibility,
+        name: Product::Covisibility.name(),
+        about: "the share of each frame's surfaces that each other frame of the scene sees",
+        scope: Scope::Scene,
+        reads: &[Source::Frames, Source::Poses, Source::Package],
+        version: 1,
+        layers: |_| vec![Layer::DepthMeters],
+        parts: pairs::covisibility_parts,
+        make: pairs::make_covisibility,
+        files: pairs::covisibility_files,
+    },
+    ProductSpec {
+        product: Product::Pairs,
+        name: Product::Pairs.name(),
+        about: "the pairs of frames that see the same surfaces",
+        scope: Scope::Dataset,
+        reads: &[Source::Product(Product::Covisibility)],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: pairs::parts,
+        make: pairs::make,
+        files: pairs::files,
+    },
+    ProductSpec {
+        product: Product::Flow,
+        name: Product::Flow.name(),
+        about: "where the surfaces of a frame are in another one",
+        scope: Scope::Frame,
+        reads: &[Source::Frames, Source::Poses, Source::Package, Source::ListedBy(Product::Pairs)],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: flow::parts,
+        make: flow::make,
+        files: flow::files,
+    },
+    ProductSpec {
+        product: Product::Tracks,
+        name: Product::Tracks.name(),
+        about: "points on surfaces, followed through the frames of a camera",
+        scope: Scope::Camera,
+        reads: &[Source::Frames, Source::Poses, Source::Package],
+        version: 1,
+        layers: |_| vec![Layer::DepthMeters],
+        parts: tracks::parts,
+        make: tracks::make,
+        files: tracks::files,
+    },
+    ProductSpec {
+        product: Product::Surfaces,
+        name: Product::Surfaces.name(),
+        about: "every surface along the rays of a frame",
+        scope: Scope::Frame,
+        reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: surfaces::parts,
+        make: surfaces::make,
+        files: surfaces::files,
+    },
+    ProductSpec {
+        product: Product::Rooms,
+        name: Product::Rooms.name(),
+        about: "rooms of scenes that came without them, and which plane of them each pixel shows",
+        scope: Scope::Frame,
+        reads: &[Source::Frames, Source::Package, Source::Labels],
+        version: 1,
+        layers: |_| vec![Layer::Position, Layer::Semantic],
+        parts: rooms::parts,
+        make: rooms::make,
+        files: rooms::files,
+    },
+    ProductSpec {
+        product: Product::Words,
+        name: Product::Words.name(),
+        about: "what things are and how they stand to each other; captions and questions of frames",
+        scope: Scope::Scene,
+        reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels, Source::Product(Product::Rooms)],
+        version: 1,
+        layers: |_| vec![Layer::SemanticInstance, Layer::DepthMeters, Layer::DiffuseReflectance],
+        parts: words::parts,
+        make: words::make,
+        files: words::files,
+    },
+    ProductSpec {
+        product: Product::Sensors,
+        name: Product::Sensors.name(),
+        about: "what real cameras and depth sensors would make of a frame",
+        scope: Scope::Frame,
+        reads: &[Source::Frames, Source::Poses],
+        version: 1,
+        layers: sensors::layers,
+        parts: sensors::parts,
+        make: sensors::make,
+        files: sensors::files,
+    },
+    ProductSpec {
+        product: Product::Relit,
+        name: Product::Relit.name(),
+        about: "a frame with other lamps on",
+        scope: Scope::Frame,
+        reads: &[Source::WholeFrames, Source::Exposures, Source::Fixtures],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: relit::parts,
+        make: relit::make,
+        files: relit::files,
+    },
+];
+
+impl Product {
+    /// The product's row of the table.
+    pub fn spec(self) -> &'static ProductSpec {
+        &PRODUCTS[self as usize]
+    }
+
+    /// The product of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        PRODUCTS.iter().find(|spec| spec.name == name).map(|spec| spec.product)
+    }
+}
+
+impl ProductSpec {
+    /// The products whose files it reads.
+    pub fn products(&self) -> impl Iterator<Item = Product> {
+        self.reads.iter().filter_map(|source| if let Source::Product(product) = source { Some(*product) } else { None })
+    }
+
+    /// The products that are made before it: those that it reads, and those that may list its parts.
+    pub fn after(&self) -> impl Iterator<Item = Product> {
+        self.reads.iter().filter_map(|source| match source {
+            Source::Product(product) | Source::ListedBy(product) => Some(*product),
+            _ => None,
+        })
+    }
+
+    /// True when it lies in scenes, but is made after a product of the dataset as a whole.
+    pub(crate) fn is_late(&self) -> bool {
+        self.scope != Scope::Dataset && self.after().any(|product| product.spec().scope == Scope::Dataset)
+    }
+}
