@@ -128,7 +128,7 @@ const CHANGES: [Change; 10] = [
 /// One request of each product.
 fn requests(folder: &Path) -> Vec<Request> {
     let of = FrameChoice::default();
-    let sensors: Sensors = serde_json::from_str(r#"{"camera": [{"name": "phone"}], "lidar": [{"name": "beams"}]}"#).unwrap();
+    let sensors: Sensors = serde_json::from_str(r#"{"camera": [{"name": "phone"}], "time_of_flight": [{"name": "tof"}]}"#).unwrap();
     let file = folder.join("mixes.csv");
     std::fs::write(&file, "mix,fixture,r,g,b\nhalf,*,0.5,0.5,0.5\n").unwrap();
     let mut requests = vec![
@@ -210,7 +210,7 @@ fn another_version_and_a_part_that_was_not_finished_are_out_of_date() {
     let mut record = Record::read(&dataset, place, Product::Sensors).unwrap();
     let whole = record.clone();
     let names: Vec<String> = record.parts.keys().cloned().collect();
-    assert_eq!(names, ["beams/cam_00/0000", "beams/cam_00/0001", "phone/cam_00/0000", "phone/cam_00/0001"]);
+    assert_eq!(names, ["phone/cam_00/0000", "phone/cam_00/0001", "tof/cam_00/0000", "tof/cam_00/0001"]);
     record.parts.get_mut(&names[1]).unwrap().from = None;
     record.parts.remove(&names[2]);
     record.write(&dataset, place, Product::Sensors).unwrap();
