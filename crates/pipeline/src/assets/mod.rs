@@ -36,7 +36,9 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
     }
     let broken = library.broken();
     if config.allow_broken_assets {
-        broken.into_iter().for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; our own piece is used instead") }));
+        broken
+            .into_iter()
+            .for_each(|message| cx.warn(Warning { place: "assets".into(), message: format!("{message}; our own piece is used instead") }));
     } else if let Some(first) = broken.first() {
         return Err(refuse_broken(first));
     }

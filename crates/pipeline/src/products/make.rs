@@ -16,7 +16,7 @@ use crate::workdir::Workdir;
 use enfilade_dataset::{Dataset, WORKDIR, remove_if_there};
 use enfilade_scene::{Cx, Quiet};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// How products are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -294,9 +294,18 @@ pub(super) fn update(
     // Remove what was made of frames that are gone, and under other names.
     let names: BTreeSet<&String> = wanted.iter().map(|wanted| &wanted.part.name).collect();
     record.parts.retain(|name, _| names.contains(name));
-    before.difference(&files_of(&record)).try_for_each(|path| remove_if_there(&dataset.root().join(path)))?;
+    before.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
     record.write(dataset, place, product)?;
     Ok(updated)
+}
+
+/// Removes a file, and its folder where that is empty then.
+fn remove_with_folder(path: &Path) -> Result<(), Error> {
+    remove_if_there(path)?;
+    if let Some(folder) = path.parent() {
+        let _ = std::fs::remove_dir(folder); // one that is not empty stays
+    }
+    Ok(())
 }
 
 fn files_of(record: &Record) -> BTreeSet<PathBuf> {

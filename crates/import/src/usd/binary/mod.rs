@@ -35,8 +35,9 @@ fn read(bytes: &[u8]) -> Checked<Layer> {
     if version < [0, 4, 0] || version[0] > 0 {
         let [a, b, c] = version;
         head.at = MAGIC.len() as u64;
-        return head
-            .error(format!("found version {a}.{b}.{c} of usdc, expected 0.4 to 0.13; write the file again with a current USD (usdcat -o)"));
+        return head.error(format!(
+            "found version {a}.{b}.{c} of usdc, expected 0.4 to 0.13; write the file again with a current USD (usdcat -o)"
+        ));
     }
     let sections = Sections::read(bytes, head.u64()?)?;
     let tokens = tokens(sections.get("TOKENS")?)?;
