@@ -2,7 +2,7 @@
 
 use crate::house::House;
 use crate::step::finish;
-use crate::{embree, oidn};
+use crate::{embree, python};
 
 /// One measurement.
 struct Bench {
@@ -25,11 +25,11 @@ const BENCHES: [Bench; 7] = [
     Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
     Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "suggest", room: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
-    Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room; fetches Open Image Denoise" },
+    Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room" },
     Bench {
         name: "network",
         room: "denoise",
-        about: "what the denoiser in the binary costs beside Open Image Denoise, and how far it is from it",
+        about: "what the denoiser in the binary costs beside Open Image Denoise, which it installs, and how far it is from it",
     },
 ];
 
@@ -66,13 +66,20 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
         println!("\n== {}: {}", bench.name, bench.about);
         let package = format!("enfilade-{}", bench.room);
         let mut command = house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]);
-        if matches!(bench.name, "denoise" | "network") {
-            command.env(oidn::VARIABLE, oidn::made(house)?);
+        let kept = house.target()?.join("peers/network");
+        if bench.name == "network" {
+            std::fs::create_dir_all(&kept).map_err(|error| format!("{}: {error}", kept.display()))?;
+            command.args(["--", "--keep"]).arg(&kept);
         }
         if bench.name == "rays" {
             command.env(embree::VARIABLE, embree::made(house)?);
         }
         finish(command)?;
+        if bench.name == "network" {
+            let mut library = house.command(python::with_peers(house)?, &["xtask/python/library.py"]);
+            library.arg(&kept);
+            finish(library)?;
+        }
     }
     Ok(())
 }

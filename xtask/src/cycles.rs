@@ -4,8 +4,8 @@
 //! `docs/benchmarks/cycles.md`, `.json`, `.svg` and `.jpg`, or below the target folder when it is about some views only.
 
 use crate::house::House;
+use crate::python;
 use crate::step::finish;
-use crate::{oidn, python};
 
 /// Measures the views of these names, or all; `--help` lists what there is.
 ///
@@ -21,6 +21,5 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     let mut command = house.command(python::with_blender(house)?, &["xtask/python/bench_cycles.py"]);
     command.arg("--program").arg(built("enfilade")).arg("--measure").arg(built("examples/measure"));
     command.arg("--work").arg(target.join("cycles")).args(["--docs", "docs/benchmarks"]).args(words);
-    command.env(oidn::VARIABLE, oidn::made(house)?);
     finish(command).map(|_| ())
 }

@@ -21,7 +21,6 @@ mod fuzz;
 mod homes;
 mod house;
 mod loader;
-mod oidn;
 mod peers;
 mod pictures;
 mod products;

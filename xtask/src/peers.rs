@@ -4,8 +4,8 @@
 //! are started. They write tables and figures to `docs/benchmarks`, or below the target folder when they are about some scenes only.
 
 use crate::house::House;
+use crate::python;
 use crate::step::finish;
-use crate::{oidn, python};
 
 /// Names the folder of real rooms.
 const SCENES: &str = "ENFILADE_SCENES";
@@ -32,7 +32,7 @@ pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
         command.arg("--scenes").arg(scenes);
     }
     if program == "bench_render" {
-        command.arg("--program").arg(built("enfilade")).env(oidn::VARIABLE, oidn::made(house)?);
+        command.arg("--program").arg(built("enfilade"));
     }
     command.args(words);
     finish(command).map(|_| ())

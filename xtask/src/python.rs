@@ -2,7 +2,6 @@
 //! with.
 
 use crate::house::House;
-use crate::oidn;
 use crate::step::finish;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -12,6 +11,9 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 
 /// Names a Python with Mitsuba 3, Open Image Denoise, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
+
+/// What carries the library of Open Image Denoise, in the version that was measured.
+const DENOISER: &str = "pyoidn==2.5.1.0";
 
 /// Names a Python with Blender's module, numpy and Pillow.
 const BLENDER_VARIABLE: &str = "ENFILADE_BLENDER_PYTHON";
@@ -68,7 +70,7 @@ pub fn with_peers(house: &House) -> Result<PathBuf, String> {
     const IMPORTS: &str = "import mitsuba, pyoidn, numpy, PIL";
     match named(house, PEERS_VARIABLE, IMPORTS)? {
         Some(python) => Ok(python),
-        None => made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", oidn::PACKAGE, "numpy", "pillow"]),
+        None => made(house, "venv-peers", IMPORTS, &["mitsuba==3.9.1", DENOISER, "numpy", "pillow"]),
     }
 }
 

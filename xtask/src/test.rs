@@ -2,7 +2,7 @@
 
 use crate::house::House;
 use crate::step::{Step, choose, finish};
-use crate::{acceptance, oidn, python};
+use crate::{acceptance, python};
 use std::process::Command;
 
 /// Asks the tests for their long searches too; `enfilade-testkit` reads it.
@@ -79,13 +79,9 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
 /// Runs every test with nextest where it is installed, else with cargo; the runner's own summary comes last.
 fn all_tests(house: &House) -> Result<String, String> {
     let python = python::with_h5py(house)?;
-    let denoiser = oidn::found(house);
     let mut command = cargo(house, &[runner(house), &["--no-fail-fast"]].concat());
     if let Some(python) = &python {
         command.env(python::VARIABLE, python);
-    }
-    if let Some(denoiser) = &denoiser {
-        command.env(oidn::VARIABLE, denoiser);
     }
     if house.searches {
         command.env(ALL, "1");

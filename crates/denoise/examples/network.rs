@@ -1,13 +1,14 @@
-//! What the network in the binary costs, and how far it is from the library's.
+//! What the network in the binary costs.
 //!
-//! `network [--quick] [COLOR.pfm NORMAL.pfm]…` filters each picture, or one that it makes up, with every set of instructions of this
-//! processor (`--quick`: without the portable ones) and, where `ENFILADE_OIDN` names it, with the library: three times each in turn,
-//! or once what takes longer than five seconds. It prints the least seconds of user and system time, a hash of the bytes, and the
-//! difference to the first row: the mean of |a − b| over the mean of |b|, and the greatest |a − b| over |b| and a hundredth of that mean.
+//! `network [--quick] [--keep FOLDER] [COLOR.pfm NORMAL.pfm]…` filters each picture, or one that it makes up, with every set of instructions
+//! of this processor (`--quick`: without the portable ones): three times each in turn, or once what takes longer than five seconds. It prints
+//! the least seconds of user and system time, a hash of the bytes, and the difference to the first row: the mean of |a − b| over the mean of
+//! |b|, and the greatest |a − b| over |b| and a hundredth of that mean. With `--keep` the last picture, its normals and what the first set
+//! made of it are left as `color.pfm`, `normal.pfm` and `ours.pfm`, for `xtask/python/library.py`, which compares them with the library.
 
 use enfilade_denoise::{Denoiser, Instructions, Noisy};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
@@ -20,14 +21,15 @@ struct Picture {
 
 fn main() -> Result<()> {
     let threads = rayon::current_num_threads();
-    let mut denoisers = Vec::new();
-    if let Some(place) = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from) {
-        denoisers.push(("", Denoiser::open(Some(&place), threads)?));
-    }
-    denoisers.extend(Instructions::available().into_iter().rev().map(|set| (set.name(), Denoiser::built_in_with(set))));
+    let sets = Instructions::available().into_iter().rev();
+    let mut denoisers: Vec<_> = sets.map(|set| (set.name(), Denoiser::built_in_with(set))).collect();
     let mut arguments = std::env::args().skip(1).peekable();
     if arguments.next_if_eq("--quick").is_some() {
         denoisers.retain(|(set, _)| *set != "portable");
+    }
+    let mut kept = None;
+    if arguments.next_if_eq("--keep").is_some() {
+        kept = Some(PathBuf::from(arguments.next().ok_or("--keep lacks a folder")?));
     }
     let mut pictures = Vec::new();
     while let Some(color) = arguments.next() {
@@ -44,12 +46,19 @@ fn main() -> Result<()> {
     println!("{threads} threads");
     for (name, color, normal) in pictures {
         println!("\n{name}, {}x{}", color.width, color.height);
-        measure(&color, &normal, &denoisers)?;
+        let ours = measure(&color, &normal, &denoisers);
+        if let Some(folder) = &kept {
+            let ours = Picture { width: color.width, height: color.height, values: ours };
+            for (name, picture) in [("color", &color), ("normal", &normal), ("ours", &ours)] {
+                write(&folder.join(format!("{name}.pfm")), picture)?;
+            }
+        }
     }
     Ok(())
 }
 
-fn measure(color: &Picture, normal: &Picture, denoisers: &[(&str, Denoiser)]) -> Result<()> {
+/// Gives what the first of the denoisers made.
+fn measure(color: &Picture, normal: &Picture, denoisers: &[(&str, Denoiser)]) -> Vec<f32> {
     let white = vec![1.0; color.values.len()];
     let noisy = Noisy { width: color.width, height: color.height, color: &color.values, albedo: &white, normal: &normal.values };
     let mut found: Vec<(f64, Vec<f32>)> = denoisers.iter().map(|_| (f64::INFINITY, Vec::new())).collect();
@@ -59,7 +68,7 @@ fn measure(color: &Picture, normal: &Picture, denoisers: &[(&str, Denoiser)]) ->
                 continue;
             }
             let before = cpu_seconds();
-            *output = denoiser.filter(&noisy)?;
+            *output = denoiser.filter(&noisy);
             *least = least.min(cpu_seconds() - before);
         }
     }
@@ -74,7 +83,7 @@ fn measure(color: &Picture, normal: &Picture, denoisers: &[(&str, Denoiser)]) ->
             hasher.finish(),
         );
     }
-    Ok(())
+    found.swap_remove(0).1
 }
 
 /// Mean and greatest difference, as above.
@@ -130,4 +139,12 @@ fn read(path: &str) -> Result<Picture> {
     }
     let values: Vec<f32> = data.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
     Ok(Picture { width, height, values: values.chunks_exact(3 * width as usize).rev().flatten().copied().collect() })
+}
+
+/// Writes what [`read`] reads.
+fn write(path: &Path, picture: &Picture) -> Result<()> {
+    let mut bytes = format!("PF\n{} {}\n-1\n", picture.width, picture.height).into_bytes();
+    let rows = picture.values.chunks_exact(3 * picture.width as usize).rev();
+    bytes.extend(rows.flatten().flat_map(|value| value.to_le_bytes()));
+    std::fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()).into())
 }

@@ -33,13 +33,13 @@ pub struct Noisy<'a> {
 /// `filter` denoises one picture.
 ///
 /// # Errors
-/// When the frame lacks one of [`INPUTS`], and those of the filter.
-pub fn denoise(frame: &Frame, mut filter: impl FnMut(&Noisy<'_>) -> Result<Vec<f32>, DenoiseError>) -> Result<Frame, DenoiseError> {
+/// When the frame lacks one of [`INPUTS`].
+pub fn denoise(frame: &Frame, mut filter: impl FnMut(&Noisy<'_>) -> Vec<f32>) -> Result<Frame, DenoiseError> {
     let [illumination, residual, reflectance, normal] = INPUTS.map(|layer| values(frame, layer));
     let (illumination, residual, reflectance, normal) = (illumination?, residual?, reflectance?, filtered(&normal?, frame.width as usize));
     let white = vec![1.0; normal.len()];
     let mut denoised = |color: &[f32]| filter(&Noisy { width: frame.width, height: frame.height, color, albedo: &white, normal: &normal });
-    let (illumination, residual) = (denoised(&illumination)?, denoised(&residual)?);
+    let (illumination, residual) = (denoised(&illumination), denoised(&residual));
     Ok(composed(frame, &reflectance, &illumination, &residual))
 }
 

@@ -3,7 +3,7 @@
 //! Diffuse light and residual are denoised apart, with the normals of the geometry pass as guides, and put together with the exact
 //! reflectance as the renderer puts them together. So texture never goes through the denoiser, and the identity holds to the last bit.
 //! [`denoise`] is a pure function of a frame and a filter; a [`Denoiser`] is the filter: the network in the binary, run by our own kernels
-//! with the same bytes on every processor, or the library where it is installed, which is loaded when such a [`Denoiser`] is opened.
+//! with the same bytes on every processor.
 //!
 //! ```
 //! use enfilade_denoise::{DenoiseError, denoise};
@@ -18,16 +18,14 @@
 //! frame.insert(Layer::NormalBumpWorld, channels(0.0));
 //!
 //! // With `let denoiser = Denoiser::built_in()`, the filter is `|noisy| denoiser.filter(noisy)`; this one changes nothing.
-//! let denoised = denoise(&frame, |noisy| Ok(noisy.color.to_vec()))?;
+//! let denoised = denoise(&frame, |noisy| noisy.color.to_vec())?;
 //! assert_eq!(denoised.get(Layer::Color).map(|color| color.get(0)), Some(0.5 * 2.0 + 0.25));
 //! # Ok::<(), DenoiseError>(())
 //! ```
 
 mod denoiser;
 mod error;
-mod installed;
 mod layers;
-mod library;
 mod network;
 
 pub use denoiser::Denoiser;

@@ -1,9 +1,8 @@
 //! What denoising promises: the identity, what it reads, what it does to noise, and that the network in the binary makes of pictures
-//! what the library makes of them where it is installed.
+//! what the library of Open Image Denoise makes of them.
 
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, Noisy, denoise};
 use enfilade_frame::{Frame, Layer, Pass, Values, f16};
-use std::path::Path;
 
 const WIDTH: u32 = 96;
 const HEIGHT: u32 = 64;
@@ -58,7 +57,7 @@ fn assert_identity(rendered: &Frame, denoised: &Frame) {
 fn the_identity_holds_whatever_a_filter_makes() {
     let rendered = frame(1.0);
     let strange = [0.0, -1.0, f32::NAN, f32::INFINITY, 7e4, 1e-8, 0.3333];
-    let denoised = denoise(&rendered, |noisy: &Noisy| Ok((0..noisy.color.len()).map(|i| strange[i % strange.len()]).collect())).unwrap();
+    let denoised = denoise(&rendered, |noisy: &Noisy| (0..noisy.color.len()).map(|i| strange[i % strange.len()]).collect()).unwrap();
     assert_identity(&rendered, &denoised);
 }
 
@@ -69,7 +68,7 @@ fn a_filter_sees_finite_pictures_and_one_that_changes_nothing_gives_back_what_wa
         for values in [noisy.color, noisy.albedo, noisy.normal] {
             assert!(values.len() == 3 * rendered.pixels() && values.iter().all(|v| v.is_finite()));
         }
-        Ok(noisy.color.to_vec())
+        noisy.color.to_vec()
     };
     let denoised = denoise(&rendered, unchanged).unwrap();
     assert_identity(&rendered, &denoised);
@@ -80,13 +79,15 @@ fn a_filter_sees_finite_pictures_and_one_that_changes_nothing_gives_back_what_wa
 
 #[test]
 fn a_missing_layer_is_named() {
-    let error = denoise(&Frame::new(4, 4), |noisy| Ok(noisy.color.to_vec())).unwrap_err();
+    let error = denoise(&Frame::new(4, 4), |noisy| noisy.color.to_vec()).unwrap_err();
     assert!(error.to_string().contains("diffuse_illumination"), "{error}");
     assert!(matches!(error, DenoiseError::MissingLayer { .. }));
 }
 
-/// Checks that noise goes away when a frame is denoised, and gives what it becomes.
-fn assert_less_noise(denoiser: &Denoiser) -> Frame {
+#[test]
+fn the_network_in_the_binary_takes_noise_away() {
+    let denoiser = Denoiser::built_in();
+    assert_eq!(denoiser.name(), "built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)");
     let (noisy, clean) = (frame(1.0), frame(0.0));
     let denoised = denoise(&noisy, |noisy| denoiser.filter(noisy)).unwrap();
     assert_identity(&noisy, &denoised);
@@ -96,35 +97,16 @@ fn assert_less_noise(denoiser: &Denoiser) -> Frame {
         let (with_noise, without) = (error(&noisy), error(&denoised));
         assert!(without < 0.1 * with_noise, "{}: {without} of {with_noise}", part.spec().name);
     }
-    denoised
 }
 
-#[test]
-fn the_network_in_the_binary_takes_noise_away() {
-    let denoiser = Denoiser::built_in();
-    assert_eq!(denoiser.name(), "built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)");
-    assert_less_noise(&denoiser);
-}
-
-#[test]
-fn the_library_takes_noise_away_and_gives_the_same_bytes_on_any_number_of_threads() {
-    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
-        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
-    };
-    let with = |threads| {
-        let denoiser = Denoiser::open(Some(Path::new(&place)), threads).unwrap();
-        assert!(denoiser.name().starts_with("Open Image Denoise 2."));
-        assert_less_noise(&denoiser)
-    };
-    assert_eq!(with(1), with(3));
-}
+/// What Open Image Denoise 2.5.1 makes of the pictures below: every eleventh value of each. `library/make.py` has made it.
+const ANSWERS: &[u8] = include_bytes!("library/answers.f32");
+const STRIDE: usize = 11;
 
 #[test]
 fn the_network_in_the_binary_makes_what_the_library_makes() {
-    let Some(place) = std::env::var_os("ENFILADE_OIDN") else {
-        return eprintln!("skipped: ENFILADE_OIDN does not name Open Image Denoise");
-    };
-    let (library, built_in) = (Denoiser::open(Some(Path::new(&place)), 2).unwrap(), Denoiser::built_in());
+    let built_in = Denoiser::built_in();
+    let mut answers = ANSWERS.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes));
     let random = |count: u32, scale: f32, purpose| -> Vec<f32> {
         (0..3 * count as usize).map(|i| scale * random(i / 3, i % 3, purpose).powi(2)).collect()
     };
@@ -132,11 +114,14 @@ fn the_network_in_the_binary_makes_what_the_library_makes() {
     for (width, height, scale) in [(77, 50, 1e-3), (64, 96, 1.0), (129, 33, 1e4), (40, 40, 0.0)] {
         let count = width * height;
         let (color, albedo, normal) = (random(count, scale, 4), random(count, 1.2, 5), random(count, 1.0, 6));
-        let noisy = Noisy { width, height, color: &color, albedo: &albedo, normal: &normal };
-        let (expected, found) = (library.filter(&noisy).unwrap(), built_in.filter(&noisy).unwrap());
+        let found = built_in.filter(&Noisy { width, height, color: &color, albedo: &albedo, normal: &normal });
+        let found: Vec<f32> = found.into_iter().step_by(STRIDE).collect();
+        let expected: Vec<f32> = answers.by_ref().take(found.len()).collect();
+        assert_eq!(expected.len(), found.len());
         let sum = |values: &mut dyn Iterator<Item = f32>| values.map(f64::from).sum::<f64>();
         let difference = sum(&mut expected.iter().zip(&found).map(|(a, b)| (a - b).abs()));
         let all = sum(&mut expected.iter().copied());
         assert!(difference <= 1e-4 * all, "{width}x{height}, times {scale}: {difference} of {all}");
     }
+    assert_eq!(answers.next(), None);
 }

@@ -3,7 +3,7 @@
 //! `denoise [SCENE | home]… [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per pixel, and
 //! twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two
 //! references, whose noise so drops out; the image is scaled to a mean of 0.5, and the worst 0.1 % are left out. The denoiser is the
-//! one in the binary; where `ENFILADE_OIDN` names the library, a last row is its.
+//! one in the binary.
 
 use anyhow::{Context, Result};
 use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
@@ -13,7 +13,6 @@ use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
-use std::path::PathBuf;
 
 fn main() -> Result<()> {
     let (mut reference, mut size, mut scenes) = (256, [384, 288], Vec::new());
@@ -33,20 +32,17 @@ fn main() -> Result<()> {
         scenes.push("home".into());
     }
     let denoiser = Denoiser::built_in();
-    let place = std::env::var_os("ENFILADE_OIDN").map(PathBuf::from);
-    let threads = std::thread::available_parallelism()?.get();
-    let library = place.map(|place| Denoiser::open(Some(&place), threads)).transpose()?;
     println!("{}, {}x{} pixels, references of {reference} samples", denoiser.name(), size[0], size[1]);
     for name in scenes {
         let scene =
             if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
         println!("\n{name}");
-        measure(&scene, size, reference, &denoiser, library.as_ref())?;
+        measure(&scene, size, reference, &denoiser)?;
     }
     Ok(())
 }
 
-fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser, library: Option<&Denoiser>) -> Result<()> {
+fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
     let camera = scene.cameras.first().context("the scene has no camera")?;
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let view = CameraView::still(&taken_with, &camera.pose(0));
@@ -72,11 +68,6 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
             let color = (way.1)(&frame, denoiser)?;
             row(way.0, &color, time.cpu_s());
         }
-        if let Some(library) = library {
-            let time = Stopwatch::start();
-            let denoised = denoise(&frame, |noisy| library.filter(noisy))?;
-            row(&format!("what is written, by {}", library.name()), &picture(&denoised, Layer::Color), time.cpu_s());
-        }
     }
     Ok(())
 }
@@ -87,16 +78,16 @@ type Way = (&'static str, fn(&Frame, &Denoiser) -> Result<Vec<f32>, DenoiseError
 const WAYS: [Way; 6] = [
     ("color at once, no guides", |frame, denoiser| {
         let (color, one, zero) = (picture(frame, Layer::Color), white(frame), vec![0.0; 3 * frame.pixels()]);
-        filter(frame, denoiser, &color, &one, &zero)
+        Ok(filter(frame, denoiser, &color, &one, &zero))
     }),
     ("color at once, reflectance and normals", |frame, denoiser| {
         let (color, albedo) = (picture(frame, Layer::Color), picture(frame, Layer::DiffuseReflectance));
-        filter(frame, denoiser, &color, &albedo, &picture(frame, Layer::NormalBumpWorld))
+        Ok(filter(frame, denoiser, &color, &albedo, &picture(frame, Layer::NormalBumpWorld)))
     }),
     ("light and residual apart, reflectance and normals", |frame, denoiser| {
-        parts(frame, denoiser, &picture(frame, Layer::DiffuseReflectance))
+        Ok(parts(frame, denoiser, &picture(frame, Layer::DiffuseReflectance)))
     }),
-    ("light and residual apart, normals", |frame, denoiser| parts(frame, denoiser, &white(frame))),
+    ("light and residual apart, normals", |frame, denoiser| Ok(parts(frame, denoiser, &white(frame)))),
     ("the same, normals filtered over the pixel: what is written", |frame, denoiser| {
         Ok(picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::Color))
     }),
@@ -107,15 +98,15 @@ const WAYS: [Way; 6] = [
 ];
 
 /// Light and residual denoised apart, guided by `albedo` and normals as they are, and put together.
-fn parts(frame: &Frame, denoiser: &Denoiser, albedo: &[f32]) -> Result<Vec<f32>, DenoiseError> {
+fn parts(frame: &Frame, denoiser: &Denoiser, albedo: &[f32]) -> Vec<f32> {
     let normal = picture(frame, Layer::NormalBumpWorld);
-    let light = filter(frame, denoiser, &picture(frame, Layer::DiffuseIllumination), albedo, &normal)?;
-    let residual = filter(frame, denoiser, &picture(frame, Layer::Residual), albedo, &normal)?;
+    let light = filter(frame, denoiser, &picture(frame, Layer::DiffuseIllumination), albedo, &normal);
+    let residual = filter(frame, denoiser, &picture(frame, Layer::Residual), albedo, &normal);
     let reflectance = picture(frame, Layer::DiffuseReflectance);
-    Ok((0..light.len()).map(|i| reflectance[i] * light[i] + residual[i]).collect())
+    (0..light.len()).map(|i| reflectance[i] * light[i] + residual[i]).collect()
 }
 
-fn filter(frame: &Frame, denoiser: &Denoiser, color: &[f32], albedo: &[f32], normal: &[f32]) -> Result<Vec<f32>, DenoiseError> {
+fn filter(frame: &Frame, denoiser: &Denoiser, color: &[f32], albedo: &[f32], normal: &[f32]) -> Vec<f32> {
     denoiser.filter(&Noisy { width: frame.width, height: frame.height, color, albedo, normal })
 }
 

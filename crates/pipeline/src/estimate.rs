@@ -50,7 +50,6 @@ pub(crate) fn forecast(
 ) -> Result<Forecasts, Error> {
     store_config(workdir, config)?;
     let session = Session::new(config, workdir)?;
-    session.check_denoisers(scenes)?;
     let mut summary = session.run(scenes, &before_rendering(), false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
     let outcomes = scenes.iter().zip(&mut summary.scenes);
@@ -80,7 +79,6 @@ impl Session<'_> {
         let workdir = Workdir::create(folder.path())?;
         let aside = Session::new(self.config, &workdir)?;
         let sessions: Vec<&Session> = scenes.iter().map(|scene| if self.is_planned(scene) { self } else { &aside }).collect();
-        sessions.iter().zip(scenes).try_for_each(|(session, scene)| session.check_denoisers(&[*scene]))?;
         let (mut outcomes, mut forecasts) = (Vec::new(), Vec::new());
         for (session, scene) in sessions.iter().zip(scenes) {
             let mut outcome = session.run_scene(scene, &before_rendering(), false, &outcomes, reporter);

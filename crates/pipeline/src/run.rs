@@ -6,7 +6,7 @@ use crate::products::{PairsRequest, Place, Request, adopt, bring_up_to_date, not
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::scene_types::write_scene_types;
 use crate::split::write_split;
-use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, check_denoiser, draw_plan, read_table};
+use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan, read_table};
 use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, Workdir, read_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
@@ -42,14 +42,13 @@ const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stag
 /// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others go on.
 ///
 /// # Errors
-/// Only what concerns the run as a whole: the output folder, the lock, the pattern, a library for denoising that is asked for and missing.
+/// Only what concerns the run as a whole: the output folder, the lock, the pattern.
 pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let scenes = config.select(pattern)?;
     let workdir = Workdir::create(out)?;
     store_config(&workdir, config)?;
     let stages: Vec<&StageSpec> = STAGES.iter().collect();
     let session = Session::with_products(config, &workdir)?;
-    session.check_denoisers(&scenes)?;
     let mut summary = session.run(&scenes, &stages, false, reporter)?;
     summary.warnings.extend(session.unknown_scenes());
     summary.warnings.extend(config.farm.not_run_here());
@@ -147,11 +146,6 @@ pub fn run_chosen(
     let (workdir, config) = open_with(out, pattern, |scene| choices.apply(scene))?;
     let scenes = config.select(pattern)?;
     let session = Session::new(&config, &workdir)?;
-    if stages.contains(&Stage::Denoise) {
-        // Before the choice is stored: a library that is missing must not cost what is finished.
-        let mut planned = scenes.iter().filter(|scene| session.dataset.layout().metadata_cameras(&scene.name).is_file());
-        planned.try_for_each(|scene| check_denoiser(&Job::new(&config, scene, &session.dataset, &workdir, force)))?;
-    }
     store_config(&workdir, &config)?;
     let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
     session.run(&scenes, &stages, force, reporter)
@@ -328,7 +322,7 @@ impl<'a> Session<'a> {
             if spec.stage == Stage::Verify && self.makes_products {
                 outcome.products = self.make_products_of(scene, false, reporter);
             }
-            let ready = || self.prepare_stage(spec.stage, stages, &job, earlier);
+            let ready = || self.prepare_stage(spec.stage, &job, earlier);
             match advance(spec, &job, ready, StageCx::new(&scene.name, spec.stage, reporter)) {
                 Ok(done) => outcome.stages.push(done),
                 Err(error) => {
@@ -341,7 +335,7 @@ impl<'a> Session<'a> {
     }
 
     /// Does what a stage needs that is about to run.
-    fn prepare_stage(&self, stage: Stage, stages: &[&StageSpec], job: &Job, earlier: &[SceneOutcome]) -> Result<(), Error> {
+    fn prepare_stage(&self, stage: Stage, job: &Job, earlier: &[SceneOutcome]) -> Result<(), Error> {
         adopt(&self.dataset, &job.scene.name)?;
         match stage {
             // The manifest is part of what is verified. It lists all scenes, so it is not gathered for each that has nothing to do.
@@ -349,15 +343,8 @@ impl<'a> Session<'a> {
                 job.leave_out(not_judged(&self.dataset, &job.scene.name)?);
                 self.write_manifest(earlier, Some(&job.scene.name))
             }
-            // A missing library is told before hours of rendering, not after them.
-            Stage::Render if stages.iter().any(|s| s.stage == Stage::Denoise) => check_denoiser(job),
             _ => Ok(()),
         }
-    }
-
-    /// Looks for the libraries that denoise at once, and not after the stages that come before rendering.
-    pub fn check_denoisers(&self, scenes: &[&SceneConfig]) -> Result<(), Error> {
-        scenes.iter().try_for_each(|scene| check_denoiser(&Job::new(self.config, scene, &self.dataset, self.workdir, false)))
     }
 
     /// A line about scenes of the folder that the configuration does not have; `None` where it has all.

@@ -368,9 +368,7 @@ mod tests {
                 names.push(key.name.clone());
             }
         }
-        for key in
-            ["samples", "size", "denoiser", "K", "blades", "fps", "weight", "rooms", "latitude_deg", "after_frame", "max_plane_share"]
-        {
+        for key in ["samples", "size", "K", "blades", "fps", "weight", "rooms", "latitude_deg", "after_frame", "max_plane_share"] {
             assert!(names.iter().any(|name| name == key), "{key}");
         }
     }

@@ -76,8 +76,7 @@ pub enum Verb {
     Render(RenderArgs),
     /// Frames -> color without noise, from now on; renders nothing again
     #[command(
-        after_help = "Example:\n  enfilade denoise out\n\nThe denoiser is in the program; denoiser in [render] names a library of Open Image \
-        Denoise instead.\nWhat was rendered stays as color_rendered, ... unless keep_rendered = false; `render --color rendered` takes it back."
+        after_help = "Example:\n  enfilade denoise out\n\nWhat was rendered stays as color_rendered, ... unless keep_rendered = false; `render --color rendered` takes it back."
     )]
     Denoise(StageArgs),
     /// Frames, label table -> semantic layers; renders nothing again

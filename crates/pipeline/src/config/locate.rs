@@ -5,15 +5,19 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Keys of earlier versions, and what to do with them.
-const GONE: [(&str, &str); 3] = [
+const GONE: [(&str, &str); 4] = [
     ("reuse", "pixels no longer share light, which is what `reuse = false` asked for: delete this line"),
     (
         "denoise",
         "`color` is denoised unless `color = \"rendered\"` asks for what was rendered, which stays beside it as `color_rendered`: write \
          that instead of `denoise = false`, or delete this line",
     ),
-    ("denoise_library", "the program has a denoiser of its own; to use a library, write `denoiser = \"/path/to/library\"`"),
+    ("denoise_library", OWN_DENOISER),
+    ("denoiser", OWN_DENOISER),
 ];
+
+/// What to do with keys that named a library.
+const OWN_DENOISER: &str = "the program has a denoiser of its own, the network that the library has: delete this line";
 
 /// A configuration text, to turn byte ranges into places.
 pub(super) struct Source<'a> {

@@ -66,8 +66,6 @@ section!(RenderPatch => RenderConfig {
     color: ColorKind,
     /// Where color is denoised, keeps what was rendered beside it, as layers named `*_rendered`.
     keep_rendered: bool,
-    /// A library of Open Image Denoise 2, its file or folder, instead of the denoiser in the program.
-    denoiser: String,
 });
 
 section!(CarvePatch => CarveConfig { voxel_m: f64, extent_m: f64, rays: u32, iterations: u32, keep_outside: bool });

@@ -13,7 +13,7 @@ use super::farm::FarmConfig;
 use super::files::{self, Entry};
 use super::locate::{Source as Text, in_words};
 use super::presets;
-use super::settings::{Config, FileSource, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
+use super::settings::{Config, FileSource, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
 use crate::products::Request;
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
@@ -157,7 +157,7 @@ impl Resolver<'_> {
             save_every_s: save_every_s(),
             color: COLOR,
             keep_rendered: keep_rendered(),
-            denoiser: None,
+            denoiser: Gone,
             products: self.products(keys)?,
             name,
         };
@@ -223,10 +223,6 @@ impl Resolver<'_> {
             && let Mode::Keyframes(keyframes) = mode.get_ref()
         {
             keyframes.files.iter().try_for_each(|file| self.check_path(file, mode))?;
-        }
-        if let Some(library) = &render.denoiser {
-            self.check_path(library.get_ref(), library)?;
-            scene.denoiser = Some(library.get_ref().clone());
         }
         let value = |value: &Option<Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
         scene.size = render.size.as_ref().map_or(scene.size, |size| *size.get_ref());

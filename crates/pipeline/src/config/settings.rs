@@ -89,13 +89,22 @@ pub struct SceneConfig {
     /// Where they are denoised, keeps what was rendered beside them, as layers that are named `*_rendered`.
     #[serde(default = "keep_rendered")]
     pub keep_rendered: bool,
-    /// The library of Open Image Denoise to denoise with, its file or the folder that it lies in; as written. `None` takes the network in
-    /// the program.
+    /// The library to denoise with, in settings that earlier versions stored.
     #[serde(default)]
-    pub denoiser: Option<String>,
+    pub(super) denoiser: Gone,
     /// What is made of it beside the outputs of the stages.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub products: Vec<Request>,
+}
+
+/// A setting of earlier versions: any stored value is read and ignored, and `null` is stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(super) struct Gone;
+
+impl<'de> Deserialize<'de> for Gone {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        serde::de::IgnoredAny::deserialize(deserializer).map(|_| Self)
+    }
 }
 
 /// Where a scene comes from.

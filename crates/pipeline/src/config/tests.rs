@@ -70,16 +70,20 @@ fn limits_of_gates_have_defaults_and_the_scene_wins() {
 }
 
 #[test]
-fn color_is_denoised_unless_asked_otherwise_and_a_library_may_be_named() {
+fn color_is_denoised_unless_asked_otherwise_and_no_library_can_be_named() {
     let chosen = |text: &str| {
         let scene = config(text).scenes.remove(0);
-        (scene.color, scene.keep_rendered, scene.denoiser)
+        (scene.color, scene.keep_rendered)
     };
-    assert_eq!(chosen(SCENE), (ColorKind::Denoised, true, None));
-    let text = format!("[render]\nkeep_rendered = false\ndenoiser = \"$ROOMS/lib\"\n{SCENE}[scene.render]\ncolor = \"rendered\"\n");
-    assert_eq!(chosen(&text), (ColorKind::Rendered, false, Some("$ROOMS/lib".into())));
+    assert_eq!(chosen(SCENE), (ColorKind::Denoised, true));
+    let text = format!("[render]\nkeep_rendered = false\n{SCENE}[scene.render]\ncolor = \"rendered\"\n");
+    assert_eq!(chosen(&text), (ColorKind::Rendered, false));
     assert!(error(&format!("[render]\ncolor = \"clean\"\n{SCENE}")).contains("`rendered`"));
     assert!(error(&format!("[render]\ndenoise = true\n{SCENE}")).contains("the key `denoise` is gone"));
+    for key in ["denoiser", "denoise_library"] {
+        let named = error(&format!("[render]\n{key} = \"$ROOMS/lib\"\n{SCENE}"));
+        assert!(named.contains(&format!("2:1: the key `{key}` is gone")) && named.contains("delete this line"), "{named}");
+    }
 }
 
 #[test]
@@ -235,7 +239,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, denoiser, samples, adaptive, noise, guiding, max_bounces, clamp, splits, fixtures, extra, lambertian, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, samples, adaptive, noise, guiding, max_bounces, clamp, splits, fixtures, extra, lambertian, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -447,7 +451,11 @@ fn stored_configurations_of_older_versions_are_read_and_unknown_keys_refused() {
     for key in ["camera", "gate", "time_limit_s", "save_every_s", "keep_rendered", "denoiser"] {
         old["scenes"][0].as_object_mut().unwrap().remove(key);
     }
-    assert_eq!(serde_json::from_value::<Config>(old).unwrap(), Config { base: PathBuf::new(), ..config });
+    let expected = Config { base: PathBuf::new(), ..config };
+    assert_eq!(serde_json::from_value::<Config>(old.clone()).unwrap(), expected);
+    // What a later version had, and no longer has.
+    old["scenes"][0]["denoiser"] = "/usr/lib/libOpenImageDenoise.so.2".into();
+    assert_eq!(serde_json::from_value::<Config>(old).unwrap(), expected);
 }
 
 /// A change of a scene, and what refuses it.

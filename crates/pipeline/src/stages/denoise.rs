@@ -5,15 +5,19 @@ use super::{HASHED_AS, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{ColorKind, FrameRecord, counted, remove_if_there};
-use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, denoise};
+use enfilade_dataset::{ColorKind, Denoised, FrameRecord, counted, remove_if_there};
+use enfilade_denoise::{Denoiser, INPUTS, denoise};
 use enfilade_frame::Pass;
 use enfilade_scene::{Cx, Warning};
 use enfilade_show::preview::{PREVIEWS, PreviewSpec};
-use std::path::PathBuf;
+
+/// How names of denoisers begin in records of earlier versions, which could also denoise by an installed library. What it made counts.
+const LIBRARY: &str = "Open Image Denoise ";
+/// The place of that library in hashes of settings.
+const NO_LIBRARY: Option<&str> = None;
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&(job.scene.color, job.scene.keep_rendered, &job.scene.denoiser))
+    Hash::of(&(job.scene.color, job.scene.keep_rendered, NO_LIBRARY))
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
@@ -36,7 +40,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             left.push((camera, *frame, record));
         }
     }
-    let denoiser = if left.iter().any(|(_, _, record)| is_denoised_now(job, record)) { Some(open(job)?) } else { None };
+    let denoiser = if left.iter().any(|(_, _, record)| is_denoised_now(job, record)) { Some(Denoiser::built_in()) } else { None };
     let mut denoised = 0;
     for (done, (camera, frame, record)) in left.iter().enumerate() {
         match &denoiser {
@@ -60,19 +64,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, ..Outcome::default() })
 }
 
-/// Opens the denoiser where the scene is to be denoised, so that a library that is missing is told before hours of rendering.
-///
-/// # Errors
-/// When it cannot be had.
-pub(crate) fn check_denoiser(job: &Job) -> Result<(), Error> {
-    if job.scene.color == ColorKind::Rendered || job.scene.denoiser.is_none() || job.work_file(&Stage::Denoise.record())?.is_file() {
-        return Ok(());
-    }
-    // Where the frames are not known yet, because the scene is not planned or the plan is damaged, the library will be needed.
-    let is_denoised = |(camera, frame): &(String, u32)| record(job, camera, *frame).is_ok_and(|record| !is_denoised_now(job, &record));
-    if job.frames().is_ok_and(|frames| frames.iter().all(is_denoised)) { Ok(()) } else { open(job).map(drop) }
-}
-
 /// Warns of frames that have to be rendered again because what was rendered is asked for and was not kept.
 pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
     if job.scene.color == ColorKind::Denoised {
@@ -87,37 +78,22 @@ pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
     }
 }
 
-/// The library that the configuration names, else the network in the program.
-pub(super) fn open(job: &Job) -> Result<Denoiser, Error> {
-    let Some(library) = &job.scene.denoiser else { return Ok(Denoiser::built_in()) };
-    let place: PathBuf = job.config.path(library)?;
-    Denoiser::open(Some(&place), rayon::current_num_threads()).map_err(|error| match error {
-        DenoiseError::NotFound { .. } | DenoiseError::Static | DenoiseError::Function { .. } | DenoiseError::Version { .. } => Error::scene(
-            error.to_string(),
-            "install version 2 (`pip install pyoidn` brings it along, and openimagedenoise.org has packages) and name the file, or the folder \
-             that it lies in, by denoiser in [render]; or delete that key, for the denoiser in the program",
-        ),
-        other => Error::stage(other),
-    })
-}
-
 /// Denoises one frame.
 pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
     job.dataset.restore_rendered([name, camera], frame).map_err(Error::stage)?;
     let rendered = job.dataset.read_frame(name, camera, frame, &INPUTS).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
-    let by = [&denoiser.name(), &denoise_hash(job)];
+    let by = [&denoiser.name(), &denoise_hash()];
     job.dataset
         .write_denoised([name, camera], frame, &layers, by.map(String::as_str), job.scene.keep_rendered)
         .map_err(Error::stage)
         .map(drop)
 }
 
-/// Names what denoises. What was denoised stands in the record too. A library's version does not count, so that a finished dataset does
-/// not ask for the library.
-fn denoise_hash(job: &Job) -> String {
-    Hash::of(&(HASHED_AS, Stage::Denoise.version(), &job.scene.denoiser)).0
+/// Names what denoises. What was denoised stands in the record too.
+fn denoise_hash() -> String {
+    Hash::of(&(HASHED_AS, Stage::Denoise.version(), NO_LIBRARY)).0
 }
 
 fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {
@@ -128,23 +104,25 @@ fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {
     })
 }
 
-/// Whether a frame holds what is asked for, by the denoiser that is asked for where it can be denoised again.
+/// Whether a frame holds what is asked for.
 fn is_chosen(job: &Job, record: &FrameRecord) -> bool {
     match (&record.denoised, job.scene.color) {
         (None, color) => color == ColorKind::Rendered,
         (Some(_), ColorKind::Rendered) => false,
-        (Some(denoised), ColorKind::Denoised) => {
-            !record.has_rendered() || denoised.denoise_hash == denoise_hash(job) && job.scene.keep_rendered
-        }
+        (Some(denoised), ColorKind::Denoised) => !record.has_rendered() || is_current(denoised) && job.scene.keep_rendered,
     }
 }
 
 /// Whether a frame that does not hold what is asked for has to be denoised.
 fn is_denoised_now(job: &Job, record: &FrameRecord) -> bool {
-    let by_other = |hash: &str| job.force || hash != denoise_hash(job);
     job.scene.color == ColorKind::Denoised
         && record.has_rendered()
-        && record.denoised.as_ref().is_none_or(|denoised| by_other(&denoised.denoise_hash))
+        && record.denoised.as_ref().is_none_or(|denoised| job.force || !is_current(denoised))
+}
+
+/// Whether frames that were denoised so need not be denoised again.
+fn is_current(denoised: &Denoised) -> bool {
+    denoised.denoise_hash == denoise_hash() || denoised.denoiser.starts_with(LIBRARY)
 }
 
 /// Brings a frame that needs no denoising to what is asked for.

@@ -5,6 +5,7 @@ use super::{Job, denoise, label, made};
 use crate::error::Error;
 use crate::report::StageCx;
 use enfilade_dataset::{ColorKind, FrameTime};
+use enfilade_denoise::Denoiser;
 use enfilade_verify::FrameVerifier;
 use std::path::PathBuf;
 
@@ -33,7 +34,6 @@ pub(crate) struct FrameFinisher {
 /// Reads what finishing takes.
 pub(crate) fn frame_finisher(job: &Job, cx: &StageCx) -> Result<FrameFinisher, Error> {
     let known = label::known(job, cx)?.0;
-    denoise::check_denoiser(job)?;
     let furniture = made::Furniture::of(job)?;
     Ok(FrameFinisher { known, furniture, verifier: FrameVerifier::new(job.dataset, &job.scene.name) })
 }
@@ -44,7 +44,7 @@ impl FrameFinisher {
         let (dataset, name) = (job.dataset, &job.scene.name);
         label::label_frame(job, camera, frame, &self.known, &self.known.hash().0)?;
         if job.scene.color == ColorKind::Denoised {
-            denoise::denoise_frame(job, camera, frame, &denoise::open(job)?)?;
+            denoise::denoise_frame(job, camera, frame, &Denoiser::built_in())?;
         }
         let extra = made::make(job, camera, frame, &self.furniture)?;
         let times = dataset.read_times().map_err(Error::stage)?;

@@ -38,7 +38,6 @@ pub use shift::Part;
 pub use stage::Stage;
 
 pub(crate) use advance::{advance, is_up_to_date};
-pub(crate) use denoise::check_denoiser;
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::describe;
 pub(crate) use job::{FramesByTrajectory, Job, World};
