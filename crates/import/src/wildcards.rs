@@ -1,6 +1,7 @@
 //! Paths with `*` and `?`: the files and folders that they mean, in one order whatever the file system's.
 
 use std::path::{Path, PathBuf};
+use wildmatch::WildMatch;
 
 /// At most this many names are looked at for one pattern: enough for the largest collections, and an end for patterns that go through a
 /// whole disk.
@@ -68,30 +69,9 @@ fn names_in(folder: &Path) -> Vec<String> {
     entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
 }
 
-/// True where a name fits a pattern. Of the stars the last one alone has to be tried at several places.
+/// True where a name fits a pattern.
 fn fits(pattern: &str, name: &str) -> bool {
-    if name.starts_with('.') && !pattern.starts_with('.') {
-        return false;
-    }
-    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
-    let (mut p, mut n, mut star) = (0, 0, None);
-    while n < name.len() {
-        match pattern.get(p) {
-            Some('*') => {
-                star = Some((p, n));
-                p += 1;
-            }
-            Some(&c) if c == '?' || c == name[n] => (p, n) = (p + 1, n + 1),
-            _ => match star {
-                Some((at, from)) => {
-                    star = Some((at, from + 1));
-                    (p, n) = (at + 1, from + 1);
-                }
-                None => return false,
-            },
-        }
-    }
-    pattern[p..].iter().all(|c| *c == '*')
+    (pattern.starts_with('.') || !name.starts_with('.')) && WildMatch::new(pattern).matches(name)
 }
 
 #[cfg(test)]

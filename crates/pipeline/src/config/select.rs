@@ -2,6 +2,10 @@
 
 use super::locate::closest;
 use crate::error::Error;
+use wildmatch::WildMatchPattern;
+
+/// A pattern in which only `*` has a meaning: no name has the other character.
+type Pattern = WildMatchPattern<'*', '\0'>;
 
 /// The names (of things called `what`) that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
 /// them without a pattern.
@@ -22,12 +26,7 @@ pub fn select(what: &str, names: &[String], pattern: Option<&str>) -> Result<Vec
 
 /// Whether `name` fits `pattern`, in which `*` stands for any run of characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
-    match pattern.split_once('*') {
-        None => pattern == name,
-        Some((head, tail)) => name
-            .strip_prefix(head)
-            .is_some_and(|rest| (0..=rest.len()).filter(|&i| rest.is_char_boundary(i)).any(|i| matches(tail, &rest[i..]))),
-    }
+    Pattern::new(pattern).matches(name)
 }
 
 #[cfg(test)]
@@ -37,5 +36,6 @@ mod tests {
     #[test]
     fn stars_stand_for_any_characters() {
         assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
+        assert!(matches("a?", "a?") && !matches("a?", "ab") && matches("*ü*", "grün"));
     }
 }

@@ -1,16 +1,14 @@
 //! The header of a KTX 2 file: how its texels are stored, and where.
 
 use super::super::layout::{BGRA, Layout, RGBA};
+use ktx2::{ColorModel, KeyValueDataIterator, SupercompressionScheme, TransferFunction};
 
-/// Bytes before the index of levels, and of an entry there.
-const FIXED: usize = 80;
+/// Where the index of levels begins, and bytes of an entry there.
+const LEVEL: usize = ktx2::Header::LENGTH;
+const ENTRY: usize = 24;
 
 /// What is read, for messages.
 const KNOWN: &str = "save it as PNG, or with texels of 8 or 16 bits, floats, BC1 to BC7, ETC1S or UASTC";
-
-/// Colour models of the data format descriptor.
-const MODEL_ETC1S: u8 = 163;
-const MODEL_UASTC: u8 = 166;
 
 /// How texels are stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,36 +56,32 @@ impl Header {
     /// # Errors
     /// When it is cut short, or its texels are not known, as the rest of a sentence.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, String> {
-        if bytes.len() < FIXED + 24 {
-            return Err("is a KTX2 that is cut short in its header; copy or export it again".into());
-        }
-        let word = |at: usize| bytes.get(at..).and_then(<[u8]>::first_chunk).map_or(0, |b| u32::from_le_bytes(*b));
-        let long = |at: usize| bytes.get(at..).and_then(<[u8]>::first_chunk).map_or(0, |b| u64::from_le_bytes(*b));
-        let descriptor = word(48) as usize;
-        let [model, _, transfer, _] = word(descriptor.saturating_add(12)).to_le_bytes();
-        let packing = match word(44) {
-            0 => Packing::None,
-            1 => Packing::BasisLz,
-            2 => Packing::Zstandard,
-            3 => Packing::Zlib,
-            other => return Err(format!("is a KTX2 packed in scheme {other}, which is not read; {KNOWN}")),
+        let fixed = bytes.first_chunk().filter(|_| bytes.len() >= LEVEL + ENTRY);
+        let fixed = fixed.ok_or("is a KTX2 that is cut short in its header; copy or export it again")?;
+        let stored =
+            ktx2::Header::from_bytes(fixed).map_err(|e| format!("is a KTX2 with a damaged header ({e}); copy or export it again"))?;
+        let packing = match stored.supercompression_scheme {
+            None => Packing::None,
+            Some(SupercompressionScheme::BasisLZ) => Packing::BasisLz,
+            Some(SupercompressionScheme::Zstandard) => Packing::Zstandard,
+            Some(SupercompressionScheme::ZLIB) => Packing::Zlib,
+            Some(other) => return Err(format!("is a KTX2 packed in scheme {}, which is not read; {KNOWN}", other.value())),
         };
-        let channel = |at: usize| Some((word(descriptor.saturating_add(at)) >> 24) as u8 & 15);
-        let second = if word(52) >= 60 { channel(44) } else { None };
-        let [layers, faces, levels] = [32, 36, 40].map(|at| u64::from(word(at).max(1)));
-        let note = |key: &[u8]| metadata(bytes, word(56) as usize, word(60) as usize, key);
-        let swizzle = note(b"KTXswizzle").and_then(|value| value.first_chunk::<4>().copied());
+        let [model, transfer, first, second] = descriptor(bytes, &stored.index);
+        let [layers, faces, levels] = [stored.layer_count, stored.face_count, stored.level_count].map(|count| u64::from(count.max(1)));
+        let note = |key: &str| metadata(bytes, &stored.index, key);
+        let swizzle = note("KTXswizzle").and_then(|value| value.first_chunk::<4>().copied());
         Ok(Self {
             // Pictures of one row may state no height.
-            width: word(20),
-            height: word(24).max(1),
-            texels: texels(word(12), model, packing)?,
+            width: stored.pixel_width,
+            height: stored.pixel_height.max(1),
+            texels: texels(stored.format.map_or(0, |format| format.value()), model.unwrap_or(0), packing)?,
             packing,
-            srgb: transfer == 2,
-            channels: [channel(28), second],
+            srgb: transfer == Some(TransferFunction::SRGB.value()),
+            channels: [first, second],
             pictures: layers.saturating_mul(faces).saturating_mul(levels),
-            global: (long(64), long(72)),
-            bottom_up: note(b"KTXorientation").is_some_and(|value| value.get(1) == Some(&b'u')),
+            global: (stored.index.sgd_byte_offset, stored.index.sgd_byte_length),
+            bottom_up: note("KTXorientation").is_some_and(|value| value.get(1) == Some(&b'u')),
             swizzle: swizzle.filter(|s| s != b"rgba" && s.iter().all(|c| b"rgba01".contains(c))),
         })
     }
@@ -98,18 +92,28 @@ impl Header {
     /// When they are not there, as the rest of a sentence.
     pub(super) fn level<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], String> {
         let long = |at: usize| bytes.get(at..).and_then(<[u8]>::first_chunk).map_or(0, |b| u64::from_le_bytes(*b));
-        part(bytes, long(FIXED), long(FIXED + 8)).filter(|_| self.width > 0).ok_or_else(|| {
-            let (start, length, found) = (long(FIXED), long(FIXED + 8), bytes.len());
-            format!("is a KTX2 whose picture has bytes {start} to {start}+{length} of {found}: it is cut short or damaged")
-        })
+        let (start, length, found) = (long(LEVEL), long(LEVEL + 8), bytes.len());
+        part(bytes, start, length)
+            .ok_or_else(|| format!("is a KTX2 whose picture has bytes {start} to {start}+{length} of {found}: it is cut short or damaged"))
     }
+}
+
+/// Colour model, transfer function, and what the first two channels hold, of the data format descriptor; `None` where it ends before them.
+///
+/// The crate reads descriptors too, but refuses files whose descriptor is damaged where it does not count, and panics on some.
+fn descriptor(bytes: &[u8], index: &ktx2::Index) -> [Option<u8>; 4] {
+    let block = part(bytes, index.dfd_byte_offset.into(), index.dfd_byte_length.into()).unwrap_or_default();
+    let byte = |at: usize| block.get(at).copied();
+    let channel = |at: usize| byte(at + 3).map(|kind| kind & 15);
+    [byte(12), byte(14), channel(28), channel(44)]
 }
 
 /// How texels are stored, by Vulkan's number of their format, the colour model where that is 0, and how they are packed.
 fn texels(format: u32, model: u8, packing: Packing) -> Result<Texels, String> {
+    let [etc1s, uastc] = [ColorModel::ETC1S, ColorModel::UASTC].map(|of| of.value() == model);
     match (format, model, packing) {
-        (0, MODEL_ETC1S, Packing::BasisLz) => Ok(Texels::Etc1s),
-        (0, MODEL_UASTC, Packing::None | Packing::Zstandard | Packing::Zlib) => Ok(Texels::Uastc),
+        (0, _, Packing::BasisLz) if etc1s => Ok(Texels::Etc1s),
+        (0, _, Packing::None | Packing::Zstandard | Packing::Zlib) if uastc => Ok(Texels::Uastc),
         (0, ..) => Err(format!("is a KTX2 of colour model {model}, packed as {packing:?}, which is not read; {KNOWN}")),
         (_, _, Packing::BasisLz) => Err(format!("is a KTX2 of Vulkan's format {format} packed as BasisLZ; it is damaged")),
         _ => layout(format).map(Texels::Plain).ok_or_else(|| format!("is a KTX2 of Vulkan's format {format}, which is not read; {KNOWN}")),
@@ -122,18 +126,10 @@ pub(super) fn part(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?)
 }
 
-/// The value of a key: entries are the length, the key, a zero and the value, each at a multiple of four bytes.
-fn metadata<'b>(bytes: &'b [u8], start: usize, length: usize, key: &[u8]) -> Option<&'b [u8]> {
-    let mut rest = part(bytes, start as u64, length as u64)?;
-    loop {
-        let (length, behind) = rest.split_first_chunk::<4>()?;
-        let length = u32::from_le_bytes(*length) as usize;
-        let entry = behind.get(..length)?;
-        if let Some(value) = entry.strip_prefix(key).and_then(|rest| rest.strip_prefix(b"\0")) {
-            return Some(value);
-        }
-        rest = behind.get(length.next_multiple_of(4)..)?;
-    }
+/// The value of a key.
+fn metadata<'b>(bytes: &'b [u8], index: &ktx2::Index, key: &str) -> Option<&'b [u8]> {
+    let entries = part(bytes, index.kvd_byte_offset.into(), index.kvd_byte_length.into())?;
+    KeyValueDataIterator::new(entries).find(|(found, _)| *found == key).map(|(_, value)| value)
 }
 
 /// The layout of texels by Vulkan's number of their format.
