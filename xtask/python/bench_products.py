@@ -69,12 +69,12 @@ def demo(program: Program, frames: int, *flags: str) -> None:
 def rendered(program: Program, work: Path) -> list[dict]:
     """What the layers cost that are rendered: the stage for one frame with each kind asked for, at its least of some rounds."""
     final, geometry = (f"scenes/{SCENE}/images/scene_{CAMERA}_{kind}_hdf5/frame.*" for kind in ("final", "geometry"))
-    kinds = {"plain": [], "splits": ["--splits"], "fixtures": ["--fixtures"], "extra": ["--extra"],
-             "everything": ["--splits", "--fixtures", "--extra"]}
+    kinds = {"plain": [], "parts of light": ["--light-parts"], "fixtures": ["--fixtures"], "extra": ["--extra"],
+             "everything": ["--light-parts", "--fixtures", "--extra"]}
     made = {name: Program(program.program, work / name) for name in kinds}
     for name, flags in kinds.items():
         demo(made[name], 1, *flags)
-    rounds = [{name: one.run("render", one.out, "--force") for name, one in made.items()} for _ in range(ROUNDS)]
+    rounds = [{name: one.run("run", one.out, "--only", "render", "--force") for name, one in made.items()} for _ in range(ROUNDS)]
     least = {name: min((costs[name] for costs in rounds), key=lambda cost: cost.cpu_s) for name in kinds}
     size = {name: one.bytes_of(final) + one.bytes_of(geometry) for name, one in made.items()}
     base = least["plain"].cpu_s
@@ -89,21 +89,21 @@ def derived(program: Program, work: Path) -> list[dict]:
     mixes.write_text("mix,fixture,r,g,b\n" + "".join(f"{mix},*,0,0,0\n{mix},{of},1,1,1\n" for mix, of in alone.items())
                      + "evening,sky,0.1,0.12,0.2\nevening,sun,0,0,0\nevening,lamp,12,10,7\n")
     detail = f"scenes/{SCENE}/_detail"
-    verbs = [
+    nouns = [
         ("pairs", [], [f"{detail}/covisibility*", "pairs.csv"]),
         ("flow", ["--step", "1"], [f"{detail}/{CAMERA}/pairs/*"]),
         ("tracks", [], [f"{detail}/{CAMERA}/tracks.npz"]),
         ("surfaces", [], [f"{detail}/{CAMERA}/surfaces/*"]),
-        ("layout", [], [f"{detail}/metadata_planes.csv", f"{detail}/{CAMERA}/planes/*"]),
-        ("describe", [], [f"{detail}/metadata_instance*", f"{detail}/{CAMERA}/*.jsonl"]),
-        ("sense", ["examples/sensors.toml"], ["sensors/**/*"]),
-        ("relight", [mixes], ["relit/**/*"]),
+        ("rooms", [], [f"{detail}/metadata_planes.csv", f"{detail}/{CAMERA}/planes/*"]),
+        ("words", [], [f"{detail}/metadata_instance*", f"{detail}/{CAMERA}/*.jsonl"]),
+        ("sensors", ["--sensors", "examples/sensors.toml"], ["sensors/**/*"]),
+        ("relit", ["--mixes", mixes], ["relit/**/*"]),
     ]
     rows = []
-    for verb, arguments, patterns in verbs:
-        cost = program.run(verb, program.out, *arguments)
+    for noun, arguments, patterns in nouns:
+        cost = program.run("make", program.out, noun, *arguments)
         size = sum(program.bytes_of(pattern) for pattern in patterns)
-        rows.append(dict(name=verb, cpu_s=cost.cpu_s / FRAMES, bytes=size / FRAMES, peak_bytes=cost.peak_bytes))
+        rows.append(dict(name=noun, cpu_s=cost.cpu_s / FRAMES, bytes=size / FRAMES, peak_bytes=cost.peak_bytes))
     return rows
 
 
@@ -129,13 +129,13 @@ def page(told: dict):
     yield ""
     yield "## Derived from finished frames"
     yield ""
-    yield "| verb | core-s | MB | memory, GB |"
+    yield "| `enfilade make` | core-s | MB | memory, GB |"
     yield "|---|---|---|---|"
     for row in told["derived"]:
         yield f"| `{row['name']}` | {number(row['cpu_s'])} | {mb(row['bytes'])} | {row['peak_bytes'] / 1e9:.2f} |"
     yield ""
-    yield "`relight` makes four mixes of each frame, `sense` has the six sensors of `examples/sensors.toml`. `pairs`,"
-    yield "`flow`, `tracks`, `surfaces` and `describe` prepare the scene for rays first."
+    yield "`relit` makes four mixes of each frame, `sensors` has the six of `examples/sensors.toml`. `pairs`, `flow`, `tracks`,"
+    yield "`surfaces` and `words` prepare the scene for rays first."
 
 
 def main() -> None:
@@ -144,7 +144,7 @@ def main() -> None:
     work.mkdir(parents=True)
     made = Program(program.resolve(), work.resolve() / "out")
     told = dict(processor=processor(), rendered=rendered(made, work.resolve()))
-    demo(made, FRAMES, "--splits", "--fixtures", "--extra")
+    demo(made, FRAMES, "--light-parts", "--fixtures", "--extra")
     fixtures = (made.out / f"scenes/{SCENE}/_detail/metadata_fixtures.csv").read_text().splitlines()
     record = json.loads((made.out / f"scenes/{SCENE}/_detail/{CAMERA}/frames/frame.0000.json").read_text())
     told |= dict(fixtures=len(fixtures) - 1, samples=record["samples"])

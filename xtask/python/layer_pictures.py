@@ -13,7 +13,7 @@ def preview(images: Path, layer: str) -> Path:
     name = OTHER_NAMES.get(layer, layer)
     found = [path for path in images.glob(f"scene_cam_00_*_preview/frame.0000.{name}.*") if path.suffix in {".jpg", ".png"}]
     if not found:
-        sys.exit(f"{images} has no preview of {layer}; was the demo made with --extra and --splits?")
+        sys.exit(f"{images} has no preview of {layer}; was the demo made with --extra and --light-parts?")
     return found[0]
 
 

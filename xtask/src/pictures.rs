@@ -35,7 +35,7 @@ const SHOTS: [Shot; 2] = [
 ];
 
 /// The run with every layer: two frames, since flow leads from one to the next, as small as they are shown.
-const LAYERS: [&str; 8] = ["--frames", "2", "--size", "192x144", "--quality", "high", "--extra", "--splits"];
+const LAYERS: [&str; 8] = ["--frames", "2", "--size", "192x144", "--quality", "high", "--extra", "--light-parts"];
 
 /// Makes the demo as users do, and takes its pictures to `docs`.
 ///

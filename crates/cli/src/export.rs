@@ -1,8 +1,8 @@
 //! `export`: from arguments to a call of the crate `export`, and what came of it.
 
 use crate::args::ExportArgs;
+use crate::make::cameras;
 use crate::outcome::{Problem, Verdict, say};
-use crate::pairs::cameras;
 use crate::progress::Progress;
 use enfilade_export::{CloudSource, Existing, ExportConfig, Format, Selection, export as export_dataset};
 

@@ -1,27 +1,22 @@
-//! `preview`: a stage for datasets of ours; straight from the frames where another folder is named, as for data of others.
+//! Previews of a dataset in another folder, straight from the frames, as for data of others; in the dataset they are a stage.
 
-use crate::args::PreviewArgs;
+use crate::args::RunArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use crate::verbs;
-use enfilade_pipeline::Stage;
 use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write_contact_sheet, write_overview};
 use enfilade_show::sheet::SheetConfig;
 use std::collections::BTreeSet;
+use std::path::Path;
 
-/// `preview`: pictures of every layer.
-pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let Some(folder) = &args.output else {
-        if args.table.cameras_csv.is_some() {
-            let problem = "--cameras-csv is for previews that are written elsewhere; a dataset of ours has its own cameras";
-            return Err(Problem::new(problem, "leave it out, or name a folder with -o"));
-        }
-        return verbs::stage(&args.stage, Stage::Preview, quiet);
+/// Writes pictures of every layer below `folder`, in the tree of the dataset that `run` was given.
+pub fn elsewhere(args: &RunArgs, folder: &Path, quiet: bool) -> Result<Verdict, Problem> {
+    let Some(from) = &args.from else {
+        return Err(Problem::new("no dataset is named", "give its folder: enfilade run DATASET --only preview -o FOLDER"));
     };
-    let dataset = args.table.open(&args.stage.dataset)?.with_pictures_in(folder);
-    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.stage.scene.as_deref())?;
+    let dataset = args.table.open(from)?.with_pictures_in(folder);
+    let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.scenes.as_deref())?;
     let progress = Progress::new(quiet);
-    let cx = progress.begin(&args.stage.dataset.display().to_string(), "preview");
+    let cx = progress.begin(&from.display().to_string(), "preview");
     let mut pictures = 0;
     for scene in &scenes {
         for camera in dataset.cameras(scene)? {
@@ -33,7 +28,7 @@ pub fn preview(args: &PreviewArgs, quiet: bool) -> Result<Verdict, Problem> {
             pictures += usize::from(sheet.is_some());
         }
     }
-    let name = args.stage.dataset.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
+    let name = from.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
     let overview = write_overview(&dataset, &scenes, &name, &SheetConfig::default())?;
     drop(cx);
     drop(progress);

@@ -1,9 +1,10 @@
 //! The verbs of scene files: `look`, `import` and `home`.
 
-use crate::args::{HomeArgs, ImportArgs, LookArgs, MomentArg, StageArgs};
+use crate::args::{HomeArgs, ImportArgs, LookArgs, MomentArg};
+use crate::ingest;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use crate::verbs;
+use enfilade_dataset::quoted;
 use enfilade_export::scene_encoder;
 use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, holds_scene, scene_file_of};
 use enfilade_scene::{Cx, Warning};
@@ -26,15 +27,15 @@ pub fn look(args: &LookArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// `import`: of a dataset's scenes, or of one file or folder of a collection.
+/// `import`: of one file or folder of a collection, or of a real data set.
 pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
+    if ingest::is_pix3d(args) {
+        return ingest::pix3d(args);
+    }
     if args.input.is_dir() && !holds_scene(&args.input)? {
-        if let Some(flag) = flag_of_files(args) {
-            let hint = format!("leave {flag} out, and write what it says into the scene's table of dataset.toml");
-            return Err(Problem::new(format!("{flag} is for scene files, but {} is a folder", args.input.display()), hint));
-        }
-        let stage_args = StageArgs { dataset: args.input.clone(), scene: args.scene.clone(), force: args.force };
-        return verbs::stage(&stage_args, Stage::Import, quiet);
+        let datasets = format!("scenes of a dataset are imported by: enfilade run {} --only import", quoted(args.input.display()));
+        let hint = format!("name a scene file, or the folder of Pix3D, in which pix3d.json is; {datasets}");
+        return Err(Problem::new(format!("{} is a folder in which no scene is", args.input.display()), hint));
     }
     let source = args.choices.source(&args.input);
     if args.check {
@@ -76,24 +77,6 @@ impl Cx for Unwarned<'_> {
     }
 
     fn warn(&self, _warning: Warning) {}
-}
-
-/// A flag that is given and means nothing for a dataset, whose configuration says the same.
-fn flag_of_files(args: &ImportArgs) -> Option<&'static str> {
-    let choices = &args.choices;
-    let given = [
-        ("--output", args.output.is_some()),
-        ("--check", args.check),
-        ("--meters-per-unit", choices.meters_per_unit.is_some()),
-        ("--up-axis", choices.up_axis.is_some()),
-        ("--environment", choices.environment.is_some()),
-        ("--lamps", choices.lamps.is_some()),
-        ("--drop-doubled-faces", choices.drop_doubled_faces),
-        ("--panes", !choices.panes.is_empty()),
-        ("--allow-missing-textures", choices.allow_missing_textures),
-        ("--allow-missing-meshes", choices.allow_missing_meshes),
-    ];
-    given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
 }
 
 /// `home`: a furnished home of a seed.

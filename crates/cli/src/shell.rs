@@ -1,21 +1,26 @@
-//! `enfilade completions` and `enfilade man`: what clap makes of the definition of the command line.
+//! `completions`: what clap makes of the definition of the command line, for shells and as manual pages.
 
-use crate::args::{Cli, CompletionsArgs, ManArgs};
+use crate::args::{Cli, CompletionsArgs};
 use crate::outcome::{Problem, Verdict, note, say};
 use clap::CommandFactory;
 use std::io::Write;
+use std::path::Path;
 
-/// Writes the shell's completions to standard output.
-pub fn completions(args: &CompletionsArgs) -> Verdict {
-    let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "enfilade", &mut text);
-    note(std::io::stdout().write_all(&text));
-    Verdict::Done
+/// `completions`: those of a shell to standard output, or the manual pages into a folder.
+pub fn completions(args: &CompletionsArgs) -> Result<Verdict, Problem> {
+    if let Some(folder) = &args.man {
+        return manual(folder);
+    }
+    if let Some(shell) = args.shell {
+        let mut text = Vec::new();
+        clap_complete::generate(shell, &mut Cli::command(), "enfilade", &mut text);
+        note(std::io::stdout().write_all(&text));
+    }
+    Ok(Verdict::Done)
 }
 
 /// Writes a page for the program and one for each of its verbs, and says where.
-pub fn man(args: &ManArgs) -> Result<Verdict, Problem> {
-    let folder = &args.folder;
+fn manual(folder: &Path) -> Result<Verdict, Problem> {
     let written = std::fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(Cli::command(), folder));
     written
         .map_err(|error| Problem::of_data(format!("cannot write {}: {error}", folder.display()), "name a folder that can be written to"))?;

@@ -123,21 +123,22 @@ impl Dataset {
             if grid_step_px == 0 {
                 return Err(DatasetError::text(
                     &list,
-                    format!("line {}: grid_step_px is 0, expected at least 1; run enfilade pairs", i + 2),
+                    format!("line {}: grid_step_px is 0, expected at least 1; run enfilade make OUT pairs", i + 2),
                 ));
             }
             Ok(CovisibleFrame { camera, frame: table.parse(i, at[2])?, grid_step_px, surface_pixels: table.parse(i, at[4])? })
         };
         let frames: Vec<CovisibleFrame> = (0..table.rows.len()).map(frame).collect::<Result<_, _>>()?;
         let name = table.rows.first().map_or("distances", |row| row[at[5]].as_str());
-        let unknown = || DatasetError::text(&list, format!("hidden_by is {name:?}; expected scene or distances; run enfilade pairs"));
+        let unknown =
+            || DatasetError::text(&list, format!("hidden_by is {name:?}; expected scene or distances; run enfilade make OUT pairs"));
         let hidden_by = HiddenBy::ALL.into_iter().find(|known| known.name() == name).ok_or_else(unknown)?;
         match array.values {
             Elements::F32(shares) if array.shape == [frames.len(), frames.len()] => Ok(Covisibility { frames, hidden_by, shares }),
             other => {
                 let found = format!("{} of shape {:?}", other.element().name(), array.shape);
                 let problem = format!("expected float32 of {0} x {0}, the frames of covisibility_frames.csv, found {found}", frames.len());
-                Err(DatasetError::hdf5(&path, format!("{problem}; run enfilade pairs")))
+                Err(DatasetError::hdf5(&path, format!("{problem}; run enfilade make OUT pairs")))
             }
         }
     }

@@ -216,7 +216,10 @@ impl Dataset {
             let found = &table.rows[row][relation];
             let kind = RelationKind::ALL.into_iter().find(|kind| kind.name() == found).ok_or_else(|| {
                 let known = RelationKind::ALL.map(RelationKind::name).join(", ");
-                DatasetError::text(&path, format!("line {}: found {found:?}, expected one of {known}; run enfilade describe", row + 2))
+                DatasetError::text(
+                    &path,
+                    format!("line {}: found {found:?}, expected one of {known}; run enfilade make OUT words", row + 2),
+                )
             })?;
             Ok(InstanceRelation {
                 subject: table.parse(row, subject)?,

@@ -180,11 +180,11 @@ const NOTES: [(&str, &str); 19] = [
     ),
     (
         "many_views",
-        "Where enfilade pairs was run, _detail/covisibility.hdf5 (float32, frames x frames) has in row i, column j the share of frame i's surface \
-         pixels whose surface frame j sees, 0 to 1; covisibility_frames.csv beside it lists the frames and what told that something is hidden; \
-         pairs.csv has chosen pairs with baseline_m between the camera centres and angle_deg between the viewing axes. Where enfilade flow was \
-         run, _detail/<camera>/pairs/ has optical_flow (px), scene_flow (m) and flow_visibility from the frame named first to the one named second; where enfilade \
-         tracks was run, _detail/<camera>/tracks.npz has points (shares of width and height) and whether they are occluded, in TAP-Vid's layout.",
+        "`enfilade make` adds to frames. pairs: _detail/covisibility.hdf5 (float32, frames x frames) has in row i, column j the share of frame i's \
+         surface pixels whose surface frame j sees, 0 to 1; covisibility_frames.csv beside it lists the frames and what told that something is \
+         hidden; pairs.csv has chosen pairs with baseline_m between the camera centres and angle_deg between the viewing axes. flow: \
+         _detail/<camera>/pairs/ has optical_flow (px), scene_flow (m) and flow_visibility from the frame named first to the one named second. \
+         tracks: _detail/<camera>/tracks.npz has points (shares of width and height) and whether they are occluded, in TAP-Vid's layout.",
     ),
     ("records", "A frame counts when _detail/<camera>/frames/frame.IIII.json is there; checksums are BLAKE3 of whole files."),
     (

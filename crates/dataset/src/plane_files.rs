@@ -45,7 +45,7 @@ impl Dataset {
         let table = Table::read(&path)?;
         let [id, kind, room, wall, x, y, z, offset] = table.columns(HEADER)?;
         let wrong = |row: usize, expected: &str, found: &str| {
-            DatasetError::text(&path, format!("line {}: expected {expected}, found {found:?}; run enfilade layout", row + 2))
+            DatasetError::text(&path, format!("line {}: expected {expected}, found {found:?}; run enfilade make OUT rooms", row + 2))
         };
         let plane = |row: usize| {
             let cell = |column: usize| table.rows[row][column].as_str();
@@ -90,7 +90,10 @@ impl Dataset {
         let array = read_array(&path)?;
         if array.shape.len() != 2 || !matches!(array.values, Elements::I16(_)) {
             let found = format!("{} of the shape {:?}", array.values.element().name(), array.shape);
-            return Err(DatasetError::hdf5(&path, format!("expected int16 with height and width, found {found}; run enfilade layout")));
+            return Err(DatasetError::hdf5(
+                &path,
+                format!("expected int16 with height and width, found {found}; run enfilade make OUT rooms"),
+            ));
         }
         Ok(Some(array))
     }
@@ -141,7 +144,7 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, text.replace("ceiling", "roof")).unwrap();
         let message = dataset.read_plane_table("room").unwrap_err().to_string();
-        assert!(message.contains("line 3: expected floor, ceiling or wall, found \"roof\"; run enfilade layout"), "{message}");
+        assert!(message.contains("line 3: expected floor, ceiling or wall, found \"roof\"; run enfilade make OUT rooms"), "{message}");
 
         // What makes it a camera.
         std::fs::create_dir_all(dataset.layout().layer_dir("room", "cam_00", Pass::Geometry)).unwrap();

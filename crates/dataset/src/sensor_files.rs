@@ -109,7 +109,7 @@ impl Dataset {
     /// # Errors
     /// When they cannot be read.
     pub fn sensor_settings<T: DeserializeOwned>(&self, sensor: &str) -> Result<Option<T>, DatasetError> {
-        read_json(&self.layout().sensor_settings(sensor), "run enfilade sense again")
+        read_json(&self.layout().sensor_settings(sensor), "run enfilade make OUT sensors again")
     }
 
     /// The numbers of a camera's frames that a sensor has seen, sorted.

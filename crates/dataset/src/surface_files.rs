@@ -102,20 +102,20 @@ impl Dataset {
             (shape, values) => {
                 let found = format!("{} of the shape {shape:?}", values.element().name());
                 let expected = "expected float32 with height, width and at least one surface";
-                return Err(DatasetError::hdf5(&path, format!("{expected}, found {found}; run enfilade surfaces")));
+                return Err(DatasetError::hdf5(&path, format!("{expected}, found {found}; run enfilade make OUT surfaces")));
             }
         };
         let shapes = shapes([height, width], n);
         let values = |index: usize| {
             let (array, path) = read(index)?;
             if array.shape != shapes[index] {
-                let problem = format!("expected the shape {:?}, found {:?}; run enfilade surfaces", shapes[index], array.shape);
+                let problem = format!("expected the shape {:?}, found {:?}; run enfilade make OUT surfaces", shapes[index], array.shape);
                 return Err(DatasetError::hdf5(&path, problem));
             }
             Ok((array.values, path))
         };
         let wrong = |(found, path): (Elements, std::path::PathBuf)| {
-            DatasetError::hdf5(&path, format!("values of another type, {}; run enfilade surfaces", found.element().name()))
+            DatasetError::hdf5(&path, format!("values of another type, {}; run enfilade make OUT surfaces", found.element().name()))
         };
         let floats = |index| match values(index)? {
             (Elements::F32(values), _) => Ok(values),

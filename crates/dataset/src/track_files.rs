@@ -64,7 +64,7 @@ impl Dataset {
         let frames: Result<Vec<u32>, _> = frames.bytes.as_chunks().0.iter().map(number).collect();
         let coordinates: Vec<f64> = positions.bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
         Ok(Tracks {
-            frames: frames.map_err(|_| DatasetError::text(&path, "frame_ids: expected numbers from 0; run enfilade tracks"))?,
+            frames: frames.map_err(|_| DatasetError::text(&path, "frame_ids: expected numbers from 0; run enfilade make OUT tracks"))?,
             positions: coordinates.as_chunks().0.iter().map(|p| DVec3::from_array(*p)).collect(),
             seeds: queries.as_chunks().0.iter().map(|&[frame, y, x]| (frame as u32, [x, y])).collect(),
             points: points.floats().as_chunks().0.to_vec(),

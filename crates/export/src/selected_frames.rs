@@ -209,8 +209,10 @@ impl<'d> SelectedFrames<'d> {
     pub fn structure(&self, scene: &str) -> Result<Structure, ExportError> {
         let unknown = || {
             let problem = "it has no _detail/layout.json, which generated homes come with";
-            let remedy =
-                format!("`enfilade layout {}` makes it of scenes with labelled walls, floors and ceilings", self.dataset.root().display());
+            let remedy = format!(
+                "`enfilade make {} rooms` makes it of scenes with labelled walls, floors and ceilings",
+                self.dataset.root().display()
+            );
             self.unsuitable(scene, format!("{problem}; {remedy}"))
         };
         self.dataset.read_structure(scene)?.ok_or_else(unknown)

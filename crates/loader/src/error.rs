@@ -12,7 +12,7 @@ pub enum LoaderError {
     /// A side of the split was asked for, and nothing says which frames are on it.
     #[error(
         "there is no split at {}; Hypersim's comes apart from its archives: put metadata_images_split_scene_v1.csv of \
-        github.com/apple/ml-hypersim (evermotion_dataset/analysis) into the dataset's folder; for a dataset of ours run `enfilade split`",
+        github.com/apple/ml-hypersim (evermotion_dataset/analysis) into the dataset's folder; for a dataset of ours run `enfilade partition`",
         path.display()
     )]
     NoSplit {

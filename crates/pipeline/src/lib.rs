@@ -53,7 +53,7 @@ pub use products::{
 pub use relight::relight;
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
-pub use run::{plan_and_draw, relabel, run, run_chosen, run_stage, verify};
+pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};
 pub use stages::{FinishedFrame, Part, STAGES, Stage, StageSpec};

@@ -117,7 +117,8 @@ fn read(file: &Path) -> Result<Source, Error> {
     let root = root_of(&file, &record).ok_or_else(|| {
         Error::usage(format!("{} is not where a dataset keeps the record of {}/{}", file.display(), record.scene, record.camera), hint)
     })?;
-    let again = format!("render the frame again: enfilade render {} --scene {} --force", quoted(root.display()), quoted(&record.scene));
+    let again =
+        format!("render the frame again: enfilade run {} --only render --scene {} --force", quoted(root.display()), quoted(&record.scene));
     let changed = |what: String| Error::scene(format!("{what}, so the frame cannot be replayed"), again.clone());
     let recipe =
         record.recipe.clone().ok_or_else(|| changed("its record is of an earlier version, which did not tell the settings".into()))?;

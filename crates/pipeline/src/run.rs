@@ -1,6 +1,6 @@
 //! Running stages over the scenes of a dataset: all of them, or one verb.
 
-use crate::config::{Config, RenderChoices, SceneConfig};
+use crate::config::{Config, Overrides, SceneConfig};
 use crate::error::Error;
 use crate::products::{PairsRequest, Place, Request, adopt, bring_up_to_date, not_judged, told_out_of_date};
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
@@ -71,21 +71,63 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
-/// Plans as [`run_stage`] does and draws what was planned, now or earlier. Returns also the page of each scene that came through.
+/// Runs some stages of the dataset `config` in `out`, as [`run`] runs all, in their order; after rendering also what `color` holds and the
+/// labels, after new labels also the boxes of what they name. With `force` also stages that are up to date.
 ///
 /// # Errors
-/// As [`run_stage`], and when a picture cannot be made or written.
-pub fn plan_and_draw(out: &Path, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<(Summary, Vec<PathBuf>), Error> {
-    let (workdir, config) = open(out)?;
+/// As [`run`].
+pub fn run_stages(
+    config: &Config,
+    out: &Path,
+    stages: &[Stage],
+    pattern: Option<&str>,
+    force: bool,
+    reporter: &dyn Reporter,
+) -> Result<Summary, Error> {
     let scenes = config.select(pattern)?;
-    let session = Session::new(&config, &workdir)?;
-    let summary = session.run(&scenes, &[Stage::Plan.spec()], force, reporter)?;
-    let mut pages = Vec::new();
-    for (scene, _) in scenes.iter().zip(&summary.scenes).filter(|(_, outcome)| outcome.failure.is_none()) {
-        let job = Job::new(&config, scene, &session.dataset, &workdir, force);
-        pages.push(draw_plan(&job, &StageCx::new(&scene.name, Stage::Plan, reporter))?);
-    }
-    Ok((summary, pages))
+    let workdir = Workdir::create(out)?;
+    let session = Session::new(config, &workdir)?;
+    let asked = |stage: Stage| stages.contains(&stage);
+    let wanted = |stage: Stage| {
+        asked(stage)
+            || match stage {
+                Stage::Denoise => asked(Stage::Render),
+                Stage::Boxes => asked(Stage::Label),
+                _ => false,
+            }
+    };
+    let specs: Vec<&StageSpec> = STAGES.iter().filter(|spec| wanted(spec.stage)).collect();
+    store_config(&workdir, config)?;
+    session.run(&scenes, &specs, force, reporter)
+}
+
+/// The settings of the dataset in `out` as they are stored there, with `overrides` over the scenes that `pattern` means; the seed of
+/// everything stays.
+///
+/// # Errors
+/// When `out` is no dataset, and when a number is out of its range.
+pub fn stored_config(out: &Path, overrides: &Overrides, pattern: Option<&str>) -> Result<Config, Error> {
+    let (_workdir, mut config) = open(out)?;
+    let chosen: Vec<String> = config.select(pattern)?.iter().map(|scene| scene.name.clone()).collect();
+    let mut scenes = config.scenes.iter_mut().filter(|scene| chosen.contains(&scene.name));
+    scenes.try_for_each(|scene| overrides.lay_over_stored(scene))?;
+    Ok(config)
+}
+
+/// Draws the trajectories of the scenes of the dataset `config` in `out` that came through in `summary`, planned now or earlier. Returns the
+/// page of each.
+///
+/// # Errors
+/// When a picture cannot be made or written.
+pub fn draw_plans(config: &Config, out: &Path, summary: &Summary, reporter: &dyn Reporter) -> Result<Vec<PathBuf>, Error> {
+    let workdir = Workdir::open(out)?;
+    let session = Session::new(config, &workdir)?;
+    let came_through = |scene: &&SceneConfig| summary.scenes.iter().any(|done| done.name == scene.name && done.failure.is_none());
+    let draw = |scene: &SceneConfig| {
+        let job = Job::new(config, scene, &session.dataset, &workdir, false);
+        draw_plan(&job, &StageCx::new(&scene.name, Stage::Plan, reporter))
+    };
+    config.scenes.iter().filter(came_through).map(draw).collect()
 }
 
 /// Checks every law over `scenes` of a dataset, whoever made it. That a scene has passed once is forgotten where it does not now, so that
@@ -128,27 +170,6 @@ pub fn relabel(out: &Path, table: &Path, pattern: Option<&str>, force: bool, rep
     store_config(&workdir, &config)?;
     let scenes = config.select(pattern)?;
     Session::new(&config, &workdir)?.run(&scenes, &LABELLING, force, reporter)
-}
-
-/// Makes choices about the rendering of scenes of the dataset in `out` from now on, and runs `stages` with that.
-///
-/// # Errors
-/// As [`run_stage`], and when a number is out of its range.
-pub fn run_chosen(
-    out: &Path,
-    choices: &RenderChoices,
-    stages: &[Stage],
-    pattern: Option<&str>,
-    force: bool,
-    reporter: &dyn Reporter,
-) -> Result<Summary, Error> {
-    choices.check()?;
-    let (workdir, config) = open_with(out, pattern, |scene| choices.apply(scene))?;
-    let scenes = config.select(pattern)?;
-    let session = Session::new(&config, &workdir)?;
-    store_config(&workdir, &config)?;
-    let stages: Vec<&StageSpec> = stages.iter().map(|stage| stage.spec()).collect();
-    session.run(&scenes, &stages, force, reporter)
 }
 
 pub(crate) fn store_config(workdir: &Workdir, config: &Config) -> Result<(), Error> {
@@ -298,11 +319,12 @@ impl<'a> Session<'a> {
         let is_among = |stage: Stage| stages.iter().any(|spec| spec.stage == stage);
         let mut with = stages.to_vec();
         if is_among(Stage::Render) && !is_among(Stage::Label) {
-            for spec in LABELLING {
+            for spec in LABELLING.into_iter().filter(|spec| !is_among(spec.stage)) {
                 if self.workdir.scene_file(&scene.name, &spec.stage.record())?.is_file() {
                     with.push(spec);
                 }
             }
+            with.sort_by_key(|spec| spec.stage);
         }
         Ok(with)
     }
@@ -357,7 +379,7 @@ impl<'a> Session<'a> {
         }
         let names: Vec<&str> = unknown.iter().map(String::as_str).collect();
         Some(format!(
-            "{} also holds scenes that this configuration does not have: {}; they stay as they are, and stages such as `render` do not \
+            "{} also holds scenes that this configuration does not have: {}; they stay as they are, and `run` with a folder does not \
              know them until a configuration that has them is run",
             self.workdir.out().display(),
             first_of(&names)

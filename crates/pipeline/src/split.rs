@@ -31,7 +31,7 @@ impl SplitReport {
         }
         let (sides, are, them) =
             (empty.join(" and "), if empty.len() == 1 { "is" } else { "are" }, if empty.len() == 1 { "it" } else { "them" });
-        let or_seed = if self.has_few_scenes() { "" } else { ", or another seed (enfilade split OUT --seed 1)," };
+        let or_seed = if self.has_few_scenes() { "" } else { ", or another seed (enfilade partition OUT --seed 1)," };
         Some(format!("{sides} of the split {are} empty; more scenes{or_seed} fill {them}"))
     }
 
@@ -76,7 +76,7 @@ pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitR
     let mut config = last;
     change(&mut config);
     if let Some(problem) = config.problem() {
-        return Err(Error::usage(problem, "enfilade split OUT --seed 0 --shares 80,10,10"));
+        return Err(Error::usage(problem, "enfilade partition OUT --seed 0 --shares 80,10,10"));
     }
     if config != last {
         write_json(&workdir.file(CHOICE), &config)?;
@@ -96,7 +96,7 @@ fn choice(workdir: &Workdir) -> Result<SplitConfig, Error> {
         text => text.map_err(Error::io("read", &path))?,
     };
     let unknown =
-        |e| Error::usage(format!("{}: no choice of a split ({e})", path.display()), "remove it, and choose again: enfilade split OUT");
+        |e| Error::usage(format!("{}: no choice of a split ({e})", path.display()), "remove it, and choose again: enfilade partition OUT");
     serde_json::from_slice(&text).map_err(unknown)
 }
 

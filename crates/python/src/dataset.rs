@@ -175,7 +175,7 @@ impl Dataset {
         Ok((place.scene, place.camera, place.frame))
     }
 
-    /// Pairs of frames that see the same surfaces, as `enfilade pairs` lists them: indices of samples, each pair once, for models that learn
+    /// Pairs of frames that see the same surfaces, as `enfilade make OUT pairs` lists them: indices of samples, each pair once, for models that learn
     /// from several views. Pairs of which this dataset lacks a frame, because of `split` or `scenes`, are left out.
     ///
     /// file: another list than pairs.csv in the dataset's folder.

@@ -55,7 +55,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(verbs::run, module)?,
         wrap_pyfunction!(verbs::stage, module)?,
         wrap_pyfunction!(verbs::verify, module)?,
-        wrap_pyfunction!(verbs::split, module)?,
+        wrap_pyfunction!(verbs::partition, module)?,
         wrap_pyfunction!(make::make, module)?,
         wrap_pyfunction!(verbs::repack, module)?,
         wrap_pyfunction!(verbs::export, module)?,

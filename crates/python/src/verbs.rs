@@ -1,4 +1,4 @@
-//! The commands of the command line as functions: run, stage, verify, split, repack, export.
+//! The commands of the command line as functions: run, stage, verify, partition, repack, export.
 
 use crate::arguments::{Frames, Names, layers};
 use crate::config::Config;
@@ -92,7 +92,7 @@ pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> 
 /// seed: of the draw. shares: of the sides, such as (0.8, 0.1, 0.1). What is not given stays as it was.
 #[pyfunction]
 #[pyo3(signature = (dataset, *, seed=None, shares=None))]
-pub fn split<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: Option<[f64; 3]>) -> PyResult<Bound<'py, PyAny>> {
+pub fn partition<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: Option<[f64; 3]>) -> PyResult<Bound<'py, PyAny>> {
     let change = |config: &mut enfilade_pipeline::SplitConfig| {
         config.seed = seed.unwrap_or(config.seed);
         config.shares = shares.unwrap_or(config.shares);

@@ -60,7 +60,7 @@ class Errors(unittest.TestCase):
         root = self.copy()
         (root / "metadata_images_split_scene_v1.csv").unlink(missing_ok=True)
         message = self.message(FileNotFoundError, lambda: enfilade.Dataset(root, layers="color", split="train"))
-        for part in ("metadata_images_split_scene_v1.csv", "evermotion_dataset/analysis", "enfilade split"):
+        for part in ("metadata_images_split_scene_v1.csv", "evermotion_dataset/analysis", "enfilade partition"):
             self.assertIn(part, message)
 
     def test_images_without_detail_are_read_and_poses_asked_for_in_vain_are_told(self):

@@ -56,7 +56,7 @@ impl<'a> Subject<'a> {
     pub(crate) fn layer(&self, sensor: &str, layer: Layer) -> Result<&'a Values, SensorError> {
         self.frame.get(layer).ok_or_else(|| {
             let LayerSpec { name, pass, .. } = layer.spec();
-            let remedy = if *pass == Pass::Extra { "render it with `enfilade render --extra`" } else { "render or download it" };
+            let remedy = if *pass == Pass::Extra { "render it with `enfilade run OUT --extra`" } else { "render or download it" };
             self.unseen(sensor, format!("it has no layer {name}, which the sensor looks at; {remedy}"))
         })
     }

@@ -186,32 +186,32 @@ pub const LAWS: [LawSpec; 73] = laws![
         "the frame was labelled or rendered again since: run the boxes stage again";
     LayoutPlanes 1e-2 "share", "walls, floors and ceilings are where layout.json has them (share of their pixels that are more than 2 cm off)",
         "the layout is of another version of the scene, or parts are labelled as walls that are none: import the scene again, or correct the labels";
-    SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade split";
+    SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade partition";
     TwoViewDistance 1e-3 "share", "no frame looks through a surface that its neighbour sees (share of the pixels that both see and resolve)",
         "pose, calibration or unit of depth is not that of the rendering, or the scene is different in the two frames: render again";
     TwoViewIds 1e-3 "share", "neighbours see the same part and instance where they see the same point", "frames of different versions of the scene are mixed: render and label again";
     TwoViewReflectance 1e-2 "share", "neighbours see the same diffuse reflectance where they see the same part",
         "frames of different versions of the scene are mixed, or a texture is animated: render again";
     Covisibility 1e-2 "share", "covisibility.hdf5 agrees with what the frames' distances tell, lies on [0, 1] and is 1 on its diagonal (share of the grid beyond)",
-        "frames were rendered again since: run enfilade pairs";
+        "frames were rendered again since: run enfilade make OUT pairs";
     PairFlow 2e-2 "relative", "flow and scene flow of a pair of frames lead to where the second camera has the surface point (off, over their length from 1 px and 1 m on)",
-        "frames were rendered again since: run enfilade flow";
+        "frames were rendered again since: run enfilade make OUT flow";
     PairVisibility 1e-2 "share", "flow_visibility of a pair of frames agrees with the second one's distances where they tell for sure",
-        "frames were rendered again since: run enfilade flow";
+        "frames were rendered again since: run enfilade make OUT flow";
     TrackPoints 0.02 "px", "points of tracks are where each frame's camera has them, up to an image beyond its borders, and begin at their pixels",
-        "frames were rendered again since: run enfilade tracks";
+        "frames were rendered again since: run enfilade make OUT tracks";
     TrackOcclusion 1e-2 "share", "points of tracks are occluded where a frame's distances tell so for sure, and seen where those do (share of points in all frames)",
-        "frames were rendered again since: run enfilade tracks";
+        "frames were rendered again since: run enfilade make OUT tracks";
     Sensed 0.0 "files", "readings of sensors are what their settings make of the stored frames, bit by bit",
-        "frames were denoised or rendered again since, or this is another version: run enfilade sense";
+        "frames were denoised or rendered again since, or this is another version: run enfilade make OUT sensors";
     LightFixtures 2e-3 "relative", "light by fixture sums to color as it was rendered: diffuse_reflectance * diffuse_illumination + residual of each",
         "layers of different renderings are mixed, or files of fixtures are missing: render the frame again";
     RaySurfaces 0.0 "pixels", "surfaces along rays go from near to far, begin with the frame's own, and have the classes of their parts",
-        "frames were rendered or labelled again since: run enfilade surfaces";
+        "frames were rendered or labelled again since: run enfilade make OUT surfaces";
     InstanceRelations 2e-2 "m", "instances that are said to touch or to be beside each other are no farther apart than said, those in others are in them, those under others below them",
-        "labels or the scene were changed since: run enfilade describe";
+        "labels or the scene were changed since: run enfilade make OUT words";
     PlaneIds 0.0 "pixels", "pixels of a plane of the layout are within 2 cm of it and of its class, and pixels of walls that are of none lie on none",
-        "the layout, labels or frames were changed since: run enfilade layout";
+        "the layout, labels or frames were changed since: run enfilade make OUT rooms";
 ];
 
 impl Law {

@@ -14,7 +14,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)],
     for name in readable(card, dataset.sensors()).unwrap_or_default() {
         let Some(sensor) = readable(card, dataset.sensor_settings::<Sensor>(&name)).flatten() else { continue };
         if sensor.format != Sensor::FORMAT {
-            notes.push(format!("sensors/{name} is of another version, and was not made again: run enfilade sense"));
+            notes.push(format!("sensors/{name} is of another version, and was not made again: run enfilade make OUT sensors"));
             continue;
         }
         let problem = match sensor.check() {

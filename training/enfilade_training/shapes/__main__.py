@@ -51,9 +51,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _check(config: Config, verb: str) -> None:
     if verb == "train" and not config.data.train:
-        raise settings.ConfigError("data.train is empty; name a file of enfilade export --format pix3d or enfilade ingest pix3d")
+        raise settings.ConfigError("data.train is empty; name a file of enfilade export --format pix3d or enfilade import")
     if verb == "evaluate" and config.data.evaluate is None:
-        raise settings.ConfigError("data.evaluate is not given; name a file of enfilade export --format pix3d or enfilade ingest pix3d")
+        raise settings.ConfigError("data.evaluate is not given; name a file of enfilade export --format pix3d or enfilade import")
 
 
 def _run(config: Config, options: argparse.Namespace, replica: distributed.Replica) -> None:

@@ -9,7 +9,7 @@ from ..common.config import ConfigError
 
 @dataclass(frozen=True)
 class Data:
-    """Which images; files are Mesh R-CNN's JSON, as `enfilade export --format pix3d` and `enfilade ingest pix3d` write it.
+    """Which images; files are Mesh R-CNN's JSON, as `enfilade export --format pix3d` and `enfilade import` write it.
 
     root: where paths in the files begin; their own folders unless given. min_visibility: objects of which less is seen are left out,
     where the file tells it. min_pixels: objects whose box has fewer pixels are left out of training. leaving: whether objects stay of which a

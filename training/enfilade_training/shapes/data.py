@@ -95,7 +95,7 @@ def _images(file: Path, root: Path, settings: Data) -> list[dict[str, Any]]:
             if wanted and not leaves:
                 objects.setdefault(annotation["image_id"], []).append(_object(annotation, root))
         except (KeyError, IndexError, TypeError) as error:
-            raise DataError(f"{file}: annotation {annotation.get('id')} is not Mesh R-CNN's ({error!r}); write it with enfilade ingest or export") from error
+            raise DataError(f"{file}: annotation {annotation.get('id')} is not Mesh R-CNN's ({error!r}); write it with enfilade import or export") from error
     if left:
         _log.info("%s: %d objects leave the frustum and are left out, %d stay (data.leaving)", file, left, sum(map(len, objects.values())))
     return [

@@ -84,7 +84,7 @@ impl Viewer {
         let text = std::fs::read_to_string(path).map_err(|source| DatasetError::Io { action: "read", path: path.to_path_buf(), source });
         let text = optional(text)?.unwrap_or_default();
         let line = |(at, line): (usize, &str)| {
-            let wrong = |e| ApiProblem::failed(format!("{}: line {}: {e}", path.display(), at + 1), "run enfilade describe again");
+            let wrong = |e| ApiProblem::failed(format!("{}: line {}: {e}", path.display(), at + 1), "run enfilade make OUT words again");
             serde_json::from_str(line).map_err(wrong)
         };
         text.lines().enumerate().map(line).collect()

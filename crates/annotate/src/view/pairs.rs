@@ -1,4 +1,4 @@
-//! Which frames of a scene show the surfaces that a frame shows: from the matrix of `enfilade pairs`, its list, and the poses.
+//! Which frames of a scene show the surfaces that a frame shows: from the matrix of `enfilade make OUT pairs`, its list, and the poses.
 
 use super::pairs_of_scene::PairsOfScene;
 use super::place::{FramePlace, problem, stamp};

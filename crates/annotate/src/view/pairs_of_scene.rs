@@ -34,7 +34,7 @@ impl PairsOfScene {
         let frames = &self.covisibility.frames;
         let Some(here) = frames.iter().position(|one| one.camera == place.camera && one.frame == place.frame) else {
             let error = format!("frame {} of {} is not in covisibility_frames.csv", place.frame, place.camera);
-            return Err(ApiProblem::not_found(error, "run enfilade pairs again"));
+            return Err(ApiProblem::not_found(error, "run enfilade make OUT pairs again"));
         };
         let shares = |there: usize| [self.covisibility.share(here, there), self.covisibility.share(there, here)];
         let overlap = |there: usize| shares(there).into_iter().filter(|share| share.is_finite()).fold(0.0, f32::max);

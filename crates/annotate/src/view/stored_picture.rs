@@ -124,7 +124,7 @@ fn reading(path: &Path, kind: ReadingKind, channels: usize) -> Result<([usize; 2
 
 /// A picture file's pixels.
 fn decoded(path: &Path, pixels: impl Fn(DynamicImage) -> Elements) -> Result<([usize; 2], Elements), ApiProblem> {
-    let damaged = |e: image::ImageError| ApiProblem::failed(format!("{}: {e}", path.display()), "run enfilade sense again");
+    let damaged = |e: image::ImageError| ApiProblem::failed(format!("{}: {e}", path.display()), "run enfilade make OUT sensors again");
     let image = image::load_from_memory(&bytes_of(path)?).map_err(damaged)?;
     let size = [image.height() as usize, image.width() as usize];
     seen(path, size, (size, pixels(image)))
@@ -135,7 +135,7 @@ fn seen<T>(path: &Path, [height, width]: [usize; 2], read: T) -> Result<T, ApiPr
     if height.min(width) > 0 {
         return Ok(read);
     }
-    Err(ApiProblem::failed(format!("{}: there are no pixels in it", path.display()), "run enfilade sense again"))
+    Err(ApiProblem::failed(format!("{}: there are no pixels in it", path.display()), "run enfilade make OUT sensors again"))
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, ApiProblem> {

@@ -31,7 +31,7 @@ export class PairsPanel {
     show() {
         const { scene, camera, store } = this.session;
         if (!scene || !camera) return [];
-        if (!scene.has_pairs) return [el("p", { class: "quiet" }, "Nobody has counted which frames of this scene see the same surfaces. `enfilade pairs` does it, without rendering.")];
+        if (!scene.has_pairs) return [el("p", { class: "quiet" }, "Nobody has counted which frames of this scene see the same surfaces. `enfilade make OUT pairs` does it, without rendering.")];
         this.#learn(scene.name, camera.name, store.state.frame);
         if (this.problem) return [el("p", {}, this.problem.message), el("p", { class: "quiet" }, this.problem.help)];
         if (!this.known) return [el("p", { class: "quiet" }, "Reading …")];

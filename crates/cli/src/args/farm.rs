@@ -1,6 +1,6 @@
 //! `farm` and what it has below it.
 
-use super::stages::MakeFlags;
+use super::stages::SettingFlags;
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -57,7 +57,7 @@ pub struct FarmPlanArgs {
     pub price: Option<String>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
-    pub make: MakeFlags,
+    pub settings: SettingFlags,
 }
 
 /// `farm work`.

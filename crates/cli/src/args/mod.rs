@@ -1,7 +1,7 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
 mod farm;
-mod ingest;
+mod make;
 mod outputs;
 mod pages;
 mod reading;
@@ -10,22 +10,22 @@ mod scenes;
 mod shell;
 mod stages;
 mod values;
-mod views;
 
 pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
-pub use ingest::{IngestArgs, IngestVerb, Pix3dArgs};
+pub use make::{MakeArgs, What};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::{CamerasArg, FramesArg};
-pub use results::{InspectArgs, ReplayArgs, SplitArgs, StatsArgs, VerifyArgs};
+pub use results::{InspectArgs, PartitionArgs, ReplayArgs, StatsArgs, VerifyArgs};
 pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisArg};
-pub use shell::{CompletionsArgs, ManArgs};
-pub use stages::{LabelArgs, MakeFlags, PlanArgs, PreviewArgs, QualityArg, RenderArgs, RenderFlags, RunArgs, StageArgs};
+pub use shell::CompletionsArgs;
+pub use stages::{LabelArgs, QualityArg, RenderFlags, RunArgs, SettingFlags, StageArg};
 pub use values::parse_size;
-pub use views::{DescribeArgs, FlowArgs, LayoutArgs, PairsArgs, RelightArgs, SenseArgs, SurfacesArgs, TracksArgs};
 
 use crate::vray::VrayArgs;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use make::check_make;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// Turns 3D interiors into photorealistic image datasets with dense ground truth, in Hypersim's layout.
@@ -47,10 +47,25 @@ pub struct Cli {
     pub program: Option<PathBuf>,
 }
 
+impl Cli {
+    /// The command line of these words, of which the first is the program's name.
+    ///
+    /// # Errors
+    /// Where it is wrong, and where help or the version was asked for.
+    pub fn of(words: &[OsString]) -> Result<Self, clap::Error> {
+        let mut command = Self::command();
+        let matches = command.try_get_matches_from_mut(words)?;
+        if let Some(("make", of_make)) = matches.subcommand() {
+            check_make(of_make, &mut command)?;
+        }
+        Self::from_arg_matches(&matches)
+    }
+}
+
 /// The verbs.
 #[derive(Subcommand)]
 pub enum Verb {
-    /// Make a dataset: all stages, for the demo or for the scenes of a TOML file
+    /// Make a dataset, or go on with one: all stages, for the demo or for the scenes of a TOML file
     Run(RunArgs),
     /// The first picture of a scene file, in some seconds
     Look(LookArgs),
@@ -58,89 +73,42 @@ pub enum Verb {
     Import(ImportArgs),
     /// A furnished home of a seed -> scene package
     Home(HomeArgs),
-    /// Scene -> free space (octomap.bt)
-    #[command(after_help = "Example:\n  enfilade carve out --scene home")]
-    Carve(StageArgs),
-    /// Scene, free space -> camera trajectories
-    Plan(PlanArgs),
-    /// Scene, trajectories -> which views are worth rendering
-    #[command(
-        after_help = "Example:\n  enfilade gate out\n\nViews that are blank, buried, blocked, outside or of a bare wall are not rendered. _detail/gates.html shows them; [gate] in\n\
-        dataset.toml has the limits, and action = \"report\" renders them all the same."
-    )]
-    Gate(StageArgs),
-    /// Scene, trajectories -> frames
-    #[command(
-        after_help = "Examples:\n  enfilade render out --scene 'bed*'\n  enfilade render out --noise 2% --samples 4096 --splits\n\nFinished frames are kept; a killed run continues where it was."
-    )]
-    Render(RenderArgs),
-    /// Frames -> color without noise, from now on; renders nothing again
-    #[command(
-        after_help = "Example:\n  enfilade denoise out\n\nWhat was rendered stays as color_rendered, ... unless keep_rendered = false; `render --color rendered` takes it back."
-    )]
-    Denoise(StageArgs),
+    /// More of finished frames: pairs, flow, tracks, surfaces, rooms, words, sensors, relit pictures
+    Make(MakeArgs),
     /// Frames, label table -> semantic layers; renders nothing again
     Label(LabelArgs),
-    /// Scene, labels -> bounding boxes, and what each frame shows of each instance; renders nothing again
-    #[command(
-        after_help = "Example:\n  enfilade boxes out\n\nThe boxes lie in _detail/mesh, as Hypersim's do; metadata_frame_instances.csv beside each trajectory has the\n\
-        2D boxes, pixel counts, visibility and truncation of every instance in every frame."
-    )]
-    Boxes(StageArgs),
-    /// Frames -> a picture of every layer, and a contact sheet per trajectory
-    Preview(PreviewArgs),
+    /// Scene file -> label table, proposed from the names of parts and materials
+    Suggest(SuggestArgs),
+    /// Label the parts of a scene, in the browser
+    Annotate(AnnotateArgs),
     /// Check the laws that tie the layers of a dataset together, and write its report card; the exit code says whether all hold
     Verify(VerifyArgs),
-    /// Divide the dataset by scene into train, val and test, from now on in this way
-    Split(SplitArgs),
-    /// Which frames see the same surfaces: shares, baselines and angles of all pairs of a scene
-    Pairs(PairsArgs),
-    /// Flow between any two frames of a scene, of different cameras too, forward and backward
-    Flow(FlowArgs),
-    /// Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout
-    Tracks(TracksArgs),
-    /// Every surface along the ray of each pixel, front and back, and what is behind glass as glass bends it
-    Surfaces(SurfacesArgs),
-    /// Rooms, walls, doors and windows of scenes that came without a plan, and which plane of them each pixel shows
-    Layout(LayoutArgs),
-    /// What things are, how they stand to each other, and that in words: relations, captions, questions with answers
-    Describe(DescribeArgs),
-    /// What cameras and depth sensors would make of the frames; renders nothing
-    Sense(SenseArgs),
-    /// Frames with lamps switched, dimmed and tinted; renders nothing
-    Relight(RelightArgs),
+    /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
+    View(ViewArgs),
     /// Everything about one pixel
     Inspect(InspectArgs),
-    /// Render one frame again from its record, and compare the bytes
-    Replay(ReplayArgs),
     /// The dataset in a layout that other programs load: COCO, BOP, nerfstudio, COLMAP, ScanNet, OpenEXR, ...
     Export(ExportArgs),
-    /// A real data set in the layout that training reads
-    Ingest(IngestArgs),
     /// Frames -> MP4 or GIF of each trajectory, layer by layer
     Animate(AnimateArgs),
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),
-    /// Edits of V-Ray's scene files, for those who render with V-Ray
-    Vray(VrayArgs),
+    /// Divide the dataset by scene into train, val and test, from now on in this way
+    Partition(PartitionArgs),
+    /// Render one frame again from its record, and compare the bytes
+    Replay(ReplayArgs),
     /// One dataset on many machines: plan, work, status, collect, submit
     Farm(FarmArgs),
-    /// Label the parts of a scene, in the browser
-    Annotate(AnnotateArgs),
-    /// Scene file -> label table, proposed from the names of parts and materials
-    Suggest(SuggestArgs),
-    /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
-    View(ViewArgs),
-    /// What a shell needs to complete verbs and options, on standard output
+    /// Edits of V-Ray's scene files, for those who render with V-Ray
+    Vray(VrayArgs),
+    /// What a shell needs to complete verbs and options, on standard output; or the manual pages
     Completions(CompletionsArgs),
-    /// The manual pages, in section 1, into a folder
-    Man(ManArgs),
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::{CommandFactory, ValueEnum};
+    use clap::ValueEnum;
 
     #[test]
     fn the_definition_is_consistent_and_every_verb_shows_an_example() {

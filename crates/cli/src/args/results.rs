@@ -24,14 +24,14 @@ pub struct VerifyArgs {
     pub table: CamerasArg,
 }
 
-/// `split`.
+/// `partition`.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  enfilade split out --seed 1 --shares 70,15,15\n\nA scene's side depends on its name and the seed alone, so no \
+    after_help = "Example:\n  enfilade partition out --seed 1 --shares 70,15,15\n\nA scene's side depends on its name and the seed alone, so no \
     scene moves when others are added; but of fewer scenes\nthan sides, and where train would be empty, the first is in train. `run` divides \
     the same way. split.json tells which\nmeshes and textures are on several sides."
 )]
-pub struct SplitArgs {
+pub struct PartitionArgs {
     /// The dataset's folder, as given to `run`
     pub dataset: PathBuf,
     /// Another seed is another division [default: the last one, at first 0]

@@ -83,13 +83,16 @@ impl MomentArg {
     after_help = "Examples:\n  enfilade import room.gltf -o room.scene\n  enfilade import hall.xml -o hall.scene --meters-per-unit 0.4\n  \
     enfilade import hall.xml -o hall.glb\n  \
     enfilade import scan.obj --check\n  \
-    enfilade import out --scene home"
+    enfilade import pix3d -o pix3d/s1_train.json --partition pix3d_s1_train.json\n\n\
+    Pix3D, as it is published, becomes the JSON that Mesh R-CNN and the shape experiment read: f in pixels is focal_length / 32 * width;\n\
+    img/table/1749.jpg and img/table/0045.png are left out, as in Mesh R-CNN. Scenes of a dataset: enfilade run OUT --only import"
 )]
 pub struct ImportArgs {
-    /// A scene file, or the folder of a collection's scene, or of a dataset to import the scenes of
-    #[arg(help = format!("A scene file ({}), the folder of one, or a dataset to import the scenes of", SceneFormat::extensions()))]
+    /// A scene file, or the folder of a collection's scene or of Pix3D
+    #[arg(help = format!("A scene file ({}), the folder of one, or that of Pix3D", SceneFormat::extensions()))]
     pub input: PathBuf,
-    /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]
+    /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]; of Pix3D
+    /// the JSON, in which paths begin at the folder of Pix3D
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Tell what would be dropped, guessed or fixed and what is odd about the geometry, and write nothing
@@ -97,12 +100,9 @@ pub struct ImportArgs {
     pub check: bool,
     #[command(flatten)]
     pub choices: FileChoices,
-    /// With a dataset: only the scenes of these names
-    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
-    pub scene: Option<String>,
-    /// With a dataset: import even if nothing has changed
-    #[arg(long)]
-    pub force: bool,
+    /// Of Pix3D: only the images of this partition of Mesh R-CNN (pix3d_s1_train.json, ...), under its ids
+    #[arg(long, value_name = "JSON")]
+    pub partition: Option<PathBuf>,
 }
 
 /// What a scene file does not say itself.
@@ -136,6 +136,21 @@ pub struct FileChoices {
 }
 
 impl FileChoices {
+    /// The first of these flags that is given.
+    pub fn given(&self) -> Option<&'static str> {
+        let given = [
+            ("--meters-per-unit", self.meters_per_unit.is_some()),
+            ("--up-axis", self.up_axis.is_some()),
+            ("--environment", self.environment.is_some()),
+            ("--lamps", self.lamps.is_some()),
+            ("--drop-doubled-faces", self.drop_doubled_faces),
+            ("--panes", !self.panes.is_empty()),
+            ("--allow-missing-textures", self.allow_missing_textures),
+            ("--allow-missing-meshes", self.allow_missing_meshes),
+        ];
+        given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
+    }
+
     /// With the file that they are about.
     pub fn source(&self, file: &Path) -> FileSource {
         FileSource {

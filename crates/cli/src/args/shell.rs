@@ -1,4 +1,4 @@
-//! The verbs about the command line itself.
+//! The verb about the command line itself.
 
 use clap::Args;
 use std::path::PathBuf;
@@ -6,17 +6,13 @@ use std::path::PathBuf;
 /// `completions`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade completions bash > ~/.local/share/bash-completion/completions/enfilade\n  \
-    enfilade completions zsh > ~/.zfunc/_enfilade\n  enfilade completions fish > ~/.config/fish/completions/enfilade.fish")]
+    enfilade completions zsh > ~/.zfunc/_enfilade\n  enfilade completions fish > ~/.config/fish/completions/enfilade.fish\n  \
+    enfilade completions --man ~/.local/share/man/man1     # then: man enfilade-run")]
 pub struct CompletionsArgs {
     /// The shell
-    pub shell: clap_complete::Shell,
-}
-
-/// `man`.
-#[derive(Args)]
-#[command(after_help = "Example:\n  enfilade man ~/.local/share/man/man1     # then: man enfilade-run")]
-pub struct ManArgs {
-    /// The folder; made if it is missing
-    #[arg(value_name = "DIR")]
-    pub folder: PathBuf,
+    #[arg(required_unless_present = "man")]
+    pub shell: Option<clap_complete::Shell>,
+    /// Instead write the manual pages, in section 1, into this folder, which is made if it is missing
+    #[arg(long, value_name = "DIR", conflicts_with = "shell")]
+    pub man: Option<PathBuf>,
 }

@@ -2,8 +2,10 @@
 
 use super::CamerasArg;
 use super::values::{parse_share, parse_size, parse_time};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use enfilade_dataset::ColorKind;
+use enfilade_pipeline::{STAGES, Stage};
 use std::path::PathBuf;
 
 /// `run`.
@@ -11,24 +13,41 @@ use std::path::PathBuf;
 #[command(
     after_help = "Examples:\n  enfilade run --demo out\n  enfilade run --demo out --seed 7 --frames 8 --size 640x480 --quality draft\n  \
     enfilade run dataset.toml -o out --noise 2% --samples 4096\n  \
-    enfilade run dataset.toml -o out --estimate --price 0.048\n\nA second run does nothing that is already done; a killed run goes on where it was."
+    enfilade run dataset.toml -o out --estimate --price 0.048\n  \
+    enfilade run out --extra --light-parts               # a dataset made before, with other settings from now on\n  \
+    enfilade run out --color rendered                    # renders nothing again\n  \
+    enfilade run out --only render --scene 'bed*' --force\n  \
+    enfilade run dataset.toml -o out --only import,carve,plan --draw-plan\n  \
+    enfilade run hypersim --only preview -o pictures     # data of others, left as they are\n\n\
+    A second run does nothing that is already done; a killed run continues where it was."
 )]
 pub struct RunArgs {
-    /// The scenes to use and what to make of them
-    #[arg(value_name = "DATASET.TOML", required_unless_present = "demo", conflicts_with = "demo")]
-    pub config: Option<PathBuf>,
+    /// The scenes to use and what to make of them; or the folder of a dataset made before, to continue it with the settings stored there
+    #[arg(value_name = "DATASET.TOML|OUT", required_unless_present = "demo", conflicts_with = "demo")]
+    pub from: Option<PathBuf>,
     /// Make the demo dataset in the folder OUT instead: a generated home
     #[arg(long, value_name = "OUT")]
     pub demo: Option<PathBuf>,
-    /// Output folder [default: the dataset's name, in the current folder]
+    /// Output folder [default: the dataset's name, in the current folder]; of a dataset made before, with --only preview: the folder of
+    /// the pictures
     #[arg(short, long, value_name = "OUT", conflicts_with = "demo")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
-    pub make: MakeFlags,
+    pub settings: SettingFlags,
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scene")]
     pub scenes: Option<String>,
+    /// Only these stages; render also denoises and labels what it renders, label also makes boxes
+    #[arg(long, value_name = "STAGE,STAGE", value_delimiter = ',', conflicts_with = "estimate")]
+    pub only: Vec<StageArg>,
+    /// Do these stages even if nothing has changed
+    #[arg(long, requires = "only")]
+    pub force: bool,
+    /// Also draw the trajectories, those of earlier runs too: plan and sections with free space, frusta and scores, every view coloured by
+    /// part, and statistics
+    #[arg(long, conflicts_with = "estimate")]
+    pub draw_plan: bool,
     /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and no finished frame changes
     #[arg(long)]
     pub estimate: bool,
@@ -36,11 +55,38 @@ pub struct RunArgs {
     /// Hypersim's median]
     #[arg(long, value_name = "X|CSV", requires = "estimate", allow_negative_numbers = true)]
     pub price: Option<String>,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub table: CamerasArg,
+}
+
+/// A stage, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StageArg(pub Stage);
+
+impl ValueEnum for StageArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [StageArg; STAGES.len()] = {
+            let mut all = [StageArg(Stage::Import); STAGES.len()];
+            let mut i = 0;
+            while i < all.len() {
+                all[i] = StageArg(STAGES[i].stage);
+                i += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let spec = STAGES.iter().find(|spec| spec.stage == self.0)?;
+        Some(PossibleValue::new(spec.name).help(spec.about))
+    }
 }
 
 /// What to make otherwise than the file says, for `run` and `farm plan`.
 #[derive(Args)]
-pub struct MakeFlags {
+pub struct SettingFlags {
     /// Seed of everything random; homes with a seed of their own keep it
     #[arg(long)]
     pub seed: Option<u64>,
@@ -71,46 +117,9 @@ pub enum QualityArg {
     Reference,
 }
 
-/// The verbs that run one stage of a dataset.
+/// Choices about rendering. None is made unless asked for.
 #[derive(Args)]
-pub struct StageArgs {
-    /// The dataset's folder, as given to `run`
-    pub dataset: PathBuf,
-    /// Only the scenes of these names ("bed*", "hall,bedroom")
-    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
-    pub scene: Option<String>,
-    /// Do it even if nothing has changed
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// `plan`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade plan out --scene home\n  enfilade plan out --preview\n\n\
-    --preview draws what was planned: plan and sections with free space, frusta and scores, every view coloured by part, and statistics.")]
-pub struct PlanArgs {
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub stage: StageArgs,
-    /// Draw the trajectories, also those that were planned earlier
-    #[arg(long)]
-    pub preview: bool,
-}
-
-/// `render`.
-#[derive(Args)]
-pub struct RenderArgs {
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub stage: StageArgs,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub render: RenderFlags,
-}
-
-/// Choices about rendering, for `run` and `render`. None is made unless asked for.
-#[derive(Args)]
-#[command(next_help_heading = "Rendering (of an existing dataset: from now on)")]
+#[command(next_help_heading = "Rendering (of a dataset made before: from now on)")]
 pub struct RenderFlags {
     /// Samples per pixel: the mean over the image, or with --noise the most [default: those of the quality; with --noise 65536]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -129,8 +138,8 @@ pub struct RenderFlags {
     pub time_limit: Option<f64>,
     /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
     #[arg(long)]
-    pub splits: bool,
-    /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade relight`
+    pub light_parts: bool,
+    /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade make OUT relit`
     #[arg(long)]
     pub fixtures: bool,
     /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
@@ -162,31 +171,20 @@ impl From<ColorArg> for ColorKind {
     }
 }
 
-/// `preview`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n  enfilade preview out\n  enfilade preview hypersim -o pictures --scene ai_001_001\n\n\
-    Data that others made, such as Hypersim's, have previews of the same names; with -o they are left alone. --cameras-csv goes with -o.")]
-pub struct PreviewArgs {
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub stage: StageArgs,
-    /// Write the pictures below this folder, in the dataset's tree [default: into the dataset]
-    #[arg(short, long, value_name = "FOLDER")]
-    pub output: Option<PathBuf>,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub table: CamerasArg,
-}
-
 /// `label`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade label out\n  enfilade label out --scene home --table my_labels.csv\n\n\
     The table is CSV: a column `part`, `object`, `material` or `name`, a column `nyu40_id` or `semantic` (number or name of a class),\n\
     and if wanted `scene` and `instance`.")]
 pub struct LabelArgs {
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub stage: StageArgs,
+    /// The dataset's folder, as given to `run`
+    pub dataset: PathBuf,
+    /// Only the scenes of these names ("bed*", "hall,bedroom")
+    #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
+    pub scene: Option<String>,
+    /// Do it even if nothing has changed
+    #[arg(long)]
+    pub force: bool,
     /// Use this table from now on
     #[arg(long, value_name = "CSV")]
     pub table: Option<PathBuf>,

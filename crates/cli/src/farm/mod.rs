@@ -7,8 +7,8 @@ use crate::estimate::told;
 use crate::outcome::{Problem, Verdict, say, warn};
 use crate::price::{dollars, paid, prices, told_price};
 use crate::progress::Progress;
+use crate::run::configuration;
 use crate::summary;
-use crate::verbs::configuration;
 use enfilade_dataset::quoted;
 use enfilade_farm::{
     Assignment, Attempt, Ended, Engine, FarmError, Job, Plan, PlanOptions, PricedPlan, Store, SubmitOptions, Submitted, Work,
@@ -44,7 +44,7 @@ fn open(job: &str) -> Result<Job, FarmError> {
 
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
     let prices = prices(args.price.as_deref())?;
-    let config = configuration(args.config.as_deref(), &args.make)?;
+    let config = configuration(args.config.as_deref(), &args.settings)?;
     let options = PlanOptions { minutes: args.minutes, cpus: args.cpus };
     options.check()?;
     let store = Store::begin(&args.output, enfilade_farm::environment())?;

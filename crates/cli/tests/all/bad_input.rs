@@ -20,7 +20,7 @@ fn an_unknown_key_is_shown_in_its_line_with_a_proposal() {
 fn a_missing_configuration_and_a_missing_dataset_are_told() {
     let dir = folder();
     fail(dir.path(), &["run", "nothing.toml"], 2, &["cannot read nothing.toml", "run --demo"]);
-    fail(dir.path(), &["carve", "nothing"], 2, &["nothing does not exist", "enfilade run"]);
+    fail(dir.path(), &["run", "nothing", "--only", "carve"], 2, &["cannot read nothing", "the folder of a dataset"]);
     fail(dir.path(), &["verify", "nothing"], 2, &["nothing"]);
 }
 
@@ -163,7 +163,7 @@ fn stages_whose_inputs_are_not_there_say_what_to_run_first() {
     write_room(dir.path(), "room", Lamp::Off);
     write_config(dir.path(), &[scene("room")]);
     fail(dir.path(), &["run", "dataset.toml", "-o", "out"], 1, &["no light"]);
-    fail(dir.path(), &["label", "out"], 1, &["the results of `render`", "run first: enfilade render out --scene room"]);
+    fail(dir.path(), &["label", "out"], 1, &["the results of `render`", "run first: enfilade run out --only render --scene room"]);
     fail(dir.path(), &["label", "out", "--scene", "romo"], 2, &["no scene is named \"romo\"", "did you mean \"room\"?"]);
 }
 
@@ -175,15 +175,16 @@ fn arguments_out_of_their_range_are_told() {
         (&["run", "--demo", "out", "--size", "0x5"], "width and height must lie between"),
         (&["run", "--demo", "out", "--size", "12"], "640x480"),
         (&["run", "--demo", "out", "--threads", "0"], "--threads"),
-        (&["run"], "<DATASET.TOML>"),
-        (&["import", ".", "--meters-per-unit", "0.01"], "--meters-per-unit is for scene files, but . is a folder"),
+        (&["run"], "<DATASET.TOML|OUT>"),
+        (&["run", "out", "--force"], "--only"),
+        (&["import", "."], "enfilade run . --only import"),
         (&["inspect", "out", "--pixel", "1"], "160,120"),
     ] {
         fail(dir.path(), args, 2, &[word]);
     }
     assert!(!dir.path().join("out").exists());
-    let (code, out, _) = run(dir.path(), &["carve", "--help"]);
-    assert!(code == 0 && out.contains("Example:"));
+    let (code, out, _) = run(dir.path(), &["make", "--help"]);
+    assert!(code == 0 && out.contains("Examples:"));
 }
 
 #[test]
@@ -197,7 +198,7 @@ fn negative_numbers_are_values_and_not_flags() {
         (&["run", "--demo", "out", "--noise", "-2%"], "noise must lie between 0 and 1"),
         (&["animate", "out", "--fps", "-1"], "out"),
         (&["import", "room.obj", "--meters-per-unit", "-1"], "meters_per_unit"),
-        (&["split", "out", "--shares", "-1,50,51"], "out"),
+        (&["partition", "out", "--shares", "-1,50,51"], "out"),
         // A value that was forgotten is not taken from the next flag.
         (&["run", "--demo", "out", "--frames", "--quiet"], "a value is required for '--frames <N>'"),
         (&["run", "--demo", "out", "--time-limit", "--quiet"], "expected a time, as in 90s"),

@@ -54,9 +54,9 @@ fn color_is_denoised_from_the_first_run_and_changes_without_rendering() {
     assert_same(&contents(&out), &rendered);
     assert_same(&contents(&raw), &denoised);
     assert_eq!([rendered_at(&out), rendered_at(&raw)], [first, clean], "nothing is rendered again");
-    succeed(d, &["denoise", "out"]);
+    succeed(d, &["run", "out", "--color", "denoised"]);
     assert_eq!(bytes(&layer(&out, "color")), bytes(&layer(&raw, "color")));
-    succeed(d, &["render", "out", "--color", "rendered"]);
+    succeed(d, &["run", "out", "--color", "rendered"]);
     assert_eq!(bytes(&layer(&out, "color")), rendered[&layer(Path::new(""), "color")]);
     assert_eq!(rendered_at(&out), first);
 

@@ -136,7 +136,7 @@ fn what_nodes_have_made_of_frames_is_taken_until_what_it_was_made_from_changes()
     let run_anew = |stages: &[&str]| {
         for stage in stages {
             fs::remove_file(d.join(format!("out/.enfilade/room/{stage}.json"))).unwrap();
-            succeed(d, &[stage, "out"]);
+            succeed(d, &["run", "out", "--only", stage]);
         }
     };
     [&picture, &overlay, &masks, &display].iter().for_each(|path| spoil(path));
@@ -152,7 +152,7 @@ fn what_nodes_have_made_of_frames_is_taken_until_what_it_was_made_from_changes()
     fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
     for out in ["whole", "out"] {
         succeed(d, &["label", out, "--table", "labels.csv"]);
-        succeed(d, &["preview", out]);
+        succeed(d, &["run", out, "--only", "preview"]);
     }
     assert_same(&contents(&d.join("whole")), &contents(&d.join("out")));
 }

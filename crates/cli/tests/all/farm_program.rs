@@ -84,7 +84,7 @@ fn what_the_program_leaves_comes_with_the_frame_and_the_rest_is_as_one_machine_m
     }
     succeed(d, &["verify", "out"]);
     // What was left of frames that are rendered again is of others.
-    succeed(d, &["render", "out", "--force"]);
+    succeed(d, &["run", "out", "--only", "render", "--force"]);
     assert!(apart(&d.join("out"))[0].is_empty());
 
     // Another program makes another job, and changes nothing of what one machine has made.

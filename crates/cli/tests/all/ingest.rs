@@ -21,15 +21,17 @@ fn pix3d_becomes_the_layout_of_mesh_r_cnn() {
     let dir = folder();
     let d = dir.path();
     write_pix3d(&d.join("pix3d"));
-    assert!(succeed(d, &["ingest", "pix3d", "pix3d", "-o", "pix3d/all.json"]).contains("one object each: 1;"));
+    assert!(succeed(d, &["import", "pix3d", "-o", "pix3d/all.json"]).contains("one object each: 1;"));
     let written: serde_json::Value = serde_json::from_slice(&fs::read(d.join("pix3d/all.json")).unwrap()).unwrap();
     assert_eq!(written["annotations"][0]["K"], serde_json::json!([700.0, 320.0, 240.0]));
     // A second time the same file is replaced.
-    succeed(d, &["ingest", "pix3d", "pix3d", "-o", "pix3d/all.json"]);
+    succeed(d, &["import", "pix3d", "-o", "pix3d/all.json"]);
 
     fs::remove_file(d.join("pix3d/model/v.mat")).unwrap();
-    fail(d, &["ingest", "pix3d", "pix3d", "-o", "again.json"], 1, &["model/v.mat", "pix3d.json"]);
-    fail(d, &["ingest", "pix3d", "elsewhere", "-o", "again.json"], 1, &["elsewhere"]);
+    fail(d, &["import", "pix3d", "-o", "again.json"], 1, &["model/v.mat", "pix3d.json"]);
+    fs::create_dir(d.join("elsewhere")).unwrap();
+    fail(d, &["import", "elsewhere", "-o", "again.json"], 2, &["elsewhere", "pix3d.json"]);
+    fail(d, &["import", "pix3d", "-o", "again.json", "--lamps", "ceiling"], 2, &["--lamps is for scenes, but pix3d is Pix3D"]);
     assert!(!d.join("again.json").exists());
 }
 
@@ -41,7 +43,7 @@ fn the_files_of_pix3d_are_not_written_over() {
     fs::write(d.join("split.json"), r#"{"images": [{"file_name": "img/chair/0001.png", "id": 7}]}"#).unwrap();
     for file in ["pix3d/pix3d.json", "pix3d/model/m.obj", "split.json"] {
         let before = fs::read(d.join(file)).unwrap();
-        fail(d, &["ingest", "pix3d", "pix3d", "--split", "split.json", "-o", file], 2, &[file, "choose another file with -o"]);
+        fail(d, &["import", "pix3d", "--partition", "split.json", "-o", file], 2, &[file, "choose another file with -o"]);
         assert_eq!(fs::read(d.join(file)).unwrap(), before);
     }
 }

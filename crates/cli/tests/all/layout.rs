@@ -44,7 +44,7 @@ fn rooms_are_fitted_where_a_scene_has_none_and_go_with_its_labels() {
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     let detail = d.join("out/scenes/room/_detail");
     assert!(!detail.join("layout.json").exists());
-    let text = succeed(d, &["layout", "out"]);
+    let text = succeed(d, &["make", "out", "rooms"]);
     assert!(
         text.contains("room: 1 room, 4 wall faces, 0 doors and windows, fitted: 100 %") && text.contains("planes of 3 frames"),
         "{text}"
@@ -61,5 +61,5 @@ fn rooms_are_fitted_where_a_scene_has_none_and_go_with_its_labels() {
     fs::write(d.join("labels.csv"), "part,nyu40_id,instance\ntable,7,1\n").unwrap();
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert!(!detail.join("layout.json").exists() && !detail.join("metadata_planes.csv").exists() && !detail.join("cam_00/planes").exists());
-    fail(d, &["layout", "out"], 1, &["no scene of out that was chosen has rooms", "enfilade suggest"]);
+    fail(d, &["make", "out", "rooms"], 1, &["no scene of out that was chosen has rooms", "enfilade suggest"]);
 }

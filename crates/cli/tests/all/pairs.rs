@@ -10,31 +10,31 @@ fn pairs_are_measured_filtered_and_hold_their_law_on_any_number_of_threads() {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    let text = succeed(d, &["pairs", "out"]);
+    let text = succeed(d, &["make", "out", "pairs"]);
     // The first frame looks away from what the last one sees.
     assert!(text.contains("room: 3 frames, 2 of 3 pairs") && text.contains("pairs.csv"), "{text}");
     let of_all = contents(&d.join("out"));
     let list = fs::read_to_string(d.join("out/pairs.csv")).unwrap();
     assert!(list.starts_with("scene_name,first_camera_name,") && list.lines().count() == 3, "{list}");
-    succeed(d, &["--threads", "1", "pairs", "out"]);
+    succeed(d, &["--threads", "1", "make", "out", "pairs"]);
     assert!(of_all == contents(&d.join("out")));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 
     // What is chosen goes where it is asked for, and the matrix stays whole.
-    let text = succeed(d, &["pairs", "out", "--min-baseline", "100", "-o", "far.csv"]);
+    let text = succeed(d, &["make", "out", "pairs", "--baseline", "100..", "--pairs", "far.csv"]);
     assert!(text.contains("0 of 3 pairs") && fs::read_to_string(d.join("far.csv")).unwrap().lines().count() == 1, "{text}");
     assert_eq!(fs::read_to_string(d.join("out/pairs.csv")).unwrap(), list);
     fs::rename(d.join("out/.enfilade"), d.join("elsewhere")).unwrap();
-    assert!(succeed(d, &["pairs", "out"]).contains("told by distances alone"));
+    assert!(succeed(d, &["make", "out", "pairs"]).contains("decided by the frames' distances only"));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 
     fs::rename(d.join("elsewhere"), d.join("out/.enfilade")).unwrap();
-    succeed(d, &["render", "out", "--force"]);
+    succeed(d, &["run", "out", "--only", "render", "--force"]);
     let matrix = d.join("out/scenes/room/_detail/covisibility.hdf5");
     assert!(matrix.exists() && d.join("out/pairs.csv").exists(), "what related frames is theirs as long as they have the same bytes");
 
-    fail(d, &["pairs", "out", "--overlap", "0.7..0.2"], 2, &["0.2..0.7"]);
-    fail(d, &["pairs", "out", "--camera", "cam_07"], 2, &["no camera is named \"cam_07\""]);
+    fail(d, &["make", "out", "pairs", "--overlap", "0.7..0.2"], 2, &["0.2..0.7"]);
+    fail(d, &["make", "out", "pairs", "--camera", "cam_07"], 2, &["no camera is named \"cam_07\""]);
 }
 
 #[test]
@@ -45,22 +45,23 @@ fn flow_leads_from_frame_to_frame_and_holds_its_laws() {
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out", "--extra"]);
     let detail = d.join("out/scenes/room/_detail/cam_00/pairs");
-    assert!(succeed(d, &["flow", "out", "--step", "1"]).contains("room: flow of 2 pairs"));
+    assert!(succeed(d, &["make", "out", "flow", "--step", "1"]).contains("room: flow of 2 pairs"));
     for layer in ["optical_flow", "scene_flow", "flow_visibility"] {
         let stored = d.join(format!("out/scenes/room/images/scene_cam_00_geometry_hdf5/frame.0001.{layer}.hdf5"));
         let pair = detail.join(format!("frame.0001.cam_00.frame.0002.{layer}.hdf5"));
         assert!(fs::read(stored).unwrap() == fs::read(pair).unwrap(), "{layer} to the next frame is the layer, byte by byte");
     }
-    succeed(d, &["pairs", "out"]);
-    assert!(succeed(d, &["flow", "out", "--pairs", "out/pairs.csv"]).contains("room: flow of 4 pairs"), "there and back");
-    assert!(succeed(d, &["flow", "out", "--between", "cam_00/2", "cam_00/0"]).contains("room: flow of 1 pair"));
+    succeed(d, &["make", "out", "pairs"]);
+    assert!(succeed(d, &["make", "out", "flow"]).contains("room: flow of 4 pairs"), "there and back");
+    assert!(succeed(d, &["make", "out", "flow", "--between", "cam_00/2", "cam_00/0"]).contains("room: flow of 1 pair"));
     assert!(detail.join("frame.0002.cam_00.frame.0000.optical_flow.hdf5").is_file());
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
-    fail(d, &["flow", "out", "--between", "cam_00/2", "cam_00/9"], 2, &["no finished frame cam_00/9"]);
-    fail(d, &["flow", "out", "--step", "7"], 1, &["no pair of frames"]);
-    fail(d, &["flow", "out"], 2, &["--step"]);
+    fail(d, &["make", "out", "flow", "--between", "cam_00/2", "cam_00/9"], 2, &["no finished frame cam_00/9"]);
+    fail(d, &["make", "out", "flow", "--step", "7"], 1, &["no pair of frames"]);
+    fs::remove_file(d.join("out/pairs.csv")).unwrap();
+    fail(d, &["make", "out", "flow"], 2, &["pairs.csv is not there", "enfilade make out pairs", "--step"]);
     fs::rename(d.join("out/.enfilade"), d.join("elsewhere")).unwrap();
-    fail(d, &["flow", "out", "--step", "-1"], 1, &["scene.scene", "enfilade run"]);
+    fail(d, &["make", "out", "flow", "--step", "-1"], 1, &["scene.scene", "enfilade run"]);
 }
 
 #[test]
@@ -70,13 +71,13 @@ fn tracks_follow_points_and_hold_their_laws() {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    let text = succeed(d, &["tracks", "out", "--points", "100"]);
+    let text = succeed(d, &["make", "out", "tracks", "--points", "100"]);
     assert!(text.contains("room/cam_00: 100 points through 3 frames"), "{text}");
     let file = d.join("out/scenes/room/_detail/cam_00/tracks.npz");
     let bytes = fs::read(&file).unwrap();
-    succeed(d, &["--threads", "1", "tracks", "out", "--points", "100"]);
+    succeed(d, &["--threads", "1", "make", "out", "tracks", "--points", "100"]);
     assert_eq!(fs::read(&file).unwrap(), bytes);
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
-    assert!(succeed(d, &["tracks", "out", "--frames", "1.."]).contains("256 points through 2 frames"));
-    fail(d, &["tracks", "out", "--frames", "7.."], 1, &["no frame"]);
+    assert!(succeed(d, &["make", "out", "tracks", "--frames", "1.."]).contains("256 points through 2 frames"));
+    fail(d, &["make", "out", "tracks", "--frames", "7.."], 1, &["no frame"]);
 }

@@ -11,7 +11,12 @@ fn light_of_fixtures_is_kept_apart_mixed_and_held_to_its_sum() {
     write_config(d, &[scene("room")]);
     fs::write(d.join("mixes.csv"), "mix,fixture,r,g,b\nlamp_off,lamp,0,0,0\nhalf,*,0.5,0.5,0.5\n").unwrap();
     succeed(d, &["run", "dataset.toml", "-o", "plain"]);
-    fail(d, &["relight", "plain", "mixes.csv"], 2, &["no scene that was chosen has the light of its fixtures apart", "--fixtures"]);
+    fail(
+        d,
+        &["make", "plain", "relit", "--mixes", "mixes.csv"],
+        2,
+        &["no scene that was chosen has the light of its fixtures apart", "--fixtures"],
+    );
 
     // Nothing else changes.
     succeed(d, &["run", "dataset.toml", "-o", "out", "--fixtures"]);
@@ -30,14 +35,14 @@ fn light_of_fixtures_is_kept_apart_mixed_and_held_to_its_sum() {
     assert!(succeed(d, &["verify", "out", "--strict"]).contains("laws hold"));
 
     // Mixes come out the same on any number of threads, and those of frames that are made again are gone.
-    let text = succeed(d, &["relight", "out", "mixes.csv", "--frames", "1"]);
+    let text = succeed(d, &["make", "out", "relit", "--mixes", "mixes.csv", "--frames", "1"]);
     assert!(text.contains("1 frame by every mix"), "{text}");
     let relit = contents(&d.join("out/relit"));
     assert_eq!(relit.len(), 2 * 5, "three layers, a picture and the rules of each mix");
-    succeed(d, &["--threads", "1", "relight", "out", "mixes.csv", "--frames", "1"]);
+    succeed(d, &["--threads", "1", "make", "out", "relit", "--mixes", "mixes.csv", "--frames", "1"]);
     assert!(relit == contents(&d.join("out/relit")));
     fs::write(d.join("wrong.csv"), "mix,fixture,r,g,b\na,chandelier,0,0,0\n").unwrap();
-    fail(d, &["relight", "out", "wrong.csv"], 2, &["wrong.csv:2: no fixture is \"chandelier\"", "the fixtures are: "]);
+    fail(d, &["make", "out", "relit", "--mixes", "wrong.csv"], 2, &["wrong.csv:2: no fixture is \"chandelier\"", "the fixtures are: "]);
 
     // A part of the light that is another frame's is found.
     let part = |frame: u32| images("out").join(format!("scene_cam_00_final_hdf5/frame.{frame:04}.fixture_01_diffuse_illumination.hdf5"));
@@ -55,12 +60,12 @@ fn surfaces_along_rays_hold_their_law() {
     write_room(d, "room", Lamp::On);
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    let text = succeed(d, &["surfaces", "out", "--layers", "3"]);
+    let text = succeed(d, &["make", "out", "surfaces", "--layers", "3"]);
     assert!(text.contains("room: 3 frames with up to 3 surfaces per pixel"), "{text}");
     let folder = d.join("out/scenes/room/_detail/cam_00/surfaces");
     let all = contents(&folder);
     assert_eq!(all.len(), 3 * 8);
-    succeed(d, &["--threads", "1", "surfaces", "out", "--layers", "3"]);
+    succeed(d, &["--threads", "1", "make", "out", "surfaces", "--layers", "3"]);
     assert!(all == contents(&folder));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
     fs::copy(folder.join("frame.0000.surface_entity_id.hdf5"), folder.join("frame.0001.surface_entity_id.hdf5")).unwrap();

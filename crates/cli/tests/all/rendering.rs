@@ -55,8 +55,8 @@ fn splits_come_when_asked_for_change_nothing_else_and_go_again() {
     assert_eq!(record(&d.join("out"), 0)["samples_taken"], 4.0);
 
     // Of an existing dataset they are asked for from now on.
-    succeed(d, &["render", "out", "--splits"]);
-    succeed(d, &["run", "dataset.toml", "-o", "at-once", "--splits"]);
+    succeed(d, &["run", "out", "--only", "render", "--light-parts"]);
+    succeed(d, &["run", "dataset.toml", "-o", "at-once", "--light-parts"]);
     let split = contents(&d.join("at-once"));
     assert_eq!(color_layers(&raw), color_layers(&split));
     let images = d.join("at-once/scenes/room/images");
@@ -68,12 +68,11 @@ fn splits_come_when_asked_for_change_nothing_else_and_go_again() {
     assert!(text.contains("light by path and light by source sum to color"), "{text}");
     assert!(succeed(d, &["inspect", "at-once", "--pixel", "3,4"]).contains("light_environment"));
     assert!(fs::read_to_string(d.join("out/manifest.json")).unwrap().contains("\"splits\": true"));
-    for verb in ["label", "preview", "verify"] {
-        succeed(d, &[verb, "out"]);
-    }
+    succeed(d, &["run", "out", "--only", "label,preview"]);
+    succeed(d, &["verify", "out"]);
     // What the verb `verify` found is not kept for the next run, so the frames are compared.
     assert_eq!(color_layers(&contents(&d.join("out"))), color_layers(&split));
-    assert!(succeed(d, &["render", "out"]).contains("nothing to do"));
+    assert!(succeed(d, &["run", "out", "--only", "render"]).contains("nothing to do"));
 
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert_same(&contents(&d.join("out")), &raw);
@@ -86,7 +85,7 @@ fn a_killed_run_goes_on_within_the_frame_and_ends_with_the_same_bytes() {
     room(d);
     let toml = fs::read_to_string(d.join("dataset.toml")).unwrap().replace("samples = 4\n", "samples = 4\nsave_every_s = 0\n");
     fs::write(d.join("dataset.toml"), toml).unwrap();
-    let args = |out| ["run", "dataset.toml", "--frames", "2", "--samples", "400", "--splits", "-o", out];
+    let args = |out| ["run", "dataset.toml", "--frames", "2", "--samples", "400", "--light-parts", "-o", out];
     succeed(d, &args("whole"));
     let partial = |frame: u32| d.join(format!("killed/.enfilade/room/partial/cam_00.{frame:04}.partial"));
     let mut kept = 0;
@@ -151,15 +150,15 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
     let d = dir.path();
     room(d);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
-    succeed(d, &["render", "out", "--samples", "96", "--noise", "50%", "--max-bounces", "2", "--clamp", "10"]);
+    succeed(d, &["run", "out", "--only", "render", "--samples", "96", "--noise", "50%", "--max-bounces", "2", "--clamp", "10"]);
     let manifest = fs::read_to_string(d.join("out/manifest.json")).unwrap();
     for words in ["\"samples\": 96", "\"noise\": 0.5", "\"max_bounces\": 2", "\"clamp\": 10.0"] {
         assert!(manifest.contains(words), "{words} is not in the manifest");
     }
     assert_eq!(record(&d.join("out"), 0)["stopped_by"], "noise");
-    assert!(succeed(d, &["render", "out"]).contains("nothing to do"));
+    assert!(succeed(d, &["run", "out", "--only", "render"]).contains("nothing to do"));
     // Too few samples for the noise that is asked for break no law, but nobody wants the frames.
-    succeed(d, &["render", "out", "--samples", "2", "--noise", "1%"]);
+    succeed(d, &["run", "out", "--only", "render", "--samples", "2", "--noise", "1%"]);
     succeed(d, &["label", "out"]);
     assert!(succeed(d, &["verify", "out"]).contains("of target: noise; rejects 3 of 3"));
     fail(d, &["verify", "out", "--strict"], 1, &["laws hold", "of target: noise; rejects 3 of 3"]);
@@ -171,7 +170,7 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
         (&["--time-limit", "0s"], "time_limit_s must be above 0"),
         (&["--time-limit", "soon"], "90s, 5m or 1h"),
     ] {
-        fail(d, &[&["render", "out"], args].concat(), 2, &[words]);
+        fail(d, &[&["run", "out", "--only", "render"], args].concat(), 2, &[words]);
         fail(d, &[&["run", "--demo", "other"], args].concat(), 2, &[words]);
     }
     fail(d, &["run", "--demo", "other", "--samples", "3", "--quality", "high"], 2, &["--quality"]);

@@ -29,7 +29,7 @@ fn a_frame_comes_out_the_same() {
     succeed(d, &["replay", RECORD, "-o", "again", "--threads", "1"]);
     assert_eq!(layers(&d.join("again")), layers(&d.join("out")));
     // What was rendered is compared where color is denoised, too.
-    succeed(d, &["denoise", "out"]);
+    succeed(d, &["run", "out", "--only", "denoise", "--color", "denoised"]);
     assert!(succeed(d, &["replay", RECORD]).contains("15 of 15 files have the same bytes"));
 }
 
@@ -50,7 +50,7 @@ fn a_frame_that_is_there_is_not_replaced() {
 fn frames_of_a_noise_target_with_splits_and_further_layers_come_out_the_same() {
     let dir = folder();
     let d = dir.path();
-    dataset(d, &["--noise", "30%", "--samples", "64", "--splits", "--extra", "--seed", "5"]);
+    dataset(d, &["--noise", "30%", "--samples", "64", "--light-parts", "--extra", "--seed", "5"]);
     let text = succeed(d, &["replay", RECORD]);
     assert!(text.contains("specular") && text.contains("optical_flow") && !text.contains("DIFFERS"), "{text}");
 }

@@ -44,7 +44,7 @@ fn a_second_run_does_nothing_and_a_changed_label_table_renders_nothing() {
     fs::write(d.join("other.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
     succeed(d, &["label", "out", "--table", "other.csv"]);
     assert_eq!(frames(&contents(&d.join("out"))), frames(&before));
-    succeed(d, &["preview", "out"]);
+    succeed(d, &["run", "out", "--only", "preview"]);
     succeed(d, &["verify", "out"]);
 }
 
@@ -80,9 +80,9 @@ fn scenes_of_the_folder_that_a_run_does_not_have_are_named() {
     let text = run(&[scene("b")]);
     assert!(text.contains("warning: out also holds scenes that this configuration does not have: a; they stay as they are"), "{text}");
     assert_eq!(fs::read(&frame).unwrap(), before);
-    fail(d, &["render", "out", "--scene", "a"], 2, &["no scene is named \"a\""]);
+    fail(d, &["run", "out", "--only", "render", "--scene", "a"], 2, &["no scene is named \"a\""]);
     run(&[scene("a"), scene("b")]);
-    assert!(succeed(d, &["render", "out", "--scene", "a"]).contains("nothing to do"));
+    assert!(succeed(d, &["run", "out", "--only", "render", "--scene", "a"]).contains("nothing to do"));
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_report_card_does_not_outlive_what_it_is_about() {
         card["passed"].as_bool().unwrap()
     };
     assert!(passed());
-    succeed(d, &["render", "out", "--scene", "b", "--samples", "2"]);
+    succeed(d, &["run", "out", "--only", "render", "--scene", "b", "--samples", "2"]);
     assert!(!d.join("out/verify.json").exists());
     fs::remove_file(d.join("out/scenes/b/images/scene_cam_00_geometry_hdf5/frame.0000.semantic.hdf5")).unwrap();
     enfilade(d, &["run", "dataset.toml", "-o", "out", "--frames", "1", "--scenes", "a"]).output().unwrap();
@@ -264,5 +264,5 @@ fn a_dataset_in_use_is_left_alone() {
     fail(d, &["run", "dataset.toml", "-o", "out"], 2, &["another process (process", "working on out"]);
     child.kill().unwrap();
     child.wait().unwrap();
-    succeed(d, &["import", "out"]);
+    succeed(d, &["run", "out", "--only", "import"]);
 }

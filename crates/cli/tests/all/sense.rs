@@ -36,7 +36,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
     write_config(d, &[scene("room")]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     fs::write(d.join("sensors.toml"), SENSORS).unwrap();
-    let text = succeed(d, &["sense", "out", "sensors.toml"]);
+    let text = succeed(d, &["make", "out", "sensors", "--sensors", "sensors.toml"]);
     assert!(text.contains("phone: 3 frames") && text.contains("kinect: 3 frames"), "{text}");
     let of_all = contents(&d.join("out/sensors"));
     let images = d.join("out/scenes/room/images");
@@ -47,7 +47,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
     }
     let table = fs::read_to_string(d.join("out/sensors/phone/room/cam_00/metadata_sensed_frames.csv")).unwrap();
     assert!(table.starts_with("frame_id,exposure,") && table.lines().count() == 4, "{table}");
-    succeed(d, &["--threads", "1", "sense", "out", "sensors.toml"]);
+    succeed(d, &["--threads", "1", "make", "out", "sensors", "--sensors", "sensors.toml"]);
     assert!(of_all == contents(&d.join("out/sensors")));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 
@@ -58,7 +58,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
 
     // Other settings replace what is there.
     fs::write(d.join("sensors.toml"), SENSORS.replace("noise_px = 0.05", "noise_px = 0.1")).unwrap();
-    succeed(d, &["sense", "out", "sensors.toml", "--frames", "2.."]);
+    succeed(d, &["make", "out", "sensors", "--sensors", "sensors.toml", "--frames", "2.."]);
     assert!(!sensed.join("frame.0001.depth_z_meters.hdf5").exists() && sensed.join("frame.0002.depth_z_meters.hdf5").exists());
     assert!(d.join("out/sensors/tof/room/cam_00/frame.0000.depth_meters.hdf5").exists());
     let rows = |sensor: &str| {
@@ -66,7 +66,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
         table.lines().count() - 1
     };
     assert_eq!((rows("tof"), rows("kinect")), (3, 1));
-    let text = succeed(d, &["render", "out", "--force"]);
+    let text = succeed(d, &["run", "out", "--only", "render", "--force"]);
     assert!(sensed.exists() && !text.contains("out of date"), "the frames have the same bytes: {text}");
 }
 
@@ -84,10 +84,10 @@ fn wrong_sensors_are_named_with_the_place() {
         ("seed = 3\n", ["has no sensor", "docs/sensors.md"]),
     ] {
         fs::write(d.join("sensors.toml"), text).unwrap();
-        fail(d, &["sense", "out", "sensors.toml"], 2, &parts);
+        fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml"], 2, &parts);
     }
-    fail(d, &["sense", "out", "none.toml"], 2, &["none.toml", "docs/sensors.md"]);
+    fail(d, &["make", "out", "sensors", "--sensors", "none.toml"], 2, &["none.toml", "docs/sensors.md"]);
     fs::write(d.join("sensors.toml"), "[[time_of_flight]]\nname = \"a\"\nglass = \"nothing\"\n").unwrap();
-    fail(d, &["sense", "out", "sensors.toml"], 1, &["\"a\"", "surface_traits", "--extra"]);
-    fail(d, &["sense", "out", "sensors.toml", "--frames", "7.."], 1, &["no frame"]);
+    fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml"], 1, &["\"a\"", "surface_traits", "--extra"]);
+    fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml", "--frames", "7.."], 1, &["no frame"]);
 }

@@ -56,15 +56,15 @@ fn stages_run_one_by_one_and_pixels_answer() {
     let card = || ["verify.json", "verify.html"].map(|name| fs::read(d.join("out").join(name)).ok());
     let of_run = card();
     assert!(of_run.iter().all(Option::is_some) && String::from_utf8_lossy(of_run[0].as_ref().unwrap()).contains("\"split_whole\""));
-    for verb in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
-        let text = succeed(d, &[verb, "out"]);
-        assert!(text.contains("nothing to do"), "{verb}: {text}");
+    for stage in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
+        let text = succeed(d, &["run", "out", "--only", stage]);
+        assert!(text.contains("nothing to do"), "{stage}: {text}");
     }
-    for verb in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
-        let text = succeed(d, &[verb, "out", "--force"]);
-        assert!(!text.contains("nothing to do"), "{verb}: {text}");
+    for stage in ["import", "carve", "plan", "gate", "render", "label", "preview"] {
+        let text = succeed(d, &["run", "out", "--only", stage, "--force"]);
+        assert!(!text.contains("nothing to do"), "{stage}: {text}");
     }
-    let text = succeed(d, &["plan", "out", "--preview"]);
+    let text = succeed(d, &["run", "out", "--only", "plan", "--draw-plan"]);
     let pages = d.join("out/scenes/room/_detail/plan_preview");
     assert!(text.contains("nothing to do") && text.contains("plan_preview/index.html"), "{text}");
     assert!(pages.join("cam_00_plan.png").is_file() && pages.join("index.html").is_file());
@@ -72,7 +72,7 @@ fn stages_run_one_by_one_and_pixels_answer() {
     assert_eq!(card(), [None, None]);
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames of 1 scene"));
     assert_eq!(card(), of_run);
-    succeed(d, &["plan", "out", "--force"]);
+    succeed(d, &["run", "out", "--only", "plan", "--force"]);
     assert!(!pages.exists(), "pictures of an earlier plan are removed");
     let text = succeed(d, &["inspect", "out", "--frame", "1", "--pixel", "24,18"]);
     assert!(text.contains("depth_meters") && text.contains("part"), "{text}");
@@ -103,20 +103,20 @@ fn frames_that_lack_files_are_not_previewed_until_they_are_whole_again() {
     let whole = contents(&d.join("out"));
     let images = d.join("out/scenes/room/images");
     fs::remove_file(images.join("scene_cam_00_geometry_hdf5/frame.0002.semantic.hdf5")).unwrap();
-    let words = ["frame 2 of room/cam_00", "`label`", "enfilade label out --scene room"];
-    fail(d, &["preview", "out", "--force"], 1, &words);
+    let words = ["frame 2 of room/cam_00", "`label`", "enfilade run out --only label --scene room"];
+    fail(d, &["run", "out", "--only", "preview", "--force"], 1, &words);
     succeed(d, &["label", "out", "--scene", "room"]);
 
     fs::remove_file(images.join("scene_cam_00_final_hdf5/frame.0001.color.hdf5")).unwrap();
-    fail(d, &["preview", "out", "--force"], 1, &["frame.0001.color.hdf5: it is missing", "render the frame again"]);
+    fail(d, &["run", "out", "--only", "preview", "--force"], 1, &["frame.0001.color.hdf5: it is missing", "render the frame again"]);
     // Elsewhere there are pictures of the others.
-    let (code, _, told) = run(d, &["preview", "out", "-o", "pictures"]);
+    let (code, _, told) = run(d, &["run", "out", "--only", "preview", "-o", "pictures"]);
     assert!(code == 0 && told.contains("room/cam_00: frame 1 is left out: "), "{told}");
     let pictures = d.join("pictures/scenes/room/images/scene_cam_00_final_preview");
     assert_eq!([1, 2].map(|frame| pictures.join(format!("frame.000{frame}.color.jpg")).is_file()), [false, true]);
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert_same(&whole, &contents(&d.join("out")));
-    fail(d, &["preview", "out", "--cameras-csv", "cameras.csv"], 2, &["--cameras-csv", "-o"]);
+    fail(d, &["run", "out", "--only", "preview", "--cameras-csv", "cameras.csv"], 2, &["--cameras-csv", "-o"]);
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn pairs(selected: &SelectedFrames<'_>, views: &[View<'_>]) -> Result<Vec<[usize
         }
         return Ok(found);
     }
-    let message = "no pairs.csv, so every frame is paired with the next one of its camera; `enfilade pairs OUT --overlap 0.2..0.7` chooses better \
+    let message = "no pairs.csv, so every frame is paired with the next one of its camera; `enfilade make OUT pairs --overlap 0.2..0.7` chooses better \
                    ones";
     selected.warn(Warning { place: list.display().to_string(), message: message.into() });
     let of_one_camera = |pair: &[View<'_>]| pair[0].track.scene == pair[1].track.scene && pair[0].track.name == pair[1].track.name;

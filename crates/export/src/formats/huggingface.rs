@@ -73,7 +73,8 @@ pub(crate) fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Par
         }
     }
     if let Some(first) = lost.first() {
-        let message = format!("{first} and {} more are on no side of the split and left out; divide again: enfilade split", lost.len() - 1);
+        let message =
+            format!("{first} and {} more are on no side of the split and left out; divide again: enfilade partition", lost.len() - 1);
         if sides.is_empty() {
             return Err(ExportError::Selection(message));
         }

@@ -102,8 +102,7 @@ fn covisibility(selected: &SelectedFrames<'_>, scene: &str, views: &[View<'_>]) 
         Some(places.iter().flat_map(|row| places.iter().map(move |column| (row, column))).map(|(row, column)| share(row, column)).collect())
     });
     if known.is_none() {
-        let message =
-            "MapAnything's loaders choose views by covisibility, which was not measured for all of these frames: run `enfilade pairs`";
+        let message = "MapAnything's loaders choose views by covisibility, which was not measured for all of these frames: run `enfilade make OUT pairs`";
         selected.warn(Warning { place: scene.into(), message: message.into() });
     }
     Ok(known)

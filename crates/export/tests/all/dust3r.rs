@@ -18,7 +18,7 @@ fn pairs_are_those_of_the_list_whose_frames_are_exported() {
     };
     // Without a list every frame goes with the next one of its camera.
     let (found, heard) = exported("without");
-    assert!(found.i64("pairs").chunks(2).all(|pair| pair[1] == pair[0] + 1) && heard.contains("enfilade pairs"), "{heard}");
+    assert!(found.i64("pairs").chunks(2).all(|pair| pair[1] == pair[0] + 1) && heard.contains("enfilade make OUT pairs"), "{heard}");
 
     let cameras = dataset.cameras("room").unwrap();
     let images: Vec<(String, u32)> =

@@ -51,6 +51,6 @@ fn sides_become_splits_and_what_is_on_none_is_told() {
 
     divide(&dataset, |_| None);
     let error = written(&dataset, &out, &heard).unwrap_err();
-    assert!(error.is_usage() && error.to_string().contains("divide again: enfilade split"), "{error}");
+    assert!(error.is_usage() && error.to_string().contains("divide again: enfilade partition"), "{error}");
     assert!(whole.frames > 1);
 }

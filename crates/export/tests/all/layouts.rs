@@ -118,6 +118,12 @@ fn a_scene_without_a_layout_is_refused_by_name() {
     for format in [Format::Spatiallm, Format::Structured3d] {
         let folder = tempfile::tempdir().unwrap();
         let message = exported(folder.path(), format, None).unwrap_err();
-        assert!(message.contains("room") && message.contains("_detail/layout.json") && message.contains("enfilade layout "), "{message}");
+        assert!(
+            message.contains("room")
+                && message.contains("_detail/layout.json")
+                && message.contains("enfilade make ")
+                && message.contains(" rooms`"),
+            "{message}"
+        );
     }
 }

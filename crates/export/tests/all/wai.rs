@@ -12,7 +12,7 @@ fn covisibility_has_the_rows_and_columns_of_the_frames() {
     let config = ExportConfig::new(Format::Wai, vec!["room".into()]);
     let heard = Heard::default();
     export(&dataset, &config, &folder.path().join("without"), Existing::Refuse, &heard).unwrap();
-    assert!(heard.lines().iter().any(|line| line.contains("enfilade pairs")), "{:?}", heard.lines());
+    assert!(heard.lines().iter().any(|line| line.contains("enfilade make OUT pairs")), "{:?}", heard.lines());
 
     // The matrix lists the frames in another order.
     let mut frames: Vec<CovisibleFrame> = Vec::new();

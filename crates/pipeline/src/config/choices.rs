@@ -37,6 +37,12 @@ impl Quality {
         }
     }
 
+    /// What a scene as it was stored is a reference of, or not: only a reference is more than a number of samples.
+    fn of_stored(scene: &SceneConfig) -> Self {
+        let is_reference = scene.render.noise == Some(REFERENCE_NOISE) && scene.color == ColorKind::Rendered;
+        if is_reference { Self::Reference } else { Self::Normal }
+    }
+
     /// Lays this over a scene whose quality was `below`, with the choices that a reference leaves no other way.
     pub(super) fn lay_over(self, scene: &mut SceneConfig, below: Self) {
         self.lay_over_settings(&mut scene.render, &mut scene.color, below);
@@ -84,6 +90,26 @@ pub struct Overrides {
 }
 
 impl Overrides {
+    /// Lays these over a scene whose quality was `below`; the seed decides more than a scene's settings, and is not among them here.
+    pub(super) fn lay_over(&self, scene: &mut SceneConfig, below: Quality) {
+        scene.plan.frames = self.frames.unwrap_or(scene.plan.frames);
+        scene.size = self.size.unwrap_or(scene.size);
+        if let Some(quality) = self.quality {
+            quality.lay_over(scene, below);
+        }
+        self.render.apply(scene);
+    }
+
+    /// Lays these over a scene as it was stored, which keeps its seed.
+    ///
+    /// # Errors
+    /// When a number is out of its range.
+    pub(crate) fn lay_over_stored(&self, scene: &mut SceneConfig) -> Result<(), Error> {
+        self.render.check()?;
+        self.lay_over(scene, Quality::of_stored(scene));
+        scene.validate().map_err(|wrong| Error::usage(format!("the command line: {}", wrong.message), wrong.help))
+    }
+
     /// Whether a key's value is one of these.
     pub(super) fn say(&self, section: Section, key: &str) -> bool {
         let render = &self.render;
@@ -131,7 +157,7 @@ impl RenderChoices {
         let mut render = RenderConfig::default();
         self.apply_to_transport(&mut render);
         check_rendering(&render, self.time_limit_s, save_every_s()).map_err(|wrong| {
-            Error::usage(format!("the command line: {}", wrong.message), "the flags are explained by: enfilade render --help")
+            Error::usage(format!("the command line: {}", wrong.message), "the flags are explained by: enfilade run --help")
         })
     }
 

@@ -51,8 +51,12 @@ impl Config {
             let hint = "write dataset.toml and name that instead:\n\n  [[scene]]\n  name = \"my-room\"\n  file = ";
             return Err(Error::usage(message, format!("{hint}{:?}", file.display().to_string())));
         }
-        let unreadable =
-            |e| Error::usage(format!("cannot read {}: {e}", file.display()), "name a TOML file, or make the demo: enfilade run --demo out");
+        let unreadable = |e| {
+            Error::usage(
+                format!("cannot read {}: {e}", file.display()),
+                "name a TOML file or the folder of a dataset, or make the demo: enfilade run --demo out",
+            )
+        };
         let bytes = std::fs::read(file).map_err(unreadable)?;
         let text = decoded_text(&bytes);
         if is_git_lfs_pointer(&bytes) {

@@ -172,7 +172,7 @@ impl Resolver<'_> {
             // A camera matrix is of images of the file's size, whatever the command line says.
             scene.camera.k_size.get_or_insert(scene.size);
         }
-        self.lay_arguments_over(&mut scene, keys.quality.or(document.quality).unwrap_or(QUALITY));
+        self.overrides.lay_over(&mut scene, keys.quality.or(document.quality).unwrap_or(QUALITY));
 
         scene.validate().map_err(|wrong| self.misset(wrong, entry))?;
         if let Some(camera) = camera {
@@ -250,16 +250,6 @@ impl Resolver<'_> {
         let message = format!("preset {:?} has no rule for `{key}`", preset.name());
         let help = "leave the key out, or the preset; docs/trajectories.md has the table of what each preset does";
         Err(ConfigError { help: Some(help.into()), ..self.source.error(Some(place), message) })
-    }
-
-    fn lay_arguments_over(&self, scene: &mut SceneConfig, below: Quality) {
-        let Overrides { frames, size, quality, ref render, .. } = *self.overrides;
-        scene.plan.frames = frames.unwrap_or(scene.plan.frames);
-        scene.size = size.unwrap_or(scene.size);
-        if let Some(quality) = quality {
-            quality.lay_over(scene, below);
-        }
-        render.apply(scene);
     }
 
     /// The error of a value that cannot be, at the key that says it; those of a mode stand in its table.

@@ -234,6 +234,6 @@ impl<'a> Job<'a> {
 
     /// The command that runs a stage of this scene.
     pub fn command(&self, stage: Stage) -> String {
-        format!("enfilade {} {} --scene {}", stage.name(), quoted(self.out().display()), quoted(&self.scene.name))
+        format!("enfilade run {} --only {} --scene {}", quoted(self.out().display()), stage.name(), quoted(&self.scene.name))
     }
 }

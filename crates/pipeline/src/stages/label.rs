@@ -200,7 +200,7 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
     let rendered = job.dataset.read_frame(name, camera, frame, wanted).map_err(Error::stage)?;
     let Some(Values::I16(ids)) = rendered.get(Layer::RenderEntityId) else {
         let message = format!("frame {frame} of {camera} has no entity ids");
-        return Err(Error::scene(message, format!("render it again: enfilade render {} --force", quoted(job.out().display()))));
+        return Err(Error::scene(message, format!("render it again: enfilade run {} --only render --force", quoted(job.out().display()))));
     };
     let joined = match (&known.split, rendered.get(Layer::Position)) {
         (Some(split), Some(positions)) => split.join(ids, positions, &known.labels),

@@ -55,7 +55,7 @@ pub(crate) use verify::CARD;
 pub struct StageSpec {
     /// Which one.
     pub stage: Stage,
-    /// The verb of the command line.
+    /// The name, as `run --only` takes it.
     pub name: &'static str,
     /// What it reads and writes.
     pub about: &'static str,

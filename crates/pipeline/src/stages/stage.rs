@@ -24,7 +24,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The verb of the command line.
+    /// The name, as `run --only` takes it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Import => "import",

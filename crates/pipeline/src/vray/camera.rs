@@ -43,7 +43,10 @@ pub struct FilmedCamera {
 pub fn filmed_camera(dataset: &Dataset, scene: &str, name: &str, meters_per_unit: f64, wish: &CameraWish) -> Result<FilmedCamera, Error> {
     let trajectory = dataset.read_trajectory(scene, name).map_err(Error::stage)?;
     if trajectory.poses.is_empty() {
-        return Err(Error::usage(format!("{name} of scene {scene} has no poses"), "plan the trajectory again: enfilade plan"));
+        return Err(Error::usage(
+            format!("{name} of scene {scene} has no poses"),
+            "plan the trajectory again: enfilade run OUT --only plan",
+        ));
     }
     let camera = wished_camera(dataset, scene, name, wish)?;
     if camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0) {

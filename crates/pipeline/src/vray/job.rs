@@ -69,7 +69,10 @@ pub fn write_job(scene: &Document, path: &Path, dataset: &Dataset, config: &JobC
     let meters_per_unit = meters_per_asset_unit(scene).map_err(|error| damaged(path, &error))?.unwrap_or(1.0);
     let names = if config.cameras.is_empty() { dataset.cameras(&config.scene).map_err(Error::stage)? } else { config.cameras.clone() };
     if names.is_empty() {
-        return Err(Error::usage(format!("the scene {} of the dataset has no camera", config.scene), "plan one: enfilade plan"));
+        return Err(Error::usage(
+            format!("the scene {} of the dataset has no camera", config.scene),
+            "plan one: enfilade run OUT --only plan",
+        ));
     }
     names.iter().try_for_each(|name| check_name("camera name", name)).map_err(Error::stage)?;
     let there = Place::new(&config.folder_when_rendering)?;
@@ -174,7 +177,10 @@ fn write_camera(common: &Common, name: &str, cx: &dyn Cx) -> Result<JobCamera, E
     let frames = filmed.path.keyframes.iter().filter_map(|key| u32::try_from(key.frame).ok());
     let frames: Vec<u32> = frames.filter(|frame| !rejected.contains_key(frame)).collect();
     if frames.is_empty() {
-        return Err(Error::usage(format!("no frame of {name} is worth rendering"), "see why: enfilade gate, or name other cameras"));
+        return Err(Error::usage(
+            format!("no frame of {name} is worth rendering"),
+            "see why: enfilade run OUT --only gate, or name other cameras",
+        ));
     }
     Ok(JobCamera {
         camera: name.into(),

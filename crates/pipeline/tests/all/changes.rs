@@ -3,9 +3,12 @@
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Layer, Pass};
-use enfilade_pipeline::{ColorKind, Event, RenderChoices, Reporter, Silent, Stage, estimate, relabel, run, run_chosen, run_stage};
+use enfilade_pipeline::{
+    ColorKind, Event, Overrides, RenderChoices, Reporter, Silent, Stage, Summary, estimate, relabel, run, run_stage, run_stages,
+    stored_config,
+};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -193,9 +196,8 @@ fn frames_of_labelled_scenes_that_are_rendered_again_keep_their_labels() {
     let dataset = Dataset::open(&out).unwrap();
     let labels = || [Layer::Semantic, Layer::SemanticInstance].map(|layer| dataset.read_frame("a", "cam_00", 1, &[layer]).unwrap());
     let (before, boxes) = (labels(), fs::read(dataset.layout().frame_instances("a", "cam_00")).unwrap());
-    let stages = [Stage::Render, Stage::Denoise];
     for choices in [RenderChoices { extra: true, ..Default::default() }, RenderChoices { fixtures: true, ..Default::default() }] {
-        let summary = run_chosen(&out, &choices, &stages, None, false, &Silent).unwrap();
+        let summary = render_with(&out, choices);
         assert!(summary.ok(), "{:?}", failures(&summary));
         assert_eq!(labels(), before);
     }
@@ -205,12 +207,18 @@ fn frames_of_labelled_scenes_that_are_rendered_again_keep_their_labels() {
     assert_eq!(fs::read(dataset.layout().frame_instances("a", "cam_00")).unwrap(), boxes, "what frames show of the boxes too");
 }
 
+/// Renders the dataset in `out` with these choices from now on.
+fn render_with(out: &Path, render: RenderChoices) -> Summary {
+    let config = stored_config(out, &Overrides { render, ..Overrides::default() }, None).unwrap();
+    run_stages(&config, out, &[Stage::Render], None, false, &Silent).unwrap()
+}
+
 #[test]
 fn rendering_again_labels_nothing_that_was_not_labelled() {
     let (folder, out) = place();
     run(&config(folder.path(), &[("a", "room.obj", ONE, "")]), &out, None, &Silent).unwrap();
     fs::remove_file(out.join(".enfilade/a").join("label.json")).unwrap();
     let choices = RenderChoices { extra: true, ..Default::default() };
-    let summary = run_chosen(&out, &choices, &[Stage::Render, Stage::Denoise], None, false, &Silent).unwrap();
+    let summary = render_with(&out, choices);
     assert!(summary.scenes[0].stages.iter().all(|outcome| outcome.stage != Stage::Label));
 }

@@ -193,7 +193,7 @@ fn frames_are_neither_planned_nor_rendered_by_damaged_files() {
         let failure = summary.scenes[0].failure.as_ref().unwrap();
         let told = format!("{} is not as `{}` wrote it", path.display(), makes.name());
         assert!(failure.message.starts_with(&told), "{failure:?}");
-        let command = format!("enfilade {} {} --scene a", makes.name(), out.display());
+        let command = format!("enfilade run {} --only {} --scene a", out.display(), makes.name());
         assert!(failure.hint.as_ref().unwrap().ends_with(&command), "{failure:?}");
         for stage in [makes, Stage::Gate] {
             assert!(run_stage(&out, stage, None, false, &Silent).unwrap().ok());

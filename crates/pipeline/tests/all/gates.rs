@@ -145,7 +145,7 @@ fn rendering_waits_for_the_gates() {
     run(&config(folder.path(), GIVEN, ""), &out, None, &Silent).unwrap();
     run_stage(&out, Stage::Plan, None, true, &Silent).unwrap();
     let failed = run_stage(&out, Stage::Render, None, false, &Silent).unwrap();
-    assert!(failed.scenes[0].failure.as_ref().unwrap().hint.as_ref().unwrap().contains("enfilade gate"));
+    assert!(failed.scenes[0].failure.as_ref().unwrap().hint.as_ref().unwrap().contains("--only gate"));
     run_stage(&out, Stage::Gate, None, false, &Silent).unwrap();
     assert!(run_stage(&out, Stage::Render, None, false, &Silent).unwrap().nothing_done());
 }

@@ -64,7 +64,7 @@ fn a_table_of_cameras_that_is_named_and_not_there_is_told() {
     for args in [
         &["verify", "hypersim"][..],
         &["stats", "hypersim", "-o", "numbers"],
-        &["preview", "hypersim", "-o", "pictures"],
+        &["run", "hypersim", "--only", "preview", "-o", "pictures"],
         &["animate", "hypersim", "-o", "films"],
         &["export", "hypersim", "--format", "coco", "-o", "coco"],
         &["inspect", "hypersim", "--pixel", "3,4"],
@@ -150,8 +150,8 @@ fn pictures_statistics_and_films_go_elsewhere_and_nothing_of_the_release_changes
     let dir = folder();
     let root = release::write(dir.path(), Tree::Toolkit);
     let before = contents(&root);
-    fail(dir.path(), &["preview", "hypersim"], 2, &["Hypersim's release", "name another folder with -o"]);
-    let text = succeed(dir.path(), &["preview", "hypersim", "-o", "pictures"]);
+    fail(dir.path(), &["run", "hypersim", "--only", "preview"], 2, &["Hypersim's release", "name another folder with -o"]);
+    let text = succeed(dir.path(), &["run", "hypersim", "--only", "preview", "-o", "pictures"]);
     assert!(text.contains("contact_sheet.jpg"), "{text}");
     let pictures = dir.path().join("pictures/scenes/ai_001_001/images");
     for name in [
@@ -167,7 +167,7 @@ fn pictures_statistics_and_films_go_elsewhere_and_nothing_of_the_release_changes
     succeed(dir.path(), &["animate", "hypersim", "--layers", "tonemap", "--format", "gif", "-o", "films"]);
     assert_eq!(contents(&root), before);
     fail(dir.path(), &["label", "hypersim"], 2, &["semantic_instance already"]);
-    fail(dir.path(), &["boxes", "hypersim"], 2, &["_detail/mesh already"]);
+    fail(dir.path(), &["run", "hypersim", "--only", "boxes"], 2, &["_detail/mesh already"]);
     let pixel = succeed(dir.path(), &["inspect", "hypersim", "--frame", "1", "--pixel", "30,50"]);
     for word in ["depth_z_meters", "px from the pixel's centre", "@n"] {
         assert!(pixel.contains(word), "no {word:?} in\n{pixel}");
@@ -179,7 +179,7 @@ fn pictures_leave_out_what_cannot_be_made_of_a_part_of_the_archives() {
     let dir = folder();
     let root = release::write(dir.path(), Tree::Toolkit);
     let made = |folder: &str| {
-        succeed(dir.path(), &["preview", "hypersim", "-o", folder]);
+        succeed(dir.path(), &["run", "hypersim", "--only", "preview", "-o", folder]);
         assert!(dir.path().join(folder).join("contact_sheet.jpg").is_file(), "{folder}");
         let images = dir.path().join(folder).join("scenes/ai_001_001/images/scene_cam_00_");
         let names = ["final_preview/frame.0001.bb_object_aligned_2d.jpg", "geometry_preview/frame.0001.position.png"];
@@ -226,7 +226,7 @@ fn a_camera_without_frames_does_not_stop_the_films_of_others() {
 fn exposures_are_the_toolkits() {
     let dir = folder();
     let root = release::write(dir.path(), Tree::Toolkit);
-    succeed(dir.path(), &["preview", "hypersim", "-o", "pictures"]);
+    succeed(dir.path(), &["run", "hypersim", "--only", "preview", "-o", "pictures"]);
     let dataset = Dataset::open(&root).unwrap();
     let table = fs::read_to_string(dir.path().join("pictures/scenes/ai_001_001/_detail/cam_00/metadata_tonemap.csv")).unwrap();
     for (line, frame) in table.lines().skip(1).zip(FRAMES) {

@@ -29,7 +29,8 @@ pub(super) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         selected.warn(Warning { place: selected.dataset.layout().split().display().to_string(), message });
     }
     if lists[&Partition::Train].is_empty() && lists.values().any(|list| !list.is_empty()) {
-        let message = "no scan is in scannetv2_train.txt: no scene of this export is in train of the split; divide again (enfilade split)";
+        let message =
+            "no scan is in scannetv2_train.txt: no scene of this export is in train of the split; divide again (enfilade partition)";
         selected.warn(Warning { place: selected.dataset.layout().split().display().to_string(), message: message.into() });
     }
     lists.iter().try_for_each(|(side, list)| out.write(&format!("scannetv2_{}.txt", side.name()), list.as_bytes()))

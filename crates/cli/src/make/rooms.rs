@@ -1,46 +1,39 @@
-//! `layout`: from arguments to the rooms of scenes and the planes of frames, and what came of them.
+//! `make rooms`: rooms of scenes that came without them, and which plane of them each pixel shows.
 
-use crate::args::LayoutArgs;
-use crate::outcome::{Problem, Verdict, say};
-use crate::pairs::chosen_frames;
-use crate::progress::Progress;
+use super::frames::chosen_frames;
+use crate::args::MakeArgs;
+use crate::outcome::Problem;
 use enfilade_dataset::{ChosenFrames, Dataset, counted, counted_as, write_bytes};
 use enfilade_label::structure::{fit_structure, labelled_triangles, write_planes};
 use enfilade_scene::{Cx, Structure};
 use enfilade_show::planview::structure_svg;
 
-/// `layout`: rooms of scenes that came without them, and which plane each pixel shows.
-pub fn layout(args: &LayoutArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let dataset = args.table.open(&args.dataset)?;
-    let chosen = chosen_frames(&dataset, &args.chosen)?;
-    let (mut lines, mut any) = (Vec::new(), false);
-    {
-        let progress = Progress::new(quiet);
-        let cx = progress.begin(&args.dataset.display().to_string(), "layout");
-        for scene in &chosen.scenes {
-            let structure = structure_of(&dataset, scene)?;
-            any |= structure.is_some();
-            lines.push(match &structure {
-                Some(structure) => {
-                    let frames = planes_of_frames(&dataset, scene, structure, &chosen, &cx)?;
-                    format!("{scene}: {}, planes of {}", summary(structure), counted(frames, "frame"))
-                }
-                None => format!("{scene}: no labelled walls and floors that enclose a room"),
-            });
-        }
+/// Fits rooms to labelled surfaces where a scene has none, and writes the planes of the chosen frames.
+pub fn rooms(args: &MakeArgs, dataset: &Dataset, lines: &mut Vec<String>, cx: &dyn Cx) -> Result<(), Problem> {
+    let chosen = chosen_frames(dataset, &args.chosen)?;
+    let mut any = false;
+    for scene in &chosen.scenes {
+        let structure = structure_of(dataset, scene)?;
+        any |= structure.is_some();
+        lines.push(match &structure {
+            Some(structure) => {
+                let frames = planes_of_frames(dataset, scene, structure, &chosen, cx)?;
+                format!("{scene}: {}, planes of {}", summary(structure), counted(frames, "frame"))
+            }
+            None => format!("{scene}: no labelled walls and floors that enclose a room"),
+        });
     }
-    lines.iter().for_each(|line| say(line));
     if !any {
         let problem = format!("no scene of {} that was chosen has rooms", args.dataset.display());
         let help =
             "label walls, floors and ceilings by NYU40's classes: `enfilade suggest` proposes a table, `enfilade annotate` opens a scene";
         return Err(Problem::of_data(problem, help));
     }
-    say("see  layout.json, layout.svg and metadata_planes.csv in _detail of each scene, and CAMERA/planes in it");
-    Ok(Verdict::Done)
+    lines.push("see  layout.json, layout.svg and metadata_planes.csv in _detail of each scene, and CAMERA/planes in it".into());
+    Ok(())
 }
 
-/// The layout that the scene came with, or else the one that is fitted to its labels as they are now.
+/// The rooms that the scene came with, or else those that are fitted to its labels as they are now.
 fn structure_of(dataset: &Dataset, scene: &str) -> Result<Option<Structure>, Problem> {
     if let Some(known) = dataset.read_structure(scene)?.filter(|structure| structure.fit.is_none()) {
         return Ok(Some(known));
