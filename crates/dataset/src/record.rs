@@ -138,7 +138,7 @@ pub struct FrameRecord {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ColorKind {
-    /// What was rendered: unbiased, and noisy.
+    /// The rendered layers: unbiased and noisy.
     #[default]
     Rendered,
     /// An estimate of the same without noise, and biased, as denoising is.

@@ -1,7 +1,7 @@
 //! The stages, their work folder, and how a run resumes.
 //!
 //! [`Config`] says what to make, [`run`] makes it. [`STAGES`] is the one list of stages; each is skipped when nothing that it
-//! depends on has changed, so that a second run does nothing and a killed run goes on where it was. This is the only crate below
+//! depends on has changed, so that a second run does nothing and a killed run resumes where it was. This is the only crate below
 //! the command line that reads clocks and the environment.
 
 mod assets;

@@ -310,7 +310,7 @@ impl<'a> Session<'a> {
     /// A line about products that are out of date; `None` where none is.
     fn out_of_date(&self) -> Option<String> {
         let told = self.dataset.scenes().map_err(Error::stage).and_then(|scenes| told_out_of_date(&self.dataset, &scenes));
-        told.unwrap_or_else(|error| Some(format!("which products are out of date is not known: {}", error.explain())))
+        told.unwrap_or_else(|error| Some(format!("it is unknown which products are out of date: {}", error.explain())))
     }
 
     /// The `stages`, and after rendering alone those of labels that the scene has been through: frames that are rendered again lose what was

@@ -23,7 +23,7 @@ pub struct FarmArgs {
 pub enum FarmVerb {
     /// Package the scenes, plan what to film, and divide the work into tasks
     Plan(FarmPlanArgs),
-    /// Render tasks, or go on with them, and commit their frames
+    /// Render tasks, or continue them, and commit their frames
     Work(FarmWorkArgs),
     /// How far the job has come; the exit code is 0 when nothing is missing, else 1
     Status(FarmStatusArgs),
@@ -51,7 +51,7 @@ pub struct FarmPlanArgs {
     /// Threads of a worker
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     pub cpus: u32,
-    /// Also what it will cost: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
+    /// Also report what it will cost: dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
     /// Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
     pub price: Option<String>,
@@ -84,13 +84,13 @@ pub struct FarmWorkArgs {
 pub struct FarmStatusArgs {
     /// The job
     pub job: String,
-    /// Print nothing but the missing tasks, as --task takes them
+    /// Print only the missing tasks, as --task takes them
     #[arg(long, conflicts_with = "json")]
     pub missing: bool,
     /// Print it as JSON
     #[arg(long)]
     pub json: bool,
-    /// Also what it has cost until now: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table
+    /// Also report what it has cost so far: dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true, conflicts_with_all = ["missing", "json"])]
     pub price: Option<String>,
     /// Write a table with a row per attempt: machine, the engine's numbers, times, memory, costs
@@ -106,7 +106,7 @@ pub struct FarmCollectArgs {
     /// The dataset's folder
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
+    /// Dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
     pub price: Option<String>,
 }

@@ -94,12 +94,12 @@ impl What {
     const fn about(self) -> &'static str {
         match self {
             Self::Pairs => "Which frames see the same surfaces: shares, baselines and angles of all view pairs of a scene",
-            Self::Flow => "Flow between any two frames of a scene, of different cameras too, forward and backward",
+            Self::Flow => "Flow between any two frames of a scene, also of different cameras, forward and backward",
             Self::Tracks => "Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout",
-            Self::Surfaces => "Every surface along the ray of each pixel, front and back, and what is behind glass as glass bends it",
-            Self::Rooms => "Rooms, walls, doors and windows of scenes that came without a plan, and which plane of them each pixel shows",
-            Self::Words => "What things are and how they stand to each other: relations, captions, questions with answers",
-            Self::Sensors => "What cameras and depth sensors would make of the frames",
+            Self::Surfaces => "Every surface along the ray of each pixel, front and back, and what is behind glass with refraction",
+            Self::Rooms => "Rooms, walls, doors and windows of scenes without a plan, and the plane that each pixel shows",
+            Self::Words => "Attributes and relations of things, captions, questions with answers",
+            Self::Sensors => "Readings of simulated cameras and depth sensors",
             Self::Relit => "Frames with lamps switched, dimmed and tinted",
         }
     }
@@ -128,16 +128,16 @@ pub struct ListFlags {
 #[derive(Args)]
 #[command(next_help_heading = "pairs")]
 pub struct PairsFlags {
-    /// Only pairs that see such a share of each other: 0.2..0.7, 30%.. or ..0.5 [default: any at all]
+    /// Only pairs that see this share of each other: 0.2..0.7, 30%.. or ..0.5 [default: any at all]
     #[arg(long, value_name = "RANGE", value_parser = parse_overlap)]
     pub overlap: Option<[f32; 2]>,
-    /// Only pairs whose cameras are so many metres apart: 0.3..2, 0.3.. or ..2 [default: any]
+    /// Only pairs with this distance of the cameras, metres: 0.3..2, 0.3.. or ..2 [default: any]
     #[arg(long, value_name = "RANGE", value_parser = parse_between)]
     pub baseline: Option<[f64; 2]>,
-    /// Only pairs whose viewing axes are turned from each other by so many degrees: 10..90, 10.. or ..90 [default: any]
+    /// Only pairs with this angle between the viewing axes, degrees: 10..90, 10.. or ..90 [default: any]
     #[arg(long, value_name = "RANGE", value_parser = parse_between)]
     pub angle: Option<[f64; 2]>,
-    /// About so many pixels of each frame are carried into the others [default: 3000]
+    /// Approximate number of pixels of each frame that are projected into the others [default: 3000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub pixels: Option<u32>,
 }
@@ -146,7 +146,7 @@ pub struct PairsFlags {
 #[derive(Args)]
 #[command(next_help_heading = "flow")]
 pub struct FlowFlags {
-    /// Instead of a list: from each frame to the one so many later in its trajectory; -1 leads to the one before
+    /// Instead of a list: from each frame to the one N later in its trajectory; -1 is the one before
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub step: Option<i64>,
     /// Instead of a list: from one frame to another, as in cam_00/3 cam_01/7

@@ -39,7 +39,7 @@ pub struct Cli {
     /// Number of threads [default: one per processor]; changes no byte of the output
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// Print nothing but the result and errors
+    /// Print only the result and errors
     #[arg(short, long, global = true)]
     pub quiet: bool,
     /// The file of this program.
@@ -65,15 +65,15 @@ impl Cli {
 /// The verbs.
 #[derive(Subcommand)]
 pub enum Verb {
-    /// Make a dataset, or go on with one: all stages, for the demo or for the scenes of a TOML file
+    /// Make a dataset, or continue one: all stages, for the demo or for the scenes of a TOML file
     Run(RunArgs),
-    /// The first picture of a scene file, in some seconds
+    /// A first picture of a scene file, in a few seconds
     Look(LookArgs),
     /// Scene file -> scene package
     Import(ImportArgs),
     /// A furnished home of a seed -> scene package
     Home(HomeArgs),
-    /// More of finished frames: pairs, flow, tracks, surfaces, rooms, words, sensors, relit pictures
+    /// More from finished frames: pairs, flow, tracks, surfaces, rooms, words, sensors, relit pictures
     Make(MakeArgs),
     /// Frames, label table -> semantic layers; renders nothing again
     Label(LabelArgs),
@@ -81,7 +81,7 @@ pub enum Verb {
     Suggest(SuggestArgs),
     /// Label the parts of a scene, in the browser
     Annotate(AnnotateArgs),
-    /// Check the laws that tie the layers of a dataset together, and write its report card; the exit code says whether all hold
+    /// Check that the data of a dataset agree, and write its report card; the exit code says whether all laws pass
     Verify(VerifyArgs),
     /// Look at a dataset in the browser: every layer, values under the cursor, comparisons, the scene in 3D
     View(ViewArgs),
@@ -99,7 +99,7 @@ pub enum Verb {
     Replay(ReplayArgs),
     /// One dataset on many machines: plan, work, status, collect, submit
     Farm(FarmArgs),
-    /// Edits of V-Ray's scene files, for those who render with V-Ray
+    /// Edits of V-Ray's scene files, if you render with V-Ray
     Vray(VrayArgs),
     /// What a shell needs to complete verbs and options, on standard output; or the manual pages
     Completions(CompletionsArgs),

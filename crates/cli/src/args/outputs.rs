@@ -25,7 +25,7 @@ pub struct ExportArgs {
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub chosen: FramesArg,
-    /// Only these layers, of those that the format can hold
+    /// Only these layers, of those that the format supports
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
     pub layers: Option<Vec<enfilade_frame::Layer>>,
     /// With webdataset and huggingface: largest size of a file in megabytes

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  enfilade view out\n  enfilade view out --port 7000 --no-open     # on another machine: ssh -L 7000:localhost:7000 HOST\n\n\
-    The page is served from this machine to this machine alone, unless --host says otherwise. Nothing is written."
+    The page is served on this machine only, unless --host says otherwise. Nothing is written."
 )]
 pub struct ViewArgs {
     /// The dataset's folder: ours, the Hypersim toolkit's, or one of unpacked Hypersim archives

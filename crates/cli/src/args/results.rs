@@ -61,7 +61,7 @@ pub struct InspectArgs {
     /// Column and row of the pixel, from 0 at the upper left
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel, required_unless_present = "list_cameras", allow_hyphen_values = true)]
     pub pixel: Option<(u32, u32)>,
-    /// Instead of a pixel: K of every scene of the table of cameras, as CSV; DATASET may be that table itself
+    /// K of every scene of the table of cameras, as CSV, instead of a pixel; DATASET may be that table itself
     #[arg(long = "cameras", conflicts_with = "pixel")]
     pub list_cameras: bool,
     #[command(flatten)]
@@ -96,7 +96,7 @@ pub struct StatsArgs {
     /// Only the scenes of these names ("bed*", "hall,bedroom")
     #[arg(long, value_name = "PATTERN", visible_alias = "scenes")]
     pub scene: Option<String>,
-    /// Dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
+    /// Dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165, Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
     pub price: Option<String>,
     /// Draw the charts over the histograms of this folder: statistics of another dataset, or Hypersim's

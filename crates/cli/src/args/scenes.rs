@@ -28,7 +28,7 @@ pub struct HomeArgs {
     /// Seed of colours and materials alone
     #[arg(long, value_name = "SEED")]
     pub materials: Option<u64>,
-    /// Share of the colours that go together; the others are random
+    /// Share of the colours that match; the others are random
     #[arg(long, default_value_t = 1.0, value_name = "SHARE", allow_negative_numbers = true)]
     pub realism: f32,
     /// Seed of the light alone
@@ -37,7 +37,7 @@ pub struct HomeArgs {
     /// Part of the day [default: as the seed decides]
     #[arg(long)]
     pub moment: Option<MomentArg>,
-    /// Density of small things: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy
+    /// Density of small things: 0 leaves only the contents of shelves and cabinets, 1 looks lived in, 2 is untidy
     #[arg(long, default_value_t = 1.0, value_name = "X", allow_negative_numbers = true)]
     pub clutter: f32,
     /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits
@@ -46,7 +46,7 @@ pub struct HomeArgs {
     /// Share of the things for which a model fits that are models
     #[arg(long, default_value_t = 1.0, value_name = "SHARE", allow_negative_numbers = true)]
     pub assets_share: f32,
-    /// Go on with our own furniture where a model is broken
+    /// Use our own furniture where a model is broken
     #[arg(long)]
     pub allow_broken_assets: bool,
     /// The scene package (.scene) or binary glTF (.glb) to write, labels included
@@ -61,7 +61,7 @@ pub enum MomentArg {
     Day,
     /// Blue dusk outside, lamps inside
     Evening,
-    /// Lamps alone
+    /// Only lamps
     Night,
 }
 
@@ -95,7 +95,7 @@ pub struct ImportArgs {
     /// the JSON, in which paths begin at the folder of Pix3D
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Tell what would be dropped, guessed or fixed and what is odd about the geometry, and write nothing
+    /// Report what would be dropped, guessed or fixed and what is odd about the geometry, and write nothing
     #[arg(long, conflicts_with = "output")]
     pub check: bool,
     #[command(flatten)]
@@ -105,7 +105,7 @@ pub struct ImportArgs {
     pub partition: Option<PathBuf>,
 }
 
-/// What a scene file does not say itself.
+/// What a scene file does not state.
 #[derive(Args)]
 pub struct FileChoices {
     /// Metres per unit of the file; multiplies what the file says itself [default: 1, which packages (.scene) always have]
@@ -121,16 +121,16 @@ pub struct FileChoices {
     /// Hang lamps from the ceiling of every room
     #[arg(long, value_name = "WHERE")]
     pub lamps: Option<LampsArg>,
-    /// Of faces with the same corners keep the first
+    /// Keep only the first of faces with the same corners
     #[arg(long)]
     pub drop_doubled_faces: bool,
-    /// Make clear panes of parts or materials of these names ("glass*,window pane"), where glass has lost that it lets light through
+    /// Make clear panes of parts or materials of these names ("glass*,window pane"), where glass lost its transparency
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
     pub panes: Vec<String>,
-    /// Go on with plain grey where a texture is missing
+    /// Use plain grey where a texture is missing
     #[arg(long)]
     pub allow_missing_textures: bool,
-    /// Go on without a mesh whose file is missing or damaged, in scenes of many files (Mitsuba, pbrt, URDF, SDF)
+    /// Leave out meshes whose file is missing or damaged, in scenes of many files (Mitsuba, pbrt, URDF, SDF)
     #[arg(long)]
     pub allow_missing_meshes: bool,
 }
@@ -213,7 +213,7 @@ pub struct SuggestArgs {
     /// Which way is up in the file [default: as its format says; in packages always z]
     #[arg(long, allow_hyphen_values = true)]
     pub up_axis: Option<UpAxisArg>,
-    /// Replace a table that is there, also one that was corrected since
+    /// Replace an existing table, even one that was corrected since
     #[arg(long)]
     pub force: bool,
 }

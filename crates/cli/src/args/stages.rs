@@ -48,10 +48,10 @@ pub struct RunArgs {
     /// part, and statistics
     #[arg(long, conflicts_with = "estimate")]
     pub draw_plan: bool,
-    /// Tell what time, money, disk and memory the run will take, from a pilot of a few pixels; nothing is rendered, and no finished frame changes
+    /// Forecast the time, money, disk and memory of the run, from a pilot of a few pixels; nothing is rendered, and no finished frame changes
     #[arg(long)]
     pub estimate: bool,
-    /// With --estimate: dollars per vCPU-hour, with others such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
+    /// With --estimate: dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
     /// Hypersim's median]
     #[arg(long, value_name = "X|CSV", requires = "estimate", allow_negative_numbers = true)]
     pub price: Option<String>,
@@ -121,7 +121,7 @@ pub enum QualityArg {
 #[derive(Args)]
 #[command(next_help_heading = "Rendering (of a dataset made before: from now on)")]
 pub struct RenderFlags {
-    /// Samples per pixel: the mean over the image, or with --noise the most [default: those of the quality; with --noise 65536]
+    /// Samples per pixel: the mean over the image, or with --noise the maximum [default: those of the quality; with --noise 65536]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Stop where the noise is this small: 2% or 0.02
@@ -136,19 +136,19 @@ pub struct RenderFlags {
     /// Wall-clock time after which a frame ends with the samples it has: 90s, 5m; two such runs differ
     #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
     pub time_limit: Option<f64>,
-    /// Also write the light of color by its way (diffuse_direct, ...) and by its source (light_environment, ...)
+    /// Also write the light of color by its path (diffuse_direct, ...) and by its source (light_environment, ...)
     #[arg(long)]
     pub light_parts: bool,
     /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade make OUT relit`
     #[arg(long)]
     pub fixtures: bool,
-    /// Also write material, flow to the next frame, what lies behind glass, occlusion boundaries and more, pixel by pixel
+    /// Also write material, flow to the next frame, what is behind glass, occlusion boundaries and more, pixel by pixel
     #[arg(long)]
     pub extra: bool,
     /// Make rough diffuse surfaces (plaster, cloth) Lambertian: diffuse_illumination of a point is then the same from everywhere
     #[arg(long)]
     pub lambertian: bool,
-    /// What color, diffuse_illumination and residual hold [default: denoised]; a change renders nothing again
+    /// Contents of color, diffuse_illumination and residual [default: denoised]; changing them renders nothing again
     #[arg(long, value_enum, value_name = "KIND")]
     pub color: Option<ColorArg>,
 }
@@ -156,9 +156,9 @@ pub struct RenderFlags {
 /// What the colour layers hold.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum ColorArg {
-    /// A clean estimate, biased as denoising is; what was rendered stays beside it, as color_rendered, ...
+    /// A clean but biased estimate; the rendered layers are kept beside it, as color_rendered, ...
     Denoised,
-    /// What was rendered: unbiased, and noisy
+    /// The rendered layers: unbiased and noisy
     Rendered,
 }
 

@@ -26,7 +26,7 @@ pub fn flow(args: &MakeArgs, dataset: &Dataset, lines: &mut Vec<String>, cx: &dy
         lines.push(format!("{scene}: flow of {}", counted(pairs.len(), "pair")));
     }
     if lines.is_empty() {
-        return Err(Problem::of_data("no pair of frames that are there was chosen", "choose others, or render them: enfilade run"));
+        return Err(Problem::of_data("no pair of existing frames was selected", "choose others, or render them: enfilade run"));
     }
     lines.push("see  _detail/CAMERA/pairs of each scene".into());
     Ok(())
@@ -40,7 +40,7 @@ fn listed(args: &MakeArgs, dataset: &Dataset) -> Result<Vec<FramePair>, Problem>
     let list = args.list.pairs.clone().unwrap_or_else(|| dataset.layout().pairs());
     if args.list.pairs.is_none() && !list.is_file() {
         let help = format!("list pairs first: enfilade make {} pairs; or give --step or --between", args.dataset.display());
-        return Err(Problem::new(format!("flow follows a list of view pairs, and {} is not there", list.display()), help));
+        return Err(Problem::new(format!("flow follows a list of view pairs, but {} does not exist", list.display()), help));
     }
     Ok(read_pairs(&list)?)
 }

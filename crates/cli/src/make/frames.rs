@@ -21,7 +21,7 @@ pub fn chosen_frames(dataset: &Dataset, args: &FramesArg) -> Result<ChosenFrames
 
 /// What to say where these mean no frame that is there.
 pub fn nothing_chosen() -> Problem {
-    Problem::of_data("no frame that is there was chosen", "choose others, or render them: enfilade run")
+    Problem::of_data("no existing frame was selected", "choose others, or render them: enfilade run")
 }
 
 /// Calls `work` for every scene of which frames are chosen, with what was filmed, these frames and the scene itself.

@@ -70,7 +70,7 @@ pub enum Edit {
         #[arg(long = "kind", value_name = "KIND", required = true)]
         kinds: Vec<String>,
     },
-    /// Number nodes and lights, so that every one can be told apart in the images
+    /// Number nodes and lights, so that each can be identified in the images
     Entities {
         #[command(flatten)]
         copy: Copy,
@@ -133,7 +133,7 @@ pub enum Edit {
         #[arg(long = "file", value_name = "PATH", required = true)]
         files: Vec<String>,
     },
-    /// What the included files hold in place of the #include lines, so that edits reach all of the scene
+    /// The content of included files in place of the #include lines, so that edits reach the whole scene
     Inline(Copy),
     /// The scene of one of the three passes: geometry, pre, final
     Pass {
@@ -262,10 +262,10 @@ pub struct CollectArgs {
     pub meters_per_unit: Option<f64>,
     #[command(flatten)]
     pub wish: WishArgs,
-    /// Take images whose header, or whose positions, tell another camera than the trajectory's
+    /// Accept images whose header or positions belong to another camera than the trajectory's
     #[arg(long)]
     pub ignore_camera: bool,
-    /// Read again what is there already
+    /// Read existing frames again
     #[arg(long)]
     pub force: bool,
 }

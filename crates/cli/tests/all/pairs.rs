@@ -59,7 +59,7 @@ fn flow_leads_from_frame_to_frame_and_holds_its_laws() {
     fail(d, &["make", "out", "flow", "--between", "cam_00/2", "cam_00/9"], 2, &["no finished frame cam_00/9"]);
     fail(d, &["make", "out", "flow", "--step", "7"], 1, &["no pair of frames"]);
     fs::remove_file(d.join("out/pairs.csv")).unwrap();
-    fail(d, &["make", "out", "flow"], 2, &["pairs.csv is not there", "enfilade make out pairs", "--step"]);
+    fail(d, &["make", "out", "flow"], 2, &["pairs.csv does not exist", "enfilade make out pairs", "--step"]);
     fs::rename(d.join("out/.enfilade"), d.join("elsewhere")).unwrap();
     fail(d, &["make", "out", "flow", "--step", "-1"], 1, &["scene.scene", "enfilade run"]);
 }

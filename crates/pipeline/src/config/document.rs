@@ -65,14 +65,14 @@ pub(super) struct ImportKeys {
     pub environment: Option<Spanned<EnvironmentOverride>>,
     /// Hangs lamps below the ceiling of every room.
     pub lamps: Option<Lamps>,
-    /// Of faces with the same corners the first stays.
+    /// Keep only the first of faces with the same corners.
     pub drop_doubled_faces: Option<bool>,
     /// Makes clear panes of parts or materials of these names, in which `*` stands for any characters, where glass has lost that it lets light
     /// through.
     pub panes: Option<Vec<String>>,
-    /// Goes on with grey, and a warning, where a texture is missing.
+    /// Uses grey, with a warning, where a texture is missing.
     pub allow_missing_textures: Option<bool>,
-    /// Goes on without the mesh, and a warning, where the file of one is missing or damaged (Mitsuba, pbrt, URDF, SDF).
+    /// Leaves out meshes whose file is missing or damaged, with a warning (Mitsuba, pbrt, URDF, SDF).
     pub allow_missing_meshes: Option<bool>,
 }
 

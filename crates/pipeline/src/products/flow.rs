@@ -20,7 +20,7 @@ type FrameName = (String, u32);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FlowPairs {
-    /// From each frame to the one so many later in its trajectory; -1 leads to the one before.
+    /// From each frame to the one N later in its trajectory; -1 is the one before.
     Step(i64),
     /// The pairs of the dataset's own list, there and back.
     Listed,
@@ -65,7 +65,7 @@ pub(super) fn check(subjects: &[Subject], request: &Request) -> Result<(), Error
         let own = pairs.iter().filter(|pair| pair.scene == subject.scene).flat_map(|pair| [&pair.first, &pair.second]);
         if let Some((camera, number)) = own.into_iter().find(|(camera, number)| filmed.find(camera, *number).is_none()) {
             let message = format!("{} has no finished frame {camera}/{number} among those chosen", subject.scene);
-            return Err(Error::usage(message, "pairs.csv, which `enfilade make OUT pairs` writes, lists pairs of frames that are there"));
+            return Err(Error::usage(message, "`enfilade make OUT pairs` writes pairs.csv, a list of pairs of existing frames"));
         }
     }
     Ok(())
@@ -94,7 +94,7 @@ pub(super) fn files(subject: &Subject, part: &Part) -> Result<Vec<PathBuf>, Erro
 pub(super) fn package(subject: &Subject, filmed: &Filmed<'_>, cx: &dyn Cx) -> Result<ScenePackage, Error> {
     ScenePackage::read(filmed, cx).map_err(Error::stage)?.ok_or_else(|| {
         let path = subject.dataset.layout().scene_package(subject.scene);
-        let message = format!("{} is not the scene that {} was rendered from, or not there", path.display(), subject.scene);
+        let message = format!("{} is missing, or is not the scene that {} was rendered from", path.display(), subject.scene);
         Error::scene(message, "rays need it: use the dataset where `enfilade run` made it, and run it again where it is out of date")
     })
 }

@@ -153,12 +153,12 @@ fn make_in_scenes(
 
 pub(super) fn nothing_to_make(dataset: &Dataset, product: Product) -> Error {
     match product {
-        Product::Flow => Error::scene("no pair of frames that are there was chosen", "choose others, or render them: enfilade run"),
+        Product::Flow => Error::scene("no pair of existing frames was selected", "choose others, or render them: enfilade run"),
         Product::Covisibility | Product::Pairs => {
             let message = format!("no camera that was chosen has frames in {}", dataset.root().display());
-            Error::scene(message, "make them with `enfilade run`, which also tells what has failed")
+            Error::scene(message, "make them with `enfilade run`, which also reports what failed")
         }
-        _ => Error::scene("no frame that is there was chosen", "choose others, or render them: enfilade run"),
+        _ => Error::scene("no existing frame was selected", "choose others, or render them: enfilade run"),
     }
 }
 

@@ -130,7 +130,7 @@ impl ProductOptions {
         let list = self.list.as_deref().unwrap_or(&own);
         if !list.is_file() && self.list.is_none() {
             let help = format!("list pairs first: enfilade make {} pairs; or give --step or --between", dataset.root().display());
-            return Err(Error::usage(format!("flow follows a list of view pairs, and {} is not there", list.display()), help));
+            return Err(Error::usage(format!("flow follows a list of view pairs, but {} does not exist", list.display()), help));
         }
         if is_same_file(list, &own) {
             return Ok(FlowPairs::Listed);

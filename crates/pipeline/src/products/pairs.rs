@@ -119,13 +119,13 @@ fn listed(dataset: &Dataset, request: &PairsRequest, cx: &dyn Cx) -> Result<(Vec
         let found = dataset.read_covisibility(&scene).map_err(Error::stage)?;
         let n = filmed.len();
         if found.frames.len() != n {
-            let message = format!("covisibility of {scene} is of {} frames, but {n} are there", found.frames.len());
+            let message = format!("covisibility of {scene} has {} frames, but the scene has {n}", found.frames.len());
             return Err(Error::scene(message, "make it again: enfilade make OUT pairs --force"));
         }
         let chosen = choose_pairs(&filmed, &found, &request.filter());
         let hidden = match found.hidden_by {
             HiddenBy::Scene => "",
-            HiddenBy::Distances => "; what is hidden is told by distances alone, since the scene is not there",
+            HiddenBy::Distances => "; what is hidden was decided by the frames' distances only, since the scene package is missing",
         };
         lines.push(format!("{scene}: {}, {} of {} pairs{hidden}", counted(n, "frame"), chosen.len(), n * (n - 1) / 2));
         rows.extend(chosen);

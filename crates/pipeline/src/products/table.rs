@@ -130,7 +130,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
     ProductSpec {
         product: Product::Words,
         name: Product::Words.name(),
-        about: "what things are and how they stand to each other; captions and questions of frames",
+        about: "attributes and relations of things; captions and questions of frames",
         scope: Scope::Scene,
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels, Source::Product(Product::Rooms)],
         version: 1,
