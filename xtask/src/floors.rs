@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 32] = [
+const FLOORS: [(&str, Floor); 33] = [
     ("math", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
@@ -37,6 +37,7 @@ const FLOORS: [(&str, Floor); 32] = [
     ("loader", Floor::Number(4)),
     ("multiview", Floor::Number(4)),
     ("sensors", Floor::Number(4)),
+    ("vray", Floor::Number(4)),
     ("describe", Floor::Number(5)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),

@@ -98,6 +98,18 @@ impl From<enfilade_dataset::DatasetError> for Problem {
     }
 }
 
+impl From<enfilade_vray::VrayError> for Problem {
+    fn from(error: enfilade_vray::VrayError) -> Self {
+        use enfilade_dataset::DatasetError::{Busy, Io};
+        match error {
+            enfilade_vray::VrayError::Usage { message, hint } => Self::new(message, hint),
+            // The pipeline knows what to do about these.
+            enfilade_vray::VrayError::Dataset(error @ (Busy { .. } | Io { .. })) => enfilade_pipeline::Error::from(error).into(),
+            enfilade_vray::VrayError::Dataset(error) => error.into(),
+        }
+    }
+}
+
 impl From<enfilade_export::ExportError> for Problem {
     fn from(error: enfilade_export::ExportError) -> Self {
         match error {

@@ -3,6 +3,7 @@
 use enfilade_pipeline::{Event, Product, Reporter, Stage};
 use enfilade_scene::{Cx, Warning};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::borrow::Borrow;
 use std::io::{IsTerminal, Write};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -66,11 +67,21 @@ impl Progress {
 
     /// Begins work on `name` that is no stage of the pipeline, and gives its [`Cx`].
     pub fn begin(&self, name: &str, verb: &'static str) -> impl Cx + '_ {
+        self.start(name, verb);
+        VerbCx(self)
+    }
+
+    /// The [`Cx`] of work on `name` that is no stage of the pipeline, and all that is told.
+    pub fn begun(self, name: &str, verb: &'static str) -> impl Cx + use<> {
+        self.start(name, verb);
+        VerbCx(self)
+    }
+
+    fn start(&self, name: &str, verb: &'static str) {
         let mut state = self.lock();
         if !state.quiet {
             state.start(name, verb);
         }
-        VerbCx(self)
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -222,27 +233,27 @@ fn beat(state: &Mutex<State>, stopped: &Receiver<()>) {
 }
 
 /// Progress of one file without a dataset.
-struct VerbCx<'a>(&'a Progress);
+struct VerbCx<P: Borrow<Progress>>(P);
 
-impl Cx for VerbCx<'_> {
+impl<P: Borrow<Progress> + Sync> Cx for VerbCx<P> {
     fn progress(&self, what: &str, done: u64, total: u64) {
-        let mut state = self.0.lock();
+        let mut state = self.0.borrow().lock();
         if !state.quiet {
             state.progress(what, done, total);
         }
     }
 
     fn warn(&self, warning: Warning) {
-        let mut state = self.0.lock();
+        let mut state = self.0.borrow().lock();
         if !state.quiet {
             state.warn(&warning);
         }
     }
 }
 
-impl Drop for VerbCx<'_> {
+impl<P: Borrow<Progress>> Drop for VerbCx<P> {
     fn drop(&mut self) {
-        self.0.lock().count_the_rest();
+        self.0.borrow().lock().count_the_rest();
     }
 }
 

@@ -40,6 +40,14 @@ pub enum DatasetError {
         /// What is missing, and what to do.
         problem: String,
     },
+    /// A dataset that another process works on.
+    #[error("another process ({holder}) is working on {}; wait until it has finished, or choose another folder", root.display())]
+    Busy {
+        /// The dataset.
+        root: PathBuf,
+        /// What the other process calls itself.
+        holder: String,
+    },
     /// No table says what the cameras are.
     #[error(
         "there is no table of cameras at {}; Hypersim's comes apart from its archives: put metadata_camera_parameters.csv of \

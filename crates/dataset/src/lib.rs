@@ -57,6 +57,7 @@ mod times;
 mod tonemap_files;
 mod track_files;
 mod wording;
+mod work_lock;
 
 pub use annotation_files::{ANNOTATION_LOG, scene_hash};
 pub use atomic::{remove_folder, remove_if_there, replace_file, write_bytes, write_changed, write_json};
@@ -97,3 +98,4 @@ pub use times::FrameTime;
 pub use tonemap_files::ToneMapRow;
 pub use track_files::Tracks;
 pub use wording::{counted, counted_as, quoted};
+pub use work_lock::{LOCK, WorkLock};

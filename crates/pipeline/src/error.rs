@@ -106,6 +106,10 @@ impl From<DatasetError> for Error {
     fn from(error: DatasetError) -> Self {
         match error {
             DatasetError::Io { action, path, source } => Self::Io { action, path, source },
+            DatasetError::Busy { root, holder } => Self::usage(
+                format!("another process ({holder}) is working on {}", root.display()),
+                "wait until it has finished, or choose another output folder",
+            ),
             error => Self::stage(error),
         }
     }

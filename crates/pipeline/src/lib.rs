@@ -25,7 +25,6 @@ mod split;
 mod stages;
 mod statistics;
 mod suggest;
-pub mod vray;
 mod workdir;
 
 #[doc(hidden)]

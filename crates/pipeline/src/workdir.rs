@@ -14,17 +14,14 @@
 
 use crate::error::Error;
 pub(crate) use enfilade_dataset::SCENE_PACKAGE as PACKAGE;
-use enfilade_dataset::{WORKDIR, refuse_newer_layout, remove_folder};
+use enfilade_dataset::{LOCK, WORKDIR, WorkLock, refuse_newer_layout, remove_folder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
-use std::fs::{self, File, TryLockError};
-use std::io::{Read, Write};
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// The resolved configuration in the work folder.
 pub(crate) const RUN: &str = "run.json";
-/// Held by the process at work.
-const LOCK: &str = "lock";
 /// Which job's files were brought here, where other machines made the dataset.
 pub(crate) const GATHERED: &str = "gathered.json";
 /// How the dataset is divided, where that was chosen.
@@ -40,7 +37,7 @@ pub(crate) const OWN_FILES: [&str; 5] = [LOCK, RUN, GATHERED, CHOICE, STATISTICS
 #[derive(Debug)]
 pub struct Workdir {
     out: PathBuf,
-    _lock: File,
+    _lock: WorkLock,
 }
 
 impl Workdir {
@@ -57,7 +54,7 @@ impl Workdir {
             refuse_foreign_folder(out)?;
             fs::create_dir_all(out.join(WORKDIR)).map_err(Error::io("create", &out.join(WORKDIR)))?;
         }
-        let workdir = Self { out: out.into(), _lock: lock(out)? };
+        let workdir = Self { out: out.into(), _lock: WorkLock::take(out)? };
         // A forecast that was killed may have left it.
         remove_folder(&workdir.file(ASIDE))?;
         Ok(workdir)
@@ -130,31 +127,6 @@ fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
         format!("the output folder {} holds something else (among it {found:?}), and no dataset that was begun here", out.display()),
         "name an empty folder or one that does not exist yet",
     ))
-}
-
-/// Takes the lock, which the system gives back when this process ends in whatever way.
-fn lock(out: &Path) -> Result<File, Error> {
-    let path = out.join(WORKDIR).join(LOCK);
-    let mut options = File::options();
-    let mut file = options.create(true).truncate(false).read(true).write(true).open(&path).map_err(Error::io("write", &path))?;
-    match file.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => {
-            let mut holder = String::new();
-            let _ = file.read_to_string(&mut holder); // only for the message
-            return Err(Error::usage(
-                format!("another process ({}) is working on {}", holder.trim(), out.display()),
-                "wait until it has finished, or choose another output folder",
-            ));
-        }
-        // Some network file systems know no locks; two runs at once would waste work there, but files still appear whole.
-        Err(TryLockError::Error(e)) if e.kind() == std::io::ErrorKind::Unsupported => {}
-        Err(TryLockError::Error(e)) => return Err(Error::io("lock", &path)(e)),
-    }
-    file.set_len(0)
-        .and_then(|()| file.write_all(format!("process {}\n", std::process::id()).as_bytes()))
-        .map_err(Error::io("write", &path))?;
-    Ok(file)
 }
 
 /// Reads a file that this program wrote; `None` when it is not there or not of this version.

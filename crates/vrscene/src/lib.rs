@@ -17,8 +17,8 @@
 //! Text is bytes: exporters write names and paths in the encoding of their machine.
 
 mod document;
-pub mod edit;
 mod error;
+mod includes;
 mod packed;
 mod plugin;
 mod scan;
@@ -28,6 +28,7 @@ mod write;
 
 pub use document::{Document, Include, Item, Time};
 pub use error::{Place, SceneTextError};
+pub use includes::{IncludeError, add_include, inline_includes};
 pub use plugin::{Parameter, Plugin};
 pub use transform::{Matrix, Transform, Vector};
 pub use value::Value;

@@ -1,4 +1,5 @@
-//! Circles: within a crate, no file imports another that imports it back, by whatever way round.
+//! Circles: within a crate, no file imports another that imports it back, by whatever way round, and no module does, taken with all files
+//! below it.
 //!
 //! A file imports another where it names an item that the other defines, in a `use` or in a path. Names are followed through
 //! re-exports to the file that defines them, so a parent that re-exports its children imports nothing by that, and who takes a
@@ -9,6 +10,7 @@ mod modules;
 
 use crate::floors;
 use crate::house::House;
+use graph::Imports;
 use modules::Crate;
 
 /// Circles that stay: a file of the circle, and why.
@@ -24,14 +26,19 @@ pub fn check(house: &House) -> Result<String, String> {
         let folder = if name == "xtask" { name.clone() } else { format!("crates/{name}") };
         let modules = Crate::read(house, &folder)?;
         files += modules.files.len();
-        let circles = graph::circles(&modules.imports());
-        found.extend(circles.iter().filter(|circle| !is_kept(&modules, circle)).map(|circle| told(&modules, circle)));
+        found.extend(circles_of(&modules).into_iter().filter(|circle| !KEPT.iter().any(|(kept, _)| circle.contains(kept))));
     }
     if found.is_empty() { Ok(format!("{files} files, {} circles kept", KEPT.len())) } else { Err(found.join("\n  ")) }
 }
 
-fn is_kept(modules: &Crate, circle: &[usize]) -> bool {
-    circle.iter().any(|&file| KEPT.iter().any(|(kept, _)| *kept == modules.files[file]))
+/// The circles of a crate in words: those of its files, then those of its modules that no circle of files makes.
+fn circles_of(modules: &Crate) -> Vec<String> {
+    let files = graph::circles(&modules.imports());
+    if !files.is_empty() {
+        return files.iter().map(|circle| told(modules, circle)).collect();
+    }
+    let within = modules.imports_within();
+    within.values().flat_map(|imports| graph::circles(imports).into_iter().map(|circle| told_of_modules(imports, &circle))).collect()
 }
 
 /// A circle in words: its files, then which imports what from which.
@@ -46,14 +53,23 @@ fn told(modules: &Crate, circle: &[usize]) -> String {
     text
 }
 
+/// A circle of modules in words: their paths, then which file imports what from which.
+fn told_of_modules(imports: &Imports<modules::Path>, circle: &[modules::Path]) -> String {
+    let names: Vec<String> = circle.iter().map(|path| path.join("::")).collect();
+    let mut text = format!("{} modules import each other in a circle: {}", circle.len(), names.join(", "));
+    for (_, lines) in imports.iter().filter(|((from, to), _)| circle.contains(from) && circle.contains(to)) {
+        lines.iter().for_each(|line| text += &format!("\n    {line}"));
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn circles(files: &[(&str, &str)]) -> Vec<String> {
         let modules = Crate::parse("src/lib.rs", &|path| files.iter().find(|(name, _)| *name == path).map(|(_, text)| (*text).into()));
-        let modules = modules.unwrap();
-        graph::circles(&modules.imports()).iter().map(|circle| told(&modules, circle)).collect()
+        circles_of(&modules.unwrap())
     }
 
     #[test]
@@ -83,6 +99,22 @@ mod tests {
         let child = ("src/a.rs", "use super::*; pub fn wall(_: House) {}");
         assert_eq!(circles(&[("src/lib.rs", "mod a; pub struct House; fn f() { a::wall(House) }"), child]).len(), 1);
         assert!(circles(&[("src/lib.rs", "mod a; pub struct House;"), child]).is_empty());
+    }
+
+    #[test]
+    fn two_modules_whose_files_name_each_others_items_are_a_circle() {
+        let files = [
+            ("src/lib.rs", "mod a; mod b;"),
+            ("src/a/mod.rs", "mod wall; pub mod floor; pub use wall::Wall;"),
+            ("src/a/wall.rs", "use crate::b::Roof; pub struct Wall(Roof);"),
+            ("src/a/floor.rs", "pub struct Floor;"),
+            ("src/b.rs", "use crate::a::floor::Floor; pub struct Roof(Floor);"),
+        ];
+        assert_eq!(
+            circles(&files),
+            ["2 modules import each other in a circle: a, b\n    src/a/wall.rs -> src/b.rs: Roof\n    src/b.rs -> src/a/floor.rs: Floor"]
+        );
+        assert!(circles(&[files[0], files[1], files[2], files[3], ("src/b.rs", "pub struct Roof;")]).is_empty());
     }
 
     #[test]

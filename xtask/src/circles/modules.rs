@@ -7,7 +7,7 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree};
 
 /// A path of names from the root of the crate.
-type Path = Vec<String>;
+pub type Path = Vec<String>;
 
 /// How many re-exports a name may pass through; more are a loop.
 const MOST_REEXPORTS: usize = 16;
@@ -114,6 +114,30 @@ impl Crate {
             }
         }
         imports
+    }
+
+    /// What the modules within each module import from each other, each taken as one with all that is below it.
+    ///
+    /// A module and what is below it are not compared here: their files are, by [`Crate::imports`].
+    pub fn imports_within(&self) -> BTreeMap<Path, Imports<Path>> {
+        let mut within: BTreeMap<Path, Imports<Path>> = BTreeMap::new();
+        for ((from, to), names) in self.imports() {
+            let (a, b) = (self.module_of(from), self.module_of(to));
+            let shared = a.iter().zip(b).take_while(|(a, b)| a == b).count();
+            if shared < a.len().min(b.len()) {
+                let names = names.into_iter().collect::<Vec<_>>().join(", ");
+                let import = format!("{} -> {}: {names}", self.files[from], self.files[to]);
+                let pair = (a[..=shared].to_vec(), b[..=shared].to_vec());
+                within.entry(a[..shared].to_vec()).or_default().entry(pair).or_default().insert(import);
+            }
+        }
+        within
+    }
+
+    /// The module that a file begins with.
+    fn module_of(&self, file: usize) -> &[String] {
+        let own = self.modules.iter().filter(|(_, module)| module.file == file).map(|(path, _)| path.as_slice());
+        own.min_by_key(|path| path.len()).unwrap_or_default()
     }
 
     /// File and name of the item that a path leads to from a module; `None` for other crates, local names and methods.

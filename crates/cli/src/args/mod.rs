@@ -22,8 +22,8 @@ pub use shell::CompletionsArgs;
 pub use stages::{LabelArgs, QualityArg, RenderFlags, RunArgs, SettingFlags, StageArg};
 pub use values::parse_size;
 
-use crate::vray::VrayArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use enfilade_vray::verbs::VrayArgs;
 use make::check_make;
 use std::ffi::OsString;
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! V-Ray's images: OpenEXR files with render elements, read as layers of a frame.
 
 use crate::Run;
-use enfilade_pipeline::vray::VrayImage;
+use enfilade_vray::VrayImage;
 use std::path::Path;
 
 /// Reads an image of the seeds' size, and what a frame is made of.

@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use enfilade_import::{ImportOptions, Imported, load};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, Intrinsics, Quiet};
-use enfilade_vrscene::edit::{CameraKeyframe, CameraPath, set_camera};
+use enfilade_vray::edit::{CameraKeyframe, CameraPath, set_camera};
 use enfilade_vrscene::{Document, Include, Item, Plugin, Value};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

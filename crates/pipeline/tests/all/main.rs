@@ -15,4 +15,3 @@ mod rooms;
 mod stored;
 mod suspicions;
 mod trajectories;
-mod vray;
