@@ -1,7 +1,7 @@
 //! Prices of processor time as they are given, and sums of money in words.
 
 use crate::outcome::Problem;
-use enfilade_show::stats::{Price, read_prices};
+use enfilade_dataset::{Price, read_prices};
 
 /// Prices from a number, rates, or a table of them; Hypersim's unless any are given.
 pub fn prices(given: Option<&str>) -> Result<Vec<Price>, Problem> {

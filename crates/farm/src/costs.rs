@@ -9,7 +9,7 @@ use crate::object_names::DONE;
 use crate::status::attempts;
 use crate::work::{AttemptRecord, Ended};
 use crate::{FarmError, Feasible, Job, Marker};
-use enfilade_show::stats::{Price, tells_sizes};
+use enfilade_dataset::{Price, tells_sizes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -248,7 +248,7 @@ fn share(part: f64, whole: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{Attempt, FrameKey};
-    use enfilade_show::stats::{Machine, Per, Rate};
+    use enfilade_dataset::{Machine, Per, Rate};
 
     fn marker(attempt: &str, task: u32, frame: u32) -> Marker {
         let key = FrameKey { scene: "room".into(), camera: "cam_00".into(), frame };

@@ -5,7 +5,7 @@
 //! has not told its memory, and is left out.
 
 use crate::AttemptRecord;
-use enfilade_show::stats::{Price, smallest_feasible};
+use enfilade_dataset::{Price, smallest_feasible};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -62,7 +62,7 @@ pub(crate) fn feasible<'a>(records: impl Iterator<Item = &'a AttemptRecord> + Cl
 mod tests {
     use super::*;
     use crate::{Attempt, Ended};
-    use enfilade_show::stats::Machine;
+    use enfilade_dataset::Machine;
 
     const GIB: u64 = 1 << 30;
 

@@ -3,9 +3,8 @@
 use crate::object_names::{PLAN, object_name};
 use crate::program::is_here;
 use crate::{Attempt, Created, FarmError, Store};
-use enfilade_dataset::{WORKDIR, quoted};
+use enfilade_dataset::{Price, WORKDIR, quoted};
 use enfilade_pipeline::{Config, Expected, FarmConfig, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
-use enfilade_show::stats::Price;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -10,7 +10,7 @@ use enfilade_farm::{
     parse_ranges,
 };
 use enfilade_pipeline::Silent;
-use enfilade_show::stats::{Price, read_prices};
+use enfilade_dataset::{Price, read_prices};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};

@@ -9,12 +9,11 @@ use crate::price::{dollars, paid, prices, told_price};
 use crate::progress::Progress;
 use crate::run::configuration;
 use crate::summary;
-use enfilade_dataset::quoted;
+use enfilade_dataset::{Price, quoted};
 use enfilade_farm::{
     Assignment, Attempt, Ended, Engine, FarmError, Job, Plan, PlanOptions, PricedPlan, Store, SubmitOptions, Submitted, Work,
     default_scratch, how_to_submit, parse_ranges, print_ranges, stop_on_signals,
 };
-use enfilade_show::stats::Price;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

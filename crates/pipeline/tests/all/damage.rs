@@ -1,11 +1,11 @@
 //! What becomes of files that were damaged or removed: they are made again, and finished work is kept.
 
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
-use enfilade_dataset::{ANNOTATION_LOG, BoxKind, Dataset};
+use enfilade_dataset::{ANNOTATION_LOG, BoxKind, Dataset, Price};
 use enfilade_frame::Layer;
 use enfilade_pipeline::{Config, Silent, Stage, replay, run, run_stage, verify, write_statistics};
 use enfilade_scene::{Heard, Quiet};
-use enfilade_show::stats::{Price, StatsConfig};
+use enfilade_show::stats::StatsConfig;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,8 @@
 //! Costs from the times of a dataset, and as the tables of Hypersim's toolkit: one row per trajectory and one per frame.
 
-use super::Price;
 use super::costs::{Cost, CostReport, FrameCost};
 use super::gather::NamedImage;
-use super::machines::smallest_feasible;
-use enfilade_dataset::{Dataset, DatasetError, write_bytes};
+use enfilade_dataset::{Dataset, DatasetError, Price, smallest_feasible, write_bytes};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -90,7 +88,7 @@ fn task_row(frame: &FrameCost, price: &Price) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::{Machine, Per, Rate};
+    use enfilade_dataset::{Machine, Per, Rate};
 
     #[test]
     fn a_trajectory_is_a_job_and_its_frames_are_tasks() {

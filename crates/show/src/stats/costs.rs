@@ -3,8 +3,7 @@
 //! A vCPU-hour is what a cloud bills: an hour of one thread of a machine, busy or idle. A frame takes its time on the wall clock
 //! times the threads at work.
 
-use super::Price;
-use enfilade_dataset::FrameTime;
+use enfilade_dataset::{FrameTime, Price};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -151,7 +150,7 @@ impl CostReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::{Per, Rate};
+    use enfilade_dataset::{Per, Rate};
 
     fn time(wall_s: f64, cpu_s: f64, threads: Option<u32>) -> FrameTime {
         FrameTime { wall_s, cpu_s, peak_memory_bytes: Some(1 << 30), threads }

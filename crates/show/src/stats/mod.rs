@@ -19,23 +19,19 @@ mod costs;
 mod gather;
 mod histogram;
 mod html;
-mod machines;
 mod maps;
 mod measure;
 mod outlier;
 mod plots;
-mod price;
 mod report;
 mod toolkit;
 
 pub use costs::{Cost, CostReport};
-pub use machines::{memory_gib, smallest_feasible, tells_sizes};
-pub use price::{Machine, Per, Price, PriceError, Rate, read_prices};
 
 use crate::drawing::{paint, themed_svg};
 use crate::picture::png;
 use costs::is_costs;
-use enfilade_dataset::{Dataset, DatasetError, write_bytes, write_json};
+use enfilade_dataset::{Dataset, DatasetError, Price, write_bytes, write_json};
 use enfilade_frame::Pass;
 use enfilade_scene::Cx;
 use html::{Shown, statistics_page};

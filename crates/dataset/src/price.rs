@@ -136,7 +136,7 @@ impl Price {
     }
 
     /// Sum of all rates.
-    pub(super) fn all_per_vcpu_hour(&self) -> f64 {
+    pub(crate) fn all_per_vcpu_hour(&self) -> f64 {
         self.dollars_per_vcpu_hour + self.licences.iter().map(Rate::dollars_per_vcpu_hour).sum::<f64>()
     }
 }

@@ -3,7 +3,7 @@
 //! A machine could have done it in the same time when it has a vCPU for every thread, and memory for what the process had at most and
 //! for the system beside it. The smallest has the fewest vCPUs, then the least memory, then the lowest price.
 
-use super::{Machine, Price};
+use crate::price::{Machine, Price};
 
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
