@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 33] = [
+const FLOORS: [(&str, Floor); 34] = [
     ("math", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
@@ -43,6 +43,7 @@ const FLOORS: [(&str, Floor); 33] = [
     ("show", Floor::Number(6)),
     ("pipeline", Floor::Number(7)),
     ("export", Floor::Number(7)),
+    ("animate", Floor::Number(7)),
     ("annotate", Floor::Number(8)),
     ("farm", Floor::Number(8)),
     ("cli", Floor::Number(9)),

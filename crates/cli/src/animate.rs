@@ -1,9 +1,9 @@
-//! `animate`: from arguments to calls of the crate `show`, and what came of them.
+//! `animate`: from arguments to calls of the crate `animate`, and what came of them.
 
 use crate::args::AnimateArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_show::drivers::{AnimateConfig, Animated, Film, NoFrames, animate_camera};
+use enfilade_animate::{AnimateConfig, Animated, Film, NoFrames, animate_camera};
 
 /// `animate`: films of the frames of each camera.
 pub fn animate(args: &AnimateArgs, quiet: bool) -> Result<Verdict, Problem> {

@@ -1,9 +1,8 @@
-//! Let people see: previews of every layer, boxes drawn over frames, contact sheets, animations, drawings of plans, statistics, pages.
+//! Let people see: previews of every layer, boxes drawn over frames, contact sheets, drawings of plans, statistics, pages.
 //!
 //! Most of it is a pure function of frames, labels and poses; [`drivers`], [`planview`], [`stats`] and [`report_card`] run these over a
 //! dataset on disk.
 
-pub mod animation;
 pub mod display;
 mod drawing;
 pub mod drivers;

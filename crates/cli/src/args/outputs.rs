@@ -3,8 +3,7 @@
 use super::values::parse_layer;
 use super::{CamerasArg, FramesArg};
 use clap::{Args, ValueEnum};
-use enfilade_show::animation::AnimationFormat;
-use enfilade_show::drivers::Film;
+use enfilade_animate::{AnimationFormat, Film};
 use std::path::PathBuf;
 
 /// `export`.

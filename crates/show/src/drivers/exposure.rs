@@ -32,7 +32,7 @@ impl Exposures {
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
 pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32]) -> Result<(Exposures, PathBuf), DatasetError> {
-    let measured = measure(dataset, [scene, camera], frames)?;
+    let measured = measure_exposures(dataset, [scene, camera], frames)?;
     let display = display_exposure(&measured);
     let tones: Vec<ToneMap> = measured.iter().map(|frame| ToneMap::of_percentile(frame.percentile)).collect();
     let row = |((&frame, measured), tone): ((&u32, &Brightness), &ToneMap)| ToneMapRow {
@@ -51,11 +51,14 @@ pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
 
 /// Hypersim's exposure of one frame.
 pub(super) fn frame_tone(dataset: &Dataset, shot: [&str; 2], frame: u32) -> Result<ToneMap, DatasetError> {
-    Ok(ToneMap::of_percentile(measure(dataset, shot, &[frame])?.first().and_then(|measured| measured.percentile)))
+    Ok(ToneMap::of_percentile(measure_exposures(dataset, shot, &[frame])?.first().and_then(|measured| measured.percentile)))
 }
 
-/// What each frame says about exposure.
-pub(super) fn measure(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Vec<Brightness>, DatasetError> {
+/// The brightness of each frame, from which exposures are chosen.
+///
+/// # Errors
+/// When a layer cannot be read.
+pub fn measure_exposures(dataset: &Dataset, [scene, camera]: [&str; 2], frames: &[u32]) -> Result<Vec<Brightness>, DatasetError> {
     let one = |&number: &u32| {
         let layers = [Layer::Color, Layer::DiffuseIllumination, Layer::Residual, Layer::RenderEntityId];
         let frame = read_present(dataset, scene, camera, number, &layers)?;

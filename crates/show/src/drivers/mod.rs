@@ -1,13 +1,11 @@
-//! Previews, animations, boxes, contact sheets and questions over a dataset on disk.
+//! Previews, boxes, contact sheets and questions over a dataset on disk.
 
-mod animate;
 mod boxes;
 mod exposure;
 mod present;
 
-pub use animate::{AnimateConfig, AnimateError, Animated, Film, NoFrames, animate_camera};
 pub use boxes::preview_boxes;
-pub use exposure::{Exposures, expose_camera};
+pub use exposure::{Exposures, expose_camera, measure_exposures};
 
 use crate::display::Display;
 use crate::exposure::Exposure;

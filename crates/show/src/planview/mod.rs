@@ -41,7 +41,7 @@ use html::{Section, Shown};
 use look::{Sight, toolkit_colors};
 use measure::{FrameMeasures, Measuring};
 pub use planned::Planned;
-pub(crate) use report::Report;
+pub use report::Report;
 use statistics::Distances;
 use std::path::PathBuf;
 pub use structure_plan::structure_svg;

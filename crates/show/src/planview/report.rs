@@ -7,7 +7,7 @@ use std::path::Path;
 /// The part of `plan_report.json` that pictures show. Fields that a report lacks are empty.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
-pub(crate) struct Report {
+pub struct Report {
     /// What kind of trajectory was asked for.
     pub mode: String,
     per_frame: Values,

@@ -1,13 +1,13 @@
 //! Animations of a camera's frames.
 
-use super::exposure::measure;
-use crate::animation::{Animation, AnimationError, AnimationFormat};
-use crate::display::Display;
-use crate::exposure::{Exposure, display_exposure};
-use crate::picture::Picture;
-use crate::planview::Report;
-use crate::preview::{PREVIEWS, Subject, preview_over};
-use crate::stretch::{Stretch, is_stretched, shown_values};
+use crate::{Animation, AnimationError, AnimationFormat};
+use enfilade_show::display::Display;
+use enfilade_show::drivers::measure_exposures;
+use enfilade_show::exposure::{Exposure, display_exposure};
+use enfilade_show::picture::Picture;
+use enfilade_show::planview::Report;
+use enfilade_show::preview::{PREVIEWS, Subject, preview_over};
+use enfilade_show::stretch::{Stretch, is_stretched, shown_values};
 use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_frame::tonemap::ToneMap;
@@ -132,7 +132,7 @@ pub fn animate_camera(
     let shot = Shot { dataset, scene, camera };
     let numbers = dataset.whole_frames([scene, camera], None, cx)?;
     let first = shot.first(&numbers)?;
-    let display = display_exposure(&measure(dataset, [scene, camera], &numbers)?);
+    let display = display_exposure(&measure_exposures(dataset, [scene, camera], &numbers)?);
     let fps = config.fps.map_or_else(|| shot.pictures_per_second(), Ok)?;
     let counted = Counted::new(cx, "animations", films.len());
     let one = |film: &Film| -> Result<Result<Animated, NoFrames>, AnimateError> {

@@ -1,6 +1,6 @@
 //! H.264 by Cisco's encoder, in MP4.
 
-use super::format::{AnimationError, AnimationFormat, refused};
+use crate::format::{AnimationError, AnimationFormat, refused};
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{
@@ -18,7 +18,7 @@ const PICTURES_PER_KEY: u32 = 30;
 ///
 /// Pictures of odd sizes are continued by one more row or column of the same, because colour is stored for 2 × 2 pixels, and those
 /// smaller than a block are filled up to one. What stands for several pictures is repeated, so that the rate is constant.
-pub(super) struct Mp4 {
+pub(crate) struct Mp4 {
     /// Size of the pictures that are added.
     size: [usize; 2],
     /// Size of what is encoded.

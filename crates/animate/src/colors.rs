@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 /// The colours of a picture, ascending; `None` when there are more than 256.
-pub(super) fn few_colors(rgb: &[[u8; 3]]) -> Option<Vec<[u8; 3]>> {
+pub(crate) fn few_colors(rgb: &[[u8; 3]]) -> Option<Vec<[u8; 3]>> {
     let mut colors = BTreeSet::new();
     let mut last = None;
     for &color in rgb {

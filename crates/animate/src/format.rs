@@ -22,7 +22,7 @@ impl AnimationFormat {
     }
 
     /// The longest long side and the longest short side of a picture in it.
-    pub(super) const fn longest_sides(self) -> [u32; 2] {
+    pub(crate) const fn longest_sides(self) -> [u32; 2] {
         match self {
             Self::Mp4 => [3840, 2160],
             Self::Gif => [65535, 65535],
@@ -65,6 +65,6 @@ pub enum AnimationError {
 }
 
 /// An encoder's refusal.
-pub(super) fn refused(format: AnimationFormat) -> impl Fn(String) -> AnimationError {
+pub(crate) fn refused(format: AnimationFormat) -> impl Fn(String) -> AnimationError {
     move |message| AnimationError::Encoder { format: format.name(), message }
 }

@@ -1,7 +1,7 @@
 //! GIF: 256 colours per picture, chosen again for each and dithered where there are more.
 
-use super::colors::few_colors;
-use super::format::{AnimationError, AnimationFormat, refused};
+use crate::colors::few_colors;
+use crate::format::{AnimationError, AnimationFormat, refused};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use quantette::deps::palette::Srgb;
 use quantette::{ImageRef, Pipeline};
@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 /// A GIF that begins again for ever. Every picture has its own palette: the colours that are there, or 256 chosen by Wu's method in
 /// Oklab with the error diffused.
-pub(super) struct Gif {
+pub(crate) struct Gif {
     size: (u16, u16),
     hundredths: f64,
     /// Number of picture times that have been written.
@@ -48,7 +48,7 @@ impl Gif {
             ..Frame::default()
         };
         self.written += times;
-        self.encoder.write_frame(&frame).map_err(|e| super::format::refused(AnimationFormat::Gif)(e.to_string()))
+        self.encoder.write_frame(&frame).map_err(|e| refused(AnimationFormat::Gif)(e.to_string()))
     }
 
     pub fn finish(self) -> Result<Vec<u8>, AnimationError> {

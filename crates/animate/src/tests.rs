@@ -1,7 +1,7 @@
 //! Animations, decoded again: sizes, times, colours and refusals.
 
-use super::*;
-use crate::picture::from_pixels;
+use crate::{Animation, AnimationError, AnimationFormat};
+use enfilade_show::picture::{Picture, from_pixels};
 use openh264::decoder::Decoder as H264Decoder;
 use openh264::formats::YUVSource;
 

@@ -3,14 +3,9 @@
 //! Each encoder runs on one thread, so that the bytes do not depend on the number of threads. Transparency is laid over black,
 //! since H.264 has none. GIF keeps a picture of at most 256 colours exactly.
 
-mod colors;
-mod format;
-mod gif;
-mod mp4;
-
-pub use format::{AnimationError, AnimationFormat};
-
-use crate::picture::Picture;
+use crate::format::{AnimationError, AnimationFormat};
+use crate::{gif, mp4};
+use enfilade_show::picture::Picture;
 
 /// An animation in the making.
 pub struct Animation {
@@ -77,6 +72,3 @@ fn sides((width, height): (u32, u32)) -> String {
 fn over_black([r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
     [r, g, b].map(|v| (u16::from(v) * u16::from(alpha) / 255) as u8)
 }
-
-#[cfg(test)]
-mod tests;
