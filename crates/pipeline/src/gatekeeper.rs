@@ -1,7 +1,7 @@
 //! Judges views by their geometry: for `gate`, which says what is rendered, and for `plan`, which looks for views that pass.
 
 use crate::error::Error;
-use crate::stages::World;
+use crate::world::World;
 use enfilade_explore::Surroundings;
 use enfilade_frame::Layer;
 use enfilade_render::{Look, Lookout};

@@ -22,10 +22,12 @@ mod run;
 mod scene_types;
 mod single;
 mod split;
+mod stage;
 mod stages;
 mod statistics;
 mod suggest;
 mod workdir;
+mod world;
 
 #[doc(hidden)]
 pub use assets::read_library;
@@ -55,6 +57,7 @@ pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent,
 pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use split::{SplitReport, split};
-pub use stages::{FinishedFrame, Part, STAGES, Stage, StageSpec};
+pub use stage::Stage;
+pub use stages::{FinishedFrame, Part, STAGES, StageSpec};
 pub use statistics::write_statistics;
 pub use suggest::{SuggestedLabels, UnsurePart, suggest_labels};

@@ -1,7 +1,7 @@
 //! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
 
 use crate::products::Product;
-use crate::stages::Stage;
+use crate::stage::Stage;
 use enfilade_dataset::FrameTime;
 use enfilade_scene::{Cx, Warning};
 use std::sync::Mutex;

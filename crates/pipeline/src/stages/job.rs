@@ -4,6 +4,7 @@ use super::{Input, Shift, Stage};
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
 use crate::workdir::{Hash, PACKAGE, Workdir};
+use crate::world::World;
 use enfilade_dataset::{Dataset, DatasetError, quoted};
 use enfilade_frame::Pass;
 use enfilade_geometry::Bvh;
@@ -39,12 +40,6 @@ pub(crate) type Filmed = Arc<Vec<(Camera, Trajectory)>>;
 
 /// Numbers of frames by the names of their trajectories.
 pub(crate) type FramesByTrajectory = BTreeMap<String, BTreeSet<u32>>;
-
-/// A scene as rays meet it, all of it solid.
-pub(crate) struct World {
-    pub mesh: WorldMesh,
-    pub bvh: Bvh,
-}
 
 impl<'a> Job<'a> {
     pub fn new(config: &'a Config, scene: &'a SceneConfig, dataset: &'a Dataset, workdir: &'a Workdir, force: bool) -> Self {

@@ -23,7 +23,6 @@ mod progressive;
 mod record;
 mod render;
 mod shift;
-mod stage;
 mod starts;
 mod verify;
 
@@ -33,14 +32,14 @@ use crate::workdir::Hash;
 use record::{Input, Inputs, Outcome, Record};
 use std::path::{Path, PathBuf};
 
+pub use crate::stage::Stage;
 pub use finisher::FinishedFrame;
 pub use shift::Part;
-pub use stage::Stage;
 
 pub(crate) use advance::{advance, is_up_to_date};
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::describe;
-pub(crate) use job::{FramesByTrajectory, Job, World};
+pub(crate) use job::{FramesByTrajectory, Job};
 pub(crate) use label::{assign_table, read_table};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
@@ -48,7 +47,7 @@ pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
 pub(crate) use record::Output;
 pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program, render_frames, views};
 pub(crate) use shift::Shift;
-pub(crate) use stage::HASHED_AS;
+pub(crate) use crate::stage::HASHED_AS;
 pub(crate) use verify::CARD;
 
 /// What a stage is.

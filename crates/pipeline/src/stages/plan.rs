@@ -1,12 +1,12 @@
 //! `plan`: free space to one trajectory per start camera.
 
-use super::job::World;
 use super::kept::{Plan, remove_frames_of_other_poses};
 use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
 use crate::workdir::Hash;
+use crate::world::World;
 use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
 use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
 use enfilade_geometry::OccupancyTree;

@@ -1,10 +1,10 @@
 //! Where trajectories begin: the cameras that were chosen, the file's, or places that are found, with the free space around them.
 
 use super::Job;
-use super::job::World;
 use crate::config::{CameraChoice, closest};
 use crate::error::Error;
 use crate::report::StageCx;
+use crate::world::World;
 use enfilade_dataset::counted_as;
 use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Preset, StartsConfig};
 use enfilade_math::DVec3;
