@@ -11,7 +11,7 @@ use crate::step::finish;
 use std::path::PathBuf;
 
 /// The demo's choices, and the versions of stages.
-const MAKERS: [&str; 2] = ["crates/pipeline/src/config/demo.rs", "crates/pipeline/src/stages/stage.rs"];
+const MAKERS: [&str; 2] = ["crates/pipeline/src/config/demo.rs", "crates/pipeline/src/stage.rs"];
 /// What the pictures were made from, as text.
 const STAMP: &str = "docs/pictures.txt";
 
