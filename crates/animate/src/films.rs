@@ -1,6 +1,10 @@
 //! Animations of a camera's frames.
 
 use crate::{Animation, AnimationError, AnimationFormat};
+use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
+use enfilade_frame::Layer;
+use enfilade_frame::tonemap::ToneMap;
+use enfilade_scene::{Counted, Cx};
 use enfilade_show::display::Display;
 use enfilade_show::drivers::measure_exposures;
 use enfilade_show::exposure::{Exposure, display_exposure};
@@ -8,10 +12,6 @@ use enfilade_show::picture::Picture;
 use enfilade_show::planview::Report;
 use enfilade_show::preview::{PREVIEWS, Subject, preview_over};
 use enfilade_show::stretch::{Stretch, is_stretched, shown_values};
-use enfilade_dataset::{Dataset, DatasetError, StereoSide, write_bytes};
-use enfilade_frame::Layer;
-use enfilade_frame::tonemap::ToneMap;
-use enfilade_scene::{Counted, Cx};
 use std::path::{Path, PathBuf};
 
 /// Pictures per second of trajectories that are no videos, as in the toolkit's animations.

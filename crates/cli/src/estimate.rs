@@ -3,8 +3,8 @@
 use crate::outcome::{Verdict, say};
 use crate::price::{dollars, prices, told_price};
 use crate::{outcome::Problem, progress::Progress, summary};
-use enfilade_pipeline::{Config, Expected, Forecast};
 use enfilade_dataset::Price;
+use enfilade_pipeline::{Config, Expected, Forecast};
 use std::path::Path;
 
 /// Forecasts the run, and says it.

@@ -237,14 +237,16 @@ struct VerbCx<P: Borrow<Progress>>(P);
 
 impl<P: Borrow<Progress> + Sync> Cx for VerbCx<P> {
     fn progress(&self, what: &str, done: u64, total: u64) {
-        let mut state = self.0.borrow().lock();
+        let shared: &Progress = self.0.borrow();
+        let mut state = shared.lock();
         if !state.quiet {
             state.progress(what, done, total);
         }
     }
 
     fn warn(&self, warning: Warning) {
-        let mut state = self.0.borrow().lock();
+        let shared: &Progress = self.0.borrow();
+        let mut state = shared.lock();
         if !state.quiet {
             state.warn(&warning);
         }
@@ -253,7 +255,8 @@ impl<P: Borrow<Progress> + Sync> Cx for VerbCx<P> {
 
 impl<P: Borrow<Progress>> Drop for VerbCx<P> {
     fn drop(&mut self) {
-        self.0.borrow().lock().count_the_rest();
+        let shared: &Progress = self.0.borrow();
+        shared.lock().count_the_rest();
     }
 }
 

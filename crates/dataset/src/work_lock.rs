@@ -24,8 +24,7 @@ impl WorkLock {
     pub fn take(root: &Path) -> Result<Self, DatasetError> {
         let path = root.join(WORKDIR).join(LOCK);
         let mut options = File::options();
-        let mut file =
-            options.create(true).truncate(false).read(true).write(true).open(&path).map_err(DatasetError::at("write", &path))?;
+        let mut file = options.create(true).truncate(false).read(true).write(true).open(&path).map_err(DatasetError::at("write", &path))?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {

@@ -5,12 +5,12 @@ use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, interruptible};
 use crate::json;
 use crate::verbs::conclude;
+use enfilade_dataset::{Price, read_prices};
 use enfilade_farm::{
     Assignment, Attempt, Engine, FarmError, Job, PlanOptions, Ranges, Store, SubmitOptions, Submitted, Work, default_scratch, environment,
     parse_ranges,
 };
 use enfilade_pipeline::Silent;
-use enfilade_dataset::{Price, read_prices};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};

@@ -1,10 +1,10 @@
 //! The camera and trajectory of a dataset in V-Ray's form.
 
-use crate::lens::LensPicture;
+use crate::edit::{CameraKeyframe, CameraPath};
 use crate::error::VrayError;
+use crate::lens::LensPicture;
 use enfilade_dataset::{CameraRecord, Dataset, read_ray_grid};
 use enfilade_scene::{Camera, Intrinsics, Pose, Projection};
-use crate::edit::{CameraKeyframe, CameraPath};
 use std::path::PathBuf;
 
 /// The field of view and size of Hypersim's images, where nothing says another.
@@ -40,7 +40,13 @@ pub struct FilmedCamera {
 ///
 /// # Errors
 /// When the dataset cannot be read, has no such trajectory, or the camera has no form in V-Ray's scene.
-pub fn filmed_camera(dataset: &Dataset, scene: &str, name: &str, meters_per_unit: f64, wish: &CameraWish) -> Result<FilmedCamera, VrayError> {
+pub fn filmed_camera(
+    dataset: &Dataset,
+    scene: &str,
+    name: &str,
+    meters_per_unit: f64,
+    wish: &CameraWish,
+) -> Result<FilmedCamera, VrayError> {
     let trajectory = dataset.read_trajectory(scene, name)?;
     if trajectory.poses.is_empty() {
         return Err(VrayError::usage(

@@ -3,14 +3,15 @@
 use crate::camera::{CameraWish, check_described, filmed_camera, wished_camera};
 use crate::color::add_colors;
 use crate::entities::Entities;
+use crate::error::VrayError;
 use crate::exr_file::VrayImage;
 use crate::geometry::{Placed, add_geometry};
 use crate::header::Expected;
 use crate::notes::Notes;
 use crate::rays::Sight;
-use crate::error::VrayError;
 use enfilade_dataset::{
-    CameraRecord, Dataset, DatasetError, FrameInfo, FrameTime, ManifestInfo, Recipe, WORKDIR, WorkLock, counted, refuse_newer_layout, remove_if_there,
+    CameraRecord, Dataset, DatasetError, FrameInfo, FrameTime, ManifestInfo, Recipe, WORKDIR, WorkLock, counted, refuse_newer_layout,
+    remove_if_there,
 };
 use enfilade_frame::Frame;
 use enfilade_scene::{Camera, Cx, Pose};

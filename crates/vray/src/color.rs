@@ -4,9 +4,9 @@
 //! I − A·S. They are stored as our own are: A within [0, 1], and color from the stored values, so that color = A·S + R to the last bit.
 //! Hypersim sums its residual of eight render elements instead; where the file has them, the two are compared.
 
+use crate::error::VrayError;
 use crate::exr_file::VrayImage;
 use crate::notes::Notes;
-use crate::error::VrayError;
 use enfilade_frame::{Frame, Layer, Validity, Values, compose, f16};
 
 /// The elements whose sum is Hypersim's residual.

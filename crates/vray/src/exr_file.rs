@@ -3,8 +3,8 @@
 //! The image is `R`, `G`, `B`; a render element `E` is `E.R`, `E.G`, `E.B` (or `E.X`, …), and one that is a number `E` alone. Scan
 //! lines and tiles, half, float and whole numbers, one part or several (where a part is named after the element) are all read.
 
-use crate::header::Header;
 use crate::error::VrayError;
+use crate::header::Header;
 use enfilade_dataset::DatasetError;
 use enfilade_import::{check_exr_blocks, check_exr_table};
 use exr::image::FlatSamples;
@@ -37,7 +37,8 @@ impl VrayImage {
     /// When it cannot be read, or is of another size, a part of an image, subsampled or deep.
     pub fn read(path: &Path, size: [u32; 2]) -> Result<Self, VrayError> {
         let wrong = |problem: String| VrayError::usage(format!("{}: {problem}", path.display()), CONVERT);
-        let open = || File::open(path).map(BufReader::new).map_err(|source| DatasetError::Io { action: "read", path: path.to_path_buf(), source });
+        let open =
+            || File::open(path).map(BufReader::new).map_err(|source| DatasetError::Io { action: "read", path: path.to_path_buf(), source });
         let damaged = |e: exr::error::Error| wrong(format!("it cannot be read as OpenEXR ({e})"));
         check_headers(&MetaData::read_from_buffered(open()?, false).map_err(damaged)?, size).map_err(wrong)?;
         check_exr_table(open()?, |_| true).map_err(|problem| wrong(format!("it {problem}")))?;

@@ -1,8 +1,8 @@
 //! Scene files on this machine, and the files that they lead to.
 
+use crate::edit::{Platform, file_references};
 use crate::error::VrayError;
 use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
-use crate::edit::{Platform, file_references};
 use enfilade_vrscene::{Document, Include, IncludeError, SceneTextError, inline_includes};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

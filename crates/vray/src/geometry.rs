@@ -1,9 +1,9 @@
 //! V-Ray's geometry pass as the geometry layers of a frame.
 
 use crate::entities::{Entities, Entity};
+use crate::error::VrayError;
 use crate::exr_file::VrayImage;
 use crate::notes::Notes;
-use crate::error::VrayError;
 use enfilade_frame::{F16_LIMIT, Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::Pose;

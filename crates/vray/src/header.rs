@@ -4,8 +4,8 @@
 //! backward, down; a writer that keeps the scene's own order (right, up, backward) is understood as well. `cameraFov` is the
 //! horizontal field of view in degrees.
 
-use crate::notes::Notes;
 use crate::error::VrayError;
+use crate::notes::Notes;
 use enfilade_math::DVec3;
 use enfilade_scene::Pose;
 use exr::meta::attribute::AttributeValue;

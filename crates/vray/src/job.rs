@@ -13,16 +13,14 @@
 //! commands are those of the machine that renders, where the folder is copied to.
 
 use crate::camera::{CameraWish, check_described, filmed_camera};
+use crate::edit::{GiCaches, GiFiles, LensTexture, Pass, gi_files, hypersim_quality, make_pass, meters_per_asset_unit, set_camera};
+use crate::error::VrayError;
 use crate::files::{damaged, scene_assets};
 use crate::job_file::{FORMAT, Job, JobCamera};
 use crate::script;
 use crate::steps::{Place, steps};
-use crate::error::VrayError;
 use enfilade_dataset::{Dataset, check_name, write_bytes, write_json};
 use enfilade_scene::{Cx, Warning};
-use crate::edit::{
-    GiCaches, GiFiles, LensTexture, Pass, gi_files, hypersim_quality, make_pass, meters_per_asset_unit, set_camera,
-};
 use enfilade_vrscene::{Document, SceneTextError};
 use std::path::{Path, PathBuf};
 
@@ -64,7 +62,14 @@ struct Common<'a> {
 ///
 /// # Errors
 /// When the scene has no render elements, the dataset no such camera, or a file cannot be read or written.
-pub fn write_job(scene: &Document, path: &Path, dataset: &Dataset, config: &JobConfig, folder: &Path, cx: &dyn Cx) -> Result<Job, VrayError> {
+pub fn write_job(
+    scene: &Document,
+    path: &Path,
+    dataset: &Dataset,
+    config: &JobConfig,
+    folder: &Path,
+    cx: &dyn Cx,
+) -> Result<Job, VrayError> {
     check_layers(scene, path)?;
     let meters_per_unit = meters_per_asset_unit(scene).map_err(|error| damaged(path, &error))?.unwrap_or(1.0);
     let names = if config.cameras.is_empty() { dataset.cameras(&config.scene)? } else { config.cameras.clone() };
@@ -202,9 +207,9 @@ fn put(folder: &Path, inside: &str, bytes: &[u8]) -> Result<(), VrayError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edit::{add_color_channels, add_geometry_channels};
     use crate::testing::dataset_of;
     use enfilade_scene::{Camera, Intrinsics, Quiet};
-    use crate::edit::{add_color_channels, add_geometry_channels};
 
     /// Settings of a scene in use: brute force, a coarse sampler, a dark window, and blur of both kinds.
     const SETTINGS: &str = "SettingsImageSampler is { type=1; dmc_threshold=0.3; }\n\

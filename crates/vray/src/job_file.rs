@@ -1,7 +1,7 @@
 //! `job.json`: a job for V-Ray as programs read it, with every command that renders it.
 
-use crate::files::Asset;
 use crate::error::VrayError;
+use crate::files::Asset;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

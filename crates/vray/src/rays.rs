@@ -2,8 +2,8 @@
 //!
 //! A camera of V-Ray may shift its picture or stretch its pixels, and no header tells. Positions do.
 
-use crate::notes::Notes;
 use crate::error::VrayError;
+use crate::notes::Notes;
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_scene::{Pose, Projection};

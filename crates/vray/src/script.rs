@@ -1,7 +1,7 @@
 //! A job's steps as a script for one machine. Where the programs are, the variables VRAY, IMAPVIEWER and VRIMG2EXR say.
 
-use crate::job_file::{Job, JobStep};
 use crate::edit::Platform;
+use crate::job_file::{Job, JobStep};
 
 /// The script: it stops at the first step that fails.
 pub(crate) fn write(job: &Job, platform: Platform) -> String {

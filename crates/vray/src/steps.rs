@@ -3,10 +3,10 @@
 //! Indirect light is computed for every frame by itself (`pre`), merged into one light cache and one irradiance map per camera, and
 //! taken from there by the final pass, so that it does not flicker. Merging is V-Ray's: its files have no public form.
 
-use crate::job_file::JobStep;
-use crate::error::VrayError;
-use enfilade_dataset::print_number_ranges;
 use crate::edit::{GiFiles, Platform};
+use crate::error::VrayError;
+use crate::job_file::JobStep;
+use enfilade_dataset::print_number_ranges;
 
 /// The folder on the machine that renders.
 pub(crate) struct Place {

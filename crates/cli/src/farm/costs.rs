@@ -2,8 +2,8 @@
 
 use crate::outcome::{Problem, say};
 use crate::price::{dollars, paid};
-use enfilade_farm::{Costs, Feasible, Job, costs};
 use enfilade_dataset::{Price, memory_gib, tells_sizes};
+use enfilade_farm::{Costs, Feasible, Job, costs};
 use std::path::Path;
 
 /// Says what was paid at every price, for what, and on which machines it could have run; writes a row per attempt to `table` at the

@@ -2,9 +2,7 @@
 
 use crate::Run;
 #[cfg(feature = "dataset")]
-use enfilade_vray::edit::{
-    IMAGE_FILTERS, file_references, linear_output, meters_per_asset_unit, node_strings, reduce_size, remove_kinds,
-};
+use enfilade_vray::edit::{IMAGE_FILTERS, file_references, linear_output, meters_per_asset_unit, node_strings, reduce_size, remove_kinds};
 use enfilade_vrscene::{Document, Value};
 use std::path::Path;
 

@@ -36,6 +36,7 @@ pub use crate::stage::Stage;
 pub use finisher::FinishedFrame;
 pub use shift::Part;
 
+pub(crate) use crate::stage::HASHED_AS;
 pub(crate) use advance::{advance, is_up_to_date};
 pub(crate) use finisher::frame_finisher;
 pub(crate) use import::describe;
@@ -47,7 +48,6 @@ pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
 pub(crate) use record::Output;
 pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program, render_frames, views};
 pub(crate) use shift::Shift;
-pub(crate) use crate::stage::HASHED_AS;
 pub(crate) use verify::CARD;
 
 /// What a stage is.

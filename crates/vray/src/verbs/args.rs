@@ -1,7 +1,7 @@
 //! The command line of `vray`.
 
-use clap::{Args, Subcommand, ValueEnum};
 use crate::CameraWish;
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// `vray`

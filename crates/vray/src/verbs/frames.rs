@@ -3,12 +3,10 @@
 use super::Console;
 use super::args::{CollectArgs, JobArgs};
 use crate::VrayError;
-use enfilade_dataset::{Dataset, quoted, write_bytes};
-use crate::{
-    CameraWish, CollectConfig, FilmedCamera, Job, JobCamera, JobConfig, filmed_camera, read_job, read_scene, write_job,
-};
-use enfilade_vrscene::Document;
 use crate::edit::{LensTexture, meters_per_asset_unit, set_camera};
+use crate::{CameraWish, CollectConfig, FilmedCamera, Job, JobCamera, JobConfig, filmed_camera, read_job, read_scene, write_job};
+use enfilade_dataset::{Dataset, quoted, write_bytes};
+use enfilade_vrscene::Document;
 use std::path::{Path, PathBuf};
 
 /// Metres per unit of a scene, if it says so.
@@ -64,7 +62,10 @@ pub fn jobs(args: &JobArgs, console: &dyn Console) -> Result<(), VrayError> {
     for camera in &job.cameras {
         console.say(&format!("{:8} {} frames in {} steps", camera.camera, camera.frames.len(), camera.steps.len()));
     }
-    console.say(&format!("quality  {}", if args.keep_quality { "the scene's own" } else { "Hypersim's; --keep-quality keeps the scene's own" }));
+    console.say(&format!(
+        "quality  {}",
+        if args.keep_quality { "the scene's own" } else { "Hypersim's; --keep-quality keeps the scene's own" }
+    ));
     console.say(&format!("files    {} that the scenes need, listed in job.json", job.assets.len()));
     console.say(&format!("render   copy {} to {} and run the script there", args.output.display(), job.folder));
     let (dataset, file) = (quoted(args.dataset.display()), quoted(args.output.join("job.json").display()));

@@ -7,16 +7,16 @@ mod tables;
 pub use args::VrayArgs;
 
 use crate::VrayError;
-use args::{Copy, Edit, PassArg, Policy};
-use enfilade_dataset::write_bytes;
-use crate::{Asset, inline_scene, read_scene, scene_assets};
-use enfilade_scene::Cx;
-use enfilade_vrscene::{Document, add_include};
 use crate::edit::{
-    EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser, add_geometry_channels,
-    file_references, hypersim_quality, hypersim_surroundings, linear_output, make_pass, normalize, prepare_for_layers, reduce_quality, reduce_size,
+    EntityOptions, GiCaches, IMAGE_FILTERS, Normalization, Pass, add_color_channels, add_denoiser, add_geometry_channels, file_references,
+    hypersim_quality, hypersim_surroundings, linear_output, make_pass, normalize, prepare_for_layers, reduce_quality, reduce_size,
     remove_kinds, replace_paths, save_gi_caches, set_entity_ids,
 };
+use crate::{Asset, inline_scene, read_scene, scene_assets};
+use args::{Copy, Edit, PassArg, Policy};
+use enfilade_dataset::write_bytes;
+use enfilade_scene::Cx;
+use enfilade_vrscene::{Document, add_include};
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! Tables beside a scene, in the toolkit's form.
 
 use crate::VrayError;
+use crate::edit::{Entity, node_strings};
 use enfilade_dataset::write_bytes;
 use enfilade_vrscene::Document;
-use crate::edit::{Entity, node_strings};
 use std::path::Path;
 
 /// What stands for no object.

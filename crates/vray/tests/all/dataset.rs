@@ -2,10 +2,10 @@
 
 use enfilade_dataset::Dataset;
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_vray::{CameraWish, CollectConfig, Job, JobConfig, collect, read_job, read_scene, write_job};
 use enfilade_pipeline::{Config, Overrides, Silent, Stage, run, run_stage, verify};
 use enfilade_scene::{Pose, Quiet};
 use enfilade_vray::edit::{add_color_channels, add_geometry_channels};
+use enfilade_vray::{CameraWish, CollectConfig, Job, JobConfig, collect, read_job, read_scene, write_job};
 use exr::prelude::{AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, LayerAttributes, Text, WritableImage};
 use std::fs;
 use std::path::{Path, PathBuf};
