@@ -118,7 +118,7 @@ fn choices(flags: &RenderFlags) -> RenderChoices {
         max_bounces: flags.max_bounces,
         clamp: flags.clamp,
         time_limit_s: flags.time_limit,
-        splits: flags.light_parts,
+        light_parts: flags.light_parts,
         fixtures: flags.fixtures,
         extra: flags.extra,
         lambertian: flags.lambertian,

@@ -32,7 +32,7 @@ pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
 
 /// `partition`: who learns from what.
 pub fn partition(args: &PartitionArgs) -> Result<Verdict, Problem> {
-    let report = enfilade_pipeline::split(&args.dataset, |config| {
+    let report = enfilade_pipeline::partition(&args.dataset, |config| {
         config.seed = args.seed.unwrap_or(config.seed);
         config.shares = args.shares.unwrap_or(config.shares);
     })?;

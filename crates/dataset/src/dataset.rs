@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 /// written by one thread at a time.
 ///
 /// ```
-/// use enfilade_dataset::{Dataset, Partition, SplitRow};
+/// use enfilade_dataset::{Dataset, Side, PartitionRow};
 /// # let folder = tempfile::tempdir()?;
 /// let dataset = Dataset::create(folder.path().join("homes"))?;
-/// let row = SplitRow { scene: "home_001".into(), camera: "cam_00".into(), frame: 7, partition: Ok(Partition::Train) };
-/// dataset.write_split(&[row.clone()])?;
-/// assert_eq!(Dataset::open(dataset.root())?.read_split()?, [row]);
+/// let row = PartitionRow { scene: "home_001".into(), camera: "cam_00".into(), frame: 7, side: Ok(Side::Train) };
+/// dataset.write_partition(&[row.clone()])?;
+/// assert_eq!(Dataset::open(dataset.root())?.read_partition()?, [row]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

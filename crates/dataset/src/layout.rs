@@ -126,7 +126,7 @@ impl Layout {
     }
 
     /// Which image is for learning, for validation and for testing.
-    pub fn split(&self) -> PathBuf {
+    pub fn partition(&self) -> PathBuf {
         self.root.join("metadata_images_split_scene_v1.csv")
     }
 
@@ -135,8 +135,8 @@ impl Layout {
         self.root.join("metadata_camera_trajectories.csv")
     }
 
-    /// How the split came about, and which assets lie on several sides of it, as JSON.
-    pub fn split_report(&self) -> PathBuf {
+    /// How the partition came about, and which assets lie on several sides of it, as JSON.
+    pub fn partition_report(&self) -> PathBuf {
         self.root.join("split.json")
     }
 
@@ -523,7 +523,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
-        Pass::Final | Pass::Rendered | Pass::Split => "final",
+        Pass::Final | Pass::Rendered | Pass::LightParts => "final",
         Pass::Geometry | Pass::Label | Pass::Extra => "geometry",
     }
 }

@@ -56,7 +56,7 @@ pub(crate) fn write_mesh(layout: &Layout, scene_name: &str, scene: &Scene) -> Re
         table.write()
     };
     // Objects are whole again, if people had split any: what they did is in their log.
-    remove_if_there(&layout.mesh_file(scene_name, names::OBJECT_SPLITS))?;
+    remove_if_there(&layout.mesh_file(scene_name, names::OBJECT_PIECES))?;
     write_names(names::OBJECTS, "object_name", scene.parts.iter().map(|p| p.name.as_str()).collect())?;
     write_names(names::GROUPS, "group_name", vec![])?;
     write_names(names::MATERIALS, "material_name", scene.materials.iter().map(|m| m.name.as_str()).collect())

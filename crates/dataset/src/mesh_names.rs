@@ -1,4 +1,4 @@
-//! The names of the files in a scene's mesh folder (`Layout::mesh_file`, `MeshFiles::file`), all of them Hypersim's but the splits.
+//! The names of the files in a scene's mesh folder (`Layout::mesh_file`, `MeshFiles::file`), all of them Hypersim's but that of pieces.
 //!
 //! In `mesh_faces_Xi` each face has indices of X: vertices, normals, texture coordinates, groups, materials, objects. In
 //! `mesh_objects_Xi` each object has its class or its instance.
@@ -28,7 +28,7 @@ pub const GROUPS: &str = "metadata_groups.csv";
 /// The names of the materials.
 pub const MATERIALS: &str = "metadata_materials.csv";
 /// Which objects came from splitting others; without the file, none did.
-pub const OBJECT_SPLITS: &str = "metadata_object_splits.csv";
+pub const OBJECT_PIECES: &str = "metadata_object_splits.csv";
 /// The class of every object, int64 (O,1).
 pub const OBJECTS_SEMANTIC: &str = "mesh_objects_si.hdf5";
 /// The instance of every object, int64 (O,1).

@@ -1,11 +1,11 @@
-//! Reading the mesh folder for labelling: triangles, the objects that they belong to, and objects that were split.
+//! Reading the mesh folder for labelling: triangles, the objects that they belong to, and objects that were cut into pieces.
 //!
-//! An object that was split keeps its number for what is left of it; the others are appended. `mesh_faces_oi.hdf5` then says
+//! An object that was cut keeps its number for what is left of it; the others are appended. `mesh_faces_oi.hdf5` then says
 //! which face belongs to which, and `metadata_object_splits.csv` which object each of the appended ones was a part of.
 
 use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
-use crate::mesh_names::{FACES_MATERIALS, FACES_OBJECTS, FACES_VERTICES, MATERIALS, OBJECT_SPLITS, OBJECTS, VERTICES};
+use crate::mesh_names::{FACES_MATERIALS, FACES_OBJECTS, FACES_VERTICES, MATERIALS, OBJECT_PIECES, OBJECTS, VERTICES};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, replace_file};
 use enfilade_math::DVec3;
@@ -24,11 +24,11 @@ pub struct MeshGeometry {
     pub vertices: Vec<DVec3>,
     /// Indices into the vertices.
     pub faces: Vec<[u32; 3]>,
-    /// The object of every face, as it was before objects were split.
+    /// The object of every face, as it was before objects were cut.
     pub object_of_face: Vec<u32>,
     /// The material of every face, if it has one.
     pub material_of_face: Vec<Option<u32>>,
-    /// Names of the objects, without those that came from splitting.
+    /// Names of the objects, without those that were cut from others.
     pub objects: Vec<String>,
     /// Names of the materials.
     pub materials: Vec<String>,
@@ -58,7 +58,7 @@ impl MeshFiles {
     /// When a file is missing or damaged, or the files do not fit each other.
     pub fn read(&self) -> Result<MeshGeometry, DatasetError> {
         let mut objects = self.names(OBJECTS, "object_name")?;
-        let parents = self.read_splits()?;
+        let parents = self.read_pieces()?;
         let object_of_face = read_indices(&self.file(FACES_OBJECTS), objects.len(), "objects")?;
         let whole = objects.len().saturating_sub(parents.len());
         objects.truncate(whole);
@@ -67,11 +67,11 @@ impl MeshFiles {
     }
 
     /// Reads the mesh as [`MeshFiles::read`] does, where it is known from elsewhere that the first `whole` objects are those that did not
-    /// come from splitting others, and what every face belonged to before. The tables that say so need not fit each other then.
+    /// were cut from others, and what every face belonged to before. The tables that say so need not fit each other then.
     ///
     /// # Errors
     /// As [`MeshFiles::read`].
-    pub fn read_unsplit(&self, whole: usize, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
+    pub fn read_whole(&self, whole: usize, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
         let mut objects = self.names(OBJECTS, "object_name")?;
         objects.truncate(whole);
         self.read_geometry(objects, object_of_face)
@@ -102,7 +102,7 @@ impl MeshFiles {
         Ok(MeshGeometry { vertices, faces, object_of_face, material_of_face, objects, materials })
     }
 
-    /// The object of every face, split objects by their pieces.
+    /// The object of every face, cut objects by their pieces.
     ///
     /// # Errors
     /// When the file is missing or damaged.
@@ -110,12 +110,12 @@ impl MeshFiles {
         read_indices(&self.file(FACES_OBJECTS), u32::MAX as usize, "objects")
     }
 
-    /// For each of the objects that came from splitting, which are the last ones, the object that it was a part of.
+    /// For each of the objects that were cut from others, which are the last ones, the object that it was a part of.
     ///
     /// # Errors
-    /// When the table is damaged; without a table nothing was split.
-    pub fn read_splits(&self) -> Result<Vec<u32>, DatasetError> {
-        let path = self.file(OBJECT_SPLITS);
+    /// When the table is damaged; without a table nothing was cut.
+    pub fn read_pieces(&self) -> Result<Vec<u32>, DatasetError> {
+        let path = self.file(OBJECT_PIECES);
         let table = match Table::read(&path) {
             Err(error) if error.is_not_found() => return Ok(Vec::new()),
             table => table?,
@@ -145,14 +145,14 @@ impl MeshFiles {
         let faces = Array::i64(&[object_of_face.len()], object_of_face.iter().map(|&o| i64::from(o)).collect());
         replace_file(&self.file(FACES_OBJECTS), |aside| write_array(aside, &faces, Storage::Compressed, &[]))?;
         let mut files = vec![self.file(OBJECTS), self.file(FACES_OBJECTS)];
-        let path = self.file(OBJECT_SPLITS);
+        let path = self.file(OBJECT_PIECES);
         if pieces.is_empty() {
             remove_if_there(&path)?;
         } else {
-            let mut splits = Table::new(&path, &["object_id", "parent_object_id"]);
+            let mut pieces_table = Table::new(&path, &["object_id", "parent_object_id"]);
             let row = |(i, (_, parent)): (usize, &(String, u32))| vec![(whole.len() + i).to_string(), parent.to_string()];
-            splits.rows = pieces.iter().enumerate().map(row).collect();
-            splits.write()?;
+            pieces_table.rows = pieces.iter().enumerate().map(row).collect();
+            pieces_table.write()?;
             files.push(path);
         }
         Ok(files)
@@ -211,7 +211,7 @@ mod tests {
     use crate::mesh_files::tests::two_parts;
 
     #[test]
-    fn a_mesh_comes_back_and_so_does_a_split() {
+    fn a_mesh_comes_back_and_so_do_pieces() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
         dataset.write_scene("room", &two_parts()).unwrap();
@@ -223,14 +223,14 @@ mod tests {
         let written = files.write_objects(&mesh.objects, &[("lamp~2".into(), 1)], &[0, 1, 2]).unwrap();
         assert_eq!(written.len(), 3);
         assert_eq!((files.read().unwrap(), files.read_objects_of_faces().unwrap()), (mesh.clone(), vec![0, 1, 2]));
-        assert_eq!(files.read_splits().unwrap(), [1]);
-        // Without the table of splits, the caller must say which objects are whole.
-        std::fs::remove_file(files.file(OBJECT_SPLITS)).unwrap();
+        assert_eq!(files.read_pieces().unwrap(), [1]);
+        // Without the table of pieces, the caller must say which objects are whole.
+        std::fs::remove_file(files.file(OBJECT_PIECES)).unwrap();
         assert_eq!(files.read().unwrap().objects.len(), 3);
-        assert_eq!(files.read_unsplit(2, vec![0, 1, 1]).unwrap(), mesh);
-        assert!(files.read_unsplit(1, vec![0, 1, 1]).unwrap_err().to_string().contains("face 1 is of object 1, but 1 are whole"));
+        assert_eq!(files.read_whole(2, vec![0, 1, 1]).unwrap(), mesh);
+        assert!(files.read_whole(1, vec![0, 1, 1]).unwrap_err().to_string().contains("face 1 is of object 1, but 1 are whole"));
         files.write_objects(&mesh.objects, &[], &mesh.object_of_face).unwrap();
-        assert!(files.read_splits().unwrap().is_empty() && !files.file(OBJECT_SPLITS).exists());
+        assert!(files.read_pieces().unwrap().is_empty() && !files.file(OBJECT_PIECES).exists());
     }
 
     #[test]
@@ -242,7 +242,7 @@ mod tests {
         files.write_objects(&["floor".into()], &[], &[0, 1, 1]).unwrap();
         let message = files.read().unwrap_err().to_string();
         assert!(message.ends_with("mesh_faces_oi.hdf5: entry 1 is 1, but there are 1 objects; export the mesh again"), "{message}");
-        crate::write_bytes(&files.file(OBJECT_SPLITS), "object_id,parent_object_id\n2,1\n4,1\n").unwrap();
-        assert!(files.read_splits().unwrap_err().to_string().contains("line 3: object 4 of 1"));
+        crate::write_bytes(&files.file(OBJECT_PIECES), "object_id,parent_object_id\n2,1\n4,1\n").unwrap();
+        assert!(files.read_pieces().unwrap_err().to_string().contains("line 3: object 4 of 1"));
     }
 }

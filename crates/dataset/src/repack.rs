@@ -74,7 +74,7 @@ impl Dataset {
         let copy = &growing.copy;
         let mut images = Vec::new();
         copy_file(&self.camera_table(), &copy.layout().camera_parameters())?;
-        copy_file(&self.layout().split(), &copy.layout().split())?;
+        copy_file(&self.layout().partition(), &copy.layout().partition())?;
         copy_file(&self.layout().scene_types(), &copy.layout().scene_types())?;
         for scene in self.scenes()? {
             copy_files(&self.layout().detail_dir(&scene), &copy.layout().detail_dir(&scene), |_| true)?;

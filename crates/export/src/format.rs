@@ -255,7 +255,7 @@ pub const FORMATS: [FormatSpec; 24] = [
     FormatSpec {
         format: Format::Marigold,
         name: "marigold",
-        about: "Hypersim as Marigold prepares it: colour, planar depth in millimetres, normals, and lists of them by side of the split",
+        about: "Hypersim as Marigold prepares it: colour, planar depth in millimetres, normals, and lists of them by side of the partition",
         needs: &[COLOR, DEPTH],
         takes: Some(&[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters, Layer::NormalCam]),
         readme: include_str!("readmes/marigold.md"),

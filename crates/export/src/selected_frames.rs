@@ -1,7 +1,7 @@
 //! What is exported: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
 
 use crate::{ExportError, Format, FormatSpec};
-use enfilade_dataset::{Dataset, DatasetError, Partition, Window, turn_planar_depth};
+use enfilade_dataset::{Dataset, DatasetError, Side, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
 use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Structure, Warning};
 use std::collections::BTreeMap;
@@ -218,15 +218,15 @@ impl<'d> SelectedFrames<'d> {
         self.dataset.read_structure(scene)?.ok_or_else(unknown)
     }
 
-    /// The side of the split of every scene that is on one, by the first of its frames; none where the dataset has no split.
-    pub fn sides_of_scenes(&self) -> Result<BTreeMap<String, Partition>, ExportError> {
-        let rows = match self.dataset.read_split() {
+    /// The side of the partition of every scene that is on one, by the first of its frames; none where the dataset has no partition.
+    pub fn sides_of_scenes(&self) -> Result<BTreeMap<String, Side>, ExportError> {
+        let rows = match self.dataset.read_partition() {
             Err(error) if DatasetError::is_not_found(&error) => Vec::new(),
             rows => rows?,
         };
         let mut sides = BTreeMap::new();
         for row in rows {
-            if let Ok(side) = row.partition {
+            if let Ok(side) = row.side {
                 sides.entry(row.scene).or_insert(side);
             }
         }

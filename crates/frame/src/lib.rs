@@ -13,7 +13,7 @@ pub use channels::vector;
 pub use compose::{Composed, F16_LIMIT, compose};
 pub use half::f16;
 pub use noise::{NOISE_FLOOR, picture_noise};
-pub use spec::{DENOISED, Dtype, LAYERS, Layer, LayerSpec, Pass, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, traits};
+pub use spec::{DENOISED, Dtype, LAYERS, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer, LayerSpec, Pass, Validity, traits};
 
 use std::collections::BTreeMap;
 

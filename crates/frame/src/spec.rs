@@ -76,7 +76,8 @@ pub enum Pass {
     /// Layers in the final folder as they were rendered, of frames whose `color` is denoised, where they are kept.
     Rendered,
     /// Layers in the final folder, rendered with it only where that is asked for: the light of `color` by its way or its source.
-    Split,
+    #[serde(rename = "split")]
+    LightParts,
     /// Layers in the geometry folder, sampled like it, only where that is asked for.
     Extra,
 }
@@ -84,7 +85,7 @@ pub enum Pass {
 impl Pass {
     /// True for layers that a frame has only where they were asked for, and then all of them.
     pub const fn is_optional(self) -> bool {
-        matches!(self, Self::Rendered | Self::Split | Self::Extra)
+        matches!(self, Self::Rendered | Self::LightParts | Self::Extra)
     }
 }
 
@@ -175,23 +176,23 @@ pub const LAYERS: [LayerSpec; 43] = layers![
         "What was rendered where residual is denoised.";
     ColorStandardError "color_standard_error" Final 1 F16, "W/(sr m^2)", "luminance, Rec. 709", "as elsewhere",
         "Standard error of the luminance of color as it was rendered, from the spread of the pixel's samples as if they were independent; they are stratified, so the true one is smaller on average. NaN in a frame of one sample per pixel.";
-    DiffuseDirect "diffuse_direct" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    DiffuseDirect "diffuse_direct" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light that comes straight from a source and is reflected diffusely; with diffuse_indirect it is color - residual.";
-    DiffuseIndirect "diffuse_indirect" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    DiffuseIndirect "diffuse_indirect" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light that comes by way of other surfaces and is reflected diffusely.";
-    Specular "specular" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    Specular "specular" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light reflected otherwise than diffusely; specular + transmission + emission is residual.";
-    Transmission "transmission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    Transmission "transmission" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light that passes through the first surface, panes included.";
-    Emission "emission" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+    Emission "emission" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Part of color as it was rendered, where asked for: light that the first surface emits, and the background.";
-    LightEnvironment "light_environment" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
+    LightEnvironment "light_environment" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Part of color as it was rendered, where asked for: light of the sky or environment map; the four light_* layers sum to color.";
-    LightDistant "light_distant" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the sun's disk",
+    LightDistant "light_distant" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the sun's disk",
         "Part of color as it was rendered, where asked for: light of the sun and other directional lights.";
-    LightSurfaces "light_surfaces" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    LightSurfaces "light_surfaces" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light of emissive surfaces.";
-    LightPoints "light_points" Split 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
+    LightPoints "light_points" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
         "Part of color as it was rendered, where asked for: light of lights at a point, such as spots and measured lamps.";
     MaterialId "material_id" Extra 1 I16, "", "", "-1", "Material number from 1: material_id of metadata_materials.csv.";
     BaseColor "base_color" Extra 3 F16, "", "linear RGB, Rec. 709", "0",
@@ -224,10 +225,10 @@ pub const DENOISED: [(Layer, Layer); 3] = [
 ];
 
 /// Layers whose sum is `color`, up to the rounding of each: by the light's way from the first surface to the camera.
-pub const SPLIT_BY_PATH: [Layer; 5] = [Layer::DiffuseDirect, Layer::DiffuseIndirect, Layer::Specular, Layer::Transmission, Layer::Emission];
+pub const LIGHT_BY_PATH: [Layer; 5] = [Layer::DiffuseDirect, Layer::DiffuseIndirect, Layer::Specular, Layer::Transmission, Layer::Emission];
 
 /// Layers whose sum is `color`, up to the rounding of each: by what the light comes from.
-pub const SPLIT_BY_SOURCE: [Layer; 4] = [Layer::LightEnvironment, Layer::LightDistant, Layer::LightSurfaces, Layer::LightPoints];
+pub const LIGHT_BY_SOURCE: [Layer; 4] = [Layer::LightEnvironment, Layer::LightDistant, Layer::LightSurfaces, Layer::LightPoints];
 
 impl Layer {
     /// The layer's row of the table.

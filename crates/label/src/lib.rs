@@ -1,8 +1,8 @@
-//! What is it: from a table that people write to what every part is, and from there to label images, boxes and sides of a split.
+//! What is it: from a table that people write to what every part is, and from there to label images and boxes.
 //!
 //! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
 //! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
-//! therefore costs a join, not a rendering. Where people split parts, [`SplitParts`] says which piece a pixel shows.
+//! therefore costs a join, not a rendering. Where people cut parts into pieces, [`Pieces`] says which piece a pixel shows.
 //! [`structure`] finds rooms in what is labelled as walls, floors and ceilings.
 
 mod assign;
@@ -12,12 +12,11 @@ pub mod instances;
 mod join;
 mod pieces;
 mod rows;
-pub mod split;
 pub mod structure;
 mod table;
 
 pub use assign::{LabelReport, UnlabelledPart, UnmatchedRow};
 pub use doubts::{Doubts, doubts};
 pub use join::{JoinError, join};
-pub use pieces::SplitParts;
+pub use pieces::Pieces;
 pub use table::{LabelTable, Row, Subject, TableError, class_name, write_part_table, write_table};

@@ -1,6 +1,6 @@
-//! Parts that people split: which piece a pixel shows, and the scene with its pieces as parts.
+//! Parts that people cut into pieces: which piece a pixel shows, and the scene with its pieces as parts.
 //!
-//! The renderer knows parts alone, so `render_entity_id` says which part a pixel shows. Where that was split, the point in `position`
+//! The renderer knows parts alone, so `render_entity_id` says which part a pixel shows. Where that was cut, the point in `position`
 //! says which of its faces, and so which piece: the point lies on it, up to rounding.
 
 use super::{JoinError, join};
@@ -12,26 +12,26 @@ use enfilade_scene::{Labels, PartId, Scene};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The parts of a scene that were split. Pieces are numbered like objects: what is left of part `i` is piece `i`, others follow.
-pub struct SplitParts {
-    parts: BTreeMap<PartId, SplitPart>,
+/// The parts of a scene that were cut into pieces. Pieces are numbered like objects: what is left of part `i` is piece `i`, others follow.
+pub struct Pieces {
+    parts: BTreeMap<PartId, PiecedPart>,
     /// Names of the pieces beyond the parts, and the part of each.
     pieces: Vec<PartId>,
 }
 
-struct SplitPart {
+struct PiecedPart {
     /// The piece of every triangle.
     piece_of: Vec<u32>,
     faces: NearestTriangle,
 }
 
-impl SplitParts {
-    /// What the mesh folder says; `None` when nothing was split.
+impl Pieces {
+    /// What the mesh folder says; `None` when nothing was cut.
     ///
     /// # Errors
     /// When a file is damaged, or is about another version of the scene.
     pub fn read(files: &MeshFiles, scene: &Scene) -> Result<Option<Self>, DatasetError> {
-        let pieces = files.read_splits()?;
+        let pieces = files.read_pieces()?;
         if pieces.is_empty() {
             return Ok(None);
         }
@@ -52,7 +52,7 @@ impl SplitParts {
             }
             if piece_of.iter().any(|&piece| piece as usize != part) {
                 let corners: Vec<[Vec3; 3]> = (0..count).map(|triangle| scene.world_corners(placed, triangle)).collect();
-                parts.insert(part as PartId, SplitPart { piece_of: piece_of.to_vec(), faces: NearestTriangle::new(&corners) });
+                parts.insert(part as PartId, PiecedPart { piece_of: piece_of.to_vec(), faces: NearestTriangle::new(&corners) });
             }
             first += count;
         }
@@ -64,12 +64,12 @@ impl SplitParts {
         self.pieces.len()
     }
 
-    /// For hashing: the piece of every triangle of every split part.
+    /// For hashing: the piece of every triangle of every part that was cut.
     pub fn pieces_of_faces(&self) -> impl Iterator<Item = (PartId, &[u32])> {
-        self.parts.iter().map(|(&part, split)| (part, split.piece_of.as_slice()))
+        self.parts.iter().map(|(&part, cut)| (part, cut.piece_of.as_slice()))
     }
 
-    /// Classes and instances of pixels as by [`join`], where `positions` (world, metres) tells the pieces of split parts apart. `labels`
+    /// Classes and instances of pixels as by [`join`], where `positions` (world, metres) tells the pieces of parts apart. `labels`
     /// has one row per piece.
     ///
     /// # Errors
@@ -78,9 +78,9 @@ impl SplitParts {
         let (mut semantic, mut instance) = join(entity_ids, labels)?;
         let wanted = semantic.par_iter_mut().zip(&mut instance).zip(entity_ids).enumerate();
         wanted.for_each(|(pixel, ((semantic, instance), &id))| {
-            let Some(split) = u32::try_from(i32::from(id) - 1).ok().and_then(|part| self.parts.get(&part)) else { return };
+            let Some(cut) = u32::try_from(i32::from(id) - 1).ok().and_then(|part| self.parts.get(&part)) else { return };
             let at = DVec3::new(positions.get(3 * pixel), positions.get(3 * pixel + 1), positions.get(3 * pixel + 2));
-            let piece = split.faces.nearest(at).map(|(face, _)| split.piece_of[face as usize] as usize);
+            let piece = cut.faces.nearest(at).map(|(face, _)| cut.piece_of[face as usize] as usize);
             if let Some(label) = piece.and_then(|piece| labels.parts.get(piece)) {
                 (*semantic, *instance) = (label.semantic, label.instance);
             }
@@ -101,9 +101,9 @@ impl SplitParts {
             Some(beyond) => self.pieces[beyond],
         };
         for number in 0..pieces.parts.len() {
-            let Some(split) = self.parts.get(&of_part(number)) else { continue };
+            let Some(cut) = self.parts.get(&of_part(number)) else { continue };
             let mesh = &scene.meshes[pieces.parts[number].mesh as usize];
-            let kept = mesh.triangles.iter().zip(&split.piece_of).filter(|(_, piece)| **piece as usize == number);
+            let kept = mesh.triangles.iter().zip(&cut.piece_of).filter(|(_, piece)| **piece as usize == number);
             let mesh = Mesh { triangles: kept.map(|(triangle, _)| *triangle).collect(), ..mesh.clone() };
             pieces.parts[number].mesh = pieces.meshes.len() as u32;
             pieces.meshes.push(mesh);

@@ -1,4 +1,4 @@
-//! Why samples cannot be read: the dataset, a missing split, or a request that does not fit it.
+//! Why samples cannot be read: the dataset, a missing partition, or a request that does not fit it.
 
 use enfilade_dataset::DatasetError;
 use std::path::PathBuf;
@@ -9,13 +9,13 @@ pub enum LoaderError {
     /// A file is missing or damaged.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// A side of the split was asked for, and nothing says which frames are on it.
+    /// A side of the partition was asked for, and nothing says which frames are on it.
     #[error(
-        "there is no split at {}; Hypersim's comes apart from its archives: put metadata_images_split_scene_v1.csv of \
+        "there is no partition at {}; Hypersim's comes apart from its archives: put metadata_images_split_scene_v1.csv of \
         github.com/apple/ml-hypersim (evermotion_dataset/analysis) into the dataset's folder; for a dataset of ours run `enfilade partition`",
         path.display()
     )]
-    NoSplit {
+    NoPartition {
         /// Where it was looked for.
         path: PathBuf,
     },

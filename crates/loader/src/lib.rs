@@ -1,7 +1,7 @@
 //! Frames of a dataset as samples to train with.
 //!
 //! [`Samples`] is a list of frames, ours or those of Hypersim's release, with the layers that were asked for: chosen by scene, camera and
-//! side of the split, cropped, resized and tone-mapped as [`Options`] say, with mask, K and pose. A sample is a function of (options, seed,
+//! side of the partition, cropped, resized and tone-mapped as [`Options`] say, with mask, K and pose. A sample is a function of (options, seed,
 //! epoch, index) and of nothing else. [`Stream`] decodes samples ahead on several threads and gives them in order.
 //!
 //! ```
@@ -51,7 +51,7 @@ mod tone;
 
 pub use error::LoaderError;
 pub use in_memory::sample_of;
-pub use nyuv2::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2, PUBLISHED_IMAGES, nyu13_of_nyu40, side_of};
+pub use nyuv2::{NYU_LAYERS, NyuChoice, NyuClasses, NyuSide, NyuV2, PUBLISHED_IMAGES, nyu13_of_nyu40, side_of};
 pub use options::{Choice, Crop, CropPlace, Options};
 pub use order::shuffled;
 pub use sample::{Image, Matrix3, Matrix4, Sample, Values};

@@ -1,6 +1,6 @@
 //! What users choose: which frames and layers, and what is done to each sample.
 
-use enfilade_dataset::Partition;
+use enfilade_dataset::Side;
 use enfilade_frame::Layer;
 
 /// Which frames and layers. `None` is all.
@@ -12,8 +12,8 @@ pub struct Choice {
     pub scenes: Option<Vec<String>>,
     /// Names of cameras, which are the names of trajectories.
     pub cameras: Option<Vec<String>>,
-    /// A side of the dataset's split.
-    pub split: Option<Partition>,
+    /// A side of the dataset's partition.
+    pub side: Option<Side>,
 }
 
 /// What is done to a sample.

@@ -47,7 +47,8 @@ pub struct Sample {
 
 /// True for layers whose values may be averaged over an area.
 pub(crate) fn is_averaged(layer: Layer) -> bool {
-    matches!(layer.spec().pass, Pass::Final | Pass::Rendered | Pass::Split) || matches!(layer, Layer::BaseColor | Layer::EmittedRadiance)
+    matches!(layer.spec().pass, Pass::Final | Pass::Rendered | Pass::LightParts)
+        || matches!(layer, Layer::BaseColor | Layer::EmittedRadiance)
 }
 
 /// Clears the mask where the layer has no value.

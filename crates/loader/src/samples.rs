@@ -6,7 +6,7 @@ use crate::order::below;
 use crate::resize::{averaged, nearest};
 use crate::sample::{Image, Matrix3, Matrix4, Sample, Values, is_averaged, mask_out};
 use crate::tone::{displayed, fit};
-use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Partition, ToneMapRow, Window, turn_planar_depth};
+use enfilade_dataset::{Dataset, DatasetError, OpencvCalibration, Side, ToneMapRow, Window, turn_planar_depth};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_math::{DVec3, hash_u64};
@@ -58,7 +58,7 @@ impl Samples {
     /// When the dataset cannot be read, a name is not there, or no frame is left.
     pub fn open(dataset: Dataset, choice: &Choice, options: Options) -> Result<Self, LoaderError> {
         let mut samples = Self { dataset, layers: Vec::new(), options, cameras: Vec::new(), frames: Vec::new() };
-        let split = choice.split.map(|side| samples.side(side)).transpose()?;
+        let side = choice.side.map(|side| samples.side(side)).transpose()?;
         let scenes = chosen("scene", samples.dataset.scenes()?, choice.scenes.as_deref())?;
         let mut layers = choice.layers.clone();
         let mut known = Vec::new();
@@ -68,7 +68,7 @@ impl Samples {
                 if choice.cameras.as_ref().is_some_and(|names| !names.contains(&camera)) {
                     continue;
                 }
-                let wanted = |frame: &u32| split.as_ref().is_none_or(|side| side.contains(&(scene.clone(), camera.clone(), *frame)));
+                let wanted = |frame: &u32| side.as_ref().is_none_or(|side| side.contains(&(scene.clone(), camera.clone(), *frame)));
                 let numbers: Vec<u32> = samples.dataset.frame_numbers(scene, &camera)?.into_iter().filter(wanted).collect();
                 let Some(&first) = numbers.first() else { continue };
                 samples.check_poses(scene, &camera)?;
@@ -169,13 +169,13 @@ impl Samples {
         Ok(Sample { scene: scene.into(), camera: camera.into(), frame, window, layers, mask, k, world_from_camera })
     }
 
-    /// The images of a side of the split.
-    fn side(&self, side: Partition) -> Result<HashSet<(String, String, u32)>, LoaderError> {
-        let rows = self.dataset.read_split().map_err(|error| match error.is_not_found() {
-            true => LoaderError::NoSplit { path: self.dataset.layout().split() },
+    /// The images of a side of the partition.
+    fn side(&self, side: Side) -> Result<HashSet<(String, String, u32)>, LoaderError> {
+        let rows = self.dataset.read_partition().map_err(|error| match error.is_not_found() {
+            true => LoaderError::NoPartition { path: self.dataset.layout().partition() },
             false => error.into(),
         })?;
-        let rows = rows.into_iter().filter(|row| row.partition == Ok(side));
+        let rows = rows.into_iter().filter(|row| row.side == Ok(side));
         Ok(rows.map(|row| (row.scene, row.camera, row.frame)).collect())
     }
 
@@ -218,7 +218,7 @@ impl Samples {
             return Ok(());
         }
         match self.cameras.first() {
-            None => refuse(format!("{root} has no complete frame among the scenes, cameras and side of the split that were asked for")),
+            None => refuse(format!("{root} has no complete frame among the scenes, cameras and side of the partition that were asked for")),
             Some(camera) => {
                 let first = self.dataset.frame_numbers(&camera.scene, &camera.name)?.first().copied().unwrap_or_default();
                 let name = |layer: &Layer| layer.spec().name;
@@ -414,7 +414,7 @@ mod tests {
         Projection::TiltedPinhole(TiltedPinhole::new(40, 30, DMat3::from_rotation_x(0.15) * K.cam_from_uv()).unwrap())
     }
 
-    /// A frame of planar depth 2 m, taken with a tilted image plane, without a split.
+    /// A frame of planar depth 2 m, taken with a tilted image plane, without a partition.
     fn write_tilted(root: &std::path::Path) -> Dataset {
         write(root, tilted(), [40, 30], &[Layer::DepthZMeters])
     }
@@ -511,9 +511,9 @@ mod tests {
     #[test]
     fn a_split_that_is_not_there_is_told_with_where_hypersims_is() {
         let folder = tempfile::tempdir().unwrap();
-        let choice = Choice { split: Some(Partition::Train), ..Choice::default() };
+        let choice = Choice { side: Some(Side::Train), ..Choice::default() };
         let error = Samples::open(write_tilted(folder.path()), &choice, Options::default()).err().unwrap();
-        assert!(matches!(&error, LoaderError::NoSplit { path } if path.ends_with("metadata_images_split_scene_v1.csv")), "{error}");
+        assert!(matches!(&error, LoaderError::NoPartition { path } if path.ends_with("metadata_images_split_scene_v1.csv")), "{error}");
         assert!(error.to_string().contains("evermotion_dataset/analysis"), "{error}");
     }
 

@@ -13,6 +13,7 @@ mod gatekeeper;
 mod in_memory;
 mod intake;
 mod look;
+mod partition;
 mod parts;
 mod products;
 mod relight;
@@ -21,7 +22,6 @@ mod report;
 mod run;
 mod scene_types;
 mod single;
-mod split;
 mod stage;
 mod stages;
 mod statistics;
@@ -35,17 +35,17 @@ pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, FarmConfig, FileSource, LabelSource, Lamps, LensConfig, Overrides, Placeholder,
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, read_sensors, select,
 };
-pub use enfilade_dataset::{ColorKind, WORKDIR};
+pub use enfilade_dataset::{ColorKind, PartitionConfig, WORKDIR};
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};
 pub use enfilade_import::{EnvironmentOverride, Format as SceneFormat, UpAxis};
-pub use enfilade_label::split::SplitConfig;
 pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::{ConfigError, Error, Place};
 pub use estimate::estimate;
 pub use forecast::{Expected, Forecast};
 pub use in_memory::{LoadedScene, Shot};
 pub use look::{Looked, look};
+pub use partition::{PartitionReport, partition};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
 pub use products::{
     FlowPairs, FrameChoice, Made, MakeOptions, MixRequest, OutOfDate, PRODUCTS, PairsRequest, Product, ProductOptions, ProductSpec,
@@ -56,7 +56,6 @@ pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
-pub use split::{SplitReport, split};
 pub use stage::Stage;
 pub use stages::{FinishedFrame, Part, STAGES, StageSpec};
 pub use statistics::write_statistics;

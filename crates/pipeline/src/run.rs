@@ -2,10 +2,10 @@
 
 use crate::config::{Config, Overrides, SceneConfig};
 use crate::error::Error;
+use crate::partition::write_partition;
 use crate::products::{PairsRequest, Place, Request, adopt, bring_up_to_date, not_judged, told_out_of_date};
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::scene_types::write_scene_types;
-use crate::split::write_split;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan, read_table};
 use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, Workdir, read_json};
@@ -268,7 +268,7 @@ impl<'a> Session<'a> {
         let finished = self
             .write_manifest(&outcomes, None)
             .and_then(|()| self.write_overview(stages))
-            .and_then(|()| self.write_split())
+            .and_then(|()| self.write_partition())
             .and_then(|warnings| self.write_card(stages, &outcomes).map(|()| warnings))
             .and_then(|warnings| self.write_statistics(stages).map(|()| warnings));
 
@@ -388,12 +388,12 @@ impl<'a> Session<'a> {
 
     /// Divides the dataset by scene, and says what kinds of rooms it has; lines about assets on several sides and, where there are as many
     /// scenes as sides, about those without an image.
-    fn write_split(&self) -> Result<Vec<String>, Error> {
+    fn write_partition(&self) -> Result<Vec<String>, Error> {
         let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(Vec::new()) };
-        let split = write_split(&self.dataset, self.workdir, &manifest)?;
+        let partition = write_partition(&self.dataset, self.workdir, &manifest)?;
         write_scene_types(&self.dataset, self.config, &manifest)?;
-        let empty = split.empty_sides().filter(|_| !split.has_few_scenes());
-        Ok(split.leaks().into_iter().chain(empty).collect())
+        let empty = partition.empty_sides().filter(|_| !partition.has_few_scenes());
+        Ok(partition.leaks().into_iter().chain(empty).collect())
     }
 
     /// Writes the report card of all scenes, also of those that did not come so far as to be verified. Stages that change what is verified

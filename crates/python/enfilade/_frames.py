@@ -45,7 +45,7 @@ def render(
 
     scene: an `enfilade.Scene`. camera: an `enfilade.Camera`, or several, which are the frames of one trajectory: then a list of frames comes back.
     quality: "draft", "normal" (the default), "high" or "reference", as of `Config`; samples: per pixel, instead.
-    layers: names; unless given, all that a run writes. Those of `extra` (such as "material_id", "optical_flow") and of `splits` (such as
+    layers: names; unless given, all that a run writes. Those of `extra` (such as "material_id", "optical_flow") and of `light_parts` (such as
     "diffuse_direct") are rendered where they are named; flow leads from one camera to the next.
     denoise: whether `color`, `diffuse_illumination` and `residual` are denoised, with what was rendered beside them as `*_rendered`; yes, but for
     "reference", unless given.

@@ -106,7 +106,7 @@ impl Arguments {
                 None => None,
                 pattern => select("camera", &dataset.camera_names(&scenes).map_err(IntoPy::into_py)?, pattern.as_ref())?,
             };
-            Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, split }, options).map_err(IntoPy::into_py)
+            Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, side: split }, options).map_err(IntoPy::into_py)
         })
     }
 }

@@ -39,7 +39,7 @@ impl IntoPy for LoaderError {
     fn into_py(self) -> PyErr {
         match self {
             Self::Dataset(error) => error.into_py(),
-            error @ Self::NoSplit { .. } => PyFileNotFoundError::new_err(error.to_string()),
+            error @ Self::NoPartition { .. } => PyFileNotFoundError::new_err(error.to_string()),
             Self::Request(message) => PyValueError::new_err(message),
         }
     }

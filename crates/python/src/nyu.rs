@@ -3,7 +3,7 @@
 use crate::arguments::{Names, layers};
 use crate::errors::IntoPy;
 use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
-use enfilade_loader::{LoaderError, NYU_LAYERS, NyuChoice, NyuClasses, NyuSplit, NyuV2 as Images, Sample, nyu13_of_nyu40};
+use enfilade_loader::{LoaderError, NYU_LAYERS, NyuChoice, NyuClasses, NyuSide, NyuV2 as Images, Sample, nyu13_of_nyu40};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -52,14 +52,14 @@ impl Arguments {
         let wrong = |problem: String| PyValueError::new_err(problem);
         let split = match self.split.as_deref() {
             None => None,
-            Some("train") => Some(NyuSplit::Train),
-            Some("test") => Some(NyuSplit::Test),
+            Some("train") => Some(NyuSide::Train),
+            Some("test") => Some(NyuSide::Test),
             Some(other) => return Err(wrong(format!("split: {other:?} is no side of NYUv2; expected \"train\" or \"test\""))),
         };
         let classes = NyuClasses::of(self.classes);
         let classes = classes.ok_or_else(|| wrong(format!("classes is {}; expected 894, 40 or 13", self.classes)))?;
         let layers = layers(self.layers.as_ref())?.unwrap_or_else(|| NYU_LAYERS.to_vec());
-        Ok(NyuChoice { split, classes, layers, partial: self.partial })
+        Ok(NyuChoice { side: split, classes, layers, partial: self.partial })
     }
 }
 

@@ -44,8 +44,8 @@ pub fn render<'py>(
     let layers = self::layers(layers.as_ref())?;
     let wants = |pass: Pass| layers.iter().flatten().any(|layer| layer.spec().pass == pass);
     let color = denoise.map(|denoise| if denoise { ColorKind::Denoised } else { ColorKind::Rendered });
-    let (splits, extra) = (wants(Pass::Split), wants(Pass::Extra));
-    let choices = RenderChoices { samples, noise, max_bounces, clamp, splits, extra, lambertian, color, ..RenderChoices::default() };
+    let (light_parts, extra) = (wants(Pass::LightParts), wants(Pass::Extra));
+    let choices = RenderChoices { samples, noise, max_bounces, clamp, light_parts, extra, lambertian, color, ..RenderChoices::default() };
     let shot = Shot::new(self::quality(quality)?.unwrap_or(Quality::Normal), &choices, seed).map_err(IntoPy::into_py)?;
     check(layers.as_deref(), &shot)?;
 

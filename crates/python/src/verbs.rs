@@ -93,11 +93,11 @@ pub fn verify<'py>(py: Python<'py>, dataset: PathBuf, scenes: Option<Names>) -> 
 #[pyfunction]
 #[pyo3(signature = (dataset, *, seed=None, shares=None))]
 pub fn partition<'py>(py: Python<'py>, dataset: PathBuf, seed: Option<u64>, shares: Option<[f64; 3]>) -> PyResult<Bound<'py, PyAny>> {
-    let change = |config: &mut enfilade_pipeline::SplitConfig| {
+    let change = |config: &mut enfilade_pipeline::PartitionConfig| {
         config.seed = seed.unwrap_or(config.seed);
         config.shares = shares.unwrap_or(config.shares);
     };
-    let report = py.detach(|| enfilade_pipeline::split(&dataset, change)).map_err(IntoPy::into_py)?;
+    let report = py.detach(|| enfilade_pipeline::partition(&dataset, change)).map_err(IntoPy::into_py)?;
     json::to_python(py, &report)
 }
 

@@ -4,8 +4,8 @@
 
 use crate::bsdf::Value;
 use crate::integrator::{Direct, Integrator, bsdf_set, roulette_throughput};
+use crate::light_parts::{Arriving, Origin};
 use crate::pixel_sample::{CameraSample, FixtureLight, PixelSample};
-use crate::split::{Arriving, Origin};
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex};
 use enfilade_math::Rgb;
@@ -25,7 +25,7 @@ impl Integrator<'_, '_> {
         sample.expected_reflectance = seen.reflectance;
         let Some(hit) = seen.hit else {
             let background = self.scene.lights.background(ray.direction);
-            sample.split.add_background(background);
+            sample.parts.add_background(background);
             sample.residual = background.total();
             self.background_by_origin(background, None).into_iter().for_each(|(from, light)| sample.add_seen(from, light));
             return sample;
@@ -35,8 +35,8 @@ impl Integrator<'_, '_> {
 
         // Add what the first surface emits towards the camera. No light sample could have found it, so it counts in full.
         sample.residual = surface.emission(self.scene);
-        if self.config.splits {
-            sample.split.add_emission(sample.residual);
+        if self.config.light_parts {
+            sample.parts.add_emission(sample.residual);
         }
         sample.add_seen(self.origin_of_surface(&surface), sample.residual);
 
@@ -76,8 +76,8 @@ impl Integrator<'_, '_> {
     #[inline]
     fn add_scattered(&self, sample: &mut PixelSample, weight: &Value, light: &Arriving, crossed: bool) -> Rgb {
         sample.residual += weight.specular * light.total;
-        if self.config.splits {
-            sample.split.add_scattered(sample.reflectance, weight, light, crossed);
+        if self.config.light_parts {
+            sample.parts.add_scattered(sample.reflectance, weight, light, crossed);
         }
         let by_fixture = light.by_fixture.iter().map(|&(fixture, light)| FixtureLight {
             fixture,

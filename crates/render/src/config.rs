@@ -35,8 +35,8 @@ impl Filter {
 /// ```
 /// use enfilade_render::RenderConfig;
 ///
-/// // 16 samples per pixel, the light split by its path and its source.
-/// let config = RenderConfig { samples: 16, splits: true, ..RenderConfig::default() };
+/// // 16 samples per pixel, the light in parts by its path and its source.
+/// let config = RenderConfig { samples: 16, light_parts: true, ..RenderConfig::default() };
 /// assert!(config.validate().is_ok());
 ///
 /// // Numbers out of their range are refused with what was expected.
@@ -63,7 +63,8 @@ pub struct RenderConfig {
     /// Largest radiance that one indirect path may add to a pixel. More than 0; default none, because a clamp darkens the picture.
     pub clamp: Option<f32>,
     /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer. Default false.
-    pub splits: bool,
+    #[serde(rename = "splits")]
+    pub light_parts: bool,
     /// Keeps the light of each pixel apart by what it comes from: the sky, the sun, each window and lamp ([`crate::RenderScene::fixtures`]), each
     /// with its part of the illumination and of the residual. Changes no layer. Takes 24 bytes per pixel and fixture while rendering, 36
     /// when the frame is put together. Default false.
@@ -96,7 +97,7 @@ impl Default for RenderConfig {
             guiding: true,
             max_bounces: None,
             clamp: None,
-            splits: false,
+            light_parts: false,
             fixtures: false,
             extra: false,
             lambertian: false,

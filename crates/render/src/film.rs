@@ -2,8 +2,8 @@
 //! colour to the last bit.
 
 use crate::budget::Estimate;
+use crate::light_parts::LightParts;
 use crate::pixel_sample::PixelSample;
-use crate::split::Split;
 use enfilade_frame::{F16_LIMIT, compose, f16};
 use enfilade_math::Rgb;
 
@@ -130,7 +130,7 @@ impl PixelSum {
 }
 
 /// The light of a pixel in parts as it is stored, given the sum over its samples and their number.
-pub(crate) fn resolve_split(sum: &Split, samples: u32) -> [[f16; 3]; Split::PARTS] {
+pub(crate) fn resolve_light_parts(sum: &LightParts, samples: u32) -> [[f16; 3]; LightParts::PARTS] {
     let n = samples.max(1) as f32;
     std::array::from_fn(|index| (sum.part(index) / n).to_array().map(|v| f16::from_f32(v.min(F16_LIMIT))))
 }

@@ -2,8 +2,8 @@
 
 use crate::film::PixelColor;
 use crate::geometry_pass::PixelGeometry;
-use crate::split::Split;
-use enfilade_frame::{FixtureLayers, Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
+use crate::light_parts::LightParts;
+use enfilade_frame::{FixtureLayers, Frame, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer, Validity, Values, f16};
 
 /// One pixel of all rendered layers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,8 +42,8 @@ pub(crate) fn layers(width: u32, height: u32, pixels: &[Pixel]) -> Frame {
 }
 
 /// Adds the light of the pixels in parts, given row by row.
-pub(crate) fn add_splits(frame: &mut Frame, pixels: &[[[f16; 3]; Split::PARTS]]) {
-    for (index, layer) in SPLIT_BY_PATH.into_iter().chain(SPLIT_BY_SOURCE).enumerate() {
+pub(crate) fn add_light_parts(frame: &mut Frame, pixels: &[[[f16; 3]; LightParts::PARTS]]) {
+    for (index, layer) in LIGHT_BY_PATH.into_iter().chain(LIGHT_BY_SOURCE).enumerate() {
         frame.insert(layer, Values::F16(pixels.iter().flat_map(|parts| parts[index]).collect()));
     }
 }

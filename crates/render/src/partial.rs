@@ -1,7 +1,7 @@
 //! A frame in the making as bytes, so that it can continue in another process.
 //!
 //! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
-//! where light is split, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is
+//! where light is kept in parts, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is
 //! to have in the end, row by row; per pixel its sums, tile by tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes
 //! on has the bytes of one that was never interrupted.
 
@@ -34,7 +34,7 @@ pub(crate) struct Header<'a> {
     pub done: u32,
     /// Passes in all, as far as is known.
     pub passes: u32,
-    pub splits: bool,
+    pub light_parts: bool,
     /// Number of fixtures that are told apart.
     pub fixtures: u32,
     /// The caller's name for everything that the frame depends on.
@@ -45,8 +45,8 @@ pub(crate) struct Header<'a> {
 pub(crate) fn write(header: &Header<'_>, words: impl Iterator<Item = u32>) -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
     let [width, height] = header.size;
-    let Header { done, passes, splits, fixtures, key, .. } = *header;
-    let numbers: [u32; HEADER] = [width, height, done, passes, u32::from(splits), fixtures, key.len() as u32];
+    let Header { done, passes, light_parts, fixtures, key, .. } = *header;
+    let numbers: [u32; HEADER] = [width, height, done, passes, u32::from(light_parts), fixtures, key.len() as u32];
     std::iter::once(VERSION).chain(numbers).for_each(|number| bytes.extend(number.to_le_bytes()));
     bytes.extend(key);
     words.for_each(|word| bytes.extend(word.to_le_bytes()));
@@ -70,7 +70,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     let (height, rest) = word(rest)?;
     let (done, rest) = word(rest)?;
     let (passes, rest) = word(rest)?;
-    let (splits, rest) = word(rest)?;
+    let (light_parts, rest) = word(rest)?;
     let (fixtures, rest) = word(rest)?;
     let (length, rest) = word(rest)?;
     let (key, rest) = rest.split_at_checked(length as usize).ok_or(PartialError::Damaged)?;
@@ -79,7 +79,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header<'_>, impl ExactSizeIterator<I
     if !checksum.is_empty() || words.len() < 2 {
         return Err(PartialError::Damaged);
     }
-    let header = Header { size: [width, height], done, passes, splits: splits != 0, fixtures, key };
+    let header = Header { size: [width, height], done, passes, light_parts: light_parts != 0, fixtures, key };
     Ok((header, words[..words.len() - 2].iter().map(|word| u32::from_le_bytes(*word))))
 }
 
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn what_was_written_is_read_and_every_damaged_byte_is_found() {
-        let header = Header { size: [3, 2], done: 4, passes: 6, splits: true, fixtures: 2, key: b"key" };
+        let header = Header { size: [3, 2], done: 4, passes: 6, light_parts: true, fixtures: 2, key: b"key" };
         let bytes = write(&header, 10..20);
         let (found, words) = read(&bytes).unwrap();
         assert_eq!((found, words.collect::<Vec<_>>()), (header, (10..20).collect()));

@@ -3,7 +3,7 @@
 //! At the first surface the estimate is kept in three parts: the diffuse reflectance A, the *demodulated* diffuse light E
 //! (what the diffuse lobe would send for a reflectance of one) and the rest R, so that a sample's radiance is A·E + R.
 
-use crate::split::Split;
+use crate::light_parts::LightParts;
 use enfilade_math::{Ray, Rgb, Sampler};
 
 /// A camera ray to follow.
@@ -27,7 +27,7 @@ pub(crate) struct PixelSample {
     /// Everything else, R.
     pub residual: Rgb,
     /// A·E + R in parts, where they are asked for.
-    pub split: Split,
+    pub parts: LightParts,
     /// A·E + R by fixture, where that is asked for; a fixture may be there several times.
     pub fixtures: Vec<FixtureLight>,
 }

@@ -7,15 +7,15 @@
 use crate::budget::Budget;
 use crate::config::RenderConfig;
 use crate::error::RenderError;
-use crate::film::{PixelSum, resolve_fixture, resolve_split};
+use crate::film::{PixelSum, resolve_fixture, resolve_light_parts};
 use crate::geometry_pass::pixel_geometry;
 use crate::guide::Guide;
 use crate::integrator::Integrator;
-use crate::layers::{Pixel, add_fixture, add_splits, layers};
+use crate::layers::{Pixel, add_fixture, add_light_parts, layers};
+use crate::light_parts::LightParts;
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
 use crate::sampling::add_samples;
-use crate::split::Split;
 use crate::tile_film::TileFilm;
 use crate::tiles::Tiles;
 use enfilade_frame::{Frame, f16, picture_noise};
@@ -157,7 +157,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let [width, height] = view.camera().size();
         let tiles = Tiles::new(width, height);
         let fixtures = if config.fixtures { scene.fixtures().len() } else { 0 };
-        let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.splits, fixtures)).collect();
+        let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.light_parts, fixtures)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
         Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, tiles, film, wanted, schedule, done: 0 })
@@ -289,9 +289,9 @@ impl<'a, 's> FrameRender<'a, 's> {
     pub fn save(&self, key: &[u8]) -> Vec<u8> {
         let header = Header { done: self.done, passes: self.schedule.passes, ..self.header(key) };
         let sums = self.film.iter().flat_map(|film| &film.sums).flat_map(|sum| sum.to_words());
-        let splits = self.film.iter().flat_map(|film| &film.splits).flat_map(|split| split.to_words());
+        let light_parts = self.film.iter().flat_map(|film| &film.light_parts).flat_map(|parts| parts.to_words());
         let fixtures = self.film.iter().flat_map(|film| film.fixtures.as_flattened()).flat_map(|light| light.to_array()).map(f32::to_bits);
-        partial::write(&header, self.wanted.iter().copied().chain(sums).chain(splits).chain(fixtures))
+        partial::write(&header, self.wanted.iter().copied().chain(sums).chain(light_parts).chain(fixtures))
     }
 
     /// Goes on from where [`FrameRender::save`] was called, in this process or another. The frame is to be a new one of the same
@@ -305,7 +305,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         if header != expected || header.done > header.passes {
             return Err(PartialError::OtherFrame);
         }
-        let per_pixel = 1 + PixelSum::WORDS + if header.splits { Split::WORDS } else { 0 } + 6 * header.fixtures as usize;
+        let per_pixel = 1 + PixelSum::WORDS + if header.light_parts { LightParts::WORDS } else { 0 } + 6 * header.fixtures as usize;
         if words.len() != self.wanted.len() * per_pixel {
             return Err(PartialError::Damaged);
         }
@@ -314,8 +314,8 @@ impl<'a, 's> FrameRender<'a, 's> {
         self.wanted.iter_mut().for_each(|wanted| *wanted = next());
         let sums = self.film.iter_mut().flat_map(|film| &mut film.sums);
         sums.for_each(|sum| *sum = PixelSum::from_words(&std::array::from_fn(|_| next())));
-        let splits = self.film.iter_mut().flat_map(|film| &mut film.splits);
-        splits.for_each(|split| *split = Split::from_words(&std::array::from_fn(|_| next())));
+        let light_parts = self.film.iter_mut().flat_map(|film| &mut film.light_parts);
+        light_parts.for_each(|parts| *parts = LightParts::from_words(&std::array::from_fn(|_| next())));
         let fixtures = self.film.iter_mut().flat_map(|film| film.fixtures.as_flattened_mut());
         fixtures.for_each(|light| *light = Rgb::from([0; 3].map(|_: u32| f32::from_bits(next()))));
         Ok(())
@@ -324,7 +324,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// What precedes the pixels of this frame, before the first pass.
     fn header<'k>(&self, key: &'k [u8]) -> Header<'k> {
         let fixtures = self.film.first().map_or(0, |film| film.fixture_count) as u32;
-        Header { size: self.view.camera().size(), done: 0, passes: 0, splits: self.integrator.config.splits, fixtures, key }
+        Header { size: self.view.camera().size(), done: 0, passes: 0, light_parts: self.integrator.config.light_parts, fixtures, key }
     }
 
     /// The layers as they are now, all but the labels and those of [`crate::add_extra_layers`].
@@ -339,11 +339,12 @@ impl<'a, 's> FrameRender<'a, 's> {
         // Arrange them as layers, row by row.
         let [width, height] = view.camera().size();
         let mut frame = layers(width, height, &tiles.rows(&pixels));
-        if self.integrator.config.splits {
-            let resolved =
-                |film: &TileFilm| film.splits.iter().zip(&film.sums).map(|(split, sum)| resolve_split(split, sum.samples())).collect();
+        if self.integrator.config.light_parts {
+            let resolved = |film: &TileFilm| {
+                film.light_parts.iter().zip(&film.sums).map(|(parts, sum)| resolve_light_parts(parts, sum.samples())).collect()
+            };
             let parts: Vec<Vec<_>> = map(&self.film, resolved);
-            add_splits(&mut frame, &tiles.rows(&parts));
+            add_light_parts(&mut frame, &tiles.rows(&parts));
         }
         for fixture in 0..self.film.first().map_or(0, |film| film.fixture_count) {
             let resolved = |film: &TileFilm| film.of_fixture(fixture).map(|(sum, light)| resolve_fixture(sum, light)).collect();

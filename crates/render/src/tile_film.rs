@@ -1,15 +1,15 @@
 //! What the pixels of a tile have gathered.
 
 use crate::film::PixelSum;
+use crate::light_parts::LightParts;
 use crate::pixel_sample::PixelSample;
-use crate::split::Split;
 use enfilade_math::Rgb;
 
 /// The film of a tile's pixels, in their order.
 pub(crate) struct TileFilm {
     pub sums: Vec<PixelSum>,
-    /// Empty unless light is split.
-    pub splits: Vec<Split>,
+    /// Empty unless light is kept in parts.
+    pub light_parts: Vec<LightParts>,
     /// For each pixel and then each fixture, the sums of reflectance × illumination and of the residual; empty unless fixtures are told
     /// apart.
     pub fixtures: Vec<[Rgb; 2]>,
@@ -19,16 +19,21 @@ pub(crate) struct TileFilm {
 
 impl TileFilm {
     /// Without samples.
-    pub fn new(pixels: usize, splits: bool, fixture_count: usize) -> Self {
-        let splits = vec![Split::default(); if splits { pixels } else { 0 }];
-        Self { sums: vec![PixelSum::default(); pixels], splits, fixtures: vec![[Rgb::BLACK; 2]; pixels * fixture_count], fixture_count }
+    pub fn new(pixels: usize, light_parts: bool, fixture_count: usize) -> Self {
+        let light_parts = vec![LightParts::default(); if light_parts { pixels } else { 0 }];
+        Self {
+            sums: vec![PixelSum::default(); pixels],
+            light_parts,
+            fixtures: vec![[Rgb::BLACK; 2]; pixels * fixture_count],
+            fixture_count,
+        }
     }
 
     /// Adds a sample to a pixel.
     pub fn add(&mut self, pixel: usize, sample: &PixelSample) {
         self.sums[pixel].add(sample);
-        if let Some(split) = self.splits.get_mut(pixel) {
-            *split += &sample.split;
+        if let Some(parts) = self.light_parts.get_mut(pixel) {
+            *parts += &sample.parts;
         }
         if self.fixture_count > 0 {
             let own = &mut self.fixtures[pixel * self.fixture_count..][..self.fixture_count];

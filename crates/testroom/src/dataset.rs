@@ -2,7 +2,7 @@
 
 use crate::{frame, intrinsics, labels, pose, scene, store};
 use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, Dataset, Fixture, FrameInfo, FramePair, FrameTime, HiddenBy};
-use enfilade_dataset::{InstanceRelation, InstanceView, ManifestInfo, Partition, RelationKind, SplitRow, Surfaces, Tracks, write_json};
+use enfilade_dataset::{InstanceRelation, InstanceView, ManifestInfo, PartitionRow, RelationKind, Side, Surfaces, Tracks, write_json};
 use enfilade_frame::{DENOISED, Frame, Layer, Pass, f16, vector};
 use enfilade_geometry::{OccupancyTree, Voxel};
 use enfilade_math::{DMat3, DVec2, DVec3, OrientedBox, Vec3};
@@ -178,7 +178,13 @@ pub fn dataset(root: &std::path::Path) -> Dataset {
             recipe: None,
         };
         dataset
-            .write_frame("room", "cam_00", &part_of(&[Pass::Final, Pass::Geometry, Pass::Split, Pass::Extra]), &info, FrameTime::default())
+            .write_frame(
+                "room",
+                "cam_00",
+                &part_of(&[Pass::Final, Pass::Geometry, Pass::LightParts, Pass::Extra]),
+                &info,
+                FrameTime::default(),
+            )
             .unwrap();
         dataset.write_label_layers("room", "cam_00", pose.frame, &part_of(&[Pass::Label]), "test").unwrap();
         dataset.write_surfaces("room", "cam_00", pose.frame, surfaces(&whole)).unwrap();
@@ -199,8 +205,8 @@ pub fn dataset(root: &std::path::Path) -> Dataset {
     let pair = FramePair { scene: "room".into(), first: ("cam_00".into(), 0), second: ("cam_00".into(), 1) };
     dataset.write_pair_layers(&pair, &flow(&first, &second)).unwrap();
     dataset.write_tracks("room", "cam_00", &tracks([&first, &second])).unwrap();
-    let row = |frame| SplitRow { scene: "room".into(), camera: "cam_00".into(), frame, partition: Ok(Partition::Train) };
-    dataset.write_split(&[row(0), row(1)]).unwrap();
+    let row = |frame| PartitionRow { scene: "room".into(), camera: "cam_00".into(), frame, side: Ok(Side::Train) };
+    dataset.write_partition(&[row(0), row(1)]).unwrap();
     dataset.write_manifest(&dataset.collect_manifest(&ManifestInfo::default()).unwrap()).unwrap();
     dataset
 }

@@ -3,7 +3,7 @@
 use super::law::Law;
 use super::rounding::half_step;
 use super::scan::Scan;
-use enfilade_frame::{DENOISED, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE, Validity, Values, f16};
+use enfilade_frame::{DENOISED, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer, Validity, Values, f16};
 use enfilade_math::Rgb;
 
 /// Where a colour is this large, one of its parts may have been beyond float16.
@@ -24,7 +24,7 @@ const COLOR_LAYERS: [Layer; 7] = [
 ];
 
 pub(super) fn check(scan: &mut Scan<'_>) {
-    for layer in COLOR_LAYERS.into_iter().chain(SPLIT_BY_PATH).chain(SPLIT_BY_SOURCE) {
+    for layer in COLOR_LAYERS.into_iter().chain(LIGHT_BY_PATH).chain(LIGHT_BY_SOURCE) {
         let Some(values) = scan.layer(layer) else { continue };
         let name = layer.spec().name;
         scan.broken(Law::ColorFinite, name, (0..values.len()).filter(|&i| !values.get(i).is_finite()).map(|i| i / 3));
@@ -38,9 +38,9 @@ pub(super) fn check(scan: &mut Scan<'_>) {
     recomposition(scan, [Layer::Color, Layer::DiffuseIllumination, Layer::Residual]);
     recomposition(scan, [Layer::ColorRendered, Layer::DiffuseIlluminationRendered, Layer::ResidualRendered]);
     standard_error(scan);
-    splits(scan, &SPLIT_BY_PATH, Layer::Color);
-    splits(scan, &SPLIT_BY_SOURCE, Layer::Color);
-    splits(scan, &[Layer::Specular, Layer::Transmission, Layer::Emission], Layer::Residual);
+    light_parts(scan, &LIGHT_BY_PATH, Layer::Color);
+    light_parts(scan, &LIGHT_BY_SOURCE, Layer::Color);
+    light_parts(scan, &[Layer::Specular, Layer::Transmission, Layer::Emission], Layer::Residual);
     void_codes(scan);
     reason_codes(scan);
 }
@@ -92,7 +92,7 @@ fn standard_error(scan: &mut Scan<'_>) {
 
 /// `parts` sum to `whole`. Each value is rounded to float16 on its own (half a unit in the last place, 2⁻¹² to 2⁻¹¹ of it), and so are
 /// the factors of color, which makes at most 3 × 2⁻¹¹ of the sum.
-fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
+fn light_parts(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
     let layers: Vec<&Values> = parts.iter().filter_map(|&layer| scan.layer(layer)).collect();
     let (Some(values), Some(color)) = (scan.rendered(whole), scan.rendered(Layer::Color)) else { return };
     if layers.len() < parts.len() {
@@ -105,7 +105,7 @@ fn splits(scan: &mut Scan<'_>, parts: &[Layer], whole: Layer) {
     };
     let errors = (0..values.len()).filter(|i| !is_cut(i / 3)).map(|i| (i / 3, error(i)));
     let first = parts.first().map_or("", |layer| layer.spec().name);
-    scan.worst(Law::LightSplits, &format!("{first} and the layers that go with it do not sum to {}", whole.spec().name), errors);
+    scan.worst(Law::LightParts, &format!("{first} and the layers that go with it do not sum to {}", whole.spec().name), errors);
 }
 
 /// True where some channel of the colour, or of the illumination that is in it, may have been cut at the largest float16, or is no number.

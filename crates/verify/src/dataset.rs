@@ -416,9 +416,7 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
 mod tests {
     use super::*;
     use enfilade_dataset::hdf5::{Storage, read_array, write_array};
-    use enfilade_dataset::{
-        Array, Elements, FrameInfo, FrameTime, JudgedView, ManifestInfo, Partition, ViewFault, ViewVerdict, write_bytes,
-    };
+    use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, JudgedView, ManifestInfo, Side, ViewFault, ViewVerdict, write_bytes};
     use enfilade_frame::f16;
     use enfilade_geometry::Voxel;
     use enfilade_label::structure::write_planes;
@@ -594,12 +592,12 @@ mod tests {
     #[test]
     fn a_scene_on_two_sides_of_the_split_is_found() {
         let torn = |d: &Dataset| {
-            let mut rows = d.read_split().unwrap();
-            rows[1].partition = Ok(Partition::Val);
-            d.write_split(&rows).unwrap();
+            let mut rows = d.read_partition().unwrap();
+            rows[1].side = Ok(Side::Val);
+            d.write_partition(&rows).unwrap();
         };
         let (laws, text) = failures(torn);
-        assert_eq!(laws, [Law::SplitWhole], "{text}");
+        assert_eq!(laws, [Law::PartitionWhole], "{text}");
     }
 
     #[test]

@@ -43,7 +43,8 @@ pub enum Law {
     Albedo,
     Recomposition,
     StandardError,
-    LightSplits,
+    #[serde(rename = "light_splits")]
+    LightParts,
     ExtraLayers,
     Distance,
     PlanarDepth,
@@ -66,7 +67,8 @@ pub enum Law {
     InstanceCounts,
     InstanceWhole,
     LayoutPlanes,
-    SplitWhole,
+    #[serde(rename = "split_whole")]
+    PartitionWhole,
     TwoViewDistance,
     TwoViewIds,
     TwoViewReflectance,
@@ -109,7 +111,7 @@ pub const LAWS: [LawSpec; 73] = laws![
         "the file is damaged or was cut short: copy it again, or run the stage that makes it with --force";
     Manifest 0.0 "", "the dataset has a manifest that lists the scene", "the run did not come to its end: run it again";
     FramesComplete 0.0 "frames", "every frame of a trajectory is complete", "a frame failed or was never rendered: run again";
-    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (rendered beside denoised, split, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
+    LayersPresent 0.0 "layers", "every frame has every layer, and of each optional kind (rendered beside denoised, parts of light, extra) all or none", "the frame was rendered or labelled by another version: render or label it again";
     Checksums 0.0 "files", "files are what the manifest says was written", "a file was changed or damaged after it was written: render again or restore it";
     Nodes 0.0 "tables", "metadata_nodes.csv can be read and numbers its nodes 1, 2, ...", "the table was edited or cut: import the scene again";
     Calibration 1e-6 "px", "size and calibration agree between metadata_camera_parameters.csv, cameras_opencv.json, records and images",
@@ -154,7 +156,7 @@ pub const LAWS: [LawSpec; 73] = laws![
         "layers of different renderings are mixed: render the frame again";
     StandardError 2e-3 "relative", "color_standard_error is NaN everywhere (one sample per pixel), or from 0 to the luminance of color",
         "layers of different renderings are mixed: render the frame again";
-    LightSplits 2e-3 "relative", "light by path and light by source sum to color, and specular, transmission and emission to residual",
+    LightParts 2e-3 "relative", "light by path and light by source sum to color, and specular, transmission and emission to residual",
         "layers of different renderings are mixed: render the frame again";
     ExtraLayers 0.0 "pixels", "extra layers lie in their ranges and are of the same surfaces as the geometry layers, which what lies behind glass is beyond",
         "layers of different renderings are mixed: render the frame again";
@@ -170,8 +172,8 @@ pub const LAWS: [LawSpec; 73] = laws![
         "smooth normals over coarse facets, or normals in another space than positions: check the mesh's normals";
     SemanticRange 0.0 "pixels", "semantic is -1 or a class of the list, which is 1 to 40 of NYU40 unless metadata_semantic_colors.hdf5 is longer", "the label files are damaged: label again";
     InstanceRange 0.0 "pixels", "semantic_instance is -1 or at least 1", "the label files are damaged: label again";
-    SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id, or of one of its pieces if it was split", "the label table changed: label again";
-    InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id, or of one of its pieces if it was split", "the label table changed: label again";
+    SemanticJoin 0.0 "pixels", "semantic is the class of the part in render_entity_id, or of one of its pieces if it was cut", "the label table changed: label again";
+    InstanceJoin 0.0 "pixels", "semantic_instance is the instance of the part in render_entity_id, or of one of its pieces if it was cut", "the label table changed: label again";
     InstanceClass 0.0 "instances", "an instance has one class", "the label table gives one instance number to parts of several classes: correct it";
     BoxAxes 1e-9 "", "orientations of bounding boxes are orthonormal and right-handed", "the file was edited or damaged: run the boxes stage again";
     BoxExtents 0.0 "boxes", "bounding boxes are finite, no side is negative, and one is longer than 0",
@@ -186,7 +188,7 @@ pub const LAWS: [LawSpec; 73] = laws![
         "the frame was labelled or rendered again since: run the boxes stage again";
     LayoutPlanes 1e-2 "share", "walls, floors and ceilings are where layout.json has them (share of their pixels that are more than 2 cm off)",
         "the layout is of another version of the scene, or parts are labelled as walls that are none: import the scene again, or correct the labels";
-    SplitWhole 0.0 "scenes", "all images of a scene are on one side of the split", "the file was edited: run enfilade partition";
+    PartitionWhole 0.0 "scenes", "all images of a scene are on one side of the partition", "the file was edited: run enfilade partition";
     TwoViewDistance 1e-3 "share", "no frame looks through a surface that its neighbour sees (share of the pixels that both see and resolve)",
         "pose, calibration or unit of depth is not that of the rendering, or the scene is different in the two frames: render again";
     TwoViewIds 1e-3 "share", "neighbours see the same part and instance where they see the same point", "frames of different versions of the scene are mixed: render and label again";

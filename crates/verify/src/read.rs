@@ -99,8 +99,8 @@ pub(super) struct SceneLabels {
 /// The labels by render entity.
 pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: &mut Card) -> Option<SceneLabels> {
     let files = dataset.mesh_files(scene);
-    let read = files.read_labels().and_then(|tables| Ok((tables, files.read_splits()?, files.read_last_class()?)));
-    let (tables, splits, last_class) = match read {
+    let read = files.read_labels().and_then(|tables| Ok((tables, files.read_pieces()?, files.read_last_class()?)));
+    let (tables, parents, last_class) = match read {
         Ok(read) => read,
         Err(error) => {
             card.observe(Law::LabelTables, 1.0, || error.to_string());
@@ -108,18 +108,18 @@ pub(super) fn read_labels(dataset: &Dataset, scene: &str, nodes: &[Node], card: 
         }
     };
     let objects = nodes.iter().filter_map(|node| node.object_id).max().map_or(0, |id| id as usize + 1);
-    let enough = tables.parts.len() >= objects + splits.len();
+    let enough = tables.parts.len() >= objects + parents.len();
     card.observe(Law::LabelTables, if enough { 0.0 } else { 1.0 }, || {
-        format!("{scene}: {} rows for {} objects", tables.parts.len(), objects + splits.len())
+        format!("{scene}: {} rows for {} objects", tables.parts.len(), objects + parents.len())
     });
     card.merge(check_labels(&tables, scene));
     let label = |node: &Node| node.object_id.and_then(|id| tables.parts.get(id as usize)).copied().unwrap_or(PartLabel::NONE);
-    let first = tables.parts.len().saturating_sub(splits.len());
+    let first = tables.parts.len().saturating_sub(parents.len());
     let piece = |(&parent, &label): (&u32, &PartLabel)| {
         let node = nodes.iter().find(|node| node.object_id == Some(parent))?;
         Some((node.node_id, label))
     };
-    let pieces = splits.iter().zip(&tables.parts[first..]).filter_map(piece).collect();
+    let pieces = parents.iter().zip(&tables.parts[first..]).filter_map(piece).collect();
     Some(SceneLabels { labels: Labels { parts: nodes.iter().map(label).collect() }, pieces, last_class })
 }
 

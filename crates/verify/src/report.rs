@@ -329,8 +329,8 @@ no gate was measured
         let [a, b] = [card(&[(Law::Roll, 2.0, "a"), (Law::Distance, 1.0, "a")]), card(&[(Law::Roll, 3.0, "b")])];
         let mut both = a.clone();
         both.merge(b.clone());
-        both.merge(card(&[(Law::SplitWhole, 0.0, "c")]));
-        let joined = VerifyReport::join(vec![report(&a, 1), report(&b, 2)], card(&[(Law::SplitWhole, 0.0, "c")]));
+        both.merge(card(&[(Law::PartitionWhole, 0.0, "c")]));
+        let joined = VerifyReport::join(vec![report(&a, 1), report(&b, 2)], card(&[(Law::PartitionWhole, 0.0, "c")]));
         assert_eq!(joined, VerifyReport::new(&both, 2, vec![FrameValues::default(); 3], vec![], vec![]));
     }
 

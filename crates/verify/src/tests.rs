@@ -44,7 +44,7 @@ impl Case {
     /// Drops the split layers, and says that pixel `p` has no error: for tests that change its colour.
     fn forget_parts_and_error(&mut self, p: usize) {
         let mut frame = Frame::new(self.frame.width, self.frame.height);
-        let kept = self.frame.iter().filter(|(layer, _)| layer.spec().pass != Pass::Split);
+        let kept = self.frame.iter().filter(|(layer, _)| layer.spec().pass != Pass::LightParts);
         kept.for_each(|(layer, values)| frame.insert(layer, values.clone()));
         self.frame = frame;
         self.set(Layer::ColorStandardError, p, &[0.0]);
@@ -94,7 +94,7 @@ fn missing_layers_and_wrong_sizes_are_found() {
     };
     assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Rendered)), [], "denoised layers are there when asked for");
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualRendered)), [Law::LayersPresent]);
-    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Split)), [], "light is split when asked for");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::LightParts)), [], "light is kept in parts when asked for");
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::Emission)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
 }
@@ -231,11 +231,11 @@ fn colour_laws_are_checked() {
     };
     assert_eq!(failures(one_sample), []);
     for part in [Layer::DiffuseIndirect, Layer::Transmission, Layer::LightDistant] {
-        assert_eq!(failures(|c, p| c.set(part, p, &[0.002; 3])), [Law::LightSplits], "{part:?}");
+        assert_eq!(failures(|c, p| c.set(part, p, &[0.002; 3])), [Law::LightParts], "{part:?}");
     }
     // The parts of light are those of what was rendered.
     let rendered = |c: &mut Case, p: usize| c.set(Layer::ResidualRendered, p, &[0.5; 3]);
-    assert_eq!(failures(rendered), [Law::Recomposition, Law::LightSplits]);
+    assert_eq!(failures(rendered), [Law::Recomposition, Law::LightParts]);
     let denoised = |c: &mut Case, p: usize| c.set(Layer::Residual, p, &[0.5; 3]);
     assert_eq!(failures(denoised), [Law::Recomposition]);
 }

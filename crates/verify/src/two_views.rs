@@ -295,7 +295,7 @@ impl<'a> Raster<'a> {
         self.around(pixel).map(|k| normals[pixel].dot(normals[k])).fold(1.0, f64::min)
     }
 
-    /// Whether all pixels around are there and of the pixel's part, and of the same piece of it if it was split.
+    /// Whether all pixels around are there and of the pixel's part, and of the same piece of it if it was cut.
     fn is_of_one_part(&self, pixel: usize) -> bool {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let inside = x >= REACH && y >= REACH && x + REACH < self.width && y + REACH < self.height;

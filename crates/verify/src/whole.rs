@@ -5,7 +5,7 @@ use super::card::Card;
 use super::law::Law;
 use super::read::readable;
 use super::report::VerifyReport;
-use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, Partition, SceneEntry, write_changed};
+use enfilade_dataset::{Dataset, DatasetError, FrameStatus, Manifest, SceneEntry, Side, write_changed};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The report of several scenes' reports, with the laws of the dataset as a whole.
@@ -47,11 +47,11 @@ pub(super) fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Optio
     }
 }
 
-/// No scene is on two sides of the split, where there is one.
+/// No scene is on two sides of the partition, where there is one.
 fn check_split(card: &mut Card, dataset: &Dataset) {
-    let Some(rows) = boxes::there(dataset.read_split()).and_then(|read| readable(card, read)) else { return };
-    let mut sides: BTreeMap<&str, Partition> = BTreeMap::new();
-    let sided = rows.iter().filter_map(|row| Some((row.scene.as_str(), *row.partition.as_ref().ok()?)));
+    let Some(rows) = boxes::there(dataset.read_partition()).and_then(|read| readable(card, read)) else { return };
+    let mut sides: BTreeMap<&str, Side> = BTreeMap::new();
+    let sided = rows.iter().filter_map(|row| Some((row.scene.as_str(), *row.side.as_ref().ok()?)));
     let torn: BTreeSet<&str> = sided.filter(|&(scene, side)| *sides.entry(scene).or_insert(side) != side).map(|(scene, _)| scene).collect();
-    card.observe(Law::SplitWhole, torn.len() as f64, || format!("scenes {torn:?}"));
+    card.observe(Law::PartitionWhole, torn.len() as f64, || format!("scenes {torn:?}"));
 }

@@ -15,7 +15,7 @@ const PASSES: [(&str, &str); 6] = [
     ("Geometry", "## Geometry\n\nIn `scene_cam_XX_geometry_hdf5`: point samples at pixel centres."),
     ("Label", "## Labels\n\nAlso in the geometry folder, joined from `render_entity_id` after rendering."),
     ("Rendered", "## What was rendered, where color is denoised\n\nAlso in the final folder, unless `keep_rendered = false`."),
-    ("Split", "## Light in parts\n\nAlso in the final folder, with `--light-parts` or `splits = true`."),
+    ("LightParts", "## Light in parts\n\nAlso in the final folder, with `--light-parts` or `light_parts = true`."),
     ("Extra", "## More per pixel\n\nAlso in the geometry folder, with `--extra` or `extra = true`."),
 ];
 

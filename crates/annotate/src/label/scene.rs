@@ -200,7 +200,7 @@ impl AnnotatedScene {
 /// The triangles with their objects as they were before any was split: by the log beside them if there is one, else by the tables.
 fn read_mesh(files: &MeshFiles) -> Result<MeshGeometry, DatasetError> {
     match unsplit(files) {
-        Some((whole, object_of_face)) => files.read_unsplit(whole, object_of_face).or_else(|_| files.read()),
+        Some((whole, object_of_face)) => files.read_whole(whole, object_of_face).or_else(|_| files.read()),
         None => files.read(),
     }
 }

@@ -1,4 +1,4 @@
-//! Everything about a frame except its layers: its records, its split, how much it shows of each instance, and what verification measured.
+//! Everything about a frame except its layers: its records, its side of the partition, how much it shows of each instance, and what verification measured.
 
 use super::place::{FramePlace, optional, problem};
 use super::problems::Problems;
@@ -33,7 +33,7 @@ impl Viewer {
             layout.frame_record(scene, camera, *frame),
             layout.label_record(scene, camera, *frame),
             layout.frame_instances(scene, camera),
-            layout.split(),
+            layout.partition(),
             layout.verify_report(),
         ])?;
         let mut lost = Problems::default();
@@ -49,9 +49,9 @@ impl Viewer {
                     "visibility": view.visibility(), "truncation": view.truncation() })
             })
             .collect();
-        let split = lost.or_nothing("frame", optional(self.dataset.read_split())).unwrap_or_default();
-        let row = split.iter().find(|row| row.scene == *scene && row.camera == *camera && row.frame == *frame);
-        let split = row.map(|row| match &row.partition {
+        let rows = lost.or_nothing("frame", optional(self.dataset.read_partition())).unwrap_or_default();
+        let row = rows.iter().find(|row| row.scene == *scene && row.camera == *camera && row.frame == *frame);
+        let split = row.map(|row| match &row.side {
             Ok(partition) => json!({ "partition": partition.name() }),
             Err(reason) => json!({ "excluded": reason }),
         });

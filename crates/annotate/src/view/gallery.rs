@@ -88,7 +88,7 @@ impl Viewer {
 
     fn tables(&self, scene: &str, camera: &str, lost: &mut Problems) -> Result<Tables, ApiProblem> {
         let layout = self.layout();
-        self.allow_all([layout.view_gates(scene, camera), layout.frame_instances(scene, camera), layout.split()])?;
+        self.allow_all([layout.view_gates(scene, camera), layout.frame_instances(scene, camera), layout.partition()])?;
         self.allow(&layout.records_dir(scene, camera))?;
         let report = self.report()?;
         let exposures = lost.or_nothing("gallery", self.tone_maps(scene, camera)).iter().map(|row| (row.frame, row.scale)).collect();
@@ -98,10 +98,10 @@ impl Viewer {
             views.iter().filter(|view| view.visible.pixels > 0).for_each(|view| *counts.entry(view.frame).or_default() += 1);
             counts
         });
-        let rows = lost.or_nothing("gallery", optional(self.dataset.read_split())).unwrap_or_default();
+        let rows = lost.or_nothing("gallery", optional(self.dataset.read_partition())).unwrap_or_default();
         let mine = rows.iter().filter(|row| row.scene == scene && row.camera == camera);
         let partitions =
-            mine.map(|row| (row.frame, row.partition.as_ref().map_or_else(ToString::to_string, |part| part.name().into()))).collect();
+            mine.map(|row| (row.frame, row.side.as_ref().map_or_else(ToString::to_string, |part| part.name().into()))).collect();
         let mut laws: HashMap<u32, Vec<String>> = HashMap::new();
         for law in report.iter().flat_map(|report| report.report.failures()) {
             if let Some(frame) = frame_of(&law.place, scene, camera) {

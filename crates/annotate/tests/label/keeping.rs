@@ -29,7 +29,7 @@ async fn a_mesh_folder_is_split_by_material_and_read_again() {
     page.act(assign(&[6], class(9))).await;
     page.act(assign(&[1], json!({ "layer": "instance", "new": true }))).await;
     page.post("save", "{}").await;
-    assert_eq!(mesh.read_splits().unwrap(), [1]);
+    assert_eq!(mesh.read_pieces().unwrap(), [1]);
     assert_eq!(mesh.read_objects_of_faces().unwrap()[..9], [0, 0, 1, 1, 1, 1, 1, 1, 6]);
     let before = page.labels().await;
     drop(page);
@@ -41,7 +41,7 @@ async fn a_mesh_folder_is_split_by_material_and_read_again() {
         again.act(json!({ "type": "undo" })).await;
     }
     again.post("save", "{}").await;
-    assert!(mesh.read_splits().unwrap().is_empty());
+    assert!(mesh.read_pieces().unwrap().is_empty());
     drop(again);
     let mesh_folder = folder.path().join("scenes/room/_detail/mesh");
     assert_eq!(open(&mesh_folder).labels().await, [(-1, -1); 6]);

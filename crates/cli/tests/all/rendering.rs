@@ -1,4 +1,4 @@
-//! The flags of rendering: splits, limits, and a frame that goes on where a killed run has left it.
+//! The flags of rendering: parts of light, limits, and a frame that goes on where a killed run has left it.
 
 use crate::common::{Lamp, assert_same, contents, enfilade, fail, folder, scene, succeed, write_config, write_room};
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ fn extra_layers_come_when_asked_for_and_change_nothing_else() {
 }
 
 #[test]
-fn splits_come_when_asked_for_change_nothing_else_and_go_again() {
+fn parts_of_light_come_when_asked_for_change_nothing_else_and_go_again() {
     let dir = folder();
     let d = dir.path();
     room(d);

@@ -47,7 +47,7 @@ fn a_frame_that_is_there_is_not_replaced() {
 }
 
 #[test]
-fn frames_of_a_noise_target_with_splits_and_further_layers_come_out_the_same() {
+fn frames_of_a_noise_target_with_parts_of_light_and_further_layers_come_out_the_same() {
     let dir = folder();
     let d = dir.path();
     dataset(d, &["--noise", "30%", "--samples", "64", "--light-parts", "--extra", "--seed", "5"]);

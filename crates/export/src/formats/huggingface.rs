@@ -1,6 +1,6 @@
 //! Hugging Face: Parquet files that `datasets.load_dataset(folder)` loads, and a dataset card.
 //!
-//! `data/<split>-NNNNN.parquet` has a row per frame. Sides of the split are `train`, `validation` and `test`, by the dataset's own split;
+//! `data/<split>-NNNNN.parquet` has a row per frame. Sides of the partition are `train`, `validation` and `test`, by the dataset's own partition;
 //! without one everything is `train`. Pictures are PNG files in the layout of the feature `Image`: tone-mapped colour, depth in millimetres
 //! (16 bits, 0 for none), classes and instances (0 for none). K is OpenCV's, poses are camera to world in OpenCV's axes, metres.
 
@@ -11,18 +11,18 @@ use crate::depth::{DEPTH, distance_m, millimetres, planar_m};
 use crate::export_folder::ExportFolder;
 use crate::picture::{SHOWN, color_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
-use enfilade_dataset::{Classes, DatasetError, Partition, SplitRow};
+use enfilade_dataset::{Classes, DatasetError, PartitionRow, Side};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_scene::Warning;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What `datasets` calls a side.
-const fn split_name(side: Partition) -> &'static str {
+const fn split_name(side: Side) -> &'static str {
     match side {
-        Partition::Train => "train",
-        Partition::Val => "validation",
-        Partition::Test => "test",
+        Side::Train => "train",
+        Side::Val => "validation",
+        Side::Test => "test",
     }
 }
 
@@ -53,18 +53,18 @@ fn classes(selected: &SelectedFrames<'_>) -> Result<BTreeMap<String, BTreeMap<i1
     selected.scenes().map(of_scene).collect()
 }
 
-/// The frames of each side that has some, in order. Those that the split does not place are left out, with a warning.
-pub(crate) fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Partition, Vec<View<'s>>>, ExportError> {
-    let mut sides: BTreeMap<Partition, Vec<View<'s>>> = BTreeMap::new();
-    let rows: Vec<SplitRow> = match selected.dataset.read_split() {
+/// The frames of each side that has some, in order. Those that the partition does not place are left out, with a warning.
+pub(crate) fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Side, Vec<View<'s>>>, ExportError> {
+    let mut sides: BTreeMap<Side, Vec<View<'s>>> = BTreeMap::new();
+    let rows: Vec<PartitionRow> = match selected.dataset.read_partition() {
         Err(error) if DatasetError::is_not_found(&error) => {
-            sides.insert(Partition::Train, selected.views().collect());
+            sides.insert(Side::Train, selected.views().collect());
             return Ok(sides);
         }
         rows => rows?,
     };
-    let placed: BTreeMap<(&str, &str, u32), Partition> =
-        rows.iter().filter_map(|row| Some(((row.scene.as_str(), row.camera.as_str(), row.frame), *row.partition.as_ref().ok()?))).collect();
+    let placed: BTreeMap<(&str, &str, u32), Side> =
+        rows.iter().filter_map(|row| Some(((row.scene.as_str(), row.camera.as_str(), row.frame), *row.side.as_ref().ok()?))).collect();
     let mut lost = Vec::new();
     for view in selected.views() {
         match placed.get(&(view.track.scene.as_str(), view.track.name.as_str(), view.frame())) {
@@ -74,11 +74,11 @@ pub(crate) fn sides<'s>(selected: &'s SelectedFrames<'_>) -> Result<BTreeMap<Par
     }
     if let Some(first) = lost.first() {
         let message =
-            format!("{first} and {} more are on no side of the split and left out; divide again: enfilade partition", lost.len() - 1);
+            format!("{first} and {} more are on no side of the partition and left out; divide again: enfilade partition", lost.len() - 1);
         if sides.is_empty() {
             return Err(ExportError::Selection(message));
         }
-        selected.warn(Warning { place: selected.dataset.layout().split().display().to_string(), message });
+        selected.warn(Warning { place: selected.dataset.layout().partition().display().to_string(), message });
     }
     Ok(sides)
 }

@@ -11,7 +11,7 @@ use crate::instances::{Instance, instances};
 use crate::mesh::{SurfaceMesh, instance_meshes, missing_mesh_file};
 use crate::picture::{SHOWN, color_jpeg, grey8_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
-use enfilade_dataset::{InstanceView, Partition};
+use enfilade_dataset::{InstanceView, Side};
 use enfilade_frame::{Frame, Layer};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::Intrinsics;
@@ -64,13 +64,13 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
             told.into_iter().for_each(|told| add(&mut all, told));
         }
     }
-    match selected.dataset.read_split() {
+    match selected.dataset.read_partition() {
         Err(error) if error.is_not_found() => {}
-        rows => sides.extend(rows?.into_iter().filter_map(|row| Some(((row.scene, row.camera, row.frame), row.partition.ok()?)))),
+        rows => sides.extend(rows?.into_iter().filter_map(|row| Some(((row.scene, row.camera, row.frame), row.side.ok()?)))),
     }
     out.write("pix3d_all.json", &all.to_json())?;
     let side_of = |image: &Image| sides.get(&(image.scene.clone()?, image.camera.clone()?, image.frame?)).copied();
-    let present: BTreeSet<Partition> = all.images.iter().filter_map(side_of).collect();
+    let present: BTreeSet<Side> = all.images.iter().filter_map(side_of).collect();
     for side in present {
         out.write(&format!("pix3d_{}.json", side.name()), &all.only(|image| side_of(image) == Some(side)).to_json())?;
     }

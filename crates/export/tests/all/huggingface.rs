@@ -1,7 +1,7 @@
-//! Sides of the split become splits of the Parquet files, and nothing is left out in silence.
+//! Sides of the partition become splits of the Parquet files, and nothing is left out in silence.
 
 use crate::common;
-use enfilade_dataset::{Dataset, Partition, SplitRow};
+use enfilade_dataset::{Dataset, PartitionRow, Side};
 use enfilade_export::{Existing, ExportConfig, ExportError, Exported, Format, export};
 use enfilade_scene::Heard;
 use std::path::Path;
@@ -11,17 +11,17 @@ fn written(dataset: &Dataset, out: &Path, heard: &Heard) -> Result<Exported, Exp
 }
 
 /// Every frame of the dataset, on the side that `side` says.
-fn divide(dataset: &Dataset, side: impl Fn(&str) -> Option<Partition>) {
+fn divide(dataset: &Dataset, side: impl Fn(&str) -> Option<Side>) {
     let mut rows = Vec::new();
     for scene in dataset.scenes().unwrap() {
         for camera in dataset.cameras(&scene).unwrap() {
             for frame in dataset.frame_numbers(&scene, &camera).unwrap() {
-                let row = |partition| SplitRow { scene: scene.clone(), camera: camera.clone(), frame, partition: Ok(partition) };
+                let row = |partition| PartitionRow { scene: scene.clone(), camera: camera.clone(), frame, side: Ok(partition) };
                 rows.extend(side(&scene).map(row));
             }
         }
     }
-    dataset.write_split(&rows).unwrap();
+    dataset.write_partition(&rows).unwrap();
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn sides_become_splits_and_what_is_on_none_is_told() {
     let card = || std::fs::read_to_string(out.join("README.md")).unwrap();
 
     let heard = Heard::default();
-    divide(&dataset, |scene| Some(if scene == "room" { Partition::Val } else { Partition::Test }));
+    divide(&dataset, |scene| Some(if scene == "room" { Side::Val } else { Side::Test }));
     let whole = written(&dataset, &out, &heard).unwrap();
     assert!(has("validation-00000.parquet") && has("test-00000.parquet") && !has("train-00000.parquet"));
     assert!(card().starts_with("---\n") && card().contains("- split: validation\n    path: data/validation-*"), "{}", card());
@@ -44,10 +44,10 @@ fn sides_become_splits_and_what_is_on_none_is_told() {
     );
     assert_eq!(heard.lines(), Vec::<String>::new());
 
-    divide(&dataset, |scene| (scene == "room").then_some(Partition::Train));
+    divide(&dataset, |scene| (scene == "room").then_some(Side::Train));
     written(&dataset, &out, &heard).unwrap();
     assert!(has("train-00000.parquet") && !has("test-00000.parquet"));
-    assert!(heard.lines()[0].contains("are on no side of the split and left out"), "{:?}", heard.lines());
+    assert!(heard.lines()[0].contains("are on no side of the partition and left out"), "{:?}", heard.lines());
 
     divide(&dataset, |_| None);
     let error = written(&dataset, &out, &heard).unwrap_err();

@@ -1,7 +1,7 @@
 //! The structure of buildings, exported and read back: Structured3D's files by our importer, which is made from its own description.
 
 use crate::common::write;
-use enfilade_dataset::{Dataset, Partition, SplitRow};
+use enfilade_dataset::{Dataset, PartitionRow, Side};
 use enfilade_export::{CloudSource, Existing, ExportConfig, Format, export};
 use enfilade_home::{FloorPlan, RoomKind};
 use enfilade_import::{ImportOptions, load};
@@ -97,8 +97,8 @@ fn numbers_of_structured3d_say_the_side_and_its_lists_know_every_word() {
     let mut structure = dataset.read_structure("room").unwrap().unwrap();
     structure.rooms[0].kind = "childrens".into();
     dataset.write_structure("room", &structure).unwrap();
-    let row = |scene: &str, partition| SplitRow { scene: scene.into(), camera: "cam_00".into(), frame: 0, partition: Ok(partition) };
-    dataset.write_split(&[row("room", Partition::Test), row("room-two", Partition::Train)]).unwrap();
+    let row = |scene: &str, partition| PartitionRow { scene: scene.into(), camera: "cam_00".into(), frame: 0, side: Ok(partition) };
+    dataset.write_partition(&[row("room", Side::Test), row("room-two", Side::Train)]).unwrap();
     let out = folder.path().join("out");
     export(&dataset, &ExportConfig::new(Format::Structured3d, dataset.scenes().unwrap()), &out, Existing::Refuse, &Quiet).unwrap();
     // RoomFormer: train below 3000, val below 3250, test from there on.

@@ -1,6 +1,6 @@
-//! Marigold: normals, the lists by side of the split, and what has none of them. MoGe's lists are divided in the same way.
+//! Marigold: normals, the lists by side of the partition, and what has none of them. MoGe's lists are divided in the same way.
 
-use enfilade_dataset::{Dataset, FrameInfo, FrameTime, Partition, SplitRow};
+use enfilade_dataset::{Dataset, FrameInfo, FrameTime, PartitionRow, Side};
 use enfilade_export::{Existing, ExportConfig, Format, export};
 use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
@@ -73,10 +73,10 @@ fn sides_have_lists_and_normals_face_the_camera() {
     let picture = image::open(out.join(seen)).unwrap().into_rgb8();
     assert!(picture.pixels().all(|pixel| pixel.0 == [128, 128, 255]));
 
-    // By the dataset's split.
-    let row = |scene: &str, frame, side| SplitRow { scene: scene.into(), camera: "cam_00".into(), frame, partition: Ok(side) };
-    let rows = [0, 7].into_iter().flat_map(|frame| [row("a", frame, Partition::Train), row("b", frame, Partition::Val)]);
-    dataset.write_split(&rows.collect::<Vec<_>>()).unwrap();
+    // By the dataset's partition.
+    let row = |scene: &str, frame, side| PartitionRow { scene: scene.into(), camera: "cam_00".into(), frame, side: Ok(side) };
+    let rows = [0, 7].into_iter().flat_map(|frame| [row("a", frame, Side::Train), row("b", frame, Side::Val)]);
+    dataset.write_partition(&rows.collect::<Vec<_>>()).unwrap();
     let out = folder.path().join("with");
     exported(&dataset, Format::Marigold, &out);
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();

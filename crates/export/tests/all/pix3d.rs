@@ -1,6 +1,6 @@
 //! The export for Mesh R-CNN, read back: models stand in camera space where the frames show them.
 
-use enfilade_dataset::{Dataset, Partition, SplitRow};
+use enfilade_dataset::{Dataset, PartitionRow, Side};
 use enfilade_export::{Existing, ExportConfig, ExportError, Format, export};
 use enfilade_frame::{Layer, Values};
 use enfilade_math::{DMat3, DVec3};
@@ -145,13 +145,14 @@ fn cameras_that_the_format_cannot_tell_are_refused_by_name() {
 #[test]
 fn the_datasets_sides_are_files_of_their_own() {
     let (folder, dataset) = written(&camera(64, 48, 40.0));
-    let row = |scene: &str, camera: &str, frame, partition| SplitRow { scene: scene.into(), camera: camera.into(), frame, partition };
+    let row =
+        |scene: &str, camera: &str, frame, partition| PartitionRow { scene: scene.into(), camera: camera.into(), frame, side: partition };
     dataset
-        .write_split(&[
-            row("room", "cam_00", 0, Ok(Partition::Train)),
-            row("room", "cam_00", 1, Ok(Partition::Train)),
+        .write_partition(&[
+            row("room", "cam_00", 0, Ok(Side::Train)),
+            row("room", "cam_00", 1, Ok(Side::Train)),
             row("room", "cam_00", 3, Err("dark".into())),
-            row("room-two", "cam_00", 12, Ok(Partition::Test)),
+            row("room-two", "cam_00", 12, Ok(Side::Test)),
         ])
         .unwrap();
     let (out, document) = exported(folder.path(), &dataset).unwrap();

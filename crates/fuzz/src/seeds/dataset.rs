@@ -5,7 +5,7 @@ use crate::Seed;
 use enfilade_dataset::hdf5::{Packing, Storage, write_array};
 use enfilade_dataset::{
     AmodalMask, AmodalMasks, Array, BoxKind, Dataset, DescribedInstance, Elements, InstanceRelation, InstanceView, JudgedView,
-    ManifestInfo, Partition, PixelArea, RelationKind, SplitRow, ToneMapRow, ViewFault, ViewVerdict,
+    ManifestInfo, PartitionRow, PixelArea, RelationKind, Side, ToneMapRow, ViewFault, ViewVerdict,
 };
 use enfilade_math::{DMat3, DVec2, DVec3, OrientedBox};
 use enfilade_scene::Intrinsics;
@@ -33,8 +33,8 @@ pub fn write(root: &Path) -> Dataset {
 
 /// What a dataset may have besides.
 fn more(dataset: &Dataset) -> Result<(), enfilade_dataset::DatasetError> {
-    let split = |partition| SplitRow { scene: SCENE.into(), camera: CAMERA.into(), frame: 0, partition };
-    dataset.write_split(&[split(Ok(Partition::Train)), split(Err("blank".into()))])?;
+    let split = |partition| PartitionRow { scene: SCENE.into(), camera: CAMERA.into(), frame: 0, side: partition };
+    dataset.write_partition(&[split(Ok(Side::Train)), split(Err("blank".into()))])?;
     let fault = Some(ViewFault { gate: "blocked".into(), value: 0.75, limit: 0.5 });
     let view = |verdict, fault| (JudgedView { frame: 1, verdict, fault }, vec![0.25]);
     dataset.write_view_gates(SCENE, CAMERA, &["void_share"], &[view(ViewVerdict::Rejected, fault), view(ViewVerdict::Passed, None)])?;

@@ -55,12 +55,12 @@ pub fn tables(folder: &Path) -> Run {
     let (dataset, input) = linked(folder, "csv");
     Box::new(move |bytes| {
         std::fs::write(&input, bytes).expect("a folder that can be written");
-        drop((dataset.read_times(), dataset.read_split(), dataset.cameras(SCENE), dataset.read_nodes(SCENE)));
+        drop((dataset.read_times(), dataset.read_partition(), dataset.cameras(SCENE), dataset.read_nodes(SCENE)));
         drop((dataset.table_projection(SCENE), dataset.projection_matrix(SCENE), dataset.meters_per_asset_unit(SCENE)));
         drop((dataset.read_frame_time(SCENE, CAMERA), dataset.rejected_views(SCENE, CAMERA)));
         drop((dataset.read_tone_maps(SCENE, CAMERA), dataset.read_instance_views(SCENE, CAMERA), dataset.read_fixtures(SCENE)));
         drop((dataset.read_described_instances(SCENE), dataset.read_instance_relations(SCENE)));
-        drop(dataset.mesh_files(SCENE).read_splits());
+        drop(dataset.mesh_files(SCENE).read_pieces());
         #[cfg(feature = "program")]
         drop(enfilade_label::LabelTable::parse(bytes, "labels.csv"));
         drop(read_names(bytes, "names.csv"));

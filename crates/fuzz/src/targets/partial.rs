@@ -25,7 +25,7 @@ impl Stage {
         let camera: &'static Camera = Box::leak(Box::new(Intrinsics::from_fov_x(6, 4, 1.0).into()));
         let pose = Pose::look_at(0, DVec3::new(0.3, 0.3, 2.0), DVec3::new(0.3, 0.4, 0.0), DVec3::Y).expect("a pose");
         let view = CameraView::still(camera, &pose);
-        let config = &*Box::leak(Box::new(RenderConfig { samples: 4, splits: true, fixtures: true, ..RenderConfig::default() }));
+        let config = &*Box::leak(Box::new(RenderConfig { samples: 4, light_parts: true, fixtures: true, ..RenderConfig::default() }));
         let guide = &*Box::leak(Box::new(Guide::learn(scene, &[view], config)));
         Self { scene, guide, view, config }
     }

@@ -17,7 +17,7 @@ pub fn nyuv2(folder: &Path) -> Run {
     Box::new(move |bytes| {
         std::fs::write(&file, bytes).expect("a folder that can be written");
         for classes in [NyuClasses::All, NyuClasses::Forty, NyuClasses::Thirteen] {
-            let choice = NyuChoice { split: None, classes, layers: NYU_LAYERS.to_vec(), partial: true };
+            let choice = NyuChoice { side: None, classes, layers: NYU_LAYERS.to_vec(), partial: true };
             if let Ok(images) = NyuV2::open(&file, &choice) {
                 (0..images.len().min(4)).for_each(|index| drop(images.sample(index)));
             }

@@ -5,7 +5,7 @@
 
 mod tables;
 
-pub use tables::{NyuClasses, NyuSplit, PUBLISHED_IMAGES, nyu13_of_nyu40, side_of};
+pub use tables::{NyuClasses, NyuSide, PUBLISHED_IMAGES, nyu13_of_nyu40, side_of};
 
 use crate::error::LoaderError;
 use crate::sample::{Image, Sample, mask_out};
@@ -20,7 +20,7 @@ pub const NYU_LAYERS: [Layer; 3] = [Layer::Color, Layer::DepthZMeters, Layer::Se
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NyuChoice {
     /// A side of the published split; `None` is all images.
-    pub split: Option<NyuSplit>,
+    pub side: Option<NyuSide>,
     /// Classes of the layer `semantic`.
     pub classes: NyuClasses,
     /// Layers of a sample, each in [`NYU_LAYERS`].
@@ -79,7 +79,7 @@ impl NyuV2 {
                 "has {count} images, expected the {PUBLISHED_IMAGES} that are published; ask for `partial` if it is meant to be a part"
             )));
         }
-        let chosen = |image: &usize| choice.split.is_none_or(|side| side_of(*image) == Some(side));
+        let chosen = |image: &usize| choice.side.is_none_or(|side| side_of(*image) == Some(side));
         let images: Vec<usize> = (0..count).filter(chosen).collect();
         if images.is_empty() {
             return Err(refuse(format!("none of its {count} images is of the side that was asked for")));
@@ -204,7 +204,7 @@ mod tests {
     fn a_file_that_is_something_else_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("nyu.mat");
-        let choice = NyuChoice { split: None, classes: NyuClasses::Forty, layers: NYU_LAYERS.to_vec(), partial: false };
+        let choice = NyuChoice { side: None, classes: NyuClasses::Forty, layers: NYU_LAYERS.to_vec(), partial: false };
         let said = |path: &Path, choice: &NyuChoice| NyuV2::open(path, choice).unwrap_err().to_string();
         assert!(said(&path, &choice).contains("nyu.mat"));
         std::fs::write(&path, "MATLAB 5.0 MAT-file".repeat(100)).unwrap();

@@ -14,7 +14,7 @@ static CLASSES_13: LazyLock<Vec<&str>> = LazyLock::new(|| rows(include_str!("../
 
 /// A side of the published split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NyuSplit {
+pub enum NyuSide {
     /// 795 images.
     Train,
     /// 654 images.
@@ -71,8 +71,8 @@ pub fn nyu13_of_nyu40(nyu40: i16) -> i16 {
 }
 
 /// Which side an image is of, counted from 0; `None` beyond the published images.
-pub fn side_of(image: usize) -> Option<NyuSplit> {
-    SPLIT.get(image).map(|&test| if test { NyuSplit::Test } else { NyuSplit::Train })
+pub fn side_of(image: usize) -> Option<NyuSide> {
+    SPLIT.get(image).map(|&test| if test { NyuSide::Test } else { NyuSide::Train })
 }
 
 /// The rows of a table whose first column counts them from 1.
@@ -95,10 +95,10 @@ mod tests {
     fn the_split_is_the_published_one() {
         let sides: Vec<_> = (0..PUBLISHED_IMAGES).filter_map(side_of).collect();
         let of = |side| sides.iter().filter(|&&found| found == side).count();
-        assert_eq!([of(NyuSplit::Train), of(NyuSplit::Test)], [795, 654]);
+        assert_eq!([of(NyuSide::Train), of(NyuSide::Test)], [795, 654]);
         // The first of each, counted from 1.
         let first = |side| (0..PUBLISHED_IMAGES).filter(move |&image| side_of(image) == Some(side)).map(|image| image + 1).take(5);
-        assert!(first(NyuSplit::Train).eq([3, 4, 5, 6, 7]) && first(NyuSplit::Test).eq([1, 2, 9, 14, 15]));
+        assert!(first(NyuSide::Train).eq([3, 4, 5, 6, 7]) && first(NyuSide::Test).eq([1, 2, 9, 14, 15]));
         assert_eq!(side_of(PUBLISHED_IMAGES), None);
     }
 

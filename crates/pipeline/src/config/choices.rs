@@ -139,7 +139,7 @@ pub struct RenderChoices {
     /// Seconds that a frame may take.
     pub time_limit_s: Option<f64>,
     /// Asks for layers of light by way and by source.
-    pub splits: bool,
+    pub light_parts: bool,
     /// Asks for the light of each fixture by itself.
     pub fixtures: bool,
     /// Asks for the further layers of geometry and material.
@@ -174,7 +174,7 @@ impl RenderChoices {
         render.noise = self.noise.or(render.noise);
         render.max_bounces = self.max_bounces.or(render.max_bounces);
         render.clamp = self.clamp.or(render.clamp);
-        render.splits |= self.splits;
+        render.light_parts |= self.light_parts;
         render.fixtures |= self.fixtures;
         render.extra |= self.extra;
         render.lambertian |= self.lambertian;

@@ -10,12 +10,12 @@ use toml::Spanned;
 
 /// Defines a section: its keys are the named fields of the target, with the same types.
 macro_rules! section {
-    ($name:ident => $target:ty { $($field:ident: $type:ty),* $(,)? } $(with { $($(#[$doc:meta])* $extra:ident: $extra_type:ty),* $(,)? })?) => {
+    ($name:ident => $target:ty { $($(#[$attribute:meta])* $field:ident: $type:ty),* $(,)? } $(with { $($(#[$doc:meta])* $extra:ident: $extra_type:ty),* $(,)? })?) => {
         #[derive(Clone, Debug, Default, Deserialize)]
         #[serde(deny_unknown_fields, default)]
         pub(super) struct $name {
             $($($(#[$doc])* pub $extra: Option<Spanned<$extra_type>>,)*)?
-            $(pub $field: Option<Spanned<$type>>,)*
+            $($(#[$attribute])* pub $field: Option<Spanned<$type>>,)*
         }
 
         impl $name {
@@ -46,7 +46,10 @@ section!(RenderPatch => RenderConfig {
     guiding: bool,
     max_bounces: u32,
     clamp: f32,
-    splits: bool,
+    /// Keeps the light of each pixel apart by its way and by its source, as layers of their own. Changes no other layer.
+    // `splits` in the files of 0.1.0.
+    #[serde(alias = "splits")]
+    light_parts: bool,
     fixtures: bool,
     extra: bool,
     lambertian: bool,

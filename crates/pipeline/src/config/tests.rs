@@ -88,10 +88,10 @@ fn color_is_denoised_unless_asked_otherwise_and_no_library_can_be_named() {
 
 #[test]
 fn choices_of_the_command_line_win_over_the_file_and_its_samples_over_the_quality() {
-    let text = format!("[render]\nsamples = 5\nnoise = 0.1\nclamp = 4\ntime_limit_s = 60\nsave_every_s = 5\nsplits = true\n{SCENE}");
+    let text = format!("[render]\nsamples = 5\nnoise = 0.1\nclamp = 4\ntime_limit_s = 60\nsave_every_s = 5\nlight_parts = true\n{SCENE}");
     let scene = config(&text).scenes.remove(0);
     assert_eq!((scene.render.samples, scene.render.noise, scene.render.clamp), (5, Some(0.1), Some(4.0)));
-    assert_eq!((scene.time_limit_s, scene.save_every_s, scene.render.splits), (Some(60.0), 5.0, true));
+    assert_eq!((scene.time_limit_s, scene.save_every_s, scene.render.light_parts), (Some(60.0), 5.0, true));
     let render = RenderChoices {
         samples: Some(7),
         noise: Some(0.02),
@@ -103,9 +103,9 @@ fn choices_of_the_command_line_win_over_the_file_and_its_samples_over_the_qualit
     let overrides = Overrides { quality: Some(Quality::High), render, ..Overrides::default() };
     let scene = config_with(&text, &overrides).scenes.remove(0);
     assert_eq!((scene.render.samples, scene.render.noise, scene.render.clamp), (7, Some(0.02), Some(9.0)));
-    assert_eq!((scene.render.max_bounces, scene.time_limit_s, scene.render.splits), (Some(3), Some(1.5), true));
+    assert_eq!((scene.render.max_bounces, scene.time_limit_s, scene.render.light_parts), (Some(3), Some(1.5), true));
     let scene = config(SCENE).scenes.remove(0);
-    assert_eq!((scene.render.splits, scene.time_limit_s, scene.save_every_s), (false, None, 30.0));
+    assert_eq!((scene.render.light_parts, scene.time_limit_s, scene.save_every_s), (false, None, 30.0));
     let render = RenderChoices { noise: Some(2.0), ..RenderChoices::default() };
     let error = Config::demo(&Overrides { render, ..Overrides::default() }).unwrap_err();
     assert_eq!(error.to_string(), "the command line: noise must lie between 0 and 1, found 2");
@@ -239,7 +239,7 @@ fn unknown_keys_are_shown_in_place_with_the_closest_known_key() {
     assert_eq!(
         error(&format!("[render]\nsize = [4, 3]\nsampels = 3\n{SCENE}")),
         "sets/dataset.toml:3:1: unknown key `sampels`\n  3 | sampels = 3\n    | ^^^^^^^\nhelp: did you mean `samples`? known keys here: \
-         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, samples, adaptive, noise, guiding, max_bounces, clamp, splits, fixtures, extra, lambertian, roulette_start, filter, filter_radius"
+         size, fov_x_deg, time_limit_s, save_every_s, color, keep_rendered, samples, adaptive, noise, guiding, max_bounces, clamp, light_parts, fixtures, extra, lambertian, roulette_start, filter, filter_radius"
     );
     let text = error(&format!("{SCENE}meter_per_unit = 3\n"));
     assert!(
@@ -276,7 +276,7 @@ fn what_was_meant_by_a_text_is_proposed_with_its_key() {
     for (text, help) in [
         (format!("frames = \"1\"\n{SCENE}"), "help: write frames = 1"),
         (format!("[render]\nnoise = \"2%\"\n{SCENE}"), "help: write noise = 0.02"),
-        (format!("render = {{ samples = 4, splits = \"true\" }}\n{SCENE}"), "help: write splits = true"),
+        (format!("render = {{ samples = 4, light_parts = \"true\" }}\n{SCENE}"), "help: write light_parts = true"),
         (format!("[plan]\nmode = \"walk\"\n{SCENE}"), "help: write mode = { kind = \"walk\" }"),
         // The reader does not tell where in the table of a mode it is.
         (format!("[plan]\nmode = {{ kind = \"video\", fps = \"24\" }}\n{SCENE}"), "help: write 24"),

@@ -201,7 +201,7 @@ impl<'a> Subject<'a> {
             mesh_names::OBJECTS_INSTANCE,
             mesh_names::FACES_OBJECTS,
             mesh_names::OBJECTS,
-            mesh_names::OBJECT_SPLITS,
+            mesh_names::OBJECT_PIECES,
             CLASS_LIST,
         ];
         tables.into_iter().map(|name| files.file(name)).collect()

@@ -20,9 +20,9 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     for table in [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE] {
         inputs.push(job.input_from(Stage::Label, &files.file(table))?);
     }
-    let splits = [mesh_names::OBJECT_SPLITS, mesh_names::FACES_OBJECTS].map(|table| files.file(table));
-    if splits[0].is_file() {
-        inputs.extend(splits.iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
+    let tables = [mesh_names::OBJECT_PIECES, mesh_names::FACES_OBJECTS].map(|table| files.file(table));
+    if tables[0].is_file() {
+        inputs.extend(tables.iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
     }
     inputs.extend(job.rendered_records()?);
     inputs.extend(job.label_records()?);

@@ -6,14 +6,14 @@ use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, counted, mesh_names, quoted, scene_hash};
 use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
-use enfilade_label::{LabelReport, LabelTable, SplitParts, doubts, join};
+use enfilade_label::{LabelReport, LabelTable, Pieces, doubts, join};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// What `enfilade annotate` writes beside its log.
 const ANNOTATION_TABLES: [&str; 4] =
-    [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_SPLITS];
+    [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_PIECES];
 /// Names listed in a warning; the report has all.
 const NAMES_SHOWN: usize = 5;
 
@@ -79,7 +79,7 @@ pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value
     if let Some(annotated_as) = annotated_scene(job)? {
         return Ok((annotated(job, &annotated_as, cx)?, serde_json::Value::Null));
     }
-    if job.dataset.mesh_files(&job.scene.name).file(mesh_names::OBJECT_SPLITS).is_file() {
+    if job.dataset.mesh_files(&job.scene.name).file(mesh_names::OBJECT_PIECES).is_file() {
         // An annotation that has been moved away had split parts: write the objects whole again.
         job.dataset.write_scene(&job.scene.name, &*job.load_scene()?).map_err(Error::stage)?;
     }
@@ -91,7 +91,7 @@ pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value
 /// What every part is called, or every piece where parts were split.
 pub(super) struct Known {
     labels: Labels,
-    split: Option<SplitParts>,
+    split: Option<Pieces>,
 }
 
 impl Known {
@@ -111,8 +111,8 @@ fn annotated(job: &Job, annotated_as: &str, cx: &StageCx) -> Result<Known, Error
     if hash_of(&scene) != annotated_as {
         return Err(other_scene(job, &files));
     }
-    let (labels, split) = (files.read_labels().map_err(Error::stage)?, SplitParts::read(&files, &scene).map_err(Error::stage)?);
-    let pieces = scene.parts.len() + split.as_ref().map_or(0, SplitParts::count);
+    let (labels, split) = (files.read_labels().map_err(Error::stage)?, Pieces::read(&files, &scene).map_err(Error::stage)?);
+    let pieces = scene.parts.len() + split.as_ref().map_or(0, Pieces::count);
     if labels.parts.len() != pieces {
         let message = format!("the annotation has labels of {} parts, the scene has {pieces}", labels.parts.len());
         let command = format!("enfilade annotate {} --scene {}", quoted(job.out().display()), quoted(&job.scene.name));

@@ -8,7 +8,7 @@ use super::{HASHED_AS, Job, Output, Stage};
 use crate::error::Error;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{BoxKind, InstanceView, write_json};
-use enfilade_label::SplitParts;
+use enfilade_label::Pieces;
 use enfilade_label::boxes::write_boxes;
 use enfilade_label::instances::{Solid, solids, view_instances};
 use enfilade_scene::{Quiet, Scene, WorldMesh};
@@ -63,7 +63,7 @@ impl Furniture {
 /// The scene, with the pieces of split parts as parts.
 pub(super) fn scene_of_pieces(job: &Job) -> Result<Arc<Scene>, Error> {
     let scene = job.load_scene()?;
-    let split = SplitParts::read(&job.dataset.mesh_files(&job.scene.name), &scene).map_err(Error::stage)?;
+    let split = Pieces::read(&job.dataset.mesh_files(&job.scene.name), &scene).map_err(Error::stage)?;
     Ok(split.map_or(scene.clone(), |split| Arc::new(split.scene_of_pieces(&scene))))
 }
 

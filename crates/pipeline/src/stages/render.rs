@@ -269,7 +269,7 @@ fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
         let config = &job.scene.render;
         let is_rendered = |pass: Pass| match pass {
             Pass::Final | Pass::Geometry => true,
-            Pass::Split => config.splits,
+            Pass::LightParts => config.light_parts,
             Pass::Extra => config.extra,
             Pass::Label | Pass::Rendered => false,
         };

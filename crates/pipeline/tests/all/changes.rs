@@ -158,7 +158,7 @@ fn scenes_that_are_gone_are_named_nowhere() {
     let expected = Dataset::open(&fresh).unwrap();
     let told = |dataset: &Dataset| {
         let layout = dataset.layout();
-        [layout.manifest(), layout.camera_parameters(), layout.split(), layout.overview(), layout.statistics()]
+        [layout.manifest(), layout.camera_parameters(), layout.partition(), layout.overview(), layout.statistics()]
             .map(|path| fs::read(path).unwrap())
     };
     assert!(told(&dataset) == told(&expected));

@@ -73,7 +73,7 @@ fn the_demo_verifies_and_is_made_once() {
     assert!(boxes.iter().flatten().count() > 10);
     let views = dataset.read_instance_views(demo::SCENE, "cam_00").unwrap();
     assert!(views.iter().any(|view| view.visible.pixels > 0) && views.iter().all(|view| view.inside_pixels > 0));
-    assert_eq!(dataset.read_split().unwrap().len(), 2);
+    assert_eq!(dataset.read_partition().unwrap().len(), 2);
     assert!(dataset.rejected_views(demo::SCENE, "cam_00").unwrap().is_empty());
     let types = std::fs::read_to_string(out.join("metadata_camera_trajectories.csv")).unwrap();
     assert_eq!(types, format!("Animation,Scene type,Notes\n{}_cam_00,Living room,living_1\n", demo::SCENE));

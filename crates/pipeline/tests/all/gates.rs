@@ -74,8 +74,8 @@ fn every_bad_view_is_rejected_for_its_reason_and_left_out_everywhere() {
     let frames = &manifest.scenes["room"].cameras["cam_00"].frames;
     assert_eq!((frames[0].status, frames[3].status), (FrameStatus::Complete, FrameStatus::Rejected));
     assert!(frames[3].reason.as_ref().unwrap().starts_with("blocked: "), "{:?}", frames[3].reason);
-    let split = dataset.read_split().unwrap();
-    let excluded: Vec<&str> = split.iter().filter_map(|row| row.partition.as_ref().err()).map(String::as_str).collect();
+    let split = dataset.read_partition().unwrap();
+    let excluded: Vec<&str> = split.iter().filter_map(|row| row.side.as_ref().err()).map(String::as_str).collect();
     assert_eq!(excluded, ["BURIED", "OUTSIDE", "BLOCKED", "BARE WALL", "BLANK"]);
     // Poses and numbers stay.
     assert_eq!(dataset.read_trajectory("room", "cam_00").unwrap().poses.len(), VIEWS.len());
@@ -102,7 +102,7 @@ fn views_that_are_only_reported_are_rendered() {
     assert_eq!(dataset.frame_numbers("room", "cam_00").unwrap().len(), VIEWS.len());
     let views = dataset.read_view_gates("room", "cam_00").unwrap().unwrap();
     assert_eq!(views.iter().filter(|view| view.verdict == ViewVerdict::Reported).count(), 5);
-    assert!(dataset.read_split().unwrap().iter().all(|row| row.partition.is_ok()));
+    assert!(dataset.read_partition().unwrap().iter().all(|row| row.side.is_ok()));
 }
 
 #[test]

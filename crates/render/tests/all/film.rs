@@ -1,6 +1,6 @@
 //! The film as a whole: light in parts, the standard error, and frames that continue where they were interrupted.
 
-use enfilade_frame::{Frame, Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
+use enfilade_frame::{Frame, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_render::{FrameRender, Guide, PartialError, RenderConfig, RenderScene, render_frame};
@@ -60,7 +60,7 @@ fn picture(scene: &Scene, size: [u32; 2], config: &RenderConfig) -> Frame {
 }
 
 fn splitting(samples: u32) -> RenderConfig {
-    RenderConfig { samples, splits: true, ..RenderConfig::default() }
+    RenderConfig { samples, light_parts: true, ..RenderConfig::default() }
 }
 
 fn mean(frame: &Frame, layer: Layer) -> f64 {
@@ -75,8 +75,8 @@ fn assert_close(what: &str, found: f64, expected: f64, tolerance: f64) {
 /// Asserts that both sets of parts sum to colour, and three of them to the residual, in every pixel.
 fn assert_sums(frame: &Frame) {
     let sets: [(&[Layer], Layer); 3] = [
-        (&SPLIT_BY_PATH, Layer::Color),
-        (&SPLIT_BY_SOURCE, Layer::Color),
+        (&LIGHT_BY_PATH, Layer::Color),
+        (&LIGHT_BY_SOURCE, Layer::Color),
         (&[Layer::Specular, Layer::Transmission, Layer::Emission], Layer::Residual),
     ];
     for (parts, whole) in sets {
@@ -134,15 +134,15 @@ fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
     let scene = furnished();
     for clamp in [None, Some(0.5)] {
         let config = RenderConfig { clamp, ..splitting(24) };
-        let split = picture(&scene, [40, 30], &config);
-        assert_sums(&split);
-        for part in SPLIT_BY_PATH.into_iter().chain(SPLIT_BY_SOURCE) {
-            assert!(mean(&split, part) > 0.0, "{part:?} is black");
+        let in_parts = picture(&scene, [40, 30], &config);
+        assert_sums(&in_parts);
+        for part in LIGHT_BY_PATH.into_iter().chain(LIGHT_BY_SOURCE) {
+            assert!(mean(&in_parts, part) > 0.0, "{part:?} is black");
         }
-        let whole = picture(&scene, [40, 30], &RenderConfig { splits: false, ..config });
-        assert_eq!(whole.iter().count() + 9, split.iter().count());
+        let whole = picture(&scene, [40, 30], &RenderConfig { light_parts: false, ..config });
+        assert_eq!(whole.iter().count() + 9, in_parts.iter().count());
         for (layer, values) in whole.iter() {
-            assert_eq!(values.as_bytes(), split.get(layer).unwrap().as_bytes(), "{layer:?}");
+            assert_eq!(values.as_bytes(), in_parts.get(layer).unwrap().as_bytes(), "{layer:?}");
         }
     }
 }
@@ -171,7 +171,7 @@ fn light_of_fixtures_sums_to_the_whole_and_changes_nothing_else() {
         }
         // By kind they are the layers of light by source.
         let mean_of = |fixture: &usize| lights[*fixture].iter().sum::<f64>() / color.len() as f64;
-        for (layer, of_kind) in SPLIT_BY_SOURCE.into_iter().zip([&[0, 2][..], &[1], &[4], &[3]]) {
+        for (layer, of_kind) in LIGHT_BY_SOURCE.into_iter().zip([&[0, 2][..], &[1], &[4], &[3]]) {
             let stored = mean(&apart, layer);
             assert_close(names[of_kind[0]], of_kind.iter().map(mean_of).sum(), stored, 2e-3 * stored);
         }
@@ -487,7 +487,7 @@ fn a_frame_goes_on_from_bytes_with_the_same_result_on_any_number_of_threads() {
     assert_eq!(other.restore(&kept, b"another"), Err(PartialError::OtherFrame));
     assert_eq!(other.restore(b"", b"key"), Err(PartialError::Foreign));
     assert_eq!(other.restore(&kept[..kept.len() / 2], b"key"), Err(PartialError::Damaged));
-    let whole_config = RenderConfig { splits: false, ..config.clone() };
+    let whole_config = RenderConfig { light_parts: false, ..config.clone() };
     let mut unsplit = FrameRender::new(&prepared, &guide, &view, &whole_config).unwrap();
     assert_eq!(unsplit.restore(&kept, b"key"), Err(PartialError::OtherFrame));
     let together_config = RenderConfig { fixtures: false, ..config.clone() };

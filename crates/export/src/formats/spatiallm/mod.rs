@@ -14,7 +14,7 @@ use crate::formats::points::SurfacePoint;
 use crate::mesh::instance_meshes;
 use crate::room_cloud::{CloudSource, is_of_room, of_frames, of_mesh, ply};
 use crate::selected_frames::{SelectedFrames, Track};
-use enfilade_dataset::Partition;
+use enfilade_dataset::Side;
 use enfilade_math::{DVec2, OrientedBox};
 use enfilade_scene::{NYU40, OpeningKind, Structure, Warning};
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, cloud: Cl
         return Err(ExportError::Selection(problem.into()));
     }
     let sides = selected.sides_of_scenes()?;
-    let side = |scene: &String| sides.get(scene).copied().unwrap_or(Partition::Train).name();
+    let side = |scene: &String| sides.get(scene).copied().unwrap_or(Side::Train).name();
     let rows: String = written.iter().map(|scene| format!("{scene},{}\n", side(scene))).collect();
     out.write("split.csv", format!("id,split\n{rows}").as_bytes())
 }

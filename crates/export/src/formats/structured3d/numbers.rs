@@ -1,8 +1,8 @@
-//! The numbers of scenes: Structured3D calls them `scene_00000` to `scene_03499`, and the number says on which side of its split a scene is.
+//! The numbers of scenes: Structured3D calls them `scene_00000` to `scene_03499`, and the number says on which side of its partition a scene is.
 
 use crate::ExportError;
 use crate::selected_frames::SelectedFrames;
-use enfilade_dataset::Partition;
+use enfilade_dataset::Side;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -14,15 +14,15 @@ const LEFT_OUT: [u32; 48] = [
 ];
 
 /// The numbers of a side.
-const fn of_side(side: Partition) -> Range<u32> {
+const fn of_side(side: Side) -> Range<u32> {
     match side {
-        Partition::Train => 0..3000,
-        Partition::Val => 3000..3250,
-        Partition::Test => 3250..3500,
+        Side::Train => 0..3000,
+        Side::Val => 3000..3250,
+        Side::Test => 3250..3500,
     }
 }
 
-/// The number of every scene: its own where it is called as Structured3D's are, else the next one of its side of the dataset's split.
+/// The number of every scene: its own where it is called as Structured3D's are, else the next one of its side of the dataset's partition.
 pub(super) fn numbers(selected: &SelectedFrames<'_>) -> Result<BTreeMap<String, u32>, ExportError> {
     let scenes: BTreeSet<&str> = selected.scenes().map(|tracks| tracks[0].scene.as_str()).collect();
     let mut numbers: BTreeMap<String, u32> = scenes.iter().filter_map(|scene| Some((scene.to_string(), own_number(scene)?))).collect();
@@ -32,7 +32,7 @@ pub(super) fn numbers(selected: &SelectedFrames<'_>) -> Result<BTreeMap<String, 
         if numbers.contains_key(scene) {
             continue;
         }
-        let side = sides.get(scene).copied().unwrap_or(Partition::Train);
+        let side = sides.get(scene).copied().unwrap_or(Side::Train);
         let Some(number) = of_side(side).find(|number| !used.contains(number)) else {
             let problem = format!("Structured3D has no more numbers for {}; export the dataset in parts (--scene)", side.name());
             return Err(selected.unsuitable(scene, problem));

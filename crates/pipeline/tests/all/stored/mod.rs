@@ -10,7 +10,7 @@ use enfilade_dataset::Dataset;
 use enfilade_explore::PlanReport;
 use enfilade_frame::{LAYERS, Layer, Values};
 use enfilade_loader::{Choice, Options, Samples};
-use enfilade_pipeline::{Config, Overrides, STAGES, Silent, Stage, Summary, replay, run, run_stage, split, verify};
+use enfilade_pipeline::{Config, Overrides, STAGES, Silent, Stage, Summary, partition, replay, run, run_stage, verify};
 use enfilade_scene::Quiet;
 use flate2::read::GzDecoder;
 use serde::Deserialize;
@@ -171,7 +171,7 @@ fn stored_settings_are_read_by_every_verb() {
             let summary = run_stage(&stored.out(), stage, None, false, &Silent).unwrap();
             assert!(summary.nothing_done(), "{}: {}", stored.name, stage.name());
         }
-        split(&stored.out(), |_| {}).unwrap();
+        partition(&stored.out(), |_| {}).unwrap();
     }
 }
 
@@ -245,7 +245,7 @@ fn a_newer_layout_is_refused_in_words_and_nothing_is_changed() {
     let told = [
         run(&config, &out, None, &Silent).unwrap_err().explain(),
         run_stage(&out, Stage::Render, None, true, &Silent).unwrap_err().explain(),
-        split(&out, |split| split.seed = 9).unwrap_err().explain(),
+        partition(&out, |split| split.seed = 9).unwrap_err().explain(),
         Dataset::open(&out).unwrap_err().to_string(),
     ];
     for message in told {

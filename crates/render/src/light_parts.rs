@@ -1,4 +1,4 @@
-//! Light split by its path to the camera and by its source, for the layers of `enfilade_frame::SPLIT_BY_PATH` and `SPLIT_BY_SOURCE`, and
+//! Light in parts, by its path to the camera and by its source, for the layers of `enfilade_frame::LIGHT_BY_PATH` and `LIGHT_BY_SOURCE`, and
 //! by fixture.
 
 use crate::bsdf::Value;
@@ -51,7 +51,7 @@ impl Arriving {
     }
 }
 
-/// Names of the parts in [`Split::by_path`], in the order of `enfilade_frame::SPLIT_BY_PATH`.
+/// Names of the parts in [`LightParts::by_path`], in the order of `enfilade_frame::LIGHT_BY_PATH`.
 const DIFFUSE_DIRECT: usize = 0;
 const DIFFUSE_INDIRECT: usize = 1;
 const SPECULAR: usize = 2;
@@ -60,18 +60,18 @@ const EMISSION: usize = 4;
 
 /// The light of a sample, or of a pixel, in parts; the parts of either kind sum to all of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Split {
-    /// In the order of `enfilade_frame::SPLIT_BY_PATH`.
+pub(crate) struct LightParts {
+    /// In the order of `enfilade_frame::LIGHT_BY_PATH`.
     pub by_path: [Rgb; 5],
-    /// In the order of `enfilade_frame::SPLIT_BY_SOURCE`, which is that of [`LightKind`].
+    /// In the order of `enfilade_frame::LIGHT_BY_SOURCE`, which is that of [`LightKind`].
     pub by_source: [Rgb; 4],
 }
 
-impl Split {
+impl LightParts {
     /// Number of parts.
     pub const PARTS: usize = 9;
 
-    /// Words of [`Split::to_words`].
+    /// Words of [`LightParts::to_words`].
     pub const WORDS: usize = 3 * Self::PARTS;
 
     /// The sums, bit by bit.
@@ -79,12 +79,12 @@ impl Split {
         std::array::from_fn(|i| self.part(i / 3)[i % 3].to_bits())
     }
 
-    /// What [`Split::to_words`] was made of.
+    /// What [`LightParts::to_words`] was made of.
     pub fn from_words(words: &[u32; Self::WORDS]) -> Self {
-        let mut split = Self::default();
+        let mut parts = Self::default();
         let float = |i: usize| f32::from_bits(words[i]);
-        (0..Self::PARTS).for_each(|part| *split.part_mut(part) = Rgb::new(float(3 * part), float(3 * part + 1), float(3 * part + 2)));
-        split
+        (0..Self::PARTS).for_each(|part| *parts.part_mut(part) = Rgb::new(float(3 * part), float(3 * part + 1), float(3 * part + 2)));
+        parts
     }
 
     /// Part `index` of those by path and then those by source.
@@ -92,7 +92,7 @@ impl Split {
         if index < self.by_path.len() { self.by_path[index] } else { self.by_source[index - self.by_path.len()] }
     }
 
-    /// A part to be changed, by its index as in [`Split::part`].
+    /// A part to be changed, by its index as in [`LightParts::part`].
     pub fn part_mut(&mut self, index: usize) -> &mut Rgb {
         let paths = self.by_path.len();
         if index < paths { &mut self.by_path[index] } else { &mut self.by_source[index - paths] }
@@ -123,8 +123,8 @@ impl Split {
     }
 }
 
-impl AddAssign<&Split> for Split {
-    fn add_assign(&mut self, other: &Split) {
+impl AddAssign<&LightParts> for LightParts {
+    fn add_assign(&mut self, other: &LightParts) {
         (0..Self::PARTS).for_each(|index| *self.part_mut(index) += other.part(index));
     }
 }
@@ -142,24 +142,24 @@ mod tests {
         light.add(from(Environment), Rgb::splat(4.0), false);
         assert_eq!(light.clone().scaled(2.0).by_fixture, [(2, Rgb::new(2.0, 4.0, 6.0)), (0, Rgb::splat(8.0))]);
         let (reflectance, weight) = (Rgb::new(0.5, 0.25, 0.0), Value { diffuse: Rgb::WHITE, specular: Rgb::splat(0.125) });
-        let mut split = Split::default();
-        split.add_emission(Rgb::splat(0.5));
-        split.add_scattered(reflectance, &weight, &light.clone().scaled(2.0), true);
+        let mut parts = LightParts::default();
+        parts.add_emission(Rgb::splat(0.5));
+        parts.add_scattered(reflectance, &weight, &light.clone().scaled(2.0), true);
         let expected = Rgb::splat(0.5) + weight.total(reflectance) * light.total * 2.0;
-        assert_eq!(split.by_path.into_iter().sum::<Rgb>(), expected);
-        assert_eq!(split.by_source.into_iter().sum::<Rgb>(), expected);
-        assert_eq!(split.by_path[DIFFUSE_DIRECT], Rgb::new(1.0, 1.0, 0.0));
-        assert_eq!(split.by_path[SPECULAR], Rgb::BLACK);
-        assert_eq!(Split::from_words(&split.to_words()), split);
+        assert_eq!(parts.by_path.into_iter().sum::<Rgb>(), expected);
+        assert_eq!(parts.by_source.into_iter().sum::<Rgb>(), expected);
+        assert_eq!(parts.by_path[DIFFUSE_DIRECT], Rgb::new(1.0, 1.0, 0.0));
+        assert_eq!(parts.by_path[SPECULAR], Rgb::BLACK);
+        assert_eq!(LightParts::from_words(&parts.to_words()), parts);
     }
 
     #[test]
     fn the_order_is_that_of_the_layers() {
-        use enfilade_frame::{Layer, SPLIT_BY_PATH, SPLIT_BY_SOURCE};
-        let paths = [DIFFUSE_DIRECT, DIFFUSE_INDIRECT, SPECULAR, TRANSMISSION, EMISSION].map(|index| SPLIT_BY_PATH[index]);
+        use enfilade_frame::{LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer};
+        let paths = [DIFFUSE_DIRECT, DIFFUSE_INDIRECT, SPECULAR, TRANSMISSION, EMISSION].map(|index| LIGHT_BY_PATH[index]);
         assert_eq!(paths, [Layer::DiffuseDirect, Layer::DiffuseIndirect, Layer::Specular, Layer::Transmission, Layer::Emission]);
-        let kinds = [Environment, LightKind::Distant, Surfaces, LightKind::Points].map(|kind| SPLIT_BY_SOURCE[kind as usize]);
+        let kinds = [Environment, LightKind::Distant, Surfaces, LightKind::Points].map(|kind| LIGHT_BY_SOURCE[kind as usize]);
         assert_eq!(kinds, [Layer::LightEnvironment, Layer::LightDistant, Layer::LightSurfaces, Layer::LightPoints]);
-        assert_eq!(SPLIT_BY_PATH.len() + SPLIT_BY_SOURCE.len(), Split::PARTS);
+        assert_eq!(LIGHT_BY_PATH.len() + LIGHT_BY_SOURCE.len(), LightParts::PARTS);
     }
 }

@@ -1,18 +1,19 @@
-//! The split of a dataset by scene, and the assets that lie on several sides of it.
+//! The partition of a dataset by scene, and the assets that lie on several sides of it.
 
 use crate::error::Error;
 use crate::workdir::{CHOICE, Hash, PACKAGE, Workdir, read_json};
-use enfilade_dataset::{Dataset, Manifest, Partition, SplitRow, ViewFault, remove_if_there, write_json};
-use enfilade_label::split::{SceneAssets, SharedAsset, SplitConfig, shared_assets};
+use enfilade_dataset::{
+    Dataset, Manifest, PartitionConfig, PartitionRow, SceneAssets, SharedAsset, Side, ViewFault, remove_if_there, shared_assets, write_json,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// What stands in the dataset's `split.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SplitReport {
+pub struct PartitionReport {
     /// How scenes were divided.
-    pub config: SplitConfig,
+    pub config: PartitionConfig,
     /// The scenes of each side.
     pub scenes: BTreeMap<String, BTreeSet<String>>,
     /// Number of images on each side, 0 where it is empty, and of those left out (`excluded`).
@@ -21,18 +22,18 @@ pub struct SplitReport {
     pub shared_assets: Vec<SharedAsset>,
 }
 
-impl SplitReport {
+impl PartitionReport {
     /// A line about sides without an image; `None` where all that get a share have some, and before anything is rendered.
     pub fn empty_sides(&self) -> Option<String> {
         let is_empty = |side: &&str| self.images.get(*side).is_none_or(|&images| images == 0);
         let empty: Vec<&str> = self.asked_for().filter(is_empty).collect();
-        if empty.is_empty() || Partition::ALL.iter().all(|side| is_empty(&side.name())) {
+        if empty.is_empty() || Side::ALL.iter().all(|side| is_empty(&side.name())) {
             return None;
         }
         let (sides, are, them) =
             (empty.join(" and "), if empty.len() == 1 { "is" } else { "are" }, if empty.len() == 1 { "it" } else { "them" });
         let or_seed = if self.has_few_scenes() { "" } else { ", or another seed (enfilade partition OUT --seed 1)," };
-        Some(format!("{sides} of the split {are} empty; more scenes{or_seed} fill {them}"))
+        Some(format!("{sides} of the partition {are} empty; more scenes{or_seed} fill {them}"))
     }
 
     /// True where there are fewer scenes than sides that get a share.
@@ -42,7 +43,7 @@ impl SplitReport {
 
     /// The sides that get a share.
     fn asked_for(&self) -> impl Iterator<Item = &'static str> {
-        Partition::ALL.iter().zip(self.config.shares).filter(|(_, share)| *share > 0.0).map(|(side, _)| side.name())
+        Side::ALL.iter().zip(self.config.shares).filter(|(_, share)| *share > 0.0).map(|(side, _)| side.name())
     }
 
     /// A line about the assets on several sides; `None` where there are none.
@@ -51,7 +52,7 @@ impl SplitReport {
         let first = self.shared_assets.first().filter(|asset| asset.leaks)?;
         let scenes: Vec<&str> = first.scenes.values().flatten().map(String::as_str).take(3).collect();
         Some(format!(
-            "{leaks} assets are on several sides of the split, among them {} {:?} of {}; split.json has all",
+            "{leaks} assets are on several sides of the partition, among them {} {:?} of {}; split.json has all",
             first.kind,
             first.name,
             scenes.join(", ")
@@ -70,7 +71,7 @@ struct KeptAssets {
 ///
 /// # Errors
 /// When the choice means nothing, `out` is no dataset that was begun here, or a file cannot be read or written.
-pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitReport, Error> {
+pub fn partition(out: &Path, change: impl FnOnce(&mut PartitionConfig)) -> Result<PartitionReport, Error> {
     let workdir = Workdir::open(out)?;
     let last = choice(&workdir)?;
     let mut config = last;
@@ -85,46 +86,47 @@ pub fn split(out: &Path, change: impl FnOnce(&mut SplitConfig)) -> Result<SplitR
     let Some(manifest) = dataset.read_manifest().map_err(Error::stage)? else {
         return Err(Error::usage(format!("{} has no manifest", out.display()), "run `enfilade run` for this folder first"));
     };
-    write_split(&dataset, &workdir, &manifest)
+    write_partition(&dataset, &workdir, &manifest)
 }
 
 /// How the dataset was divided last; the usual way where nobody chose.
-fn choice(workdir: &Workdir) -> Result<SplitConfig, Error> {
+fn choice(workdir: &Workdir) -> Result<PartitionConfig, Error> {
     let path = workdir.file(CHOICE);
     let text = match std::fs::read(&path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(SplitConfig::default()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(PartitionConfig::default()),
         text => text.map_err(Error::io("read", &path))?,
     };
-    let unknown =
-        |e| Error::usage(format!("{}: no choice of a split ({e})", path.display()), "remove it, and choose again: enfilade partition OUT");
+    let unknown = |e| {
+        Error::usage(format!("{}: no choice of a partition ({e})", path.display()), "remove it, and choose again: enfilade partition OUT")
+    };
     serde_json::from_slice(&text).map_err(unknown)
 }
 
-/// Writes the split of what `manifest` lists.
-pub(crate) fn write_split(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<SplitReport, Error> {
+/// Writes the partition of what `manifest` lists.
+pub(crate) fn write_partition(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<PartitionReport, Error> {
     let config = choice(workdir)?;
     let rejected = rejected(dataset, manifest)?;
     let (sides, rows) = (config.sides(manifest, &rejected), config.rows(manifest, &rejected));
     // A run that changes nothing touches no file.
-    if dataset.read_split().ok().as_ref() != Some(&rows) {
-        dataset.write_split(&rows).map_err(Error::stage)?;
+    if dataset.read_partition().ok().as_ref() != Some(&rows) {
+        dataset.write_partition(&rows).map_err(Error::stage)?;
     }
     let mut assets = BTreeMap::new();
     for scene in manifest.scenes.keys() {
         assets.extend(scene_assets(workdir, scene)?.map(|found| (scene.clone(), found)));
     }
-    let mut scenes: BTreeMap<String, BTreeSet<String>> = Partition::ALL.iter().map(|p| (p.name().into(), BTreeSet::new())).collect();
+    let mut scenes: BTreeMap<String, BTreeSet<String>> = Side::ALL.iter().map(|p| (p.name().into(), BTreeSet::new())).collect();
     for (scene, side) in &sides {
         scenes.entry(side.name().into()).or_default().insert(scene.to_string());
     }
-    let mut images: BTreeMap<String, usize> = Partition::ALL.iter().map(|p| (p.name().into(), 0)).collect();
-    for SplitRow { partition, .. } in &rows {
-        *images.entry(partition.as_ref().map_or("excluded", |p| p.name()).into()).or_default() += 1;
+    let mut images: BTreeMap<String, usize> = Side::ALL.iter().map(|p| (p.name().into(), 0)).collect();
+    for PartitionRow { side, .. } in &rows {
+        *images.entry(side.as_ref().map_or("excluded", |p| p.name()).into()).or_default() += 1;
     }
-    let shared_assets = shared_assets(&assets, |scene| sides.get(scene).copied().unwrap_or_else(|| config.partition(scene)));
-    let report = SplitReport { config, scenes, images, shared_assets };
-    let path = dataset.layout().split_report();
-    if read_json::<SplitReport>(&path).as_ref() != Some(&report) {
+    let shared_assets = shared_assets(&assets, |scene| sides.get(scene).copied().unwrap_or_else(|| config.side(scene)));
+    let report = PartitionReport { config, scenes, images, shared_assets };
+    let path = dataset.layout().partition_report();
+    if read_json::<PartitionReport>(&path).as_ref() != Some(&report) {
         write_json(&path, &report)?;
     }
     Ok(report)
@@ -176,9 +178,13 @@ mod tests {
                 .into(),
             leaks,
         };
-        let report =
-            |shared_assets| SplitReport { config: SplitConfig::default(), scenes: BTreeMap::new(), images: BTreeMap::new(), shared_assets };
-        let expected = "1 assets are on several sides of the split, among them mesh \"vase\" of hall, bedroom; split.json has all";
+        let report = |shared_assets| PartitionReport {
+            config: PartitionConfig::default(),
+            scenes: BTreeMap::new(),
+            images: BTreeMap::new(),
+            shared_assets,
+        };
+        let expected = "1 assets are on several sides of the partition, among them mesh \"vase\" of hall, bedroom; split.json has all";
         assert_eq!(report(vec![shared(true), shared(false)]).leaks().as_deref(), Some(expected));
         assert_eq!(report(vec![shared(false)]).leaks(), None);
     }
@@ -186,14 +192,14 @@ mod tests {
     #[test]
     fn sides_without_an_image_are_told_unless_nobody_asked_for_them() {
         let scenes: BTreeMap<String, BTreeSet<String>> = [("train".to_string(), BTreeSet::from(["room".to_string()]))].into();
-        let report = |shares, images: &[(&str, usize)]| SplitReport {
-            config: SplitConfig { shares, ..SplitConfig::default() },
+        let report = |shares, images: &[(&str, usize)]| PartitionReport {
+            config: PartitionConfig { shares, ..PartitionConfig::default() },
             scenes: scenes.clone(),
             images: images.iter().map(|(side, count)| (side.to_string(), *count)).collect(),
             shared_assets: Vec::new(),
         };
         let told = report([80.0, 10.0, 10.0], &[("train", 4), ("val", 0)]).empty_sides().unwrap();
-        assert_eq!(told, "val and test of the split are empty; more scenes fill them");
+        assert_eq!(told, "val and test of the partition are empty; more scenes fill them");
         assert_eq!(report([1.0, 0.0, 0.0], &[("train", 4)]).empty_sides(), None);
         assert_eq!(report([80.0, 10.0, 10.0], &[]).empty_sides(), None, "nothing is rendered yet");
         assert_eq!(report([80.0, 10.0, 10.0], &[("train", 4), ("val", 1), ("test", 2)]).empty_sides(), None);
@@ -203,7 +209,7 @@ mod tests {
     fn a_choice_that_means_nothing_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         drop(Workdir::create(folder.path()).unwrap());
-        let error = split(folder.path(), |config| config.shares = [0.0; 3]).unwrap_err();
+        let error = partition(folder.path(), |config| config.shares = [0.0; 3]).unwrap_err();
         assert!(error.is_usage() && error.to_string().contains("expected three numbers"), "{error}");
     }
 }

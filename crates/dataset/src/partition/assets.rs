@@ -1,8 +1,8 @@
 //! Assets that occur in several scenes: the same mesh wherever it is placed, and the same texture.
 //!
-//! What is learned of an asset on one side of a split is not a surprise on the other.
+//! What is learned of an asset on one side of a partition is not a surprise on the other.
 
-use enfilade_dataset::Partition;
+use super::files::Side;
 use enfilade_geometry::Mesh;
 use enfilade_math::DVec3;
 use enfilade_scene::{Image, Pixels, Scene};
@@ -118,7 +118,7 @@ fn content_of(image: &Image) -> String {
 }
 
 /// The assets that several scenes have, those on several sides first, then by kind and name. `side` says where a scene is.
-pub fn shared_assets(scenes: &BTreeMap<String, SceneAssets>, side: impl Fn(&str) -> Partition) -> Vec<SharedAsset> {
+pub fn shared_assets(scenes: &BTreeMap<String, SceneAssets>, side: impl Fn(&str) -> Side) -> Vec<SharedAsset> {
     let mut meshes: BTreeMap<&str, Vec<(&MeshAsset, BTreeSet<&str>)>> = BTreeMap::new();
     let mut images: BTreeMap<&str, (&ImageAsset, BTreeSet<&str>)> = BTreeMap::new();
     for (scene, assets) in scenes {
@@ -176,7 +176,7 @@ mod tests {
         Mesh { positions, triangles: (0..count).map(|i| [0, i + 1, i + 2]).collect(), ..Mesh::default() }
     }
 
-    fn shared(scenes: [Scene; 2], sides: [Partition; 2]) -> Vec<SharedAsset> {
+    fn shared(scenes: [Scene; 2], sides: [Side; 2]) -> Vec<SharedAsset> {
         let assets = ["a", "b"].iter().zip(&scenes).map(|(name, scene)| (name.to_string(), SceneAssets::of(scene))).collect();
         shared_assets(&assets, |scene| sides[usize::from(scene == "b")])
     }
@@ -186,17 +186,17 @@ mod tests {
         let placed = DAffine3::from_scale_rotation_translation(DVec3::splat(2.5), DQuat::from_rotation_x(1.0), DVec3::new(9.0, -4.0, 1.0));
         let mut moved = fan(200, 1);
         moved.positions.iter_mut().for_each(|p| *p = place(&placed, *p));
-        let found = shared([scene(fan(200, 1), None), scene(moved, None)], [Partition::Train, Partition::Test]);
+        let found = shared([scene(fan(200, 1), None), scene(moved, None)], [Side::Train, Side::Test]);
         assert_eq!((found.len(), found[0].kind.as_str(), found[0].name.as_str(), found[0].leaks), (1, "mesh", "vase", true));
         assert_eq!(found[0].scenes["test"], BTreeSet::from(["b".to_string()]));
     }
 
     #[test]
     fn other_shapes_small_meshes_and_scenes_of_one_side_are_no_leak() {
-        let sides = [Partition::Train, Partition::Test];
+        let sides = [Side::Train, Side::Test];
         assert_eq!(shared([scene(fan(200, 1), None), scene(fan(200, 2), None)], sides), []);
         assert_eq!(shared([scene(fan(12, 1), None), scene(fan(12, 1), None)], sides), []);
-        let together = shared([scene(fan(200, 1), None), scene(fan(200, 1), None)], [Partition::Val; 2]);
+        let together = shared([scene(fan(200, 1), None), scene(fan(200, 1), None)], [Side::Val; 2]);
         assert_eq!(together.iter().map(|asset| asset.leaks).collect::<Vec<_>>(), [false]);
     }
 
@@ -207,7 +207,7 @@ mod tests {
             texels[4095][0] = last;
             Image { name: name.into(), width: 64, height: 64, pixels: Pixels::Rgba8 { srgb: true, texels } }
         };
-        let found = |a: Image, b: Image| shared([scene(fan(1, 1), Some(a)), scene(fan(1, 2), Some(b))], [Partition::Train, Partition::Val]);
+        let found = |a: Image, b: Image| shared([scene(fan(1, 1), Some(a)), scene(fan(1, 2), Some(b))], [Side::Train, Side::Val]);
         let same = found(wood("oak.png", 1), wood("plank.jpg", 1));
         assert_eq!((same.len(), same[0].kind.as_str(), same[0].leaks), (1, "texture", true));
         assert_eq!(found(wood("oak.png", 1), wood("oak.png", 2)), []);

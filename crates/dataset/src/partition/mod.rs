@@ -1,14 +1,16 @@
-//! Splits by scene: which scenes are for learning, for validation and for testing.
+//! Partitions by scene: which scenes are for learning, for validation and for testing.
 //!
 //! Where a scene goes is a function of its name and the seed alone. So scenes never change sides when others are added, as they do
 //! when a list is shuffled and cut, which is Hypersim's way; the price is that the shares are met only on average. The one exception are
-//! datasets with nothing to learn from otherwise, see [`SplitConfig::sides`].
+//! datasets with nothing to learn from otherwise, see [`PartitionConfig::sides`].
 
 mod assets;
+mod files;
 
 pub use assets::{ImageAsset, MeshAsset, SceneAssets, SharedAsset, shared_assets};
+pub use files::{PartitionRow, Side};
 
-use enfilade_dataset::{FrameEntry, FrameStatus, Manifest, Partition, SceneEntry, SplitRow};
+use crate::{FrameEntry, FrameStatus, Manifest, SceneEntry};
 use enfilade_math::hash_u64;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -16,21 +18,21 @@ use std::collections::BTreeMap;
 /// How scenes are divided.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SplitConfig {
+pub struct PartitionConfig {
     /// Another seed is another division.
     pub seed: u64,
     /// Expected shares of train, val and test, in any unit.
     pub shares: [f64; 3],
 }
 
-impl Default for SplitConfig {
+impl Default for PartitionConfig {
     /// Seed 0; 80, 10 and 10 percent.
     fn default() -> Self {
         Self { seed: 0, shares: [80.0, 10.0, 10.0] }
     }
 }
 
-impl SplitConfig {
+impl PartitionConfig {
     /// What is wrong with it, if anything is.
     pub fn problem(&self) -> Option<String> {
         let sum: f64 = self.shares.iter().sum();
@@ -40,11 +42,11 @@ impl SplitConfig {
 
     /// The side of every scene of a dataset.
     ///
-    /// It is [`partition`](Self::partition)'s, but where fewer scenes than sides that get a share have images, or none of them is for
+    /// It is [`side`](Self::side)'s, but where fewer scenes than sides that get a share have images, or none of them is for
     /// learning: then the first of them by name is, for without anything to learn from a dataset is of no use. `excluded` as in
     /// [`rows`](Self::rows).
-    pub fn sides<'m>(&self, manifest: &'m Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> BTreeMap<&'m str, Partition> {
-        let mut sides: BTreeMap<&str, Partition> = manifest.scenes.keys().map(|scene| (scene.as_str(), self.partition(scene))).collect();
+    pub fn sides<'m>(&self, manifest: &'m Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> BTreeMap<&'m str, Side> {
+        let mut sides: BTreeMap<&str, Side> = manifest.scenes.keys().map(|scene| (scene.as_str(), self.side(scene))).collect();
         let has_image = |scene: &str, entry: &SceneEntry| {
             let is_there = |camera: &str, frame: &FrameEntry| {
                 frame.status == FrameStatus::Complete && !excluded.contains_key(&(scene.to_string(), camera.to_string(), frame.frame))
@@ -54,36 +56,36 @@ impl SplitConfig {
         let with_images: Vec<&str> =
             manifest.scenes.iter().filter(|(scene, entry)| has_image(scene, entry)).map(|(scene, _)| scene.as_str()).collect();
         let is_few = with_images.len() < self.shares.iter().filter(|share| **share > 0.0).count();
-        let lacks_train = with_images.iter().all(|scene| sides[scene] != Partition::Train);
+        let lacks_train = with_images.iter().all(|scene| sides[scene] != Side::Train);
         if let Some(first) = with_images.first().filter(|_| self.shares[0] > 0.0 && (is_few || lacks_train)) {
-            sides.insert(first, Partition::Train);
+            sides.insert(first, Side::Train);
         }
         sides
     }
 
     /// The side of a scene among many.
-    pub fn partition(&self, scene: &str) -> Partition {
+    pub fn side(&self, scene: &str) -> Side {
         let hash = scene.bytes().fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)));
         let place = (hash >> 11) as f64 / (1u64 << 53) as f64 * self.shares.iter().sum::<f64>();
         let [train, val, _] = self.shares;
         match place {
-            p if p < train => Partition::Train,
-            p if p < train + val => Partition::Val,
-            _ => Partition::Test,
+            p if p < train => Side::Train,
+            p if p < train + val => Side::Val,
+            _ => Side::Test,
         }
     }
 
-    /// Every frame of every trajectory. Those that are not rendered are left out of the split, with the reason; so are those in
+    /// Every frame of every trajectory. Those that are not rendered are left out of the partition, with the reason; so are those in
     /// `excluded`, by scene, camera and frame.
-    pub fn rows(&self, manifest: &Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> Vec<SplitRow> {
+    pub fn rows(&self, manifest: &Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> Vec<PartitionRow> {
         let (sides, mut rows) = (self.sides(manifest, excluded), Vec::new());
         for (scene, entry) in &manifest.scenes {
             for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
                 let missing =
                     (frame.status != FrameStatus::Complete).then(|| frame.reason.clone().unwrap_or_else(|| "NOT RENDERED".to_string()));
                 let reason = excluded.get(&(scene.clone(), camera.clone(), frame.frame)).cloned().or(missing);
-                let partition = reason.map_or(Ok(sides[scene.as_str()]), Err);
-                rows.push(SplitRow { scene: scene.clone(), camera: camera.clone(), frame: frame.frame, partition });
+                let side = reason.map_or(Ok(sides[scene.as_str()]), Err);
+                rows.push(PartitionRow { scene: scene.clone(), camera: camera.clone(), frame: frame.frame, side });
             }
         }
         rows
@@ -93,7 +95,7 @@ impl SplitConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_dataset::{CameraEntry, Conventions};
+    use crate::{CameraEntry, Conventions};
 
     fn frame(frame: u32, status: FrameStatus, reason: Option<&str>) -> FrameEntry {
         FrameEntry {
@@ -122,32 +124,28 @@ mod tests {
 
     #[test]
     fn of_few_scenes_the_first_with_images_is_to_learn_from() {
-        let split = SplitConfig::default();
-        let name = |side| names(100).into_iter().filter(|name| split.partition(name) == side).collect::<Vec<_>>();
-        let (trains, vals, tests) = (name(Partition::Train), name(Partition::Val), name(Partition::Test));
+        let config = PartitionConfig::default();
+        let name = |side| names(100).into_iter().filter(|name| config.side(name) == side).collect::<Vec<_>>();
+        let (trains, vals, tests) = (name(Side::Train), name(Side::Val), name(Side::Test));
         let there = || vec![frame(0, FrameStatus::Complete, None)];
-        let sides = |scenes: &Manifest| -> Vec<Partition> { split.sides(scenes, &BTreeMap::new()).into_values().collect() };
+        let sides = |scenes: &Manifest| -> Vec<Side> { config.sides(scenes, &BTreeMap::new()).into_values().collect() };
         for alone in [&trains[0], &vals[0], &tests[0]] {
-            assert_eq!(sides(&manifest([(alone, there())])), [Partition::Train]);
+            assert_eq!(sides(&manifest([(alone, there())])), [Side::Train]);
         }
         let two = [&tests[0], &tests[1]];
-        assert_eq!(sides(&manifest(two.map(|name| (name.as_str(), there())))), [Partition::Train, Partition::Test]);
+        assert_eq!(sides(&manifest(two.map(|name| (name.as_str(), there())))), [Side::Train, Side::Test]);
         let failed = vec![frame(0, FrameStatus::Failed, None)];
-        assert_eq!(
-            sides(&manifest([(&tests[0], failed), (&tests[1], there())])),
-            [Partition::Test, Partition::Train],
-            "the first has no image"
-        );
+        assert_eq!(sides(&manifest([(&tests[0], failed), (&tests[1], there())])), [Side::Test, Side::Train], "the first has no image");
         // As many scenes as sides: only where none is to learn from.
         let four = [&tests[0], &tests[1], &tests[2], &tests[3]].map(|name| (name.as_str(), there()));
-        assert_eq!(sides(&manifest(four.clone())), [Partition::Train, Partition::Test, Partition::Test, Partition::Test]);
+        assert_eq!(sides(&manifest(four.clone())), [Side::Train, Side::Test, Side::Test, Side::Test]);
         let mut first_is_test = [&tests[0], &trains[0], &vals[0]].map(|name| (name.as_str(), there()));
         first_is_test.sort_by_key(|(name, _)| name.to_string());
         let all = manifest(first_is_test);
-        assert!(split.sides(&all, &BTreeMap::new()).into_iter().all(|(name, side)| side == split.partition(name)));
+        assert!(config.sides(&all, &BTreeMap::new()).into_iter().all(|(name, side)| side == config.side(name)));
         // Nobody who wants all in test gets another side.
-        let all_test = SplitConfig { shares: [0.0, 0.0, 1.0], ..split };
-        assert_eq!(all_test.sides(&manifest(four), &BTreeMap::new()).into_values().collect::<Vec<_>>(), [Partition::Test; 4]);
+        let all_test = PartitionConfig { shares: [0.0, 0.0, 1.0], ..config };
+        assert_eq!(all_test.sides(&manifest(four), &BTreeMap::new()).into_values().collect::<Vec<_>>(), [Side::Test; 4]);
     }
 
     fn names(count: usize) -> Vec<String> {
@@ -156,24 +154,24 @@ mod tests {
 
     #[test]
     fn shares_are_met_and_seeds_differ() {
-        let split = SplitConfig::default();
+        let config = PartitionConfig::default();
         let names = names(10_000);
-        let share = |partition| names.iter().filter(|name| split.partition(name) == partition).count() as f64 / 1e4;
+        let share = |side| names.iter().filter(|name| config.side(name) == side).count() as f64 / 1e4;
         // Three standard deviations are 0.012 and 0.009.
-        assert!((share(Partition::Train) - 0.8).abs() < 0.012 && (share(Partition::Val) - 0.1).abs() < 0.009);
-        let other = SplitConfig { seed: 1, ..split };
-        let moved = names.iter().filter(|name| split.partition(name) != other.partition(name)).count();
+        assert!((share(Side::Train) - 0.8).abs() < 0.012 && (share(Side::Val) - 0.1).abs() < 0.009);
+        let other = PartitionConfig { seed: 1, ..config };
+        let moved = names.iter().filter(|name| config.side(name) != other.side(name)).count();
         assert!((3000..3800).contains(&moved), "34 % are expected on another side: {moved}");
-        let all_test = SplitConfig { shares: [0.0, 0.0, 1.0], ..split };
-        assert!(names.iter().all(|name| all_test.partition(name) == Partition::Test));
+        let all_test = PartitionConfig { shares: [0.0, 0.0, 1.0], ..config };
+        assert!(names.iter().all(|name| all_test.side(name) == Side::Test));
     }
 
     #[test]
     fn shares_that_mean_nothing_are_refused() {
         for shares in [[0.0; 3], [1.0, -1.0, 1.0], [f64::NAN, 1.0, 1.0], [f64::INFINITY, 1.0, 1.0]] {
-            assert!(SplitConfig { shares, ..SplitConfig::default() }.problem().is_some(), "{shares:?}");
+            assert!(PartitionConfig { shares, ..PartitionConfig::default() }.problem().is_some(), "{shares:?}");
         }
-        assert_eq!(SplitConfig::default().problem(), None);
+        assert_eq!(PartitionConfig::default().problem(), None);
     }
 
     #[test]
@@ -186,8 +184,8 @@ mod tests {
         ];
         let manifest = manifest([("room", frames)]);
         let excluded = [(("room".to_string(), "cam_00".to_string(), 3), "blank".to_string())].into();
-        let split = SplitConfig::default();
-        let found: Vec<_> = split.rows(&manifest, &excluded).into_iter().map(|row| row.partition).collect();
-        assert_eq!(found, [Ok(Partition::Train), Err("disk full".into()), Err("NOT RENDERED".into()), Err("blank".into())]);
+        let config = PartitionConfig::default();
+        let found: Vec<_> = config.rows(&manifest, &excluded).into_iter().map(|row| row.side).collect();
+        assert_eq!(found, [Ok(Side::Train), Err("disk full".into()), Err("NOT RENDERED".into()), Err("blank".into())]);
     }
 }
