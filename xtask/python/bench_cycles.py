@@ -23,7 +23,7 @@ LARGE_CASE = next(iter(views.VIEWS))
 def main():
     job = command.parse("bench cycles", __doc__, "cases", f"views, such as {LARGE_CASE}", command.comparing)
     cases = command.chosen(job.cases, list(views.VIEWS))
-    ours, peer = Ours(job.measure, **job.config), Cycles()
+    ours, peer = Ours(job.bench, **job.config), Cycles()
     store, started, rows = Store(Path(job.work) / "pictures", [ours, peer], job.any_program), time.time(), []
     for name in cases:
         scene = prepare(name, job, peer)

@@ -26,7 +26,7 @@ def main():
     if not job.scenes:
         sys.exit("ENFILADE_SCENES should name the folder of the shared rooms: this measures them and generated homes")
     cases = command.chosen(job.cases, [*rooms.ROOMS, *views.VIEWS])
-    ours, peer = Ours(job.measure, **job.config), Mitsuba()
+    ours, peer = Ours(job.bench, **job.config), Mitsuba()
     store, started, rows, costs = Store(Path(job.work) / "pictures", [ours, peer], job.any_program), time.time(), [], []
     for name in cases:
         scene = prepare(name, job)
@@ -47,9 +47,9 @@ def prepare(name, job):
     """The case as XML that both renderers load."""
     work = Path(job.work)
     if name in rooms.ROOMS:
-        xml = rooms.prepare(name, job.scenes, work / "rooms", job.exporter)
+        xml = rooms.prepare(name, job.scenes, work / "rooms", job.bench)
     else:
-        xml = rooms.exported(views.prepare(job.program, name, work / "views"), work / "rooms" / name, job.exporter)
+        xml = rooms.exported(views.prepare(job.program, name, work / "views"), work / "rooms" / name, job.bench)
     return Scene(xml, xml, digest(xml.parent))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import comparison
 
 # What `cargo xtask` itself says: our programs, the folders for work, tables and the shared rooms.
-GIVEN = ["measure", "exporter", "program", "work", "docs", "scenes"]
+GIVEN = ["bench", "program", "work", "docs", "scenes"]
 
 
 def parse(program, description, names, which, more=lambda parser: None):

@@ -43,13 +43,13 @@ def main():
         sys.exit(f"no case {unknown[0]!r}; expected some of {', '.join(cases)}" + ("" if job.scenes else " (rooms need ENFILADE_SCENES)"))
     if not job.scenes:
         print("note: ENFILADE_SCENES names no folder, so the shared rooms are left out, and the tables go below the target folder")
-    ours, peer = Ours(job.measure), Mitsuba()
+    ours, peer = Ours(job.bench), Mitsuba()
     explanations = json.loads((Path(__file__).parent.parent / "oracle/explanations.json").read_text())
     results, started = [], time.time()
     for name in chosen:
         scene, size, samples = cases[name], "128x96", 32
         if scene is None:
-            scene, size, samples = rooms.prepare(name, job.scenes, Path(job.work) / "rooms", job.exporter), "256x192", 32
+            scene, size, samples = rooms.prepare(name, job.scenes, Path(job.work) / "rooms", job.bench), "256x192", 32
         settings = dict(size=size, samples=SAMPLES.get(name, samples), depth=DEPTHS.get(name, DEPTH), seeds=SEEDS)
         a, b = ours.render(scene, **settings), peer.render(scene, **settings, merged=False)
         result = compare(a.pictures, b.pictures) | dict(case=name, room=cases[name] is None, samples=SEEDS * settings["samples"])
@@ -154,7 +154,7 @@ def write(results, docs, seconds):
         f"- *> 1 %*: blocks that differ by more, and how many of those by more than {SIGNIFICANT:g} standard errors; the rest is noise.",
         "",
         "Color is stored as float16, whose rounding (0.02 %) counts as noise. The rooms that come as glTF were exported by",
-        "`crates/pipeline/examples/to_mitsuba.rs`, whose page says what became of their materials; both renderers loaded the export.",
+        "`crates/bench/src/to_mitsuba.rs`, whose page says what became of their materials; both renderers loaded the export.",
         "",
         "| scene | depth | samples | ours | Mitsuba | ratio | z | \\|z\\| > 3 | blocks rms | worst | > 1 % | remark |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",

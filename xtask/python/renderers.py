@@ -78,12 +78,12 @@ def run(command):
 
 
 class Ours:
-    """enfilade's `measure`, every layer written; `fields` of `RenderConfig` replace its defaults, but for references."""
+    """enfilade's instrument `measure`, every layer written; `fields` of `RenderConfig` replace its defaults, but for references."""
 
     name, denoises_references = "ours", True
 
     def __init__(self, program, **fields):
-        self.measure = program
+        self.bench = program
         self.fields = fields
 
     def settings(self, reference):
@@ -91,7 +91,7 @@ class Ours:
 
     @property
     def program(self):
-        return self.measure and Path(self.measure).read_bytes()
+        return self.bench and Path(self.bench).read_bytes()
 
     def shot(self, scene, size, samples, seed, reference, **fields):
         found = self.run(scene.ours, size, dict(samples=samples, seed=seed) | self.settings(reference) | fields, "--denoise")
@@ -102,7 +102,7 @@ class Ours:
         return self.run(scene, size, self.settings(False) | dict(samples=samples, max_bounces=depth - 2, seed=seed), "--seeds", seeds)
 
     def run(self, scene, size, config, *words):
-        return run([self.measure, scene, "--size", size, "--config", json.dumps(config), *words])
+        return run([self.bench, "measure", scene, "--size", size, "--config", json.dumps(config), *words])
 
 
 class Mitsuba:

@@ -39,21 +39,21 @@ def parametrised(xml):
     return re.sub(r"(<scene\b[^>]*>)", lambda m: m[1] + PARAMETERS, xml, count=1)
 
 
-def exported(source, work, exporter):
+def exported(source, work, bench):
     """Writes a scene of another format as XML, with meshes and textures, into the folder `work`, and returns its path."""
     work.mkdir(parents=True, exist_ok=True)
-    subprocess.run([exporter, source, work], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([bench, "to-mitsuba", source, work], check=True, stdout=subprocess.DEVNULL)
     return write(work / "exported.xml", work)
 
 
-def prepare(name, scenes, work, exporter):
+def prepare(name, scenes, work, bench):
     """Writes the room's XML below `work` and returns its path."""
     folder = Path(work) / name
     original = Path(scenes) / name / (GLTF_ROOMS | XML_ROOMS)[name]
     if not original.is_file():
         sys.exit(f"{original} is missing; ENFILADE_SCENES should name the folder of the shared rooms")
     if name in GLTF_ROOMS:
-        return exported(original, folder, exporter)
+        return exported(original, folder, bench)
     folder.mkdir(parents=True, exist_ok=True)
     for entry in original.parent.iterdir():
         link = folder / entry.name

@@ -1,34 +1,31 @@
-//! `cargo xtask bench`: the examples that measure something, in release.
+//! `cargo xtask bench`: the instruments of `crates/bench` that measure something, in release.
 
 use crate::house::House;
 use crate::step::finish;
 use crate::{embree, python};
+use std::process::Command;
 
 /// One measurement.
 struct Bench {
-    /// The example.
+    /// The instrument.
     name: &'static str,
-    /// The folder of its crate.
-    room: &'static str,
     /// What it measures.
     about: &'static str,
 }
 
-/// All measurements; each is an example of the crate `crates/<room>`.
+/// All measurements; each is an instrument of that name.
 const BENCHES: [Bench; 7] = [
     Bench {
         name: "rays",
-        room: "import",
         about: "millions of rays per second of one thread, ours and Embree's, which it fetches: camera, bounced, shadow",
     },
-    Bench { name: "explore", room: "explore", about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs" },
-    Bench { name: "noise", room: "pipeline", about: "noise that a second of rendering leaves, in the demo's room" },
-    Bench { name: "memory", room: "pipeline", about: "memory for a million triangles under eight textures of 4096x4096" },
-    Bench { name: "suggest", room: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
-    Bench { name: "denoise", room: "pipeline", about: "error with and without denoising, in the demo's room" },
+    Bench { name: "explore", about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs" },
+    Bench { name: "noise", about: "noise that a second of rendering leaves, in the demo's room" },
+    Bench { name: "memory", about: "memory for a million triangles under eight textures of 4096x4096" },
+    Bench { name: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
+    Bench { name: "denoise", about: "error with and without denoising, in the demo's room" },
     Bench {
         name: "network",
-        room: "denoise",
         about: "what the denoiser in the binary costs beside Open Image Denoise, which it installs, and how far it is from it",
     },
 ];
@@ -64,12 +61,11 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     }
     for bench in chosen {
         println!("\n== {}: {}", bench.name, bench.about);
-        let package = format!("enfilade-{}", bench.room);
-        let mut command = house.cargo(&["run", "--release", "--locked", "--package", &package, "--example", bench.name]);
+        let mut command = instrument(house, bench.name);
         let kept = house.target()?.join("peers/network");
         if bench.name == "network" {
             std::fs::create_dir_all(&kept).map_err(|error| format!("{}: {error}", kept.display()))?;
-            command.args(["--", "--keep"]).arg(&kept);
+            command.arg("--keep").arg(&kept);
         }
         if bench.name == "rays" {
             command.env(embree::VARIABLE, embree::made(house)?);
@@ -84,6 +80,14 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
+/// The command that runs an instrument of `crates/bench` in release; further arguments are its own.
+pub fn instrument(house: &House, name: &str) -> Command {
+    house.cargo(&["run", "--release", "--locked", "--package", PACKAGE, "--", name])
+}
+
+/// The package of the instruments, and their program.
+pub const PACKAGE: &str = "enfilade-bench";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,10 +101,9 @@ mod tests {
 
     #[test]
     fn every_measurement_is_there() {
-        let root = House::find().unwrap().root;
+        let table = House::find().unwrap().read("crates/bench/src/main.rs").unwrap();
         for bench in BENCHES {
-            let file = |end: &str| root.join(format!("crates/{}/examples/{}{end}", bench.room, bench.name)).is_file();
-            assert!(file(".rs") || file("/main.rs"), "{}", bench.name);
+            assert!(table.contains(&format!("name: \"{}\"", bench.name)), "{}", bench.name);
         }
     }
 }

@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 34] = [
+const FLOORS: [(&str, Floor); 35] = [
     ("math", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
@@ -51,6 +51,7 @@ const FLOORS: [(&str, Floor); 34] = [
     ("testkit", Floor::Dev),
     ("testroom", Floor::Dev),
     ("fuzz", Floor::Dev),
+    ("bench", Floor::Dev),
     ("xtask", Floor::Dev),
 ];
 

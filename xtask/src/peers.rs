@@ -4,8 +4,8 @@
 //! are started. They write tables and figures to `docs/benchmarks`, or below the target folder when they are about some scenes only.
 
 use crate::house::House;
-use crate::python;
 use crate::step::finish;
+use crate::{bench, python};
 
 /// Names the folder of real rooms.
 const SCENES: &str = "ENFILADE_SCENES";
@@ -16,7 +16,7 @@ const SCENES: &str = "ENFILADE_SCENES";
 /// When something cannot be built or installed, or the program finds a difference that nothing explains.
 pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
     let mut build = house.cargo(&["build", "--release", "--locked", "--quiet"]);
-    build.args(["--package", "enfilade-pipeline", "--example", "measure", "--example", "to_mitsuba"]);
+    build.args(["--package", bench::PACKAGE]);
     if program == "bench_render" {
         build.args(["--package", "enfilade", "--bin", "enfilade"]);
     }
@@ -25,7 +25,7 @@ pub fn run(house: &House, program: &str, words: &[&str]) -> Result<(), String> {
     let built = |name: &str| target.join("release").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
     let mut command = house.command(python::with_peers(house)?, &[]);
     command.arg(format!("xtask/python/{program}.py"));
-    command.arg("--measure").arg(built("examples/measure")).arg("--exporter").arg(built("examples/to_mitsuba"));
+    command.arg("--bench").arg(built(bench::PACKAGE));
     command.arg("--work").arg(target.join("peers")).args(["--docs", "docs/benchmarks"]);
     if let Some(scenes) = std::env::var_os(SCENES) {
         let scenes = std::path::absolute(scenes).map_err(|error| format!("{SCENES}: {error}"))?;

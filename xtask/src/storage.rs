@@ -1,8 +1,9 @@
 //! `cargo xtask bench storage`: the files of layers beside Hypersim's, read by plain h5py.
 //!
-//! An example of ours renders frames and stores their layers in several ways; a Python program reads them and writes
+//! An instrument of ours renders frames and stores their layers in several ways; a Python program reads them and writes
 //! `docs/benchmarks/storage.md` and `storage.json`.
 
+use crate::bench::instrument;
 use crate::house::House;
 use crate::python;
 use crate::step::finish;
@@ -13,8 +14,7 @@ use crate::step::finish;
 /// When something cannot be built, rendered or read, or there is no Python with h5py.
 pub fn run(house: &House, datasets: &[&str]) -> Result<(), String> {
     let work = house.target()?.join("storage");
-    let example = ["run", "--release", "--locked", "--package", "enfilade-pipeline", "--example", "storage", "--"];
-    let mut store = house.cargo(&example);
+    let mut store = instrument(house, "storage");
     store.arg(&work).args(datasets);
     finish(store)?;
     let python = python::with_h5py(house)?.ok_or("there is no Python with h5py to read with")?;

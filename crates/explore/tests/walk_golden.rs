@@ -1,7 +1,7 @@
 //! Trajectories of preset `hypersim` against those that Hypersim's own program made. Skipped where its results are not available.
 
 #[allow(dead_code, reason = "each test uses a part of it")]
-#[path = "../examples/explore/room.rs"]
+#[path = "../../bench/src/explore/room.rs"]
 mod room;
 
 use enfilade_explore::{PlanConfig, Preset, plan, view_stats};

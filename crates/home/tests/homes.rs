@@ -7,7 +7,7 @@ use enfilade_math::{Ray, warp};
 use enfilade_scene::{Bsdf, NYU40, WorldMesh, is_stuff, to_bytes};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// `cargo run --release -p enfilade-home --example check` looks at more.
+/// `cargo run --release -p enfilade-bench -- faults` looks at more.
 const SEEDS: u64 = 5;
 
 /// The part of a name before the slash.

@@ -42,4 +42,3 @@ mod usd_looks;
 mod vray;
 mod vray_bad_input;
 mod vray_materials;
-mod vray_oracle;

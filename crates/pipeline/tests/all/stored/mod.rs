@@ -1,7 +1,7 @@
 //! Datasets that earlier versions made are read, verified and gone on with, as docs/layout-versions.md promises.
 //!
 //! `tests/data/dataset-VERSION.tar.gz` is one that VERSION made of `tests/data/room`. A release adds its own with
-//! `examples/store_dataset.rs`, whose head has the command, and none is ever made anew.
+//! `crates/bench/src/store_dataset.rs`, whose head has the command, and none is ever made anew.
 
 mod values;
 

@@ -1,0 +1,141 @@
+//! What denoising gains: error with and without it, for several ways of guiding the filter.
+//!
+//! `denoise [SCENE | home]… [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per pixel, and
+//! twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two
+//! references, whose noise so drops out; the image is scaled to a mean of 0.5, and the worst 0.1 % are left out. The denoiser is the
+//! one in the binary.
+
+use anyhow::{Context, Result};
+use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
+use enfilade_frame::{Frame, Layer};
+use enfilade_home::{HomeConfig, home};
+use enfilade_import::{ImportOptions, load};
+use enfilade_pipeline::Stopwatch;
+use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
+use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
+
+/// Runs the instrument.
+pub fn run() -> Result<()> {
+    let (mut reference, mut size, mut scenes) = (256, [384, 288], Vec::new());
+    let mut arguments = crate::arguments();
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--reference" => reference = arguments.next().context("--reference needs a number")?.parse()?,
+            "--size" => {
+                let text = arguments.next().context("--size needs WxH")?;
+                let (width, height) = text.split_once('x').context("--size is WxH")?;
+                size = [width.parse()?, height.parse()?];
+            }
+            _ => scenes.push(argument),
+        }
+    }
+    if scenes.is_empty() {
+        scenes.push("home".into());
+    }
+    let denoiser = Denoiser::built_in();
+    println!("{}, {}x{} pixels, references of {reference} samples", denoiser.name(), size[0], size[1]);
+    for name in scenes {
+        let scene =
+            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
+        println!("\n{name}");
+        measure(&scene, size, reference, &denoiser)?;
+    }
+    Ok(())
+}
+
+fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
+    let camera = scene.cameras.first().context("the scene has no camera")?;
+    let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
+    let view = CameraView::still(&taken_with, &camera.pose(0));
+    let prepared = RenderScene::new(scene, &Quiet)?;
+    let render = |samples, seed| {
+        let config = RenderConfig { samples, seed, ..RenderConfig::default() };
+        let guide = Guide::learn(&prepared, std::slice::from_ref(&view), &config);
+        render_frame(&prepared, &guide, &view, &config, &Quiet)
+    };
+    let references = [picture(&render(reference, 11)?, Layer::Color), picture(&render(reference, 12)?, Layer::Color)];
+    println!("  {:<62} {:>8} {:>8} {:>8} {:>7}", "", "samples", "error", "mean", "core-s");
+    let mean = |color: &[f32]| color.iter().map(|&v| f64::from(v)).sum::<f64>() / color.len() as f64;
+    let true_mean = 0.5 * (mean(&references[0]) + mean(&references[1]));
+    for samples in [16, 64] {
+        let frame = render(samples, 1)?;
+        let row = |what: &str, color: &[f32], seconds: f64| {
+            let (error, bias) = (relative_error(color, &references), 100.0 * (mean(color) / true_mean - 1.0));
+            println!("  {what:<62} {samples:>8} {error:>8.4} {bias:>+7.2}% {seconds:>7.2}");
+        };
+        row("as rendered", &picture(&frame, Layer::Color), 0.0);
+        for way in WAYS {
+            let time = Stopwatch::start();
+            let color = (way.1)(&frame, denoiser)?;
+            row(way.0, &color, time.cpu_s());
+        }
+    }
+    Ok(())
+}
+
+/// A way to denoise a frame's colour.
+type Way = (&'static str, fn(&Frame, &Denoiser) -> Result<Vec<f32>, DenoiseError>);
+
+const WAYS: [Way; 6] = [
+    ("color at once, no guides", |frame, denoiser| {
+        let (color, one, zero) = (picture(frame, Layer::Color), white(frame), vec![0.0; 3 * frame.pixels()]);
+        Ok(filter(frame, denoiser, &color, &one, &zero))
+    }),
+    ("color at once, reflectance and normals", |frame, denoiser| {
+        let (color, albedo) = (picture(frame, Layer::Color), picture(frame, Layer::DiffuseReflectance));
+        Ok(filter(frame, denoiser, &color, &albedo, &picture(frame, Layer::NormalBumpWorld)))
+    }),
+    ("light and residual apart, reflectance and normals", |frame, denoiser| {
+        Ok(parts(frame, denoiser, &picture(frame, Layer::DiffuseReflectance)))
+    }),
+    ("light and residual apart, normals", |frame, denoiser| Ok(parts(frame, denoiser, &white(frame)))),
+    ("the same, normals filtered over the pixel: what is written", |frame, denoiser| {
+        Ok(picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::Color))
+    }),
+    ("the same, reflectance as a guide as well", |frame, denoiser| {
+        let albedo = picture(frame, Layer::DiffuseReflectance);
+        Ok(picture(&denoise(frame, |noisy| denoiser.filter(&Noisy { albedo: &albedo, ..*noisy }))?, Layer::Color))
+    }),
+];
+
+/// Light and residual denoised apart, guided by `albedo` and normals as they are, and put together.
+fn parts(frame: &Frame, denoiser: &Denoiser, albedo: &[f32]) -> Vec<f32> {
+    let normal = picture(frame, Layer::NormalBumpWorld);
+    let light = filter(frame, denoiser, &picture(frame, Layer::DiffuseIllumination), albedo, &normal);
+    let residual = filter(frame, denoiser, &picture(frame, Layer::Residual), albedo, &normal);
+    let reflectance = picture(frame, Layer::DiffuseReflectance);
+    (0..light.len()).map(|i| reflectance[i] * light[i] + residual[i]).collect()
+}
+
+fn filter(frame: &Frame, denoiser: &Denoiser, color: &[f32], albedo: &[f32], normal: &[f32]) -> Vec<f32> {
+    denoiser.filter(&Noisy { width: frame.width, height: frame.height, color, albedo, normal })
+}
+
+fn white(frame: &Frame) -> Vec<f32> {
+    vec![1.0; 3 * frame.pixels()]
+}
+
+/// A layer in single precision, 0 where it is not a number.
+fn picture(frame: &Frame, layer: Layer) -> Vec<f32> {
+    let values = frame.get(layer).expect("a rendered and denoised frame has the layer");
+    (0..values.len()).map(|i| values.get(i) as f32).map(|v| if v.is_nan() { 0.0 } else { v }).collect()
+}
+
+fn relative_error(found: &[f32], [a, b]: &[Vec<f32>; 2]) -> f64 {
+    let mean = |i: usize| 0.5 * (f64::from(a[i]) + f64::from(b[i]));
+    let scale = 0.5 * a.len() as f64 / (0..a.len()).map(mean).sum::<f64>();
+    // Per pixel: the error by which the worst are left out, and the one without the references' noise.
+    let mut errors: Vec<[f64; 2]> = (0..a.len() / 3)
+        .map(|pixel| {
+            let channel = |i: usize| {
+                let (x, m) = (f64::from(found[i]), mean(i));
+                let weight = scale * scale / ((m * scale).powi(2) + 0.01) / 3.0;
+                [(x - m).powi(2) * weight, (x - f64::from(a[i])) * (x - f64::from(b[i])) * weight]
+            };
+            (3 * pixel..3 * pixel + 3).map(channel).fold([0.0; 2], |sum, e| [sum[0] + e[0], sum[1] + e[1]])
+        })
+        .collect();
+    errors.sort_by(|x, y| x[0].total_cmp(&y[0]));
+    errors.truncate(errors.len() * 999 / 1000);
+    errors.iter().map(|e| e[1]).sum::<f64>() / errors.len() as f64
+}
