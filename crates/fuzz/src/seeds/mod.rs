@@ -175,13 +175,13 @@ pub fn packages() -> Vec<Seed> {
     vec![seed("body", &labelled[49..]), seed("whole", plain)]
 }
 
-/// A small tree as `.bt` and `.ot`.
+/// A small tree as `.bt`.
 pub fn octrees() -> Vec<Seed> {
     let mut tree = OccupancyTree::new(0.1);
     for (x, voxel) in [(0, Voxel::Free), (1, Voxel::Occupied), (700, Voxel::Free)] {
         tree.set(VoxelKey([32768 + x, 32768, 32760]), voxel);
     }
-    vec![seed("tree.bt", tree.to_bt()), seed("tree.ot", tree.to_ot())]
+    vec![seed("tree.bt", tree.to_bt())]
 }
 
 /// The room of the importer's tests, as text and binary.

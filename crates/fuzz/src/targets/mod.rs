@@ -82,7 +82,7 @@ pub const TARGETS: &[Target] = &[
     importer("picture", "picture.tga", "with_picture.obj", "pictures of all formats as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
     own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
-    own("octree", "OctoMap's trees, .bt and .ot", 4 << 10, octree::trees, seeds::octrees),
+    own("octree", "OctoMap's trees, .bt", 4 << 10, octree::trees, seeds::octrees),
     #[cfg(feature = "program")]
     own("vray_image", "V-Ray's images with their render elements, OpenEXR", 8 << 10, vray_image::image, seeds::vray_images),
     #[cfg(feature = "dataset")]

@@ -91,6 +91,7 @@ mod tests {
     use super::super::tests::small_tree;
     use super::*;
     use crate::VoxelKey;
+    use enfilade_math::Rng;
 
     #[test]
     fn a_tree_survives_writing_and_reading() {
@@ -142,5 +143,23 @@ mod tests {
         assert!(matches!(edit("size ", "size 1"), TreeFileError::Size { .. }));
         let deep = [&bytes[..data], &[3u8, 0].repeat(20)[..]].concat();
         assert_eq!(read(&deep), TreeFileError::TooDeep { offset: data + 30 });
+    }
+
+    #[test]
+    fn random_damage_makes_an_error_or_another_tree_but_no_panic() {
+        let (bytes, mut rng, mut refused) = (small_tree(5, 300).to_bt(), Rng::new(77), 0);
+        for _ in 0..3000 {
+            let mut damaged = bytes.clone();
+            for _ in 0..=rng.below(4) {
+                let place = rng.below(damaged.len());
+                damaged[place] = rng.next_u64() as u8;
+            }
+            damaged.truncate(bytes.len() - rng.below(2) * rng.below(bytes.len()));
+            match OccupancyTree::from_bt(&damaged) {
+                Ok(tree) => assert!(tree.leaves().count() as u64 <= tree.node_count()),
+                Err(error) => refused += usize::from(!error.to_string().is_empty()),
+            }
+        }
+        assert!(refused > 1000, "{refused}");
     }
 }

@@ -1,4 +1,4 @@
-//! What OctoMap's two kinds of tree files have in common: a text header, and the ways in which they can be wrong.
+//! The text header of OctoMap's tree files, and the ways in which such files can be wrong.
 
 use super::OccupancyTree;
 
@@ -26,14 +26,6 @@ pub enum TreeFileError {
     TooDeep {
         /// Where the node begins.
         offset: usize,
-    },
-    /// A node whose occupancy is not a number.
-    #[error("byte {offset}: a node has the log-odds {found}, expected a number; the file is damaged")]
-    LogOdds {
-        /// Where the node begins.
-        offset: usize,
-        /// What stands there.
-        found: f32,
     },
     /// Bytes after the tree.
     #[error("byte {offset}: {surplus} bytes follow the end of the tree, expected none; the file is damaged")]

@@ -2,13 +2,11 @@
 //!
 //! The tree, its keys and its file format are OctoMap's (Hornung et al. 2013, "OctoMap: An Efficient Probabilistic 3D Mapping
 //! Framework Based on Octrees"), so that a tree written here opens in OctoMap's programs and the other way round. Occupancy is
-//! the maximum-likelihood state, not a probability: that is what OctoMap's binary `.bt` files hold. Files with probabilities (`.ot`)
-//! are read and written too.
+//! the maximum-likelihood state, not a probability: that is what OctoMap's binary `.bt` files hold.
 
 mod bt;
 mod file;
 mod key;
-mod ot;
 
 #[cfg(test)]
 mod tests;

@@ -68,11 +68,6 @@ impl Passage {
 }
 
 impl Door {
-    /// Width of the leaf in an opening of this width.
-    pub fn leaf_width(opening: f32) -> f32 {
-        opening - 2.0 * (LINING + PLAY)
-    }
-
     /// Adds the door in an opening of `room`.
     pub fn build(&self, b: &mut Builder, room: &Room, opening: &Opening) {
         let pose = super::on(room.wall_pose(opening.wall), Vec3::new(opening.center_x(), 0.0, 0.0), 0.0);

@@ -28,10 +28,6 @@ impl Glow {
     pub const CEILING: Self = Self { lumens: 3000.0, kelvin: 3000.0 };
     /// A ceiling lamp of a kitchen, bathroom or study: neutral white.
     pub const WORK: Self = Self { lumens: 3600.0, kelvin: 4000.0 };
-    /// A recessed spot.
-    pub const SPOT: Self = Self { lumens: 400.0, kelvin: 3000.0 };
-    /// A candle: one candela in every direction.
-    pub const CANDLE: Self = Self { lumens: 12.6, kelvin: 1900.0 };
 
     /// A strip under wall units or behind a mirror, `length_m` long: 800 lm a metre.
     pub fn strip(length_m: f32) -> Self {

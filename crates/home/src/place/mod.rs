@@ -140,11 +140,6 @@ impl Floor {
         Footprint { center, half: Vec2::new(0.5 * (x[1] - x[0]), 0.5 * depth), yaw: wall.yaw() as f32 }
     }
 
-    /// Keeps a space free of solids.
-    pub fn keep_clear(&mut self, footprint: Footprint, z: [f32; 2]) {
-        self.taken.push(Taken { footprint, z, solid: false });
-    }
-
     /// Records something solid that stands there whatever is placed.
     pub fn take(&mut self, footprint: Footprint, z: [f32; 2]) {
         self.taken.push(Taken { footprint, z, solid: true });

@@ -50,12 +50,6 @@ impl KitchenIsland {
     fn depth(&self) -> f32 {
         DEPTH + self.overhang
     }
-
-    /// Where a stool stands, in the island's space; it faces the island.
-    pub fn stools(&self) -> Vec<Vec2> {
-        let count = (self.length / 0.6) as usize;
-        (0..count).map(|k| Vec2::new(((k as f32 + 0.5) / count as f32 - 0.5) * self.length, 0.5 * self.depth() + 0.08)).collect()
-    }
 }
 
 impl Furniture for KitchenIsland {
