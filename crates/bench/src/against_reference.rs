@@ -16,7 +16,7 @@ const BLOCK: usize = 16;
 
 /// Runs the instrument.
 pub fn run() -> Result<()> {
-    let arguments: Vec<String> = crate::arguments().collect();
+    let arguments: Vec<String> = crate::arguments::arguments().collect();
     let [scene_file, reference_file, rest @ ..] = arguments.as_slice() else {
         bail!("usage: against-reference SCENE REFERENCE.exr [SAMPLES] [SIDE_BY_SIDE.png]");
     };

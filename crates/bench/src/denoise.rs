@@ -17,7 +17,7 @@ use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 /// Runs the instrument.
 pub fn run() -> Result<()> {
     let (mut reference, mut size, mut scenes) = (256, [384, 288], Vec::new());
-    let mut arguments = crate::arguments();
+    let mut arguments = crate::arguments::arguments();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--reference" => reference = arguments.next().context("--reference needs a number")?.parse()?,

@@ -9,7 +9,7 @@ const HEAD: &str = "name = \"homes\"\nframes = 1\nrender.size = [480, 360]\nrend
 
 /// Runs the instrument.
 pub fn run() -> std::io::Result<()> {
-    let args: Vec<String> = crate::arguments().collect();
+    let args: Vec<String> = crate::arguments::arguments().collect();
     let value = |flag: &str| args.iter().position(|a| a == flag).and_then(|i| args.get(i + 1)).cloned();
     let numbers: Vec<u64> = args.iter().map_while(|a| a.parse().ok()).collect();
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(1));

@@ -15,7 +15,7 @@ const FOLDS: usize = 10;
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<String> = crate::arguments().collect();
+    let arguments: Vec<String> = crate::arguments::arguments().collect();
     let [inputs @ .., option, folder] = arguments.as_slice() else {
         return Err("expected: TABLE.csv... -o FOLDER".into());
     };

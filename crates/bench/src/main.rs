@@ -6,6 +6,7 @@
 //! compare with.
 
 mod against_reference;
+mod arguments;
 mod denoise;
 mod explore;
 mod faults;
@@ -38,7 +39,7 @@ struct Instrument {
     name: &'static str,
     /// What it measures or makes.
     about: &'static str,
-    /// Runs it with [`arguments`].
+    /// Runs it with [`arguments::arguments`].
     run: fn() -> Outcome,
 }
 
@@ -104,11 +105,6 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// The words behind the instrument's name.
-fn arguments() -> impl Iterator<Item = String> {
-    std::env::args().skip(2)
 }
 
 /// The result of an instrument, whatever its kind of error.

@@ -73,7 +73,7 @@ pub fn run() -> Result<()> {
 
 fn arguments() -> Result<Job> {
     let mut job = Job { scene: PathBuf::new(), size: (256, 192), config: RenderConfig::default(), seeds: 1, denoise: false, out: None };
-    let mut words = crate::arguments();
+    let mut words = crate::arguments::arguments();
     while let Some(word) = words.next() {
         let mut value = || words.next().with_context(|| format!("{word} needs a value"));
         match word.as_str() {

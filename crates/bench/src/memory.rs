@@ -23,7 +23,7 @@ const WIDTH: f32 = 8.0;
 /// Runs the instrument.
 pub fn run() -> Result<()> {
     let (mut triangles, mut textures, mut side, mut copies, mut apart) = (1_000_000u32, 8u32, 4096u32, 0u32, false);
-    let mut words = crate::arguments();
+    let mut words = crate::arguments::arguments();
     while let Some(word) = words.next() {
         if word == "--apart" {
             apart = true;

@@ -24,7 +24,7 @@ pub fn run() -> Result<()> {
     let threads = rayon::current_num_threads();
     let sets = Instructions::available().into_iter().rev();
     let mut denoisers: Vec<_> = sets.map(|set| (set.name(), Denoiser::built_in_with(set))).collect();
-    let mut arguments = crate::arguments().peekable();
+    let mut arguments = crate::arguments::arguments().peekable();
     if arguments.next_if_eq("--quick").is_some() {
         denoisers.retain(|(set, _)| *set != "portable");
     }

@@ -20,7 +20,7 @@ const HEIGHT: u32 = 192;
 pub fn run() -> Result<()> {
     let mut config = RenderConfig { samples: 32, ..RenderConfig::default() };
     let mut scenes = Vec::new();
-    let mut arguments = crate::arguments();
+    let mut arguments = crate::arguments::arguments();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--samples" => config.samples = arguments.next().context("--samples needs a number")?.parse()?,

@@ -14,7 +14,7 @@ const COLUMNS: usize = 4;
 
 /// Runs the instrument.
 pub fn run() -> std::io::Result<()> {
-    let args: Vec<String> = crate::arguments().collect();
+    let args: Vec<String> = crate::arguments::arguments().collect();
     let value = |flag: &str| args.iter().position(|a| a == flag).and_then(|i| args.get(i + 1)).cloned();
     let numbers: Vec<u64> = args.iter().map_while(|a| a.parse().ok()).collect();
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(12));

@@ -32,7 +32,7 @@ struct Exhibit {
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = crate::arguments().collect();
+    let arguments: Vec<String> = crate::arguments::arguments().collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["list"] => FAMILIES.iter().for_each(|f| println!("{:20} {:?} {:?} {} triangles", f.name, f.class, f.place, triangles(f))),
         [families, out] => std::fs::write(out, to_bytes(&showroom(&exhibits(families, 0..4)?)))?,

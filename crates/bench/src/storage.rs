@@ -32,7 +32,7 @@ const LAYERS: [Layer; 8] = [
 
 /// Runs the instrument.
 pub fn run() -> Result<()> {
-    let mut words = crate::arguments().map(PathBuf::from);
+    let mut words = crate::arguments::arguments().map(PathBuf::from);
     let folder = words.next().context("expected a folder to write to")?;
     let given = words.map(|root| Ok(Dataset::open(root)?)).collect::<Result<Vec<_>>>()?;
     let files = folder.join("files");

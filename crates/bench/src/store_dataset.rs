@@ -26,7 +26,7 @@ const FOLDER: &str = "{FOLDER}";
 
 /// Runs the instrument.
 pub fn run() -> Result<()> {
-    let words: Vec<PathBuf> = crate::arguments().map(PathBuf::from).collect();
+    let words: Vec<PathBuf> = crate::arguments::arguments().map(PathBuf::from).collect();
     let [room, archive] = words.as_slice() else { anyhow::bail!("expected the folder of the room and the archive to write") };
     let folder = tempfile::tempdir()?;
     for path in files(room)? {

@@ -35,7 +35,7 @@ const COLUMNS: usize = 5;
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn std::error::Error>> {
-    let arguments: Vec<String> = crate::arguments().collect();
+    let arguments: Vec<String> = crate::arguments::arguments().collect();
     let (folder, seed) = match &arguments[..] {
         [folder] => (folder, 0),
         [folder, seed] => (folder, seed.parse()?),

@@ -33,7 +33,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// Runs the instrument.
 pub fn run() -> Outcome<()> {
-    let arguments: Vec<PathBuf> = crate::arguments().map(PathBuf::from).collect();
+    let arguments: Vec<PathBuf> = crate::arguments::arguments().map(PathBuf::from).collect();
     let [file, folder] = arguments.as_slice() else { return Err("usage: to-mitsuba SCENE FOLDER".into()) };
     let scene = load(file, &ImportOptions::default(), &Quiet)?.scene;
     for name in ["meshes", "textures"] {

@@ -51,6 +51,7 @@
 mod archive;
 mod assembly;
 mod blender;
+mod classes;
 pub mod collada;
 pub mod collections;
 mod disguise;

@@ -144,6 +144,19 @@ fn role_of(text: &str) -> Result<Role, String> {
     }
 }
 
+/// The halves of a name whose first half names a thing: what is around, and what is in it.
+pub(crate) fn halves<'a>(words: &'a [String], lexicon: &Lexicon, roles: &Roles) -> Option<(&'a [String], &'a [String])> {
+    let listed = |n: &usize| {
+        roles.of(&words[words.len() - n..], lexicon) != Role::Unlisted && *n > 1 && {
+            let phrase = words[words.len() - n..].join(" ");
+            roles.lists(&phrase) || lexicon.class(&phrase).is_some()
+        }
+    };
+    let longest = (1..words.len().min(MAX_PHRASE + 1)).rev().find(listed).unwrap_or(1);
+    let (outer, inner) = words.split_at_checked(words.len().checked_sub(longest)?)?;
+    matches!(roles.of(outer, lexicon), Role::Thing(_)).then_some((outer, inner))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,6 @@
 use crate::calibration::{Calibration, Thresholds};
 use crate::chain::{Level, Shares, mix};
 use crate::features::features;
-use crate::learn::halves;
 use crate::lexicon::Lexicon;
 use crate::roles::{Role, Roles};
 use crate::table::TableError;

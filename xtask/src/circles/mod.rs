@@ -14,7 +14,10 @@ use graph::Imports;
 use modules::Crate;
 
 /// Circles that stay: a file of the circle, and why.
-const KEPT: [(&str, &str); 0] = [];
+const KEPT: [(&str, &str); 1] = [(
+    "crates/render/src/prepared.rs",
+    "a prepared scene has its lights, and lights are chosen, sampled and learned in a prepared scene; its files are in no circle",
+)];
 
 /// Checks all crates.
 ///

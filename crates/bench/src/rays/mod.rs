@@ -9,6 +9,7 @@ mod cases;
 #[cfg(unix)]
 mod embree;
 mod furnished;
+mod peers;
 mod report;
 mod turns;
 
@@ -16,6 +17,7 @@ use cases::Room;
 use enfilade_geometry::Bvh;
 use enfilade_import::{ImportOptions, load};
 use enfilade_scene::{Quiet, WorldMesh};
+use peers::{Failure, Peers};
 use report::Report;
 use std::path::{Path, PathBuf};
 
@@ -29,11 +31,9 @@ const ROOMS: [(&str, &str, f64); 6] = [
     ("drake-living-room", "drake-furnished-living-room/scene.gltf", 1.0),
 ];
 
-type Failure = Box<dyn std::error::Error>;
-
 /// Runs the instrument.
 pub fn run() -> Result<(), Failure> {
-    let words: Vec<String> = crate::arguments().collect();
+    let words: Vec<String> = crate::arguments::arguments().collect();
     let scenes = std::env::var_os("ENFILADE_SCENES").map(PathBuf::from);
     let rooms: Vec<Room> = match &scenes {
         Some(folder) if words != ["furnished"] => {
@@ -56,41 +56,6 @@ pub fn run() -> Result<(), Failure> {
         report.write(&folder)?;
     }
     Ok(())
-}
-
-/// The library to compare with, if there is one.
-struct Peers {
-    #[cfg(unix)]
-    embree: Option<embree::Library>,
-}
-
-#[cfg(unix)]
-impl Peers {
-    fn load() -> Result<Self, Failure> {
-        let file = std::env::var("ENFILADE_EMBREE").ok();
-        if file.is_none() {
-            println!("note: ENFILADE_EMBREE names no library; only our own hierarchy is measured");
-        }
-        Ok(Self { embree: file.map(|file| embree::Library::load(&file)).transpose()? })
-    }
-
-    /// For example "4.4.0".
-    fn version(&self) -> Option<String> {
-        let number = self.embree?.version();
-        Some(format!("{}.{}.{}", number / 10_000, number / 100 % 100, number % 100))
-    }
-}
-
-#[cfg(not(unix))]
-impl Peers {
-    fn load() -> Result<Self, Failure> {
-        println!("note: Embree is loaded on Unix only; only our own hierarchy is measured");
-        Ok(Self {})
-    }
-
-    fn version(&self) -> Option<String> {
-        None
-    }
 }
 
 fn read(name: &str, file: &Path, meters_per_unit: f64) -> Result<Room, Failure> {

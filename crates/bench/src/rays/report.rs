@@ -1,6 +1,6 @@
 //! The table, on the terminal and in `docs/benchmarks`.
 
-use super::Failure;
+use super::peers::Failure;
 use super::turns::{Compared, Row};
 use enfilade_testkit::processor;
 use serde_json::json;

@@ -1,7 +1,7 @@
 //! The engines trace the same rays in turns.
 
 use super::cases::{Case, Question, Room, cases};
-use super::{Failure, Peers};
+use super::peers::{Failure, Peers};
 use enfilade_geometry::Bvh;
 use enfilade_math::Ray;
 use enfilade_testkit::thread_cpu_s;

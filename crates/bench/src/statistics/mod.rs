@@ -13,7 +13,7 @@ mod spread;
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn std::error::Error>> {
-    let words: Vec<String> = crate::arguments().collect();
+    let words: Vec<String> = crate::arguments::arguments().collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words.as_slice() {
         ["one", seed] => {

@@ -4,6 +4,7 @@
 //! `docs/benchmarks/suggest.md` and `suggest.json`.
 
 mod actions;
+mod measured;
 mod others;
 mod pairs;
 mod peers;
@@ -13,24 +14,10 @@ mod scores;
 use enfilade_suggest::learn::{LearnConfig, NamedObject, Split, group, held_out, read_names, with_curtains};
 use enfilade_suggest::lexicon::Lexicon;
 use enfilade_suggest::{Suggester, Suggestion};
+use measured::{FOLDS, Measured};
 use scores::Judgement;
 use std::error::Error;
 use std::path::PathBuf;
-
-/// Parts that scenes or volumes are divided into.
-pub const FOLDS: usize = 10;
-
-/// What was measured of one way to hold scenes out.
-pub struct Measured {
-    /// What stayed together.
-    pub split: Split,
-    /// Our suggestions.
-    pub ours: Judgement,
-    /// Suggestions by a lookup of whole names.
-    pub lookup: Judgement,
-    /// Suggestions by a search for the names of classes.
-    pub keyword: Judgement,
-}
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn Error>> {

@@ -1,10 +1,10 @@
 //! The report on suggestions, as Markdown (`suggest.md`) and JSON (`suggest.json`).
 
 use super::actions::Actions;
+use super::measured::{FOLDS, Measured};
 use super::others::Other;
 use super::pairs::OfKind;
 use super::scores::{By, Judgement};
-use super::{FOLDS, Measured};
 use enfilade_scene::NYU40;
 use enfilade_suggest::Suggester;
 use enfilade_suggest::chain::Inner;

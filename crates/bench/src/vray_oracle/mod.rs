@@ -23,7 +23,7 @@ const BLOCK: usize = 16;
 
 /// Runs the instrument.
 pub fn run() -> Result<()> {
-    let arguments: Vec<String> = crate::arguments().collect();
+    let arguments: Vec<String> = crate::arguments::arguments().collect();
     let scenes = Path::new(arguments.first().context("name the folder of the shared scenes")?);
     let tags = arguments.get(1).filter(|t| *t != "-").map(std::path::absolute).transpose()?;
     let samples = arguments.get(2).map_or(Ok(64), |s| s.parse())?;

@@ -20,6 +20,7 @@ mod parquet_file;
 pub(crate) mod pix3d;
 pub(crate) mod points;
 pub(crate) mod replica;
+pub(crate) mod room_cloud;
 pub(crate) mod scannet;
 pub(crate) mod spatiallm;
 pub(crate) mod structured3d;

@@ -12,10 +12,10 @@
 //! | regions, panoramas, images | not used |
 //! | the textured mesh (`.glb`, `matterport_mesh/*.obj`) | says nothing of objects; import it by itself where pictures matter more than labels |
 
-use super::classes::class_of;
 use super::objects::Objects;
 use super::scan;
 use crate::assembly::Assembly;
+use crate::classes::class_of;
 use crate::{ImportError, Imported, UpAxis};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -28,7 +28,6 @@
 //! - Lights and cameras within models are left out, with a warning.
 
 pub(crate) mod assets;
-mod classes;
 mod detect;
 mod front3d;
 mod habitat;
@@ -44,7 +43,6 @@ mod scan;
 mod structured3d;
 pub(crate) mod vectors;
 
-pub(crate) use classes::class_of;
 pub(crate) use detect::{no_scene_in_folder, scene_in_folder};
 
 use crate::assembly::Assembly;

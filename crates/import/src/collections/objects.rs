@@ -3,8 +3,8 @@
 //! An object is called `<category> (<id>)`, from the second of a category on `<category>_2 (<id>)`, and its parts `<object>/<part>` where
 //! it has several. So label tables and `enfilade annotate` see objects, and `enfilade suggest` their categories.
 
-use super::classes::class_of;
 use crate::assembly::{Assembly, Piece};
+use crate::classes::class_of;
 use enfilade_math::DAffine3;
 use enfilade_scene::{PartLabel, is_stuff};
 use std::collections::{BTreeMap, HashMap};

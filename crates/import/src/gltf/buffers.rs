@@ -1,6 +1,6 @@
 //! The buffers of a glTF file: what it has, and what unpacking adds.
 
-use super::meshopt::packed::{extension_of, packed_buffer};
+use super::packed::{extension_of, packed_buffer};
 use super::uri::{Uri, resolve_uri};
 use crate::ImportError;
 use crate::assembly::Assembly;

@@ -57,6 +57,7 @@ mod morph;
 mod node;
 mod objects;
 mod omissions;
+mod packed;
 mod painted;
 mod parts;
 mod primitive;

@@ -4,7 +4,7 @@
 use super::stage::Prim;
 use super::value::Value;
 use crate::assembly::{FileLabel, class_named};
-use crate::collections::class_of;
+use crate::classes::class_of;
 use enfilade_scene::ObjectId;
 
 /// Categories of RoomPlan that collections call otherwise.

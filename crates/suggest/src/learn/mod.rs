@@ -10,6 +10,5 @@ mod train;
 
 pub use folds::{HeldOut, Split, held_out};
 pub use groups::{NameGroup, NamedObject, group, read_names, with_curtains};
-pub(crate) use pairs::halves;
 pub use pairs::{Pair, learn_shares};
 pub use train::{LearnConfig, learn};

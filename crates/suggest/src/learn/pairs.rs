@@ -7,8 +7,7 @@
 
 use super::groups::NameGroup;
 use crate::chain::{Inner, Level, Shares, best, mix};
-use crate::lexicon::{Lexicon, MAX_PHRASE};
-use crate::roles::{Role, Roles};
+use crate::roles::Role;
 use crate::weights::CLASSES;
 
 /// Steps of expectation maximisation.
@@ -25,19 +24,6 @@ pub struct Pair {
     inner: Level,
     /// Probabilities by what is around the part.
     outer: Level,
-}
-
-/// The halves of a name whose first half names a thing: what is around, and what is in it.
-pub(crate) fn halves<'a>(words: &'a [String], lexicon: &Lexicon, roles: &Roles) -> Option<(&'a [String], &'a [String])> {
-    let listed = |n: &usize| {
-        roles.of(&words[words.len() - n..], lexicon) != Role::Unlisted && *n > 1 && {
-            let phrase = words[words.len() - n..].join(" ");
-            roles.lists(&phrase) || lexicon.class(&phrase).is_some()
-        }
-    };
-    let longest = (1..words.len().min(MAX_PHRASE + 1)).rev().find(listed).unwrap_or(1);
-    let (outer, inner) = words.split_at_checked(words.len().checked_sub(longest)?)?;
-    matches!(roles.of(outer, lexicon), Role::Thing(_)).then_some((outer, inner))
 }
 
 impl Pair {

@@ -1,10 +1,12 @@
 //! `enfilade vray`: edits of V-Ray's scenes, file to file; jobs that render them, and the images that these make.
 
 mod args;
+mod console;
 mod frames;
 mod tables;
 
 pub use args::VrayArgs;
+pub use console::Console;
 
 use crate::VrayError;
 use crate::edit::{
@@ -15,19 +17,9 @@ use crate::edit::{
 use crate::{Asset, inline_scene, read_scene, scene_assets};
 use args::{Copy, Edit, PassArg, Policy};
 use enfilade_dataset::write_bytes;
-use enfilade_scene::Cx;
 use enfilade_vrscene::{Document, add_include};
 use std::collections::BTreeMap;
 use std::path::Path;
-
-/// Where the verbs say what they did, and how far they are.
-pub trait Console {
-    /// Says a line of the result.
-    fn say(&self, line: &str);
-
-    /// Begins long work on `name`, which is told as that of `verb` while the value lives.
-    fn begin(&self, name: &str, verb: &'static str) -> Box<dyn Cx + '_>;
-}
 
 /// Does what the arguments of `enfilade vray` ask for.
 ///

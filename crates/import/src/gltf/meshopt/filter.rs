@@ -2,7 +2,7 @@
 //!
 //! Appendix B of `KHR_meshopt_compression`.
 
-use super::packed::Filter;
+use super::super::packed::Filter;
 
 /// Filters elements of `stride` bytes in place.
 pub(super) fn apply(filter: Filter, stride: usize, bytes: &mut [u8]) {

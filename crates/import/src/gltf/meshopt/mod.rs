@@ -7,13 +7,12 @@ mod attributes;
 mod bytes;
 mod filter;
 mod indices;
-pub(super) mod packed;
 
 use super::budget::Budget;
 use super::buffers::Buffers;
+use super::packed::{Mode, Packed, extension_of};
 use crate::assembly::Assembly;
 use gltf::json::{Index, Root, buffer};
-use packed::{Mode, Packed, extension_of};
 use serde_json::Value;
 use std::collections::HashMap;
 

@@ -48,13 +48,13 @@ pub(super) enum Filter {
 }
 
 /// The extension of a buffer view, by its name.
-pub(in super::super) fn extension_of(view: &View) -> Option<(&'static str, &Value)> {
+pub(super) fn extension_of(view: &View) -> Option<(&'static str, &Value)> {
     let others = &view.extensions.as_ref()?.others;
     NAMES.into_iter().find_map(|name| Some((name, others.get(name)?)))
 }
 
 /// The buffer in which a view's packed data lie.
-pub(in super::super) fn packed_buffer(view: &View) -> Option<usize> {
+pub(super) fn packed_buffer(view: &View) -> Option<usize> {
     let (_, extension) = extension_of(view)?;
     extension.get("buffer")?.as_u64().and_then(|buffer| usize::try_from(buffer).ok())
 }
