@@ -18,7 +18,7 @@ pub struct Preview {
 const JPEG_QUALITY: u8 = 92;
 
 /// A picture of `width` × `height` whose pixel `i` (row by row) is `color(i)`.
-pub(crate) fn from_pixels(width: u32, height: u32, color: impl Fn(usize) -> [u8; 4]) -> Picture {
+pub fn from_pixels(width: u32, height: u32, color: impl Fn(usize) -> [u8; 4]) -> Picture {
     Picture::from_fn(width, height, |x, y| image::Rgba(color(y as usize * width as usize + x as usize)))
 }
 
