@@ -24,7 +24,6 @@ mod scene_types;
 mod single;
 mod stage;
 mod stages;
-mod statistics;
 mod suggest;
 mod workdir;
 mod world;
@@ -49,7 +48,7 @@ pub use partition::{PartitionReport, partition};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
 pub use products::{
     FlowPairs, FrameChoice, Made, MakeOptions, MixRequest, OutOfDate, PRODUCTS, PairsRequest, Product, ProductOptions, ProductSpec,
-    Request, Scope, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes,
+    Request, Scope, When, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes, write_statistics,
 };
 pub use relight::relight;
 pub use replay::{Replay, ReplayedFile, replay};
@@ -58,5 +57,4 @@ pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, ve
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use stage::Stage;
 pub use stages::{FinishedFrame, Part, STAGES, StageSpec};
-pub use statistics::write_statistics;
 pub use suggest::{SuggestedLabels, UnsurePart, suggest_labels};

@@ -2,6 +2,7 @@
 
 use crate::products::Product;
 use crate::stage::Stage;
+use crate::workdir::Hash;
 use enfilade_dataset::FrameTime;
 use enfilade_scene::{Cx, Warning};
 use std::sync::Mutex;
@@ -120,6 +121,8 @@ pub struct StageOutcome {
     pub warnings: usize,
     /// Seconds on the wall clock, of this run.
     pub wall_s: f64,
+    /// Names what it was made from.
+    pub(crate) key: Hash,
 }
 
 /// What became of a product of a scene, or of the dataset as a whole.

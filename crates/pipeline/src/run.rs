@@ -3,18 +3,17 @@
 use crate::config::{Config, Overrides, SceneConfig};
 use crate::error::Error;
 use crate::partition::write_partition;
-use crate::products::{PairsRequest, Place, Request, adopt, bring_up_to_date, not_judged, told_out_of_date};
+use crate::products::{
+    PairsRequest, Pictures, Place, Request, adopt, bring_up_to_date, not_judged, pictures, told_out_of_date, update_sheet,
+    update_statistics,
+};
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::scene_types::write_scene_types;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan, read_table};
-use crate::statistics::{statistics_are_whole, write_statistics};
 use crate::workdir::{RUN, Workdir, read_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
 use enfilade_scene::{Cx, Quiet, Warning};
-use enfilade_show::drivers::write_overview;
 use enfilade_show::report_card::write_report;
-use enfilade_show::sheet::SheetConfig;
-use enfilade_show::stats::StatsConfig;
 use enfilade_verify::{VerifyReport, join_reports, verify_listed_scene};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -267,10 +266,10 @@ impl<'a> Session<'a> {
         // Then the files of the dataset as a whole, each from those before it.
         let finished = self
             .write_manifest(&outcomes, None)
-            .and_then(|()| self.write_overview(stages))
+            .and_then(|()| self.write_overview(stages, &outcomes))
             .and_then(|()| self.write_partition())
             .and_then(|warnings| self.write_card(stages, &outcomes).map(|()| warnings))
-            .and_then(|warnings| self.write_statistics(stages).map(|()| warnings));
+            .and_then(|warnings| self.write_statistics(stages, &outcomes).map(|()| warnings));
 
         let mut warnings = finished.as_ref().ok().cloned().unwrap_or_default();
         let products = self.make_products_of_dataset(&mut outcomes, reporter);
@@ -417,30 +416,38 @@ impl<'a> Session<'a> {
         write_report(&self.dataset, &report).map_err(Error::stage)
     }
 
-    /// Writes the contact sheet of all scenes, unless it is there already: the preview stage removes it.
-    fn write_overview(&self, stages: &[&StageSpec]) -> Result<(), Error> {
-        let path = self.dataset.layout().overview();
-        if path.is_file() || stages.iter().all(|spec| spec.stage != Stage::Preview) {
-            return Ok(());
-        }
-        let manifest = self.dataset.read_manifest().map_err(Error::stage)?;
-        let complete = |c: &CameraEntry| c.frames.iter().any(|f| f.status == FrameStatus::Complete);
-        let any_frame = manifest.iter().flat_map(|m| m.scenes.values()).flat_map(|s| s.cameras.values()).any(complete);
-        if any_frame {
-            let scenes = self.dataset.scenes().map_err(Error::stage)?;
-            write_overview(&self.dataset, &scenes, &self.config.name, &SheetConfig::default()).map_err(Error::stage)?;
-        }
-        Ok(())
+    /// What names the pictures of all scenes, and whether any were made in this run.
+    fn pictures(&self, outcomes: &[SceneOutcome]) -> Result<(Pictures, bool), Error> {
+        let of_scene = |scene: &SceneOutcome| {
+            let stage = scene.stages.iter().find(|outcome| outcome.stage == Stage::Preview)?;
+            Some((scene.name.clone(), stage.key.clone()))
+        };
+        let known = outcomes.iter().filter_map(of_scene).collect();
+        let made = outcomes.iter().flat_map(|scene| &scene.stages).any(|outcome| outcome.stage == Stage::Preview && !outcome.up_to_date);
+        Ok((pictures(&self.dataset, self.workdir, &known)?, made))
     }
 
-    /// Writes the statistics of all scenes, without costs, which would differ between two runs; unless they are there already, as they
-    /// were written: the preview stage removes them.
-    fn write_statistics(&self, stages: &[&StageSpec]) -> Result<(), Error> {
-        if stages.iter().all(|spec| spec.stage != Stage::Preview) || statistics_are_whole(&self.dataset) {
+    /// Brings the contact sheet of all scenes up to date, where `stages` make pictures and any frame is complete.
+    fn write_overview(&self, stages: &[&StageSpec], outcomes: &[SceneOutcome]) -> Result<(), Error> {
+        if stages.iter().all(|spec| spec.stage != Stage::Preview) {
             return Ok(());
         }
-        let scenes = self.dataset.scenes().map_err(Error::stage)?;
-        write_statistics(&self.dataset, &StatsConfig { scenes, ..StatsConfig::default() }, &Quiet).map_err(Error::stage).map(drop)
+        let complete = |c: &CameraEntry| c.frames.iter().any(|f| f.status == FrameStatus::Complete);
+        let has_frames = || {
+            let manifest = self.dataset.read_manifest().map_err(Error::stage)?;
+            Ok(manifest.iter().flat_map(|m| m.scenes.values()).flat_map(|s| s.cameras.values()).any(complete))
+        };
+        let (pictures, were_made) = self.pictures(outcomes)?;
+        update_sheet(&self.dataset, &self.config.name, (&pictures, were_made), has_frames)
+    }
+
+    /// Brings the statistics of all scenes up to date, where `stages` make pictures.
+    fn write_statistics(&self, stages: &[&StageSpec], outcomes: &[SceneOutcome]) -> Result<(), Error> {
+        if stages.iter().all(|spec| spec.stage != Stage::Preview) {
+            return Ok(());
+        }
+        let (pictures, were_made) = self.pictures(outcomes)?;
+        update_statistics(&self.dataset, &pictures, were_made)
     }
 
     /// Writes the manifest of what is on disk, unless it is there already. A failure noted of the scene `at_work` is dropped.
@@ -471,15 +478,9 @@ impl<'a> Session<'a> {
             return Ok(());
         }
         if old.is_none_or(|old| old.scenes.keys().any(|name| !manifest.scenes.contains_key(name))) {
-            self.forget_other_scenes(&there)?;
+            // What scenes that are gone have left in a table of the dataset.
+            self.dataset.retain_camera_parameters(|scene| there.contains(scene)).map_err(Error::stage)?;
         }
         self.dataset.write_manifest(&manifest).map_err(Error::stage)
-    }
-
-    /// Removes what other scenes than these have left in files of the dataset as a whole. A run makes its sheet and statistics again.
-    fn forget_other_scenes(&self, scenes: &BTreeSet<String>) -> Result<(), Error> {
-        let layout = self.dataset.layout();
-        [layout.overview(), layout.statistics()].iter().try_for_each(|path| remove_if_there(path))?;
-        self.dataset.retain_camera_parameters(|scene| scenes.contains(scene)).map_err(Error::stage)
     }
 }

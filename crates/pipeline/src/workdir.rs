@@ -5,10 +5,11 @@
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
 //! OUT/.enfilade/gathered.json        of a dataset that others made: which job's files were brought here
 //! OUT/.enfilade/split.json           how the dataset is divided, where that was chosen
-//! OUT/.enfilade/statistics.json      what was written to OUT/statistics
+//! OUT/.enfilade/.products/NAME.json  what a product of the dataset as a whole was asked for by, and made from
 //! OUT/.enfilade/.estimate/           what a forecast tries out where the folder is to stay as it is
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
 //! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
+//! OUT/.enfilade/SCENE/products/NAME.json  the same of a product of the scene
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
 //! ```
 
@@ -26,8 +27,8 @@ pub(crate) const RUN: &str = "run.json";
 pub(crate) const GATHERED: &str = "gathered.json";
 /// How the dataset is divided, where that was chosen.
 pub(crate) const CHOICE: &str = "split.json";
-/// What was written of statistics.
-pub(crate) const STATISTICS: &str = "statistics.json";
+/// What earlier versions noted of statistics.
+const STATISTICS: &str = "statistics.json";
 /// Where a forecast tries things out.
 const ASIDE: &str = ".estimate";
 /// The files beside the folders of scenes: no scene can have such a name.

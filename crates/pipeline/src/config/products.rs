@@ -2,7 +2,7 @@
 
 use super::sensors::read_sensors;
 use crate::error::Error;
-use crate::products::{FlowPairs, FrameChoice, PRODUCTS, PairsRequest, Request, SURFACES, mixes_for_later};
+use crate::products::{FlowPairs, FrameChoice, PRODUCTS, PairsRequest, Request, SURFACES, When, mixes_for_later};
 use enfilade_multiview::TracksConfig;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
@@ -127,7 +127,12 @@ impl<'de> Deserialize<'de> for ProductKey {
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = ProductKey;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                let words: Vec<&str> = PRODUCTS.iter().map(|spec| spec.name).filter(|name| *name != "covisibility").collect();
+                let words: Vec<&str> = PRODUCTS
+                    .iter()
+                    .filter(|spec| spec.when == When::Asked)
+                    .map(|spec| spec.name)
+                    .filter(|name| *name != "covisibility")
+                    .collect();
                 write!(f, "a product, one of {}, or a table such as {{ sensors = \"sensors.toml\" }}", words.join(", "))
             }
             fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<ProductKey, E> {

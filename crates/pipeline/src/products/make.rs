@@ -7,7 +7,7 @@ use super::record::{MadePart, Place, Record, has_records};
 use super::request::Request;
 use super::sources::Subject;
 use super::stale::{States, Wanted, specs_in};
-use super::table::{Asked, PRODUCTS, ProductSpec, Scope};
+use super::table::{Asked, PRODUCTS, ProductSpec, Scope, When};
 use super::{flow, relit, rooms, words};
 use crate::error::Error;
 use crate::report::{Event, ProductCx, ProductOutcome, Reporter, Stopwatch};
@@ -208,7 +208,7 @@ pub(crate) fn bring_up_to_date(
         let scene = scene.map(String::from);
         is_known.then_some(ProductOutcome { product: spec.product, scene, made: updated.made, lines: updated.lines, failure })
     };
-    specs_in(place).filter(|spec| spec.is_late() == late).filter_map(outcome).collect()
+    specs_in(place).filter(|spec| spec.when == When::Asked && spec.is_late() == late).filter_map(outcome).collect()
 }
 
 /// Makes what is asked for of a scene in the dataset `aside`, which has one frame of it: what products of all frames cost beyond that, it does
@@ -252,7 +252,9 @@ pub(super) fn update(
         return Ok(Updated::default());
     }
     let mut record = found.unwrap_or_default();
+    let before = record.requests.clone();
     asked.iter().for_each(|request| record.ask(request));
+    let is_asked_anew = record.requests != before;
     update_inputs(dataset, place, product, &record, cx)?;
 
     // Find what is to be made.
@@ -272,7 +274,7 @@ pub(super) fn update(
     todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
     let is_left_over = |name: &String| wanted.iter().all(|wanted| wanted.part.name != *name);
     if todo.is_empty() && !record.parts.keys().any(is_left_over) {
-        if !asked.is_empty() {
+        if is_asked_anew {
             record.write(dataset, place, product)?;
         }
         return Ok(Updated { kept: fresh.len(), ..Updated::default() });

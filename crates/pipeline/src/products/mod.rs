@@ -24,6 +24,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod tracks;
+mod whole;
 mod words;
 
 pub(crate) use adopt::adopt;
@@ -41,4 +42,6 @@ pub use relit::{MixRequest, read_mixes};
 pub use request::Request;
 pub use stale::{OutOfDate, out_of_date};
 pub(crate) use stale::{not_judged, told_out_of_date};
-pub use table::{PRODUCTS, ProductSpec, Scope};
+pub use table::{PRODUCTS, ProductSpec, Scope, When};
+pub use whole::write_statistics;
+pub(crate) use whole::{Pictures, pictures, update_sheet, update_statistics};

@@ -98,6 +98,10 @@ impl ProductOptions {
                 let file = self.mixes.as_ref().ok_or_else(|| Error::usage("no mixes are named", "give --mixes examples/mixes.csv"))?;
                 read_mixes(file, dataset, scenes, &of)?
             }
+            Product::Sheet | Product::Statistics => {
+                let message = format!("{} is made by every run", product.name());
+                return Err(Error::usage(message, "enfilade run OUT makes it; enfilade stats OUT the statistics"));
+            }
         })
     }
 

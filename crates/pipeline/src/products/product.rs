@@ -16,6 +16,8 @@ pub enum Product {
     Words,
     Sensors,
     Relit,
+    Sheet,
+    Statistics,
 }
 
 impl Product {
@@ -31,6 +33,8 @@ impl Product {
             Self::Words => "words",
             Self::Sensors => "sensors",
             Self::Relit => "relit",
+            Self::Sheet => "sheet",
+            Self::Statistics => "statistics",
         }
     }
 }

@@ -65,6 +65,18 @@ pub enum Request {
         /// Frames.
         of: FrameChoice,
     },
+    /// The contact sheet of the dataset.
+    Sheet {
+        /// What stands above it.
+        title: String,
+        /// Names the pictures of all scenes.
+        pictures: String,
+    },
+    /// The statistics of the dataset.
+    Statistics {
+        /// Names the pictures of all scenes.
+        pictures: String,
+    },
 }
 
 impl Request {
@@ -80,6 +92,8 @@ impl Request {
             Self::Words => Product::Words,
             Self::Sensor { .. } => Product::Sensors,
             Self::Mix { .. } => Product::Relit,
+            Self::Sheet { .. } => Product::Sheet,
+            Self::Statistics { .. } => Product::Statistics,
         }
     }
 
@@ -94,7 +108,11 @@ impl Request {
     /// True when nothing is left of `older`, a request of the same product, once this one is made.
     pub(super) fn replaces(&self, older: &Self) -> bool {
         match (self, older) {
-            (Self::Covisibility { .. }, Self::Covisibility { .. }) | (Self::Pairs(_), Self::Pairs(_)) | (Self::Words, Self::Words) => true,
+            (Self::Covisibility { .. }, Self::Covisibility { .. })
+            | (Self::Pairs(_), Self::Pairs(_))
+            | (Self::Words, Self::Words)
+            | (Self::Sheet { .. }, Self::Sheet { .. })
+            | (Self::Statistics { .. }, Self::Statistics { .. }) => true,
             (Self::Flow { .. }, Self::Flow { .. }) => self == older,
             (Self::Tracks { of, .. }, Self::Tracks { of: old, .. })
             | (Self::Surfaces { of, .. }, Self::Surfaces { of: old, .. })

@@ -37,6 +37,8 @@ pub(crate) enum Source {
     Fixtures,
     /// The files of another product.
     Product(Product),
+    /// The pictures of all scenes: the request names what they were made from.
+    Pictures,
     /// Another product that may say which parts there are, and not what is in them.
     ListedBy(Product),
 }
@@ -134,7 +136,7 @@ impl<'a> Subject<'a> {
             Source::Fixtures => self.of_files(vec![layout.metadata_fixtures(scene)]),
             Source::Product(Product::Rooms) => self.of_files(vec![layout.structure(scene)]),
             Source::Product(product) => self.of_product(product),
-            Source::ListedBy(_) => Ok(Hash::of(&())),
+            Source::Pictures | Source::ListedBy(_) => Ok(Hash::of(&())),
         }
     }
 

@@ -4,7 +4,7 @@ use super::product::Product;
 use super::record::Part;
 use super::request::Request;
 use super::sources::{Source, Subject};
-use super::{flow, pairs, relit, rooms, sensors, surfaces, tracks, words};
+use super::{flow, pairs, relit, rooms, sensors, surfaces, tracks, whole, words};
 use crate::error::Error;
 use enfilade_frame::Layer;
 use enfilade_scene::Cx;
@@ -23,6 +23,15 @@ pub enum Scope {
     Frame,
 }
 
+/// When a product is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// By every run that makes pictures.
+    Always,
+    /// Once somebody has asked for it: by a verb, in Python or by a key of `dataset.toml`.
+    Asked,
+}
+
 /// What a product is.
 pub struct ProductSpec {
     /// Which one.
@@ -31,6 +40,8 @@ pub struct ProductSpec {
     pub name: &'static str,
     /// What it is.
     pub about: &'static str,
+    /// When it is made.
+    pub when: When,
     /// What its parts belong to.
     pub scope: Scope,
     /// What its parts are made from, beside the options of the request.
@@ -54,11 +65,12 @@ pub(crate) struct Asked<'a> {
 }
 
 /// All products in the order in which they are made: each after those that it reads.
-pub const PRODUCTS: [ProductSpec; 9] = [
+pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Covisibility,
         name: Product::Covisibility.name(),
         about: "the share of each frame's surfaces that each other frame of the scene sees",
+        when: When::Asked,
         scope: Scope::Scene,
         reads: &[Source::Frames, Source::Poses, Source::Package],
         version: 1,
@@ -71,6 +83,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Pairs,
         name: Product::Pairs.name(),
         about: "the pairs of frames that see the same surfaces",
+        when: When::Asked,
         scope: Scope::Dataset,
         reads: &[Source::Product(Product::Covisibility)],
         version: 1,
@@ -83,6 +96,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Flow,
         name: Product::Flow.name(),
         about: "where the surfaces of a frame are in another one",
+        when: When::Asked,
         scope: Scope::Frame,
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::ListedBy(Product::Pairs)],
         version: 1,
@@ -95,6 +109,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Tracks,
         name: Product::Tracks.name(),
         about: "points on surfaces, followed through the frames of a camera",
+        when: When::Asked,
         scope: Scope::Camera,
         reads: &[Source::Frames, Source::Poses, Source::Package],
         version: 1,
@@ -107,6 +122,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Surfaces,
         name: Product::Surfaces.name(),
         about: "every surface along the rays of a frame",
+        when: When::Asked,
         scope: Scope::Frame,
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels],
         version: 1,
@@ -119,6 +135,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Rooms,
         name: Product::Rooms.name(),
         about: "rooms of scenes that came without them, and which plane of them each pixel shows",
+        when: When::Asked,
         scope: Scope::Frame,
         reads: &[Source::Frames, Source::Package, Source::Labels],
         version: 1,
@@ -131,6 +148,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Words,
         name: Product::Words.name(),
         about: "attributes and relations of things; captions and questions of frames",
+        when: When::Asked,
         scope: Scope::Scene,
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels, Source::Product(Product::Rooms)],
         version: 1,
@@ -143,6 +161,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Sensors,
         name: Product::Sensors.name(),
         about: "what real cameras and depth sensors would make of a frame",
+        when: When::Asked,
         scope: Scope::Frame,
         reads: &[Source::Frames, Source::Poses],
         version: 1,
@@ -155,6 +174,7 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         product: Product::Relit,
         name: Product::Relit.name(),
         about: "a frame with other lamps on",
+        when: When::Asked,
         scope: Scope::Frame,
         reads: &[Source::WholeFrames, Source::Exposures, Source::Fixtures],
         version: 1,
@@ -162,6 +182,32 @@ pub const PRODUCTS: [ProductSpec; 9] = [
         parts: relit::parts,
         make: relit::make,
         files: relit::files,
+    },
+    ProductSpec {
+        product: Product::Sheet,
+        name: Product::Sheet.name(),
+        about: "one picture of each trajectory of the dataset",
+        when: When::Always,
+        scope: Scope::Dataset,
+        reads: &[Source::Pictures],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: whole::parts,
+        make: whole::make,
+        files: whole::sheet_files,
+    },
+    ProductSpec {
+        product: Product::Statistics,
+        name: Product::Statistics.name(),
+        about: "numbers and charts of the dataset",
+        when: When::Always,
+        scope: Scope::Dataset,
+        reads: &[Source::Pictures],
+        version: 1,
+        layers: |_| Vec::new(),
+        parts: whole::parts,
+        make: whole::make,
+        files: whole::statistics_files,
     },
 ];
 

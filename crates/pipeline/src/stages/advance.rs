@@ -23,7 +23,14 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     {
         cx.event(Event::UpToDate);
         let warnings = record.warnings.len();
-        return Ok(StageOutcome { stage: spec.stage, up_to_date: true, summary: record.summary.clone(), warnings, wall_s: 0.0 });
+        return Ok(StageOutcome {
+            stage: spec.stage,
+            up_to_date: true,
+            summary: record.summary.clone(),
+            warnings,
+            wall_s: 0.0,
+            key: record.key.clone(),
+        });
     }
 
     // Check what would be in vain later, while the old outputs are still whole.
@@ -64,7 +71,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     };
     write_json(&record_path, &record)?;
     let warnings = record.warnings.len();
-    Ok(StageOutcome { stage: spec.stage, up_to_date: false, summary: record.summary, warnings, wall_s })
+    Ok(StageOutcome { stage: spec.stage, up_to_date: false, summary: record.summary, warnings, wall_s, key: record.key })
 }
 
 /// True when [`advance`] would find nothing to do.

@@ -45,7 +45,7 @@ pub(crate) use label::{assign_table, read_table};
 pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
-pub(crate) use record::Output;
+pub(crate) use record::{Output, record_key};
 pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program, render_frames, views};
 pub(crate) use shift::Shift;
 pub(crate) use verify::CARD;

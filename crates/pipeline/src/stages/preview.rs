@@ -24,9 +24,6 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let filmed = job.filmed()?;
     filmed.iter().try_for_each(|(_, trajectory)| refuse_incomplete(job, trajectory))?;
-    // The contact sheet and the statistics of the dataset show these frames: they are removed here, and made again at the end of a run.
-    remove_if_there(&job.dataset.layout().overview())?;
-    remove_if_there(&job.dataset.layout().statistics())?;
     let name = &job.scene.name;
     let boxes = made::boxes(job)?;
     let mut outputs = Vec::new();

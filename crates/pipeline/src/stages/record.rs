@@ -1,7 +1,7 @@
 //! What a run of a stage read and wrote, by path and content: later runs compare it with what they find.
 
 use crate::error::Error;
-use crate::workdir::Hash;
+use crate::workdir::{Hash, read_json};
 use enfilade_scene::Warning;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -93,4 +93,13 @@ pub(crate) struct Record {
     /// Hash of the stage's row in a table that scenes share, where it writes one. Earlier versions did not note it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<Hash>,
+}
+
+/// The key of the record at `path`; `None` where there is none. Its other contents are not kept.
+pub(crate) fn record_key(path: &Path) -> Option<Hash> {
+    #[derive(Deserialize)]
+    struct Key {
+        key: Hash,
+    }
+    read_json::<Key>(path).map(|record| record.key)
 }
