@@ -119,24 +119,6 @@ impl From<enfilade_export::ExportError> for Problem {
     }
 }
 
-impl From<enfilade_multiview::MultiviewError> for Problem {
-    fn from(error: enfilade_multiview::MultiviewError) -> Self {
-        match error {
-            enfilade_multiview::MultiviewError::Dataset(error) => error.into(),
-            error => Self::found(&error),
-        }
-    }
-}
-
-impl From<enfilade_sensors::SensorError> for Problem {
-    fn from(error: enfilade_sensors::SensorError) -> Self {
-        match error {
-            enfilade_sensors::SensorError::Dataset(error) => error.into(),
-            error => Self::found(&error),
-        }
-    }
-}
-
 impl From<enfilade_annotate::serve::ServeError> for Problem {
     fn from(error: enfilade_annotate::serve::ServeError) -> Self {
         let usage = matches!(error, enfilade_annotate::serve::ServeError::Bind { .. });

@@ -4,7 +4,8 @@ use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
 use crate::price::{paid, prices};
 use crate::progress::Progress;
-use enfilade_pipeline::write_statistics;
+use enfilade_dataset::DatasetError;
+use enfilade_pipeline::{Error, write_statistics};
 use enfilade_show::stats::StatsConfig;
 
 /// `stats`: what the images show and what they cost.
@@ -20,7 +21,7 @@ pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
     let written = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&args.dataset.display().to_string(), "stats");
-        write_statistics(&dataset, &config, &cx)?
+        write_statistics(&dataset, &config, &cx).map_err(problem)?
     };
     say(&format!("{} images, {} outliers", written.images, written.outliers));
     if let Some(cost) = written.cost {
@@ -29,4 +30,15 @@ pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
     }
     say(&format!("see  {}", written.page.display()));
     Ok(Verdict::Done)
+}
+
+/// What a dataset that cannot be read, or compared with, is told as.
+fn problem(error: Error) -> Problem {
+    match error {
+        Error::Stage(inner) => match inner.downcast::<DatasetError>() {
+            Ok(error) => (*error).into(),
+            Err(inner) => Error::Stage(inner).into(),
+        },
+        other => other.into(),
+    }
 }

@@ -1,7 +1,6 @@
 //! The planes of a scene's layout, `_detail/metadata_planes.csv`, and which of them each pixel shows:
 //! `_detail/<camera>/planes/frame.IIII.plane_id.hdf5`.
 
-use crate::atomic::{remove_folder, remove_if_there};
 use crate::hdf5::{Array, Elements, Packing, Storage, read_array, write_array};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, replace_file};
@@ -97,32 +96,15 @@ impl Dataset {
         }
         Ok(Some(array))
     }
-
-    /// Removes what is known of the planes of a scene, and a layout that was fitted to it, before its labels or frames change.
-    ///
-    /// # Errors
-    /// When a file cannot be removed.
-    pub fn forget_planes(&self, scene: &str) -> Result<(), DatasetError> {
-        let layout = self.layout();
-        remove_if_there(&layout.plane_table(scene))?;
-        for camera in self.cameras_by_files(scene)? {
-            remove_folder(&layout.planes_dir(scene, &camera))?;
-        }
-        // One that cannot be read is told where it is needed.
-        let is_fitted = matches!(self.read_structure(scene), Ok(Some(structure)) if structure.fit.is_some());
-        let files = [layout.structure(scene), layout.structure_plan(scene)];
-        if is_fitted { files.iter().try_for_each(|path| remove_if_there(path)) } else { Ok(()) }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_frame::Pass;
-    use enfilade_scene::{Structure, StructureFit, StructureRoom};
+    use enfilade_scene::{Structure, StructureRoom};
 
     #[test]
-    fn planes_come_back_and_go_with_what_they_were_made_of() {
+    fn planes_come_back_and_tables_that_were_changed_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let dataset = Dataset::create(folder.path()).unwrap();
         let names = ["room", "cam_00"];
@@ -131,8 +113,6 @@ mod tests {
         let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.1, ceiling_z_m: 2.5 };
         let mut structure = Structure::default();
         structure.push_room(room, &[(0.1, true); 3]);
-        structure.fit = Some(StructureFit { near_share: 0.9, median_m: 0.001, p95_m: 0.03 });
-        dataset.write_structure("room", &structure).unwrap();
         let planes = structure.planes();
         dataset.write_plane_table("room", &planes).unwrap();
         assert_eq!(dataset.read_plane_table("room").unwrap(), planes);
@@ -145,14 +125,5 @@ mod tests {
         std::fs::write(&path, text.replace("ceiling", "roof")).unwrap();
         let message = dataset.read_plane_table("room").unwrap_err().to_string();
         assert!(message.contains("line 3: expected floor, ceiling or wall, found \"roof\"; run enfilade make OUT rooms"), "{message}");
-
-        // What makes it a camera.
-        std::fs::create_dir_all(dataset.layout().layer_dir("room", "cam_00", Pass::Geometry)).unwrap();
-        dataset.forget_planes("room").unwrap();
-        assert_eq!((dataset.read_plane_table("room").unwrap(), dataset.read_plane_ids(names, 3).unwrap()), (vec![], None));
-        assert_eq!(dataset.read_structure("room").unwrap(), None);
-        dataset.write_structure("room", &Structure { fit: None, ..structure }).unwrap();
-        dataset.forget_planes("room").unwrap();
-        assert!(dataset.read_structure("room").unwrap().is_some(), "one that the building was made after stays");
     }
 }

@@ -50,7 +50,6 @@ pub use products::{
     FlowPairs, FrameChoice, Made, MakeOptions, MixRequest, OutOfDate, PRODUCTS, PairsRequest, Product, ProductOptions, ProductSpec,
     Request, Scope, When, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes, write_statistics,
 };
-pub use relight::relight;
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
 pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};

@@ -5,13 +5,14 @@ use super::{CamerasArg, FramesArg};
 use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, Args, Command, Id, ValueEnum};
+use enfilade_pipeline::Product;
 use std::path::PathBuf;
 
 /// `make`.
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  enfilade make out pairs --overlap 0.2..0.7 --baseline 0.3.. --angle ..90\n  enfilade make out pairs flow tracks\n  \
-    enfilade make out flow --between cam_00/3 cam_01/7\n  enfilade make out rooms words\n  \
+    enfilade make out flow --between cam_00/3 cam_01/7\n  enfilade make out rooms words\n  enfilade make out --stale\n  \
     enfilade make out sensors --sensors examples/sensors.toml --frames 0..4\n  enfilade make out relit --mixes examples/mixes.csv\n\n\
     Nothing is rendered. flow, tracks and surfaces ask the scene itself, so they need the folder in which `enfilade run` made the dataset;\n\
     relit needs frames of `enfilade run --fixtures`. docs/ground-truth.md has a page for each."
@@ -21,8 +22,14 @@ pub struct MakeArgs {
     #[arg(value_name = "OUT")]
     pub dataset: PathBuf,
     /// What to make, one or several
-    #[arg(value_name = "WHAT", required = true)]
+    #[arg(value_name = "WHAT", required_unless_present = "stale")]
     pub what: Vec<What>,
+    /// Make again what is out of date, as it was asked for: of WHAT, or of everything
+    #[arg(long, conflicts_with = "force")]
+    pub stale: bool,
+    /// Make also what is up to date
+    #[arg(long)]
+    pub force: bool,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub chosen: FramesArg,
@@ -78,6 +85,20 @@ impl What {
             Self::Words => "words",
             Self::Sensors => "sensors",
             Self::Relit => "relit",
+        }
+    }
+
+    /// What the pipeline calls it.
+    pub const fn product(self) -> Product {
+        match self {
+            Self::Pairs => Product::Pairs,
+            Self::Flow => Product::Flow,
+            Self::Tracks => Product::Tracks,
+            Self::Surfaces => Product::Surfaces,
+            Self::Rooms => Product::Rooms,
+            Self::Words => Product::Words,
+            Self::Sensors => Product::Sensors,
+            Self::Relit => Product::Relit,
         }
     }
 
@@ -180,7 +201,7 @@ pub struct SurfacesFlags {
 #[command(next_help_heading = "sensors")]
 pub struct SensorsFlags {
     /// The sensors; docs/sensors.md has the kinds and their keys
-    #[arg(long, value_name = "TOML", required_if_eq("what", "sensors"))]
+    #[arg(long, value_name = "TOML")]
     pub sensors: Option<PathBuf>,
 }
 
@@ -189,7 +210,7 @@ pub struct SensorsFlags {
 #[command(next_help_heading = "relit")]
 pub struct RelitFlags {
     /// The mixes: a table of mix, fixture, r, g, b
-    #[arg(long, value_name = "CSV", required_if_eq("what", "relit"))]
+    #[arg(long, value_name = "CSV")]
     pub mixes: Option<PathBuf>,
 }
 

@@ -39,7 +39,7 @@ fn light_of_fixtures_is_kept_apart_mixed_and_held_to_its_sum() {
     assert!(text.contains("1 frame by every mix"), "{text}");
     let relit = contents(&d.join("out/relit"));
     assert_eq!(relit.len(), 2 * 5, "three layers, a picture and the rules of each mix");
-    succeed(d, &["--threads", "1", "make", "out", "relit", "--mixes", "mixes.csv", "--frames", "1"]);
+    succeed(d, &["--threads", "1", "make", "out", "relit", "--mixes", "mixes.csv", "--frames", "1", "--force"]);
     assert!(relit == contents(&d.join("out/relit")));
     fs::write(d.join("wrong.csv"), "mix,fixture,r,g,b\na,chandelier,0,0,0\n").unwrap();
     fail(d, &["make", "out", "relit", "--mixes", "wrong.csv"], 2, &["wrong.csv:2: no fixture is \"chandelier\"", "the fixtures are: "]);
@@ -65,7 +65,7 @@ fn surfaces_along_rays_hold_their_law() {
     let folder = d.join("out/scenes/room/_detail/cam_00/surfaces");
     let all = contents(&folder);
     assert_eq!(all.len(), 3 * 8);
-    succeed(d, &["--threads", "1", "make", "out", "surfaces", "--layers", "3"]);
+    succeed(d, &["--threads", "1", "make", "out", "surfaces", "--layers", "3", "--force"]);
     assert!(all == contents(&folder));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
     fs::copy(folder.join("frame.0000.surface_entity_id.hdf5"), folder.join("frame.0001.surface_entity_id.hdf5")).unwrap();

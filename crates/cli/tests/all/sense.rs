@@ -47,7 +47,7 @@ fn sensors_see_what_is_stored_and_hold_their_law_on_any_number_of_threads() {
     }
     let table = fs::read_to_string(d.join("out/sensors/phone/room/cam_00/metadata_sensed_frames.csv")).unwrap();
     assert!(table.starts_with("frame_id,exposure,") && table.lines().count() == 4, "{table}");
-    succeed(d, &["--threads", "1", "make", "out", "sensors", "--sensors", "sensors.toml"]);
+    succeed(d, &["--threads", "1", "make", "out", "sensors", "--sensors", "sensors.toml", "--force"]);
     assert!(of_all == contents(&d.join("out/sensors")));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 

@@ -48,7 +48,7 @@ pub struct Made {
 pub fn make(dataset: &Dataset, scenes: &[String], requests: &[Request], options: MakeOptions, cx: &dyn Cx) -> Result<Vec<Made>, Error> {
     let _lock = locked(dataset)?;
     scenes.iter().try_for_each(|scene| adopt(dataset, scene))?;
-    take_over_settings(dataset, requests)?;
+    take_over_settings(dataset, scenes, requests)?;
     let mut all = Vec::new();
     for spec in &PRODUCTS {
         let asked: Vec<Request> = requests.iter().filter(|request| request.product() == spec.product).cloned().collect();
@@ -98,14 +98,14 @@ pub(super) fn locked(dataset: &Dataset) -> Result<Option<Workdir>, Error> {
 }
 
 /// A sensor or a mix has one setting in all scenes: what other scenes have of it is out of date from now on.
-fn take_over_settings(dataset: &Dataset, requests: &[Request]) -> Result<(), Error> {
+fn take_over_settings(dataset: &Dataset, scenes: &[String], requests: &[Request]) -> Result<(), Error> {
     for product in [Product::Sensors, Product::Relit] {
         let newer: Vec<&Request> = requests.iter().filter(|request| request.product() == product).collect();
         if newer.is_empty() {
             continue;
         }
-        for scene in dataset.scenes().map_err(Error::stage)? {
-            let place = Place::Scene(&scene);
+        for scene in dataset.scenes().map_err(Error::stage)?.iter().filter(|scene| !scenes.contains(scene)) {
+            let place = Place::Scene(scene);
             let Some(mut record) = Record::read(dataset, place, product) else { continue };
             let before = record.requests.clone();
             for request in &mut record.requests {
@@ -283,10 +283,19 @@ pub(super) fn update(
 
     // Make it, and say what it was made from.
     let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(&record, part) }).collect();
-    let lines = if parts.is_empty() { Vec::new() } else { (product.spec().make)(&states.subject, &parts, cx)? };
+    let lines = if parts.is_empty() { Ok(Vec::new()) } else { (product.spec().make)(&states.subject, &parts, cx) };
+    let lines = match lines {
+        Ok(lines) => lines,
+        Err(error) => {
+            // What cannot be made is not asked for again by every run.
+            record.requests = before;
+            record.write(dataset, place, product)?;
+            return Err(error);
+        }
+    };
     states.subject.forget_contents();
     let updated = Updated { made: todo.len(), kept: fresh.len(), lines };
-    let before: BTreeSet<PathBuf> = files_of(&record);
+    let old: BTreeSet<PathBuf> = files_of(&record);
     for part in &todo {
         let files = (product.spec().files)(&states.subject, &part.part)?;
         let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
@@ -296,7 +305,7 @@ pub(super) fn update(
     // Remove what was made of frames that are gone, and under other names.
     let names: BTreeSet<&String> = wanted.iter().map(|wanted| &wanted.part.name).collect();
     record.parts.retain(|name, _| names.contains(name));
-    before.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
+    old.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
     record.write(dataset, place, product)?;
     Ok(updated)
 }

@@ -115,3 +115,61 @@ pub(super) fn found(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, Data
     }
     Ok(requests)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::make::{MakeOptions, make};
+    use super::*;
+    use enfilade_frame::{Layer, Values, f16};
+    use enfilade_scene::Quiet;
+    use enfilade_testroom as testroom;
+    use std::ops::Range;
+
+    fn relight(dataset: &Dataset, file: &Path, frames: Range<u32>) -> Result<(), Error> {
+        let scenes = ["room".to_string()];
+        let requests = read_mixes(file, dataset, &scenes, &FrameChoice { cameras: None, frames: Some(frames) })?;
+        make(dataset, &scenes, &requests, MakeOptions::default(), &Quiet).map(drop)
+    }
+
+    #[test]
+    fn all_fixtures_as_they_are_are_the_rendered_picture_and_none_is_black() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        let file = folder.path().join("mixes.csv");
+        let table = "mix,fixture,r,g,b\nsame,*,1,1,1\nnone,*,0,0,0\nred,lamp,1,0,0\nred,sky,0,0,0\n";
+        std::fs::write(&file, table).unwrap();
+        relight(&dataset, &file, 1..2).unwrap();
+        let lit = |mix: &str, layer| dataset.read_relit_layer(mix, ("room", "cam_00", 1), layer).unwrap().1;
+        let rendered = dataset.read_layer("room", "cam_00", 1, Layer::ColorRendered).unwrap();
+        let (same, none, red) = (lit("same", Layer::Color), lit("none", Layer::Color), lit("red", Layer::Color));
+        // The room is denoised, so that pixels differ where there are edges.
+        let mean = |values: &Values, channel: usize| (0..values.len() / 3).map(|i| values.get(3 * i + channel).min(2.0)).sum::<f64>();
+        assert!((mean(&same, 1) / mean(&rendered, 1) - 1.0).abs() < 0.05, "{} and {}", mean(&same, 1), mean(&rendered, 1));
+        assert!((0..none.len()).all(|i| none.get(i) < 1e-3));
+        assert!(mean(&red, 0) > 0.1 * mean(&same, 0) && mean(&red, 1) < 0.01 * mean(&same, 1));
+        let residual = lit("same", Layer::Residual);
+        let (a, s) = (dataset.read_layer("room", "cam_00", 1, Layer::DiffuseReflectance).unwrap(), lit("same", Layer::DiffuseIllumination));
+        let recomposed = |i: usize| f16::from_f32(a.get(i) as f32 * s.get(i) as f32 + residual.get(i) as f32).to_f64();
+        assert!((0..same.len()).all(|i| same.get(i) == recomposed(i)));
+        let picture = |mix: &str| folder.path().join(format!("relit/{mix}/room/cam_00/frame.0001.display.jpg"));
+        assert!(picture("red").is_file());
+
+        // Other rules take the place of all that is there.
+        std::fs::write(&file, table.replace("red,lamp,1", "red,lamp,0.5")).unwrap();
+        relight(&dataset, &file, 0..1).unwrap();
+        assert!(!picture("red").exists() && picture("same").is_file());
+        let error = relight(&dataset, &file, 9..10).unwrap_err().to_string();
+        assert!(error.contains("no existing frame was selected"), "{error}");
+    }
+
+    #[test]
+    fn a_dataset_without_fixtures_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = testroom::dataset(folder.path());
+        dataset.write_fixtures("room", &[]).unwrap();
+        let file = folder.path().join("mixes.csv");
+        std::fs::write(&file, "mix,fixture,r,g,b\na,sky,0,0,0\n").unwrap();
+        let error = relight(&dataset, &file, 0..2).unwrap_err();
+        assert!(error.to_string().contains("no scene that was chosen") && error.hint().unwrap().contains("--fixtures"), "{error}");
+    }
+}

@@ -3,7 +3,7 @@
 mod mixes;
 
 use crate::error::Error;
-use enfilade_dataset::{ChosenFrames, ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
+use enfilade_dataset::{ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
 use enfilade_denoise::{Denoiser, INPUTS, denoise};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
@@ -14,7 +14,6 @@ use enfilade_show::exposure::Exposure;
 use enfilade_show::preview::{PreviewSpec, Subject};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// So many mixes are made at once: each takes 24 bytes per pixel.
 const AT_ONCE: usize = 8;
@@ -53,34 +52,6 @@ pub(crate) fn relight_frames(
             mixes.try_for_each(|mixes| relight_frame(dataset, (scene, camera, *number), fixtures, mixes, exposure, &denoiser))
         })
     })
-}
-
-/// Lights frames by the mixes of the table `file`. Gives the number of frames, of which each has as many pictures as there are mixes.
-///
-/// # Errors
-/// When the table is wrong or means fixtures that no scene has, no chosen scene has fixtures, or a file cannot be read or written.
-pub fn relight(dataset: &Dataset, file: &Path, chosen: &ChosenFrames, cx: &dyn Cx) -> Result<usize, Error> {
-    let fixtures = |scene: &String| Ok((scene.clone(), dataset.read_fixtures(scene)?));
-    let lit: Vec<(String, Vec<Fixture>)> = chosen.scenes.iter().map(fixtures).collect::<Result<_, DatasetError>>()?;
-    let all: Vec<Fixture> = lit.iter().flat_map(|(_, fixtures)| fixtures.clone()).collect();
-    if all.is_empty() {
-        let message = "no scene that was chosen has the light of its fixtures apart".to_string();
-        return Err(Error::usage(message, "render it with --fixtures (or fixtures = true below [render])"));
-    }
-    let mixes = mixes_of(file, Some(&all))?;
-    for mix in &mixes {
-        dataset.begin_mix(&mix.name, mix)?;
-    }
-    let mut count = 0;
-    for (scene, fixtures) in lit.iter().filter(|(_, fixtures)| !fixtures.is_empty()) {
-        let cameras = chosen.of_scene(dataset, scene, cx)?;
-        let named =
-            cameras.iter().flat_map(|(camera, frames)| frames.iter().map(|frame| ((camera.as_str(), *frame), mixes.iter().collect())));
-        let frames: BTreeMap<(&str, u32), Vec<&Mix>> = named.collect();
-        relight_frames(dataset, scene, &frames, fixtures, cx)?;
-        count += frames.len();
-    }
-    Ok(count)
 }
 
 /// The exposures that the frame's own pictures have.
@@ -168,54 +139,5 @@ impl Sum {
         let mut frame = Frame::new(guides.width, guides.height);
         DENOISED.iter().zip(layers).for_each(|((layer, _), values)| frame.insert(*layer, Values::F16(values)));
         frame
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use enfilade_testroom as testroom;
-
-    #[test]
-    fn all_fixtures_as_they_are_are_the_rendered_picture_and_none_is_black() {
-        let folder = tempfile::tempdir().unwrap();
-        let dataset = testroom::dataset(folder.path());
-        let file = folder.path().join("mixes.csv");
-        let table = "mix,fixture,r,g,b\nsame,*,1,1,1\nnone,*,0,0,0\nred,lamp,1,0,0\nred,sky,0,0,0\n";
-        std::fs::write(&file, table).unwrap();
-        let chosen = ChosenFrames { scenes: vec!["room".into()], frames: Some(1..2), ..ChosenFrames::default() };
-        assert_eq!(relight(&dataset, &file, &chosen, &enfilade_scene::Quiet).unwrap(), 1);
-        let lit = |mix: &str, layer| dataset.read_relit_layer(mix, ("room", "cam_00", 1), layer).unwrap().1;
-        let rendered = dataset.read_layer("room", "cam_00", 1, Layer::ColorRendered).unwrap();
-        let (same, none, red) = (lit("same", Layer::Color), lit("none", Layer::Color), lit("red", Layer::Color));
-        // The room is denoised, so that pixels differ where there are edges.
-        let mean = |values: &Values, channel: usize| (0..values.len() / 3).map(|i| values.get(3 * i + channel).min(2.0)).sum::<f64>();
-        assert!((mean(&same, 1) / mean(&rendered, 1) - 1.0).abs() < 0.05, "{} and {}", mean(&same, 1), mean(&rendered, 1));
-        assert!((0..none.len()).all(|i| none.get(i) < 1e-3));
-        assert!(mean(&red, 0) > 0.1 * mean(&same, 0) && mean(&red, 1) < 0.01 * mean(&same, 1));
-        let residual = lit("same", Layer::Residual);
-        let (a, s) = (dataset.read_layer("room", "cam_00", 1, Layer::DiffuseReflectance).unwrap(), lit("same", Layer::DiffuseIllumination));
-        let recomposed = |i: usize| f16::from_f32(a.get(i) as f32 * s.get(i) as f32 + residual.get(i) as f32).to_f64();
-        assert!((0..same.len()).all(|i| same.get(i) == recomposed(i)));
-        let picture = |mix: &str| folder.path().join(format!("relit/{mix}/room/cam_00/frame.0001.display.jpg"));
-        assert!(picture("red").is_file());
-
-        // Other rules take the place of all that is there.
-        std::fs::write(&file, table.replace("red,lamp,1", "red,lamp,0.5")).unwrap();
-        let none = ChosenFrames { frames: Some(9..10), ..chosen };
-        assert_eq!(relight(&dataset, &file, &none, &enfilade_scene::Quiet).unwrap(), 0);
-        assert!(!picture("red").exists() && picture("same").is_file());
-    }
-
-    #[test]
-    fn a_dataset_without_fixtures_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let dataset = testroom::dataset(folder.path());
-        dataset.write_fixtures("room", &[]).unwrap();
-        let file = folder.path().join("mixes.csv");
-        std::fs::write(&file, "mix,fixture,r,g,b\na,sky,0,0,0\n").unwrap();
-        let chosen = ChosenFrames { scenes: vec!["room".into()], ..ChosenFrames::default() };
-        let error = relight(&dataset, &file, &chosen, &enfilade_scene::Quiet).unwrap_err();
-        assert!(error.to_string().contains("no scene that was chosen") && error.hint().unwrap().contains("--fixtures"), "{error}");
     }
 }

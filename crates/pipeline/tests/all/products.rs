@@ -3,8 +3,8 @@
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::{
-    ColorKind, Config, FlowPairs, FrameChoice, LabelSource, MakeOptions, PairsRequest, Product, RenderChoices, Request, Silent, Stage,
-    make, make_stale, out_of_date, relabel, run, run_chosen, run_stage, verify,
+    ColorKind, Config, FlowPairs, FrameChoice, LabelSource, MakeOptions, PairsRequest, Product, Request, Silent, Stage, make, make_stale,
+    out_of_date, relabel, run, run_stage, run_stages, verify,
 };
 use enfilade_scene::Quiet;
 use std::collections::{BTreeMap, BTreeSet};
@@ -93,8 +93,8 @@ fn readings_of_frames_that_hold_another_colour_are_out_of_date_and_made_again() 
     make_all(&out, &[phone(), tof()]);
     let reading = Dataset::open(&out).unwrap().layout().sensed("phone", ("a", "cam_00", 1), "color.hdf5");
     let denoised = fs::read(&reading).unwrap();
-    let choices = RenderChoices { color: Some(ColorKind::Rendered), ..RenderChoices::default() };
-    let summary = run_chosen(&out, &choices, &[Stage::Render, Stage::Denoise], None, false, &Silent).unwrap();
+    config.scenes[0].color = ColorKind::Rendered;
+    let summary = run_stages(&config, &out, &[Stage::Render], None, false, &Silent).unwrap();
     assert!(summary.warnings.iter().any(|line| line.starts_with("1 product is out of date: sensors; ")), "{:?}", summary.warnings);
     assert!(fs::read(&reading).unwrap() == denoised, "it stays as it was");
     let report = verify(&Dataset::open(&out).unwrap(), &["a".into()], &Quiet).unwrap();
@@ -104,7 +104,6 @@ fn readings_of_frames_that_hold_another_colour_are_out_of_date_and_made_again() 
         report.to_text()
     );
 
-    config.scenes[0].color = ColorKind::Rendered;
     let summary = run(&config, &out, None, &Silent).unwrap();
     assert!(summary.ok() && summary.warnings.is_empty(), "{:?} {:?}", failures(&summary), summary.warnings);
     assert!(fs::read(&reading).unwrap() != denoised, "it was made again");
@@ -169,7 +168,7 @@ fn labels_that_are_joined_again_cost_no_surfaces_and_no_planes() {
 
 #[test]
 fn products_without_a_record_are_taken_for_fresh_before_anything_changes() {
-    let (folder, out, _) = finished();
+    let (folder, out, mut config) = finished();
     make_all(&out, &requests(folder.path(), &out));
     assert!(stale(&out).is_empty());
     let asked = |out: &Path| -> Vec<Vec<u8>> {
@@ -180,8 +179,8 @@ fn products_without_a_record_are_taken_for_fresh_before_anything_changes() {
     let before = asked(&out).len();
     fs::remove_dir_all(out.join(".enfilade/a/products")).unwrap();
     fs::remove_dir_all(out.join(".enfilade/.products")).unwrap();
-    let choices = RenderChoices { color: Some(ColorKind::Rendered), ..RenderChoices::default() };
-    run_chosen(&out, &choices, &[Stage::Render, Stage::Denoise], None, false, &Silent).unwrap();
+    config.scenes[0].color = ColorKind::Rendered;
+    run_stages(&config, &out, &[Stage::Render], None, false, &Silent).unwrap();
     assert_eq!(asked(&out).len(), before);
     assert_eq!(stale(&out), BTreeSet::from([Product::Sensors, Product::Relit]));
     make_stale(&Dataset::open(&out).unwrap(), &["a".into()], &[], &Quiet).unwrap();
