@@ -56,6 +56,7 @@ const GROUPS: [Group; 19] = [
             "preset",
             "quality",
             "labels",
+            "products",
             "meters_per_unit",
             "up_axis",
             "environment",

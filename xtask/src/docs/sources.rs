@@ -144,6 +144,7 @@ impl Sources {
                     words if words.contains('"') || words == "text" => format!("list of {words}"),
                     words => format!("list of {words}s"),
                 }),
+                Some("ProductKey") => "product".into(),
                 Some("CamerasKey") => "list, or `\"found\"`".into(),
                 _ => "table".into(),
             },
