@@ -39,6 +39,20 @@ class Verbs(unittest.TestCase):
             report = enfilade.verify(root)
         self.assertEqual(report["frames"], 3)
 
+    def test_products_are_made_kept_and_made_again(self):
+        root = datasets.folder() / "products"
+        shutil.copytree(datasets.made(), root)
+        made = enfilade.make(root, ["tracks", "words"], points=8)
+        self.assertEqual([(one["product"], one["made"]) for one in made], [("tracks", 1), ("words", 1)])
+        self.assertEqual([one["made"] for one in enfilade.make(root, "tracks", points=8)], [0])
+        next(root.glob("scenes/home/_detail/*/tracks.npz")).unlink()
+        self.assertEqual([one["product"] for one in enfilade.make(root, stale=True)], ["tracks"])
+        self.assertEqual(enfilade.make(root, stale=True), [])
+        with self.assertRaisesRegex(ValueError, "there is no product \"depth\"; the products are: covisibility, pairs, "):
+            enfilade.make(root, "depth")
+        with self.assertRaisesRegex(ValueError, "nothing is asked for"):
+            enfilade.make(root)
+
     def test_a_configuration_is_plain_data(self):
         config = datasets.small_config()
         settings = config.to_dict()

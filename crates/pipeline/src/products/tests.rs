@@ -9,7 +9,7 @@ use super::relit::mixes_for_later;
 use super::request::Request;
 use super::sources::Source;
 use super::stale::{States, out_of_date};
-use super::table::{PRODUCTS, ProductSpec, Scope};
+use super::table::{PRODUCTS, ProductSpec, Scope, When};
 use enfilade_dataset::{Dataset, WORKDIR, mesh_names, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_sensors::Sensors;
@@ -151,7 +151,7 @@ fn place(spec: &ProductSpec) -> Place<'static> {
 
 /// Records of all products as if they had just been made, without files.
 fn make_all(dataset: &Dataset, requests: &[Request]) {
-    for spec in &PRODUCTS {
+    for spec in PRODUCTS.iter().filter(|spec| spec.when == When::Asked) {
         let mut record = Record::default();
         requests.iter().filter(|request| request.product() == spec.product).for_each(|request| record.ask(request));
         record.write(dataset, place(spec), spec.product).unwrap();

@@ -63,8 +63,8 @@ fn bring(dataset: &Dataset, request: Request, were_made: bool) -> Result<(), Err
     let product = request.product();
     if Record::read(dataset, Place::Dataset, product).is_none() && !were_made {
         let subject = Subject::new(dataset, Place::Dataset);
-        let found = files(&subject, product);
-        if found.first().is_some_and(|path| path.is_file()) {
+        let (found, layout) = (files(&subject, product), dataset.layout());
+        if found.first().is_some_and(|path| [layout.overview(), layout.statistics()].contains(path)) {
             return vouch(dataset, request, &found);
         }
     }
