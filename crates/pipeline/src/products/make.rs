@@ -251,63 +251,65 @@ pub(super) fn update(
     if found.is_none() && asked.is_empty() {
         return Ok(Updated::default());
     }
-    let mut record = found.unwrap_or_default();
-    let before = record.requests.clone();
+    let before = found.unwrap_or_default();
+    let mut record = before.clone();
     asked.iter().for_each(|request| record.ask(request));
-    let is_asked_anew = record.requests != before;
     update_inputs(dataset, place, product, &record, cx)?;
 
     // Find what is to be made.
     let mut states = States::new(dataset, place);
     states.subject.warn_of_damaged_frames(cx)?;
     let wanted = states.wanted_by(product, &record)?;
-    if wanted.is_empty() {
-        return Ok(Updated::default());
-    }
     let is_meant = |wanted: &&Wanted| asked.is_empty() || asked.contains(&record.requests[wanted.request]);
     let (todo, fresh): (Vec<&Wanted>, Vec<&Wanted>) = wanted.iter().filter(is_meant).partition(|part| options.force || !part.is_fresh);
-    if todo.is_empty() && fresh.is_empty() && !asked.is_empty() {
+    if todo.is_empty() && fresh.is_empty() {
         return Ok(Updated::default());
     }
-
-    // From here on the record must not speak of the files that are about to change.
-    todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
-    let is_left_over = |name: &String| wanted.iter().all(|wanted| wanted.part.name != *name);
-    if todo.is_empty() && !record.parts.keys().any(is_left_over) {
-        if is_asked_anew {
+    let names: BTreeSet<&str> = wanted.iter().map(|wanted| wanted.part.name.as_str()).collect();
+    if todo.is_empty() && record.parts.keys().all(|name| names.contains(name.as_str())) {
+        if record.requests != before.requests {
             record.write(dataset, place, product)?;
         }
         return Ok(Updated { kept: fresh.len(), ..Updated::default() });
     }
-    record.write(dataset, place, product)?;
 
-    // Make it, and say what it was made from.
-    let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(&record, part) }).collect();
-    let lines = if parts.is_empty() { Ok(Vec::new()) } else { (product.spec().make)(&states.subject, &parts, cx) };
-    let lines = match lines {
-        Ok(lines) => lines,
-        Err(error) => {
-            // What cannot be made is not asked for again by every run.
-            record.requests = before;
-            record.write(dataset, place, product)?;
-            return Err(error);
-        }
-    };
-    states.subject.forget_contents();
-    let updated = Updated { made: todo.len(), kept: fresh.len(), lines };
-    let old: BTreeSet<PathBuf> = files_of(&record);
-    for part in &todo {
-        let files = (product.spec().files)(&states.subject, &part.part)?;
+    // Make it, and remove what was made of frames that are gone, and under other names.
+    let old = files_of(&record);
+    let lines = make_parts(&states.subject, (place, product), &mut record, &before.requests, &todo, cx)?;
+    record.parts.retain(|name, _| names.contains(name.as_str()));
+    old.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
+    record.write(dataset, place, product)?;
+    Ok(Updated { made: todo.len(), kept: fresh.len(), lines })
+}
+
+/// Makes parts, and puts what they were made from into the record, which is written before; `before` are the requests that were there.
+fn make_parts(
+    subject: &Subject,
+    (place, product): (Place, Product),
+    record: &mut Record,
+    before: &[Request],
+    todo: &[&Wanted],
+    cx: &dyn Cx,
+) -> Result<Vec<String>, Error> {
+    // From here on the record must not speak of the files that are about to change.
+    let dataset = subject.dataset;
+    todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
+    record.write(dataset, place, product)?;
+    let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(record, part) }).collect();
+    let made = if parts.is_empty() { Ok(Vec::new()) } else { (product.spec().make)(subject, &parts, cx) };
+    if made.is_err() {
+        // What cannot be made is not asked for again by every run.
+        record.requests = before.to_vec();
+        record.write(dataset, place, product)?;
+        return made;
+    }
+    subject.forget_contents();
+    for part in todo {
+        let files = (product.spec().files)(subject, &part.part)?;
         let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
         record.parts.insert(part.part.name.clone(), MadePart { from: Some(part.key.clone()), files });
     }
-
-    // Remove what was made of frames that are gone, and under other names.
-    let names: BTreeSet<&String> = wanted.iter().map(|wanted| &wanted.part.name).collect();
-    record.parts.retain(|name, _| names.contains(name));
-    old.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
-    record.write(dataset, place, product)?;
-    Ok(updated)
+    made
 }
 
 /// Removes a file, and its folder where that is empty then.
