@@ -235,6 +235,9 @@ const OF_WHOLE_SCENES: [(&str, &[What]); 2] = [("camera", &[What::Words]), ("fra
 pub fn check_make(matches: &ArgMatches, command: &mut Command) -> Result<(), clap::Error> {
     let asked: Vec<What> = matches.get_many::<What>("what").into_iter().flatten().copied().collect();
     let named = |nouns: &[What]| nouns.iter().map(|noun| noun.name()).collect::<Vec<_>>().join(" and ");
+    if matches.get_flag("stale") {
+        return check_stale(matches, command);
+    }
     for (group, nouns) in FLAGS.iter().filter(|(_, nouns)| !nouns.iter().any(|noun| asked.contains(noun))) {
         if let Some(flag) = matches.get_many::<Id>(group).into_iter().flatten().next() {
             let message = format!("{} goes with {}, but {} is asked for", flag_of(flag.as_str()), named(nouns), named(&asked));
@@ -252,6 +255,19 @@ pub fn check_make(matches: &ArgMatches, command: &mut Command) -> Result<(), cla
     match other.filter(|_| matches.contains_id("pairs") && !asked.contains(&What::Pairs)) {
         Some(flag) => {
             let message = format!("--pairs and {} both say between which frames flow leads; give one of them", flag_of(flag));
+            Err(command.error(ErrorKind::ArgumentConflict, message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses flags that say how something is to be made, beside one that makes it as it was.
+fn check_stale(matches: &ArgMatches, command: &mut Command) -> Result<(), clap::Error> {
+    let of_nouns = FLAGS.iter().filter_map(|(group, _)| matches.get_many::<Id>(group)?.next().map(Id::as_str));
+    let of_frames = ["camera", "frames"].into_iter().filter(|flag| matches.contains_id(flag));
+    match of_nouns.chain(of_frames).next() {
+        Some(flag) => {
+            let message = format!("--stale makes products as they were asked for, so {} does not go with it; --scene does", flag_of(flag));
             Err(command.error(ErrorKind::ArgumentConflict, message))
         }
         None => Ok(()),
@@ -299,12 +315,15 @@ mod tests {
     fn flags_of_other_nouns_are_refused_by_name() {
         assert_eq!(refusal("enfilade make out pairs tracks --points 9 --overlap 0.1.. --pairs a.csv"), None);
         assert_eq!(refusal("enfilade make out pairs flow --step 1 --pairs a.csv"), None);
+        assert_eq!(refusal("enfilade make out sensors --stale --scene room"), None);
         for (words, told) in [
             ("enfilade make out pairs --points 9", "--points goes with tracks, but pairs is asked for"),
             ("enfilade make out rooms words --pairs a.csv", "--pairs goes with pairs and flow, but rooms and words is asked for"),
             ("enfilade make out tracks pairs --frames 3", "--frames does not go with pairs; --scene does"),
             ("enfilade make out words --camera cam_00", "--camera does not go with words"),
             ("enfilade make out flow --step 1 --pairs a.csv", "--pairs and --step both say"),
+            ("enfilade make out pairs --stale --overlap 0.1..", "so --overlap does not go with it"),
+            ("enfilade make out --stale --frames 3", "so --frames does not go with it"),
         ] {
             let found = refusal(words).unwrap_or_default();
             assert!(found.contains(told), "{words}: {found}");

@@ -105,6 +105,9 @@ impl Overrides {
     /// # Errors
     /// When a number is out of its range.
     pub(crate) fn lay_over_stored(&self, scene: &mut SceneConfig) -> Result<(), Error> {
+        if *self == Self::default() {
+            return Ok(());
+        }
         self.render.check()?;
         self.lay_over(scene, Quality::of_stored(scene));
         scene.validate().map_err(|wrong| Error::usage(format!("the command line: {}", wrong.message), wrong.help))
