@@ -6,12 +6,12 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-/// Two scenes of three frames, with one label table, and what one machine makes of them in `whole`.
+/// Two scenes of three frames, with one label table and products, and what one machine makes of them in `whole`.
 fn write_scenes(d: &Path) {
     write_room(d, "room", Lamp::On);
     write_room(d, "den", Lamp::On);
     fs::write(d.join("labels.csv"), "material,nyu40_id\nwall,1\nwood,7\nlight,35\n").unwrap();
-    write_config(d, &["room", "den"].map(|name| scene(name) + "labels = \"labels.csv\"\n"));
+    write_config(d, &["room", "den"].map(|name| scene(name) + "labels = \"labels.csv\"\nproducts = [\"pairs\", \"flow\", \"words\"]\n"));
 }
 
 /// Tasks of one frame each, since a thousandth of a second is less than any takes.
