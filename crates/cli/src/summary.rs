@@ -118,7 +118,7 @@ pub fn called(word: &OsStr) {
     let _ = CALLED.set(word.to_string_lossy().into_owned()); // the first call counts
 }
 
-/// This program, as a command names it.
+/// Name of this program in commands.
 fn program() -> String {
     quoted(CALLED.get().map_or("enfilade", String::as_str))
 }

@@ -22,7 +22,7 @@ pub(crate) enum Around {
     Outside,
     /// None of the pixels around shows anything before the point.
     Free,
-    /// Some pixel around shows something before the point; `all`: every one does, clearly.
+    /// At least one pixel around shows something before the point; `all`: every one does, clearly.
     Before { all: bool },
 }
 

@@ -92,7 +92,7 @@ pub fn collect(root: &Path, config: &CollectConfig, cx: &dyn Cx) -> Result<Colle
 /// What the images of a camera are read with.
 struct Source {
     camera: Camera,
-    /// Of the pinhole in V-Ray's scene.
+    /// Field of view of the pinhole in V-Ray's scene.
     fov_x_deg: f64,
     poses: Vec<Pose>,
     entities: Entities,

@@ -17,7 +17,7 @@ pub(crate) struct Entities {
 pub(crate) enum Entity {
     /// Nothing.
     Void,
-    /// This `render_entity_id`.
+    /// A part with this `render_entity_id`.
     Part(i16),
     /// A node that is no part of the dataset.
     Stranger,

@@ -60,7 +60,7 @@ impl VrayImage {
         Ok(Self { path: path.to_path_buf(), header, channels })
     }
 
-    /// Its path, for messages.
+    /// Path of the image, for messages.
     pub fn name(&self) -> String {
         self.path.display().to_string()
     }

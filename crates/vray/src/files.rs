@@ -92,7 +92,7 @@ fn included_file(from: &Path, include: &Include) -> Result<PathBuf, VrayError> {
     })
 }
 
-/// The same path for the same file however it is written, to notice files that include each other; the path as it is where the system
+/// A path that is the same for a file however it is written, to notice files that include each other; the path as it is where the system
 /// does not tell.
 fn known(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())

@@ -94,7 +94,7 @@ impl Header {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected<'a> {
     pub pose: &'a Pose,
-    /// Of the pinhole in the scene, which is wider than the image where a lens bends it.
+    /// Field of view of the pinhole in the scene, which is wider than the image where a lens bends it.
     pub fov_x_deg: f64,
     pub meters_per_unit: f64,
 }
@@ -149,7 +149,7 @@ mod tests {
         assert!(problem(&wide).unwrap().contains("sees 60.1"));
     }
 
-    /// Of Hypersim's example of an empty scene, whose camera circles around the origin.
+    /// Images of Hypersim's example of an empty scene, whose camera circles around the origin, are of its trajectory.
     #[test]
     fn a_real_image_of_v_ray_is_of_its_trajectory() {
         let Some(scenes) = std::env::var_os("ENFILADE_SCENES") else {

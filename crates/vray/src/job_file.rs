@@ -32,15 +32,15 @@ pub struct Job {
 /// A camera of a job.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JobCamera {
-    /// Its name in the dataset.
+    /// Name of the camera in the dataset.
     pub camera: String,
     /// What was asked for in place of the dataset's own camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fov_x_deg: Option<f64>,
-    /// As `fov_x_deg`.
+    /// Width and height in pixels that were asked for in place of the dataset's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<[u32; 2]>,
-    /// As `fov_x_deg`: a grid of rays, by its path when the job was written.
+    /// Grid of rays that was asked for in place of the dataset's camera, by its path when the job was written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rays: Option<PathBuf>,
     /// The frames that are rendered.

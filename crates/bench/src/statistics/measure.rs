@@ -45,7 +45,7 @@ pub struct Room {
 pub struct Object {
     /// `sofa` of `sofa_1`.
     pub family: String,
-    /// Its class in NYU40.
+    /// Class of the object in NYU40.
     pub semantic: i16,
     /// Index of the room that its middle is in.
     pub room: Option<usize>,

@@ -206,7 +206,7 @@ fn truth(homes: &[Measured]) -> String {
     )
 }
 
-/// The same figures for programs.
+/// Figures of the report for programs.
 fn figures(homes: &[Measured]) -> Value {
     let spread = |spread: &Spread| {
         let [low, middle, high, largest] = [0.1, 0.5, 0.9, 1.0].map(|q| spread.quantile(q));

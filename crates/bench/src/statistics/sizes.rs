@@ -19,7 +19,7 @@ fn cell(spread: &Spread) -> String {
     format!("{middle:.2} ({low:.2}–{high:.2})")
 }
 
-/// Both tables.
+/// Tables of sizes as Markdown.
 pub fn tables(homes: &[Measured]) -> String {
     let mut text = String::from(
         "\n## Sizes\n\nWidth, depth and height in metres of the box around a thing, turned as the thing is: median (10 %–90 %).\n\n\
@@ -54,7 +54,7 @@ fn measure(known: Option<[f64; 2]>) -> String {
     }
 }
 
-/// The same for programs: [10 %, median, 90 %] of width, depth and height.
+/// Sizes for programs: [10 %, median, 90 %] of width, depth and height.
 pub fn figures(homes: &[Measured]) -> Value {
     let class = |class: &enfilade_scene::SemanticClass| {
         let sizes = sizes(homes, |object| object.semantic == class.id);

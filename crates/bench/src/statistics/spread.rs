@@ -1,6 +1,6 @@
 //! How values are spread: mean, quantiles, largest.
 
-/// Some values in ascending order.
+/// Values in ascending order.
 pub struct Spread(Vec<f64>);
 
 impl FromIterator<f64> for Spread {
@@ -17,7 +17,7 @@ impl Spread {
         self.0.len()
     }
 
-    /// Their mean; 0 of none.
+    /// Mean of the values; 0 of none.
     pub fn mean(&self) -> f64 {
         self.0.iter().sum::<f64>() / self.0.len().max(1) as f64
     }

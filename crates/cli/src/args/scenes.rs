@@ -100,7 +100,7 @@ pub struct ImportArgs {
     pub check: bool,
     #[command(flatten)]
     pub choices: FileChoices,
-    /// Of Pix3D: only the images of this partition of Mesh R-CNN (pix3d_s1_train.json, ...), under its ids
+    /// For Pix3D: only the images of this partition of Mesh R-CNN (pix3d_s1_train.json, ...), under its ids
     #[arg(long, value_name = "JSON")]
     pub partition: Option<PathBuf>,
 }

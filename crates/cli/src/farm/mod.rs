@@ -17,7 +17,7 @@ use enfilade_farm::{
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// One of its verbs; `program` is the file that jobs of Slurm start.
+/// Runs a verb of the farm; `program` is the file that jobs of Slurm start.
 pub fn farm(args: &FarmArgs, program: Option<&Path>, quiet: bool) -> Result<Verdict, Problem> {
     match &args.verb {
         FarmVerb::Plan(args) => plan(args, quiet),

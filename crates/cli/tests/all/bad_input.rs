@@ -255,7 +255,7 @@ fn threads_that_cannot_be_started_are_told() {
     assert!(told.contains("error: cannot start threads") && told.contains("--threads 1") && !told.contains("panicked"), "{told}");
 }
 
-/// They failed when the first record was written, after the scene had been imported.
+/// Such folders failed when the first record was written, after the scene had been imported.
 #[cfg(target_os = "linux")]
 #[test]
 fn folders_that_are_not_spelled_in_utf_8_are_refused_at_once() {

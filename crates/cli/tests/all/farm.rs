@@ -212,7 +212,7 @@ fn damage_in_the_store_is_named_and_mended_by_doing_the_task_again() {
     succeed(d, &["verify", "out"]);
 }
 
-/// Such a frame counted as done, so that nothing was left to do and nothing could be collected.
+/// A frame whose files were lost counted as done, so that nothing was left to do and nothing could be collected.
 #[test]
 fn a_frame_without_its_files_is_missing_until_its_task_is_done_again() {
     let dir = folder();

@@ -1,4 +1,4 @@
-//! Other data sets by the binary.
+//! Data sets of others are read by the binary.
 
 use crate::common::{fail, folder, succeed};
 use std::fs;

@@ -9,9 +9,9 @@ use enfilade_vrscene::{Document, SceneTextError, Value};
 pub enum Normalization {
     /// The frame buffer corrects no colours and shows them linearly.
     V0,
-    /// As `V0`, and lights have photometric units as 3ds Max means them.
+    /// `V0`, and lights have photometric units as 3ds Max means them.
     V1,
-    /// As `V1`, and pictures are decoded with gamma 2.2.
+    /// `V1`, and pictures are decoded with gamma 2.2.
     V2,
 }
 

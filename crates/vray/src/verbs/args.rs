@@ -109,10 +109,10 @@ pub enum Edit {
         /// The dataset with the trajectory
         #[arg(long)]
         dataset: PathBuf,
-        /// Its scene
+        /// Scene of the camera
         #[arg(long)]
         scene: String,
-        /// Its camera
+        /// Name of the camera
         #[arg(long, default_value = "cam_00")]
         camera: String,
         #[command(flatten)]
@@ -211,10 +211,10 @@ pub struct JobArgs {
     /// The dataset with the trajectories
     #[arg(long)]
     pub dataset: PathBuf,
-    /// Its scene
+    /// Scene to be rendered
     #[arg(long)]
     pub scene: String,
-    /// Its cameras [default: all]
+    /// Cameras to be rendered [default: all]
     #[arg(long = "camera", value_name = "CAMERA")]
     pub cameras: Vec<String>,
     /// Absolute path of the job's folder on the machine that renders: /mnt/job, or D:\job for Windows
@@ -274,9 +274,9 @@ pub struct CollectArgs {
 pub enum Policy {
     /// A linear frame buffer
     V0,
-    /// And photometric units
+    /// v0, and photometric units
     V1,
-    /// And gamma of pictures
+    /// v1, and gamma of pictures
     V2,
 }
 

@@ -86,7 +86,7 @@ pub fn collect(args: &CollectArgs, console: &dyn Console) -> Result<(), VrayErro
     Ok(())
 }
 
-/// One per camera.
+/// Settings for each camera.
 fn configs(args: &CollectArgs) -> Result<Vec<CollectConfig>, VrayError> {
     let Some(file) = &args.job else {
         let missing = || VrayError::usage("without a job, scene, folders and units must be named", "see enfilade vray collect --help");
