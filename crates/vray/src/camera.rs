@@ -185,6 +185,6 @@ mod tests {
         let fisheye = Projection::Fisheye(k, Fisheye::new([0.0; 4]).unwrap());
         assert!(filmed(fisheye.into(), &CameraWish::default()).unwrap_err().to_string().contains("sees to the side"));
         let wrong = CameraWish { size: Some([0, 12]), ..CameraWish::default() };
-        assert!(filmed(k.into(), &wrong).unwrap_err().is_usage());
+        assert!(matches!(filmed(k.into(), &wrong), Err(VrayError::Usage { .. })));
     }
 }

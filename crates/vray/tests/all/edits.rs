@@ -1,7 +1,7 @@
 //! What is done to scenes before they are rendered, on a scene of every kind of plugin concerned.
 
 use enfilade_vray::edit::*;
-use enfilade_vrscene::{Document, Plugin, Value};
+use enfilade_vrscene::{Document, Plugin, Value, add_include, inline_includes};
 
 const SCENE: &str = r#"#include "C:\Jobs\lib\mats.vrscene"
 Node sofa@node_1 { geometry=mesh; material=mtl; scene_name=ListString("sofa", "layer/0"); }
