@@ -27,13 +27,12 @@ impl Gif {
     }
 
     pub fn add(&mut self, rgb: &[[u8; 3]], times: u32) -> Result<(), AnimationError> {
-        let refused = refused(AnimationFormat::Gif);
         let (palette, indices) = match few_colors(rgb) {
             Some(colors) => {
                 let indices = rgb.iter().map(|color| colors.binary_search(color).unwrap_or(0) as u8).collect();
                 (colors, indices)
             }
-            None => reduce(rgb, self.size).map_err(refused)?,
+            None => reduce(rgb, self.size).map_err(refused(AnimationFormat::Gif))?,
         };
         // Hundredths of a second are whole numbers: what one picture lasts too long, a later one lasts less.
         let at = |time: u32| (f64::from(time) * self.hundredths).round();
