@@ -1,6 +1,6 @@
 //! Animations, decoded again: sizes, times, colours and refusals.
 
-use crate::{Animation, AnimationError, AnimationFormat};
+use crate::{Animation, AnimationFormat};
 use enfilade_show::picture::{Picture, from_pixels};
 use openh264::decoder::Decoder as H264Decoder;
 use openh264::formats::YUVSource;

@@ -5,7 +5,7 @@ use crate::calibration::{Calibration, Thresholds};
 use crate::chain::{Level, Shares, mix};
 use crate::features::features;
 use crate::lexicon::Lexicon;
-use crate::roles::{Role, Roles};
+use crate::roles::{Role, Roles, halves};
 use crate::table::TableError;
 use crate::weights::{CLASSES, Weights, softmax};
 use crate::words::{is_plural, words};
