@@ -18,7 +18,7 @@ pub fn look(args: &LookArgs, quiet: bool) -> Result<Verdict, Problem> {
     let looked = {
         let progress = Progress::new(quiet);
         let cx = progress.begin(&source.file, "look");
-        enfilade_pipeline::look(&source, args.camera.as_deref(), &output, &cx)?
+        enfilade_pipeline::look(&source, args.camera.as_deref(), args.seconds, &output, &cx)?
     };
     say(&looked.summary);
     say(&format!("view     {}", looked.view));

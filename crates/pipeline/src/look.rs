@@ -25,8 +25,6 @@ use std::path::Path;
 const SIZE: [u32; 2] = [640, 480];
 /// Samples per pixel, before denoising, where there is time for them.
 const SAMPLES: u32 = 16;
-/// Wall time after which no further samples are begun, seconds.
-const RENDER_S: f64 = 8.0;
 /// Horizontal field of view from a place that was found: 75 degrees, a wide lens.
 const WIDE_RAD: f64 = 75.0 * PI / 180.0;
 /// Range of that of a file's camera, for pictures that show something.
@@ -61,11 +59,11 @@ pub struct Looked {
 }
 
 /// Renders a picture of the file of `source` (a path as it stands) to `output`, a JPEG or PNG by its extension; through the file's camera
-/// `camera` where one is named.
+/// `camera` where one is named. No samples are begun after `seconds` of rendering.
 ///
 /// # Errors
 /// When the file cannot be imported, has no such camera, shows no place to stand, or the picture cannot be written.
-pub fn look(source: &FileSource, camera: Option<&str>, output: &Path, cx: &dyn Cx) -> Result<Looked, Error> {
+pub fn look(source: &FileSource, camera: Option<&str>, seconds: u32, output: &Path, cx: &dyn Cx) -> Result<Looked, Error> {
     let time = Stopwatch::start();
     let name = picture_name(output)?;
     let held = Held::over(cx);
@@ -77,7 +75,7 @@ pub fn look(source: &FileSource, camera: Option<&str>, output: &Path, cx: &dyn C
     let (start, view) = place(scene, &look, camera, cx)?;
     drop(look);
 
-    let (frame, samples) = render(scene, &start, cx)?;
+    let (frame, samples) = render(scene, &start, seconds, cx)?;
     let layers = denoise(&frame, |noisy| Denoiser::built_in().filter(noisy)).map_err(Error::stage)?;
     let mut shown = frame;
     layers.iter().for_each(|(layer, values)| shown.insert(layer, values.clone()));
@@ -222,7 +220,7 @@ fn from_outside(look: &Look) -> StartCamera {
 }
 
 /// Renders the view for as long as a look may take.
-fn render(scene: &Scene, start: &StartCamera, cx: &dyn Cx) -> Result<(Frame, f64), Error> {
+fn render(scene: &Scene, start: &StartCamera, seconds: u32, cx: &dyn Cx) -> Result<(Frame, f64), Error> {
     let camera = Camera::from(Intrinsics::from_fov_x(SIZE[0], SIZE[1], start.fov_x_rad));
     let pose: Pose = start.pose(0);
     let view = CameraView::still(&camera, &pose);
@@ -231,7 +229,7 @@ fn render(scene: &Scene, start: &StartCamera, cx: &dyn Cx) -> Result<(Frame, f64
     let guide = Guide::learn(&prepared, &[view], &config);
     let mut rendering = FrameRender::new(&prepared, &guide, &view, &config).map_err(Error::stage)?;
     let time = Stopwatch::start();
-    while !rendering.is_done() && (time.wall_s() < RENDER_S || rendering.samples() == 0.0) {
+    while !rendering.is_done() && (time.wall_s() < f64::from(seconds) || rendering.samples() == 0.0) {
         rendering.short_pass(cx);
     }
     Ok((rendering.frame(), rendering.samples()))

@@ -178,7 +178,7 @@ pub enum LampsArg {
 #[derive(Args)]
 #[command(after_help = "Examples:\n  enfilade look room.glb\n  enfilade look room.obj --meters-per-unit 0.01 --up-axis z -o room.png\n\n\
     The view is the file's first camera that stands in a room, or else the first that sees something, or a place that is found. A file without light is lit by lamps below\n\
-    its ceilings and an overcast sky. Samples are taken for about 8 s; the picture is denoised. For a dataset: enfilade run.")]
+    its ceilings and an overcast sky. Samples are taken for --seconds, 16 per pixel at most; the picture is denoised. For a dataset: enfilade run.")]
 pub struct LookArgs {
     /// A scene file
     #[arg(help = format!("A scene file ({})", SceneFormat::extensions()))]
@@ -189,6 +189,9 @@ pub struct LookArgs {
     /// The camera to look through, by its name in the file
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    /// For how long samples are taken, seconds
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    pub seconds: u32,
     #[command(flatten)]
     pub choices: FileChoices,
 }

@@ -15,11 +15,11 @@ fn a_room_is_seen_in_one_step_with_its_own_light_or_with_what_it_lacks() {
     let dir = folder();
     let d = dir.path();
     write_room(d, "lit", Lamp::On);
-    let text = succeed(d, &["look", "lit.obj"]);
+    let text = succeed(d, &["look", "lit.obj", "--seconds", "1"]);
     assert!(text.contains("a place that was found, since the file has no camera") && text.contains("lit.jpg"), "{text}");
     assert!(!text.contains("light  ") && (60.0..220.0).contains(&brightness(&d.join("lit.jpg"))), "{text}");
     write_room(d, "dark", Lamp::Off);
-    let text = succeed(d, &["look", "dark.obj", "-o", "dark.png"]);
+    let text = succeed(d, &["look", "dark.obj", "-o", "dark.png", "--seconds", "1"]);
     assert!(text.contains("nothing in the file shines: lamps below its ceilings and an overcast sky light it"), "{text}");
     assert!((60.0..220.0).contains(&brightness(&d.join("dark.png"))), "{text}");
     // Nothing else was written.
@@ -83,10 +83,10 @@ fn the_files_own_camera_is_kept_where_it_sees_something_wherever_it_stands() {
         format!("<scene version=\"3.0.0\">{sensor}{walls}<emitter type=\"point\"><point name=\"position\" y=\"0.8\"/></emitter></scene>")
     };
     fs::write(d.join("box.xml"), scene("0,0,0")).unwrap();
-    let text = succeed(d, &["look", "box.xml"]);
+    let text = succeed(d, &["look", "box.xml", "--seconds", "1"]);
     assert!(text.contains("view     camera") && text.contains("of the file, which is in no room"), "{text}");
     // One that looks away shows nothing.
     fs::write(d.join("away.xml"), scene("0,0,8")).unwrap();
-    let text = succeed(d, &["look", "away.xml"]);
+    let text = succeed(d, &["look", "away.xml", "--seconds", "1"]);
     assert!(!text.contains("which is in no room"), "{text}");
 }
