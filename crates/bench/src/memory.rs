@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use enfilade_geometry::Mesh;
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Vec3};
-use enfilade_pipeline::{Config, Overrides, Silent, Stopwatch, run};
+use enfilade_pipeline::{Config, Overrides, Silent, Stopwatch};
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Quiet, Scene};
 use image::{ImageBuffer, Rgb};
@@ -66,7 +66,7 @@ pub fn run() -> Result<()> {
          cameras = [{ position = [4.0, -4.0, 1.6], look_at = [6.5, -6.5, 0.2] }]\n",
     )?;
     let config = Config::read(&dataset, &Overrides::default())?;
-    let summary = run(&config, &folder.path().join("out"), None, &Silent)?;
+    let summary = enfilade_pipeline::run(&config, &folder.path().join("out"), None, &Silent)?;
     println!("every stage: {} MB", most_memory_mb()?);
     if let Some(failure) = summary.scenes.iter().find_map(|scene| scene.failure.as_ref()) {
         bail!("{}: {}", failure.stage.name(), failure.message);

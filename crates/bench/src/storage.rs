@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use enfilade_dataset::hdf5::{Packing, Storage, write_array};
 use enfilade_dataset::{Array, Dataset};
 use enfilade_frame::Layer;
-use enfilade_pipeline::{Config, Overrides, RenderChoices, Silent, Stopwatch, run};
+use enfilade_pipeline::{Config, Overrides, RenderChoices, Silent, Stopwatch};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -63,7 +63,7 @@ fn frames(folder: &Path) -> Result<Vec<Dataset>> {
     let mut datasets = Vec::new();
     for (config, out, scenes) in wanted {
         println!("rendering {}", out.display());
-        ensure!(run(&config, &out, scenes, &Silent)?.ok(), "{} has failed: run it by itself to see why", out.display());
+        ensure!(enfilade_pipeline::run(&config, &out, scenes, &Silent)?.ok(), "{} has failed: run it by itself to see why", out.display());
         datasets.push(Dataset::open(&out)?);
     }
     Ok(datasets)

@@ -13,7 +13,7 @@ mod values;
 
 use anyhow::{Context, Result, ensure};
 use enfilade_dataset::Dataset;
-use enfilade_pipeline::{Config, Overrides, STAGES, Silent, WORKDIR, run};
+use enfilade_pipeline::{Config, Overrides, STAGES, Silent, WORKDIR};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::json;
@@ -33,7 +33,7 @@ pub fn run() -> Result<()> {
         fs::copy(&path, folder.path().join(path.strip_prefix(room)?))?;
     }
     let out = folder.path().join("out");
-    let summary = run(&Config::read(&folder.path().join("dataset.toml"), &Overrides::default())?, &out, None, &Silent)?;
+    let summary = enfilade_pipeline::run(&Config::read(&folder.path().join("dataset.toml"), &Overrides::default())?, &out, None, &Silent)?;
     ensure!(summary.ok(), "{:?}", summary.scenes[0].failure);
     let stages: BTreeMap<&str, u32> = STAGES.iter().map(|spec| (spec.name, spec.stage.version())).collect();
     let stored = json!({ "stages": stages, "values": values::checksums(&Dataset::open(&out)?) });

@@ -53,10 +53,13 @@ pub struct ProductSpec {
     /// The parts that a request asks for.
     pub(crate) parts: fn(&Subject, &Request) -> Result<Vec<Part>, Error>,
     /// Makes parts, and says in lines what it made.
-    pub(crate) make: fn(&Subject, &[Asked], &dyn Cx) -> Result<Vec<String>, Error>,
+    pub(crate) make: Maker,
     /// The files of a part that was made, those that are there.
     pub(crate) files: fn(&Subject, &Part) -> Result<Vec<PathBuf>, Error>,
 }
+
+/// Makes parts of a product, and says in lines what it made.
+type Maker = fn(&Subject, &[Asked], &dyn Cx) -> Result<Vec<String>, Error>;
 
 /// A part that is to be made, and the request that asks for it.
 pub(crate) struct Asked<'a> {
