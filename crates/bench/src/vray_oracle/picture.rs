@@ -57,7 +57,6 @@ impl Picture {
     }
 
     /// The mean of the squares of `side` pixels: a picture that is as much smaller.
-    #[cfg(test)]
     pub fn shrunk(&self, side: usize) -> Self {
         let (width, height) = (self.width / side, self.height / side);
         let mean = |i: usize| {
