@@ -15,10 +15,12 @@ mod intake;
 mod look;
 mod partition;
 mod parts;
+mod pattern;
 mod products;
 mod relight;
 mod replay;
 mod report;
+mod request;
 mod run;
 mod scene_types;
 mod single;
@@ -47,11 +49,12 @@ pub use look::{Looked, look};
 pub use partition::{PartitionReport, partition};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
 pub use products::{
-    FlowPairs, FrameChoice, Made, MakeOptions, MixRequest, OutOfDate, PRODUCTS, PairsRequest, Product, ProductOptions, ProductSpec,
-    Request, Scope, When, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes, write_statistics,
+    Made, MakeOptions, OutOfDate, PRODUCTS, ProductOptions, ProductSpec, When, choose_pairs_of, make, make_products, make_stale,
+    out_of_date, read_mixes, write_statistics,
 };
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
+pub use request::{FlowPairs, FrameChoice, MixRequest, PairsRequest, Product, Request, Scope};
 pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use stage::Stage;

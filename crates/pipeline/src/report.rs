@@ -1,6 +1,6 @@
 //! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
 
-use crate::products::Product;
+use crate::request::Product;
 use crate::stage::Stage;
 use crate::workdir::Hash;
 use enfilade_dataset::FrameTime;

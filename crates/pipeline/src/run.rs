@@ -3,11 +3,9 @@
 use crate::config::{Config, Overrides, SceneConfig};
 use crate::error::Error;
 use crate::partition::write_partition;
-use crate::products::{
-    PairsRequest, Pictures, Place, Request, adopt, bring_up_to_date, not_judged, pictures, told_out_of_date, update_sheet,
-    update_statistics,
-};
+use crate::products::{Pictures, Place, adopt, bring_up_to_date, not_judged, pictures, told_out_of_date, update_sheet, update_statistics};
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
+use crate::request::{PairsRequest, Request};
 use crate::scene_types::write_scene_types;
 use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan, read_table};
 use crate::workdir::{RUN, Workdir, read_json};

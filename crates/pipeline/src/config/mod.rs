@@ -34,7 +34,6 @@ pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
 pub use choices::{Overrides, Quality, RenderChoices};
 pub use farm::{FarmConfig, Placeholder};
 pub(crate) use locate::closest;
-pub(crate) use select::matches;
 pub use select::select;
 pub use sensors::read_sensors;
 pub use settings::{CameraChoice, Config, FileSource, LabelSource, Lamps, SceneConfig, Source};

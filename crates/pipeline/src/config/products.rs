@@ -2,13 +2,14 @@
 
 use super::sensors::read_sensors;
 use crate::error::Error;
-use crate::products::{FlowPairs, FrameChoice, PRODUCTS, PairsRequest, Request, SURFACES, When, mixes_for_later};
+use crate::relight::mixes_of;
+use crate::request::{FlowPairs, FrameChoice, MOST_SURFACES, MixRequest, PairsRequest, Product, Request, SURFACES, checked};
 use enfilade_multiview::TracksConfig;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
-use std::path::Path;
+use std::path::PathBuf;
 
 /// A product that is asked for.
 #[derive(Clone)]
@@ -81,17 +82,13 @@ impl ProductKey {
     ///
     /// # Errors
     /// When a number is out of its range, or that file is not what it should be.
-    pub fn requests(&self, path: &dyn Fn(&str) -> Result<std::path::PathBuf, Error>) -> Result<Vec<Request>, Error> {
+    pub fn requests(&self, path: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Result<Vec<Request>, Error> {
         let of = FrameChoice::default();
-        let positive = |key: &str, number: u32| match number {
-            0 => Err(Error::usage(format!("{key} is 0, expected at least 1"), "leave the key out for the usual number")),
-            number => Ok(number),
-        };
         Ok(match &self.0 {
             Asked::Pairs(keys) => {
                 let usual = PairsRequest::default();
                 vec![Request::Pairs(PairsRequest {
-                    pixels: positive("pixels", keys.pixels.unwrap_or(usual.pixels))?,
+                    pixels: checked("pixels", keys.pixels.unwrap_or(usual.pixels), u32::MAX)?,
                     overlap: keys.overlap,
                     min_baseline_m: keys.min_baseline_m,
                     max_baseline_m: keys.max_baseline_m,
@@ -101,17 +98,22 @@ impl ProductKey {
             }
             Asked::Flow(keys) => vec![Request::Flow { pairs: keys.step.map_or(FlowPairs::Listed, FlowPairs::Step), cameras: None }],
             Asked::Tracks(keys) => {
-                let points = positive("points", keys.points.unwrap_or(TracksConfig::default().points))?;
+                let points = checked("points", keys.points.unwrap_or(TracksConfig::default().points), u32::MAX)?;
                 vec![Request::Tracks { points, seed: keys.seed, of }]
             }
-            Asked::Surfaces(keys) => vec![Request::Surfaces { layers: positive("layers", keys.layers.unwrap_or(SURFACES))?, of }],
+            Asked::Surfaces(keys) => {
+                vec![Request::Surfaces { layers: checked("layers", keys.layers.unwrap_or(SURFACES), MOST_SURFACES)?, of }]
+            }
             Asked::Rooms(_) => vec![Request::Rooms { of }],
             Asked::Words(_) => vec![Request::Words],
             Asked::Sensors(file) => {
                 let sensors = read_sensors(&path(file)?)?;
                 sensors.all().map(|sensor| Request::Sensor { sensor, of: of.clone() }).collect()
             }
-            Asked::Relit(file) => mixes_for_later(Path::new(&path(file)?))?,
+            Asked::Relit(file) => {
+                let mixes = mixes_of(&path(file)?, None)?;
+                mixes.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: of.clone() }).collect()
+            }
         })
     }
 
@@ -127,12 +129,7 @@ impl<'de> Deserialize<'de> for ProductKey {
         impl<'de> Visitor<'de> for WordOrTable {
             type Value = ProductKey;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                let words: Vec<&str> = PRODUCTS
-                    .iter()
-                    .filter(|spec| spec.when == When::Asked)
-                    .map(|spec| spec.name)
-                    .filter(|name| *name != "covisibility")
-                    .collect();
+                let words: Vec<&str> = Product::ON_REQUEST.iter().map(|product| product.name()).collect();
                 write!(f, "a product, one of {}, or a table such as {{ sensors = \"sensors.toml\" }}", words.join(", "))
             }
             fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<ProductKey, E> {

@@ -15,7 +15,7 @@ use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, FileSource, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
-use crate::products::Request;
+use crate::request::Request;
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;

@@ -2,10 +2,7 @@
 
 use super::locate::closest;
 use crate::error::Error;
-use wildmatch::WildMatchPattern;
-
-/// A pattern in which only `*` has a meaning: no name has the other character.
-type Pattern = WildMatchPattern<'*', '\0'>;
+use crate::pattern::matches;
 
 /// The names (of things called `what`) that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
 /// them without a pattern.
@@ -22,20 +19,4 @@ pub fn select(what: &str, names: &[String], pattern: Option<&str>) -> Result<Vec
         return Err(Error::usage(format!("no {what} is named {pattern:?}"), hint));
     }
     Ok(chosen)
-}
-
-/// Whether `name` fits `pattern`, in which `*` stands for any run of characters.
-pub(crate) fn matches(pattern: &str, name: &str) -> bool {
-    Pattern::new(pattern).matches(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stars_stand_for_any_characters() {
-        assert!(matches("a*b*c", "a-b-b-c") && !matches("a*b", "abc") && matches("*", ""));
-        assert!(matches("a?", "a?") && !matches("a?", "ab") && matches("*ü*", "grün"));
-    }
 }

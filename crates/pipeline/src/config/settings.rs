@@ -8,7 +8,7 @@ use super::expand::expand;
 use super::farm::FarmConfig;
 use super::select::select;
 use crate::error::Error;
-use crate::products::Request;
+use crate::request::Request;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;

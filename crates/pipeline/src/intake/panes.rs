@@ -2,7 +2,8 @@
 //!
 //! Exporters leave transmission out where their format has no place for it: Blender's FBX and OBJ, and USD without MaterialX.
 
-use crate::config::{FileSource, matches};
+use crate::config::FileSource;
+use crate::pattern::matches;
 use enfilade_dataset::counted;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, Scene};

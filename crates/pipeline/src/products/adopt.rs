@@ -1,17 +1,14 @@
 //! Products that lie in a dataset without a record, as earlier versions left them: these removed what was out of date, so that what is there
 //! is fresh when it is first seen. How it was asked for is read from the files as far as they tell.
 
-use super::choice::FrameChoice;
-use super::flow::FlowPairs;
-use super::product::Product;
 use super::record::{MadePart, Place, Record};
 use super::relit;
-use super::request::Request;
 use super::stale::States;
-use super::table::{PRODUCTS, Scope};
+use super::table::PRODUCTS;
 use crate::error::Error;
+use crate::request::{FlowPairs, FrameChoice, Product, Request, Scope};
 use crate::stages::Output;
-use enfilade_dataset::{Dataset, DatasetError, WORKDIR, number_runs};
+use enfilade_dataset::{Dataset, DatasetError, WORKDIR};
 use enfilade_multiview::CovisibilityConfig;
 use enfilade_sensors::Sensor;
 
@@ -98,7 +95,7 @@ fn surfaces(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError
         numbers.retain(|&number| dataset.has_surfaces(scene, &camera, number));
         let Some(Ok(first)) = numbers.first().map(|&number| dataset.read_surfaces(scene, &camera, number)) else { continue };
         let request = |of| Request::Surfaces { layers: first.count as u32, of };
-        requests.extend(choices(&camera, &numbers).map(request));
+        requests.extend(FrameChoice::runs(&camera, &numbers).map(request));
     }
     Ok(requests)
 }
@@ -110,14 +107,8 @@ fn sensors(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError>
         let Some(sensor) = dataset.sensor_settings::<Sensor>(&name)?.filter(|sensor| sensor.format == Sensor::FORMAT) else { continue };
         for camera in dataset.cameras(scene)? {
             let numbers = dataset.sensed_frame_numbers(&name, [scene, &camera])?;
-            requests.extend(choices(&camera, &numbers).map(|of| Request::Sensor { sensor: sensor.clone(), of }));
+            requests.extend(FrameChoice::runs(&camera, &numbers).map(|of| Request::Sensor { sensor: sensor.clone(), of }));
         }
     }
     Ok(requests)
-}
-
-/// Frames of a camera as runs of numbers.
-pub(super) fn choices(camera: &str, numbers: &[u32]) -> impl Iterator<Item = FrameChoice> {
-    let runs = number_runs(numbers.iter().copied());
-    runs.into_iter().map(move |run| FrameChoice { cameras: Some(vec![camera.into()]), frames: Some(*run.start()..run.end() + 1) })
 }

@@ -1,32 +1,18 @@
 //! Flow from frames of a scene to others of it: a part for each pair of frames, in the direction of the flow.
 
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::{FlowPairs, Request};
 use crate::workdir::Hash;
 use enfilade_dataset::{FramePair, counted, read_pairs};
 use enfilade_frame::Layer;
 use enfilade_multiview::{Filmed, ScenePackage, write_flow};
 use enfilade_scene::{Cx, Quiet};
-use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// A frame by camera and number.
 type FrameName = (String, u32);
-
-/// Which frames flow leads from and to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FlowPairs {
-    /// From each frame to the one N later in its trajectory; -1 is the one before.
-    Step(i64),
-    /// The pairs of the dataset's own list, there and back.
-    Listed,
-    /// From the first frame to the second of each of these.
-    Between(Vec<FramePair>),
-}
 
 /// The layers of a pair.
 const LAYERS: [Layer; 3] = [Layer::OpticalFlow, Layer::SceneFlow, Layer::FlowVisibility];

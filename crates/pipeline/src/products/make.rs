@@ -1,44 +1,20 @@
 //! Making products: what is asked for now, or what is out of date.
 
 use super::adopt::adopt;
-use super::pairs;
-use super::product::Product;
-use super::record::{MadePart, Place, Record, has_records};
-use super::request::Request;
+use super::lists::{make_covisible, make_listed};
+use super::pairs::{listed, scenes_of};
+use super::record::{Place, Record, has_records};
 use super::sources::Subject;
-use super::stale::{States, Wanted, specs_in};
-use super::table::{Asked, PRODUCTS, ProductSpec, Scope, When};
+use super::stale::specs_in;
+use super::table::{PRODUCTS, ProductSpec, When};
+use super::update::{Made, MakeOptions, Updated, update};
 use super::{flow, relit, rooms, words};
 use crate::error::Error;
 use crate::report::{Event, ProductCx, ProductOutcome, Reporter, Stopwatch};
-use crate::stages::Output;
+use crate::request::{PairsRequest, Product, Request, Scope};
 use crate::workdir::Workdir;
-use enfilade_dataset::{Dataset, WORKDIR, remove_if_there};
+use enfilade_dataset::{Dataset, PairRow, WORKDIR};
 use enfilade_scene::{Cx, Quiet};
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-
-/// How products are made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct MakeOptions {
-    /// Makes also what is up to date.
-    pub force: bool,
-}
-
-/// What became of a product in a scene, or in the dataset as a whole.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Made {
-    /// Which.
-    pub product: Product,
-    /// The scene; `None` for the dataset as a whole.
-    pub scene: Option<String>,
-    /// Parts that were made.
-    pub made: usize,
-    /// Parts that were up to date.
-    pub kept: usize,
-    /// What was made, in lines; without them nothing was to be done.
-    pub lines: Vec<String>,
-}
 
 /// Makes what `requests` ask for of these scenes, and first what that is made from. What is up to date is left alone. Requests are kept: what
 /// they have made is made again by them once it is out of date.
@@ -56,7 +32,7 @@ pub fn make(dataset: &Dataset, scenes: &[String], requests: &[Request], options:
             continue;
         }
         let done = if spec.scope == Scope::Dataset {
-            pairs::make_listed(dataset, scenes, &asked, options, cx)?
+            make_listed(dataset, scenes, &asked, options, cx)?
         } else {
             make_in_scenes(dataset, scenes, spec, &asked, options, cx)?
         };
@@ -93,7 +69,7 @@ pub fn make_stale(dataset: &Dataset, scenes: &[String], only: &[Product], cx: &d
 }
 
 /// The dataset's lock, where it has a work folder.
-pub(super) fn locked(dataset: &Dataset) -> Result<Option<Workdir>, Error> {
+fn locked(dataset: &Dataset) -> Result<Option<Workdir>, Error> {
     if dataset.root().join(WORKDIR).is_dir() { Workdir::open(dataset.root()).map(Some) } else { Ok(None) }
 }
 
@@ -151,7 +127,7 @@ fn make_in_scenes(
     Ok(done)
 }
 
-pub(super) fn nothing_to_make(dataset: &Dataset, product: Product) -> Error {
+fn nothing_to_make(dataset: &Dataset, product: Product) -> Error {
     match product {
         Product::Flow => Error::scene("no pair of existing frames was selected", "choose others, or render them: enfilade run"),
         Product::Covisibility | Product::Pairs => {
@@ -164,14 +140,6 @@ pub(super) fn nothing_to_make(dataset: &Dataset, product: Product) -> Error {
 
 fn made(product: Product, place: Place, updated: Updated) -> Made {
     Made { product, scene: place.scene().map(String::from), made: updated.made, kept: updated.kept, lines: updated.lines }
-}
-
-/// What became of a product in a place.
-#[derive(Debug, Default)]
-pub(super) struct Updated {
-    pub made: usize,
-    pub kept: usize,
-    pub lines: Vec<String>,
 }
 
 /// Brings the products of a place up to date that were asked for, by the configuration (`configured`) or otherwise; those that are `late` or
@@ -237,106 +205,15 @@ fn configure(dataset: &Dataset, place: Place, product: Product, configured: &[Re
     record.write(dataset, place, product)
 }
 
-/// Makes what `asked` asks for of a product in a place; without any request, all that was ever asked for. What is up to date stays, unless it
-/// is asked for by force.
-pub(super) fn update(
-    dataset: &Dataset,
-    place: Place,
-    product: Product,
-    asked: &[Request],
-    options: MakeOptions,
-    cx: &dyn Cx,
-) -> Result<Updated, Error> {
-    let found = Record::read(dataset, place, product);
-    if found.is_none() && asked.is_empty() {
-        return Ok(Updated::default());
+/// The pairs that `request` chooses, with a line about each scene; their covisibility is made where it is not there. The dataset's own list
+/// stays as it is.
+///
+/// # Errors
+/// When no scene has frames that are chosen, or a file cannot be read or written.
+pub fn choose_pairs_of(dataset: &Dataset, request: &PairsRequest, cx: &dyn Cx) -> Result<(Vec<PairRow>, Vec<String>), Error> {
+    let _lock = locked(dataset)?;
+    if !make_covisible(dataset, &scenes_of(request, dataset)?, request, MakeOptions::default(), cx)? {
+        return Err(nothing_to_make(dataset, Product::Pairs));
     }
-    let before = found.unwrap_or_default();
-    let mut record = before.clone();
-    asked.iter().for_each(|request| record.ask(request));
-    update_inputs(dataset, place, product, &record, cx)?;
-
-    // Find what is to be made.
-    let mut states = States::new(dataset, place);
-    states.subject.warn_of_damaged_frames(cx)?;
-    let wanted = states.wanted_by(product, &record)?;
-    let is_meant = |wanted: &&Wanted| asked.is_empty() || asked.contains(&record.requests[wanted.request]);
-    let (todo, fresh): (Vec<&Wanted>, Vec<&Wanted>) = wanted.iter().filter(is_meant).partition(|part| options.force || !part.is_fresh);
-    if todo.is_empty() && fresh.is_empty() {
-        return Ok(Updated::default());
-    }
-    let names: BTreeSet<&str> = wanted.iter().map(|wanted| wanted.part.name.as_str()).collect();
-    if todo.is_empty() && record.parts.keys().all(|name| names.contains(name.as_str())) {
-        if record.requests != before.requests {
-            record.write(dataset, place, product)?;
-        }
-        return Ok(Updated { kept: fresh.len(), ..Updated::default() });
-    }
-
-    // Make it, and remove what was made of frames that are gone, and under other names.
-    let old = files_of(&record);
-    let lines = make_parts(&states.subject, (place, product), &mut record, &before.requests, &todo, cx)?;
-    record.parts.retain(|name, _| names.contains(name.as_str()));
-    old.difference(&files_of(&record)).try_for_each(|path| remove_with_folder(&dataset.root().join(path)))?;
-    record.write(dataset, place, product)?;
-    Ok(Updated { made: todo.len(), kept: fresh.len(), lines })
-}
-
-/// Makes parts, and puts what they were made from into the record, which is written before; `before` are the requests that were there.
-fn make_parts(
-    subject: &Subject,
-    (place, product): (Place, Product),
-    record: &mut Record,
-    before: &[Request],
-    todo: &[&Wanted],
-    cx: &dyn Cx,
-) -> Result<Vec<String>, Error> {
-    // From here on the record must not speak of the files that are about to change.
-    let dataset = subject.dataset;
-    todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
-    record.write(dataset, place, product)?;
-    let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(record, part) }).collect();
-    let made = if parts.is_empty() { Ok(Vec::new()) } else { (product.spec().make)(subject, &parts, cx) };
-    if made.is_err() {
-        // What cannot be made is not asked for again by every run.
-        record.requests = before.to_vec();
-        record.write(dataset, place, product)?;
-        return made;
-    }
-    subject.forget_contents();
-    for part in todo {
-        let files = (product.spec().files)(subject, &part.part)?;
-        let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
-        record.parts.insert(part.part.name.clone(), MadePart { from: Some(part.key.clone()), files });
-    }
-    made
-}
-
-/// Removes a file, and its folder where that is empty then.
-fn remove_with_folder(path: &Path) -> Result<(), Error> {
-    remove_if_there(path)?;
-    if let Some(folder) = path.parent() {
-        let _ = std::fs::remove_dir(folder); // one that is not empty stays
-    }
-    Ok(())
-}
-
-fn files_of(record: &Record) -> BTreeSet<PathBuf> {
-    record.parts.values().flat_map(|part| &part.files).map(|file| file.path.clone()).collect()
-}
-
-/// Brings what a product is made from up to date.
-fn update_inputs(dataset: &Dataset, place: Place, product: Product, record: &Record, cx: &dyn Cx) -> Result<(), Error> {
-    for input in product.spec().after().filter(|input| record.requests.iter().any(|request| request.is_made_after(*input))) {
-        match (place, input.spec().scope) {
-            (_, Scope::Dataset) => drop(update(dataset, Place::Dataset, input, &[], MakeOptions::default(), cx)?),
-            (Place::Scene(_), _) => drop(update(dataset, place, input, &[], MakeOptions::default(), cx)?),
-            (Place::Dataset, _) => {
-                for scene in dataset.scenes().map_err(Error::stage)? {
-                    update(dataset, Place::Scene(&scene), input, &[], MakeOptions::default(), cx)?;
-                }
-            }
-        }
-    }
-    Ok(())
+    listed(dataset, request, cx)
 }

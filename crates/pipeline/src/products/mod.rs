@@ -6,15 +6,14 @@
 //! length. What is stale stays on disk; `verify` does not judge it; [`make_stale`] and every run make it again, as it was asked for.
 
 mod adopt;
-mod choice;
+mod always;
 mod flow;
+mod lists;
 mod make;
 mod options;
 mod pairs;
-mod product;
 mod record;
 mod relit;
-mod request;
 mod rooms;
 mod sensors;
 mod sources;
@@ -24,24 +23,19 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod tracks;
+mod update;
 mod whole;
 mod words;
 
 pub(crate) use adopt::adopt;
-pub use choice::FrameChoice;
-pub use flow::FlowPairs;
-pub use make::{Made, MakeOptions, make, make_stale};
+pub use always::write_statistics;
+pub(crate) use always::{Pictures, pictures, update_sheet, update_statistics};
 pub(crate) use make::{bring_up_to_date, try_out};
-pub(crate) use options::SURFACES;
+pub use make::{choose_pairs_of, make, make_stale};
 pub use options::{ProductOptions, make_products};
-pub use pairs::{PairsRequest, choose_pairs_of};
-pub use product::Product;
 pub(crate) use record::Place;
-pub(crate) use relit::mixes_for_later;
-pub use relit::{MixRequest, read_mixes};
-pub use request::Request;
+pub use relit::read_mixes;
 pub use stale::{OutOfDate, out_of_date};
 pub(crate) use stale::{not_judged, told_out_of_date};
-pub use table::{PRODUCTS, ProductSpec, Scope, When};
-pub use whole::write_statistics;
-pub(crate) use whole::{Pictures, pictures, update_sheet, update_statistics};
+pub use table::{PRODUCTS, ProductSpec, When};
+pub use update::{Made, MakeOptions};

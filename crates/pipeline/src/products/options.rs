@@ -1,21 +1,15 @@
 //! Options of products as people give them, on the command line and in Python: words and files become requests.
 
-use super::choice::FrameChoice;
-use super::flow::FlowPairs;
-use super::make::{Made, MakeOptions, make};
-use super::pairs::{PairsRequest, choose_pairs_of};
-use super::product::Product;
+use super::make::{choose_pairs_of, make};
 use super::relit::read_mixes;
-use super::request::Request;
+use super::update::{Made, MakeOptions};
 use crate::config::read_sensors;
 use crate::error::Error;
+use crate::request::{FlowPairs, FrameChoice, MOST_SURFACES, PairsRequest, Product, Request, SURFACES, checked};
 use enfilade_dataset::{Dataset, FramePair, read_pairs, write_pairs};
 use enfilade_multiview::TracksConfig;
 use enfilade_scene::Cx;
 use std::path::{Path, PathBuf};
-
-/// Surfaces per pixel unless that is said.
-pub(crate) const SURFACES: u32 = 8;
 
 /// Options of all products; each reads its own.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +52,7 @@ pub fn make_products(
     how: MakeOptions,
     cx: &dyn Cx,
 ) -> Result<Vec<Made>, Error> {
+    options.check()?;
     let mut ordered = products.to_vec();
     ordered.sort_unstable();
     ordered.dedup();
@@ -75,6 +70,22 @@ pub fn make_products(
 }
 
 impl ProductOptions {
+    /// Refuses numbers that are out of their range.
+    fn check(&self) -> Result<(), Error> {
+        let numbers = [("pixels", self.pixels, u32::MAX), ("points", self.points, u32::MAX), ("layers", self.layers, MOST_SURFACES)];
+        for (name, number, most) in numbers {
+            checked(name, number.unwrap_or(1), most)?;
+        }
+        let widened = |range: Option<[f32; 2]>| range.map(|ends| ends.map(f64::from));
+        for (name, range) in [("overlap", widened(self.overlap)), ("baseline", self.baseline_m), ("angle", self.angle_deg)] {
+            if range.is_some_and(|[least, most]| !(0.0 <= least && least <= most)) {
+                let message = format!("{name} is {:?}, expected two numbers from 0, the smaller one first", range.unwrap_or_default());
+                return Err(Error::usage(message, "leave it out for any"));
+            }
+        }
+        Ok(())
+    }
+
     /// What is asked of a product.
     fn requests(&self, product: Product, dataset: &Dataset, scenes: &[String], of: &FrameChoice) -> Result<Vec<Request>, Error> {
         let of = of.clone();

@@ -1,8 +1,7 @@
 //! What is kept of a product in the work folder: what was asked for, and what each of its parts was made from.
 
-use super::product::Product;
-use super::request::Request;
 use crate::error::Error;
+use crate::request::{Product, Request};
 use crate::stages::Output;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{Dataset, WORKDIR, write_json};
@@ -45,6 +44,12 @@ impl Part {
     pub fn of_frame(frame: (String, u32), settings: Hash) -> Self {
         Self { name: format!("{}/{:04}", frame.0, frame.1), frames: vec![frame], settings }
     }
+}
+
+/// A part that is to be made, and the request that asks for it.
+pub(crate) struct Asked<'a> {
+    pub part: &'a Part,
+    pub request: &'a Request,
 }
 
 /// The record of a product.
@@ -109,5 +114,5 @@ fn folder(dataset: &Dataset, place: Place) -> PathBuf {
 }
 
 fn path(dataset: &Dataset, place: Place, product: Product) -> PathBuf {
-    folder(dataset, place).join(format!("{}.json", product.spec().name))
+    folder(dataset, place).join(format!("{}.json", product.name()))
 }

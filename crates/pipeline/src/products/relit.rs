@@ -1,31 +1,15 @@
 //! Frames as mixes of lamps light them: a part for each mix and frame.
 
-use super::adopt::choices;
-use super::choice::FrameChoice;
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
 use crate::relight::{Mix, mixes_of, relight_frames};
+use crate::request::{FrameChoice, MixRequest, Request};
 use crate::workdir::Hash;
 use enfilade_dataset::{Dataset, DatasetError, Fixture, counted};
 use enfilade_scene::{Cx, Warning};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// A mix of lamps: which are on, how bright, and in which colour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct MixRequest(Mix);
-
-impl MixRequest {
-    /// The name of the mix.
-    pub fn name(&self) -> &str {
-        &self.0.name
-    }
-}
 
 /// A request for each mix of the table `file`.
 ///
@@ -39,11 +23,6 @@ pub fn read_mixes(file: &Path, dataset: &Dataset, scenes: &[String], of: &FrameC
     }
     let mixes = mixes_of(file, Some(&all))?;
     Ok(mixes.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: of.clone() }).collect())
-}
-
-/// A request for each mix of the table `file`, whatever fixtures there will be.
-pub(crate) fn mixes_for_later(file: &Path) -> Result<Vec<Request>, Error> {
-    Ok(mixes_of(file, None)?.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: FrameChoice::default() }).collect())
 }
 
 fn no_fixtures() -> Error {
@@ -110,7 +89,7 @@ pub(super) fn found(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, Data
         let Some(mix) = dataset.mix_rules::<Mix>(&name)? else { continue };
         for camera in dataset.cameras(scene)? {
             let numbers = dataset.relit_frame_numbers(&name, [scene, &camera])?;
-            requests.extend(choices(&camera, &numbers).map(|of| Request::Mix { mix: MixRequest(mix.clone()), of }));
+            requests.extend(FrameChoice::runs(&camera, &numbers).map(|of| Request::Mix { mix: MixRequest(mix.clone()), of }));
         }
     }
     Ok(requests)
@@ -118,7 +97,8 @@ pub(super) fn found(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, Data
 
 #[cfg(test)]
 mod tests {
-    use super::super::make::{MakeOptions, make};
+    use super::super::make::make;
+    use super::super::update::MakeOptions;
     use super::*;
     use enfilade_frame::{Layer, Values, f16};
     use enfilade_scene::Quiet;

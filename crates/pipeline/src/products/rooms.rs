@@ -1,11 +1,10 @@
 //! Rooms of scenes that came without them, fitted to labelled surfaces, and which of their planes each pixel shows: a part for the scene, and
 //! one for each frame.
 
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::Request;
 use crate::workdir::Hash;
 use enfilade_dataset::{counted, counted_as, remove_if_there, write_bytes};
 use enfilade_label::structure::{fit_structure, labelled_triangles, write_planes};

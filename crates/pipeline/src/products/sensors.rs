@@ -1,10 +1,9 @@
 //! Readings of sensors: a part for each sensor and frame.
 
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::Request;
 use crate::workdir::Hash;
 use enfilade_dataset::counted;
 use enfilade_frame::Layer;

@@ -1,11 +1,8 @@
 //! What parts of products are made from, by content: hashes that are equal as long as the same inputs are there.
 
-use super::product::Product;
 use super::record::{Part, Place, Record};
-use super::request::Request;
-use super::table::{ProductSpec, Scope};
 use crate::error::Error;
-use crate::stages::HASHED_AS;
+use crate::request::{Product, Scope};
 use crate::workdir::Hash;
 use enfilade_dataset::{CLASS_LIST, ChosenFrames, Dataset, FrameRecord, LabelRecord, mesh_names};
 use enfilade_frame::{Layer, Pass};
@@ -112,14 +109,8 @@ impl<'a> Subject<'a> {
         self.listed.borrow_mut().clear();
     }
 
-    /// Names everything that a part is made from.
-    pub fn key(&self, spec: &ProductSpec, request: &Request, part: &Part) -> Result<Hash, Error> {
-        let layers = (spec.layers)(request);
-        let hashes = spec.reads.iter().map(|&source| self.hash(source, &layers, part)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Hash::of(&(HASHED_AS, spec.name, spec.version, &part.settings, hashes)))
-    }
-
-    fn hash(&self, source: Source, layers: &[Layer], part: &Part) -> Result<Hash, Error> {
+    /// Names what a part takes from a source; `layers` are those that it reads of its frames.
+    pub fn hash(&self, source: Source, layers: &[Layer], part: &Part) -> Result<Hash, Error> {
         let (layout, scene) = (self.dataset.layout(), self.scene);
         let cameras = || -> Vec<&String> {
             let mut names: Vec<&String> = part.frames.iter().map(|(camera, _)| camera).collect();
@@ -176,7 +167,7 @@ impl<'a> Subject<'a> {
     /// The contents of all files of a product, in all scenes where it is made by scene.
     fn of_product(&self, product: Product) -> Result<Hash, Error> {
         let scenes = self.dataset.scenes().map_err(Error::stage)?;
-        let places: Vec<Place> = match product.spec().scope {
+        let places: Vec<Place> = match product.scope() {
             Scope::Dataset => vec![Place::Dataset],
             _ if self.scene.is_empty() => scenes.iter().map(|scene| Place::Scene(scene)).collect(),
             _ => vec![Place::Scene(self.scene)],

@@ -1,11 +1,11 @@
 //! Which products are out of date.
 
-use super::product::Product;
 use super::record::{Part, Place, Record, has_records};
-use super::request::Request;
 use super::sources::Subject;
-use super::table::{PRODUCTS, ProductSpec, Scope};
+use super::table::{PRODUCTS, ProductSpec};
 use crate::error::Error;
+use crate::request::{Product, Request, Scope};
+use crate::stages::HASHED_AS;
 use crate::workdir::Hash;
 use enfilade_dataset::{Dataset, quoted};
 use enfilade_verify::NotJudged;
@@ -21,6 +21,13 @@ pub struct OutOfDate {
     pub scene: Option<String>,
     /// How many of its parts are to be made again.
     pub parts: usize,
+}
+
+/// Names everything that a part of a product is made from.
+pub(super) fn key(subject: &Subject, spec: &ProductSpec, request: &Request, part: &Part) -> Result<Hash, Error> {
+    let layers = (spec.layers)(request);
+    let hashes = spec.reads.iter().map(|&source| subject.hash(source, &layers, part)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Hash::of(&(HASHED_AS, spec.name, spec.version, &part.settings, hashes)))
 }
 
 /// A part that was asked for.
@@ -124,7 +131,7 @@ impl<'a> States<'a> {
         let root = self.subject.dataset.root().to_path_buf();
         let wanted = |name: String| {
             let (request, part) = parts.remove(&name).expect("each name is in the order once");
-            let key = self.subject.key(spec, &record.requests[request], &part)?;
+            let key = key(&self.subject, spec, &record.requests[request], &part)?;
             let is_fresh = inputs_are_fresh && record.parts.get(&name).is_some_and(|made| made.is_fresh(&key, &root));
             Ok(Wanted { part, request, key, is_fresh })
         };
@@ -136,7 +143,7 @@ impl<'a> States<'a> {
         if let Some(&known) = self.known.get(&product) {
             return Ok(known);
         }
-        let fresh = match (self.place, product.spec().scope) {
+        let fresh = match (self.place, product.scope()) {
             (Place::Dataset, Scope::Dataset) | (Place::Scene(_), Scope::Scene | Scope::Camera | Scope::Frame) => {
                 self.wanted(product)?.iter().all(|wanted| wanted.is_fresh)
             }

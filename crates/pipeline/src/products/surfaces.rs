@@ -1,11 +1,10 @@
 //! Surfaces along the rays of a frame: a part for each frame.
 
 use super::flow::package;
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::Request;
 use crate::workdir::Hash;
 use enfilade_dataset::counted;
 use enfilade_multiview::{Filmed, write_surfaces};

@@ -1,27 +1,13 @@
 //! The table of products.
 
-use super::product::Product;
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::{Source, Subject};
 use super::{flow, pairs, relit, rooms, sensors, surfaces, tracks, whole, words};
 use crate::error::Error;
+use crate::request::{Product, Request, Scope};
 use enfilade_frame::Layer;
 use enfilade_scene::Cx;
 use std::path::PathBuf;
-
-/// What the parts of a product belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scope {
-    /// The dataset as a whole: one part.
-    Dataset,
-    /// A scene: one part.
-    Scene,
-    /// A camera: one part for each.
-    Camera,
-    /// A frame, or a pair of frames: a part for each.
-    Frame,
-}
 
 /// When a product is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,12 +47,6 @@ pub struct ProductSpec {
 /// Makes parts of a product, and says in lines what it made.
 type Maker = fn(&Subject, &[Asked], &dyn Cx) -> Result<Vec<String>, Error>;
 
-/// A part that is to be made, and the request that asks for it.
-pub(crate) struct Asked<'a> {
-    pub part: &'a Part,
-    pub request: &'a Request,
-}
-
 /// All products in the order in which they are made: each after those that it reads.
 pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
@@ -74,7 +54,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Covisibility.name(),
         about: "the share of each frame's surfaces that each other frame of the scene sees",
         when: When::Asked,
-        scope: Scope::Scene,
+        scope: Product::Covisibility.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package],
         version: 1,
         layers: |_| vec![Layer::DepthMeters],
@@ -87,7 +67,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Pairs.name(),
         about: "the pairs of frames that see the same surfaces",
         when: When::Asked,
-        scope: Scope::Dataset,
+        scope: Product::Pairs.scope(),
         reads: &[Source::Product(Product::Covisibility)],
         version: 1,
         layers: |_| Vec::new(),
@@ -100,7 +80,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Flow.name(),
         about: "where the surfaces of a frame are in another one",
         when: When::Asked,
-        scope: Scope::Frame,
+        scope: Product::Flow.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::ListedBy(Product::Pairs)],
         version: 1,
         layers: |_| Vec::new(),
@@ -113,7 +93,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Tracks.name(),
         about: "points on surfaces, followed through the frames of a camera",
         when: When::Asked,
-        scope: Scope::Camera,
+        scope: Product::Tracks.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package],
         version: 1,
         layers: |_| vec![Layer::DepthMeters],
@@ -126,7 +106,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Surfaces.name(),
         about: "every surface along the rays of a frame",
         when: When::Asked,
-        scope: Scope::Frame,
+        scope: Product::Surfaces.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels],
         version: 1,
         layers: |_| Vec::new(),
@@ -139,7 +119,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Rooms.name(),
         about: "rooms of scenes that came without them, and which plane of them each pixel shows",
         when: When::Asked,
-        scope: Scope::Frame,
+        scope: Product::Rooms.scope(),
         reads: &[Source::Frames, Source::Package, Source::Labels],
         version: 1,
         layers: |_| vec![Layer::Position, Layer::Semantic],
@@ -152,7 +132,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Words.name(),
         about: "attributes and relations of things; captions and questions of frames",
         when: When::Asked,
-        scope: Scope::Scene,
+        scope: Product::Words.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels, Source::Product(Product::Rooms)],
         version: 1,
         layers: |_| vec![Layer::SemanticInstance, Layer::DepthMeters, Layer::DiffuseReflectance],
@@ -165,7 +145,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Sensors.name(),
         about: "what real cameras and depth sensors would make of a frame",
         when: When::Asked,
-        scope: Scope::Frame,
+        scope: Product::Sensors.scope(),
         reads: &[Source::Frames, Source::Poses],
         version: 1,
         layers: sensors::layers,
@@ -178,7 +158,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Relit.name(),
         about: "a frame with other lamps on",
         when: When::Asked,
-        scope: Scope::Frame,
+        scope: Product::Relit.scope(),
         reads: &[Source::WholeFrames, Source::Exposures, Source::Fixtures],
         version: 1,
         layers: |_| Vec::new(),
@@ -191,7 +171,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Sheet.name(),
         about: "one picture of each trajectory of the dataset",
         when: When::Always,
-        scope: Scope::Dataset,
+        scope: Product::Sheet.scope(),
         reads: &[Source::Pictures],
         version: 1,
         layers: |_| Vec::new(),
@@ -204,7 +184,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
         name: Product::Statistics.name(),
         about: "numbers and charts of the dataset",
         when: When::Always,
-        scope: Scope::Dataset,
+        scope: Product::Statistics.scope(),
         reads: &[Source::Pictures],
         version: 1,
         layers: |_| Vec::new(),

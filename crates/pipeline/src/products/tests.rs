@@ -1,15 +1,11 @@
 //! The matrix: for every product and every input that changes, it is fresh or out of date as the table says.
 
-use super::choice::FrameChoice;
-use super::flow::FlowPairs;
-use super::pairs::PairsRequest;
-use super::product::Product;
 use super::record::{MadePart, Place, Record};
-use super::relit::mixes_for_later;
-use super::request::Request;
 use super::sources::Source;
 use super::stale::{States, out_of_date};
-use super::table::{PRODUCTS, ProductSpec, Scope, When};
+use super::table::{PRODUCTS, ProductSpec, When};
+use crate::relight::mixes_of;
+use crate::request::{FlowPairs, FrameChoice, MixRequest, PairsRequest, Product, Request, Scope};
 use enfilade_dataset::{Dataset, WORKDIR, mesh_names, write_bytes};
 use enfilade_frame::Layer;
 use enfilade_sensors::Sensors;
@@ -141,7 +137,8 @@ fn requests(folder: &Path) -> Vec<Request> {
         Request::Words,
     ];
     requests.extend(sensors.all().map(|sensor| Request::Sensor { sensor, of: of.clone() }));
-    requests.extend(mixes_for_later(&file).unwrap());
+    let mixes = mixes_of(&file, None).unwrap();
+    requests.extend(mixes.into_iter().map(|mix| Request::Mix { mix: MixRequest(mix), of: of.clone() }));
     requests
 }
 

@@ -1,11 +1,10 @@
 //! Tracks of points through the frames of a camera: a part for each camera.
 
 use super::flow::package;
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::Request;
 use crate::workdir::Hash;
 use enfilade_dataset::counted;
 use enfilade_multiview::{Filmed, TracksConfig, tracks as follow};

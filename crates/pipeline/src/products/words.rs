@@ -1,10 +1,9 @@
 //! What the things of a scene are and how they stand to each other, and that in captions and questions: one part for the scene.
 
-use super::record::Part;
-use super::request::Request;
+use super::record::{Asked, Part};
 use super::sources::Subject;
-use super::table::Asked;
 use crate::error::Error;
+use crate::request::Request;
 use crate::workdir::Hash;
 use enfilade_dataset::counted;
 use enfilade_scene::{Cx, Quiet};

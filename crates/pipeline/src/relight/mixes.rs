@@ -1,7 +1,7 @@
 //! `mixes.csv`: which lamps are on, how bright, and in which colour.
 
-use crate::config::matches;
 use crate::error::Error;
+use crate::pattern::matches;
 use enfilade_dataset::{Fixture, check_name};
 use enfilade_math::Rgb;
 use enfilade_render::FixtureKind;

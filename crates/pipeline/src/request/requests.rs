@@ -1,10 +1,10 @@
 //! What somebody asks of a product: options, and the frames that it is for. It is recorded with the product, which is made again by it.
 
 use super::choice::FrameChoice;
-use super::flow::FlowPairs;
-use super::pairs::PairsRequest;
 use super::product::Product;
-use super::relit::MixRequest;
+use crate::relight::Mix;
+use enfilade_dataset::FramePair;
+use enfilade_multiview::{CovisibilityConfig, PairFilter};
 use enfilade_sensors::Sensor;
 use serde::{Deserialize, Serialize};
 
@@ -98,7 +98,7 @@ impl Request {
     }
 
     /// True when it is made after another product: flow is after the list of pairs where that says which pairs.
-    pub(super) fn is_made_after(&self, product: Product) -> bool {
+    pub(crate) fn is_made_after(&self, product: Product) -> bool {
         match self {
             Self::Flow { pairs, .. } => product == Product::Pairs && *pairs == FlowPairs::Listed,
             _ => true,
@@ -106,7 +106,7 @@ impl Request {
     }
 
     /// True when nothing is left of `older`, a request of the same product, once this one is made.
-    pub(super) fn replaces(&self, older: &Self) -> bool {
+    pub(crate) fn replaces(&self, older: &Self) -> bool {
         match (self, older) {
             (Self::Covisibility { .. }, Self::Covisibility { .. })
             | (Self::Pairs(_), Self::Pairs(_))
@@ -126,7 +126,7 @@ impl Request {
     }
 
     /// The request with the settings of `newer` where both are about one sensor or one mix: its folder holds readings of one setting alone.
-    pub(super) fn with_settings_of(&self, newer: &Self) -> Option<Self> {
+    pub(crate) fn with_settings_of(&self, newer: &Self) -> Option<Self> {
         match (self, newer) {
             (Self::Sensor { sensor: old, of }, Self::Sensor { sensor, .. }) if old.name() == sensor.name() && old != sensor => {
                 Some(Self::Sensor { sensor: sensor.clone(), of: of.clone() })
@@ -136,5 +136,72 @@ impl Request {
             }
             _ => None,
         }
+    }
+}
+
+/// Which pairs of frames are chosen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PairsRequest {
+    /// Pixels of each frame that are carried into the others, about.
+    pub pixels: u32,
+    /// Shares that each frame sees of the other, at least and at most; without them any at all.
+    pub overlap: Option<[f32; 2]>,
+    /// Least distance between the cameras, metres.
+    pub min_baseline_m: f64,
+    /// Largest distance between the cameras, metres.
+    pub max_baseline_m: Option<f64>,
+    /// Angles between the viewing axes, at least and at most, degrees.
+    pub angle_deg: [f64; 2],
+    /// Names of scenes; `None`: all.
+    pub scenes: Option<Vec<String>>,
+    /// Names of cameras; `None`: all.
+    pub cameras: Option<Vec<String>>,
+}
+
+impl Default for PairsRequest {
+    fn default() -> Self {
+        let pixels = CovisibilityConfig::default().grid_pixels;
+        Self { pixels, overlap: None, min_baseline_m: 0.0, max_baseline_m: None, angle_deg: [0.0, 180.0], scenes: None, cameras: None }
+    }
+}
+
+impl PairsRequest {
+    /// The filter of pairs.
+    pub(crate) fn filter(&self) -> PairFilter {
+        PairFilter {
+            overlap: self.overlap.unwrap_or(PairFilter::default().overlap),
+            baseline_m: [self.min_baseline_m, self.max_baseline_m.unwrap_or(f64::INFINITY)],
+            angle_deg: self.angle_deg,
+        }
+    }
+
+    /// What is asked of each scene.
+    pub(crate) fn covisibility(&self) -> Request {
+        Request::Covisibility { pixels: self.pixels, cameras: self.cameras.clone() }
+    }
+}
+
+/// Which frames flow leads from and to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlowPairs {
+    /// From each frame to the one N later in its trajectory; -1 is the one before.
+    Step(i64),
+    /// The pairs of the dataset's own list, there and back.
+    Listed,
+    /// From the first frame to the second of each of these.
+    Between(Vec<FramePair>),
+}
+
+/// A mix of lamps: which are on, how bright, and in which colour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct MixRequest(pub(crate) Mix);
+
+impl MixRequest {
+    /// The name of the mix.
+    pub fn name(&self) -> &str {
+        &self.0.name
     }
 }

@@ -1,5 +1,6 @@
 //! Which frames of a scene a request is about.
 
+use enfilade_dataset::number_runs;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -16,7 +17,7 @@ pub struct FrameChoice {
 
 impl FrameChoice {
     /// True when every frame of `other` is one of these.
-    pub(super) fn covers(&self, other: &Self) -> bool {
+    pub(crate) fn covers(&self, other: &Self) -> bool {
         let has_cameras = match (&self.cameras, &other.cameras) {
             (None, _) => true,
             (Some(_), None) => false,
@@ -30,8 +31,14 @@ impl FrameChoice {
         has_cameras && has_frames
     }
 
+    /// Frames of a camera as runs of numbers.
+    pub(crate) fn runs(camera: &str, numbers: &[u32]) -> impl Iterator<Item = Self> {
+        let runs = number_runs(numbers.iter().copied());
+        runs.into_iter().map(move |run| Self { cameras: Some(vec![camera.into()]), frames: Some(*run.start()..run.end() + 1) })
+    }
+
     /// True when a frame is one of these.
-    pub(super) fn has(&self, camera: &str, frame: u32) -> bool {
+    pub(crate) fn has(&self, camera: &str, frame: u32) -> bool {
         self.cameras.as_ref().is_none_or(|names| names.iter().any(|name| name == camera))
             && self.frames.as_ref().is_none_or(|range| range.contains(&frame))
     }
