@@ -15,7 +15,7 @@ use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, FileSource, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
-use crate::request::Request;
+use crate::request::{Product, Request};
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
@@ -178,6 +178,7 @@ impl Resolver<'_> {
         if let Some(camera) = camera {
             self.check_grid(&scene, camera)?;
         }
+        self.check_products(&scene, keys)?;
         Ok(scene)
     }
 
@@ -195,6 +196,23 @@ impl Resolver<'_> {
             })?);
         }
         Ok(requests)
+    }
+
+    /// Refuses products that nothing could be made of.
+    fn check_products(&self, scene: &SceneConfig, keys: &SceneKeys) -> Result<(), ConfigError> {
+        let Some(list) = keys.products.as_ref().or(self.document.products.as_ref()) else { return Ok(()) };
+        let has = |is_meant: &dyn Fn(&Request) -> bool| scene.products.iter().any(is_meant);
+        if has(&|request| request.is_made_after(Product::Pairs) && request.product() == Product::Flow)
+            && !has(&|request| request.product() == Product::Pairs)
+        {
+            let help = "add \"pairs\", or say which frames: { flow = { step = 1 } }";
+            return Err(self.refuse(list, "flow follows the list of pairs, which is not among the products", help));
+        }
+        if has(&|request| request.product() == Product::Relit) && !scene.render.fixtures {
+            let message = format!("relit needs the light of each fixture apart, which scene {:?} has not", scene.name);
+            return Err(self.refuse(list, message, "add fixtures = true below [render]"));
+        }
+        Ok(())
     }
 
     fn farm(&self) -> Result<FarmConfig, ConfigError> {

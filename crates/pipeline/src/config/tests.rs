@@ -707,3 +707,11 @@ fn a_table_of_many_homes_numbers_them_and_their_seeds() {
     let text = error("[[scene]]\nname = \"a\"\ncount = 3\nhome = {}\n[[scene]]\nname = \"b\"\nhome = {}\nseed = 2\n");
     assert!(text.contains("the scenes \"a_2\" and \"b\" would be the same home"), "{text}");
 }
+
+#[test]
+fn products_of_which_nothing_could_be_made_are_refused() {
+    let text = error(&format!("products = [\"flow\"]\n{SCENE}"));
+    assert!(text.contains("flow follows the list of pairs") && text.contains("{ flow = { step = 1 } }"), "{text}");
+    let found = config(&format!("products = [\"flow\", \"pairs\"]\n{SCENE}products = [{{ flow = {{ step = 2 }} }}]\n"));
+    assert_eq!(found.scenes[0].products.len(), 1, "the scene's own list");
+}
