@@ -17,8 +17,9 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 35] = [
+const FLOORS: [(&str, Floor); 36] = [
     ("math", Floor::Number(0)),
+    ("options", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
     ("geometry", Floor::Number(1)),
     ("frame", Floor::Number(1)),
@@ -213,7 +214,15 @@ mod tests {
 
     #[test]
     fn quick_tests_are_those_of_the_lower_floors() {
-        let expected = ["enfilade-math", "enfilade-parallel", "enfilade-geometry", "enfilade-frame", "enfilade-vrscene", "enfilade-scene"];
+        let expected = [
+            "enfilade-math",
+            "enfilade-options",
+            "enfilade-parallel",
+            "enfilade-geometry",
+            "enfilade-frame",
+            "enfilade-vrscene",
+            "enfilade-scene",
+        ];
         assert_eq!(packages_up_to(2).collect::<Vec<_>>(), expected);
     }
 }

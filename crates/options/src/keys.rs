@@ -1,0 +1,75 @@
+//! Keys of a table that several structs share.
+//!
+//! Serde's `flatten` reads through a buffer that has no places in the text: values could not be [`Spanned`](crate::Spanned), and unknown keys
+//! would be reported without their place and without the keys that there are. Here every key is read where it is, into the struct that has it.
+
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// A struct whose fields are keys of a table, all of which may be left out.
+pub trait Keys: Default {
+    /// Adds the name of every key.
+    fn names(into: &mut Vec<&'static str>);
+
+    /// Reads the value of the key `name` from `map`; false, and nothing is read, where it is none of these.
+    ///
+    /// # Errors
+    /// Those of the value.
+    fn take<'de, M: MapAccess<'de>>(&mut self, name: &str, map: &mut M) -> Result<bool, M::Error>;
+}
+
+/// Reads a table; unknown keys are errors as serde's `deny_unknown_fields` words them.
+///
+/// # Errors
+/// Those of `deserializer` and of the values.
+pub fn read_keys<'de, D: Deserializer<'de>, K: Keys>(deserializer: D) -> Result<K, D::Error> {
+    deserializer.deserialize_map(Table(PhantomData))
+}
+
+struct Table<K>(PhantomData<K>);
+
+impl<'de, K: Keys> Visitor<'de> for Table<K> {
+    type Value = K;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a map")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<K, M::Error> {
+        let (mut keys, mut known) = (K::default(), Vec::new());
+        K::names(&mut known);
+        while let Some(name) = map.next_key_seed(Name(&known))? {
+            keys.take(name, &mut map)?;
+        }
+        Ok(keys)
+    }
+}
+
+/// The name of a key, which must be one of these.
+struct Name<'k>(&'k [&'static str]);
+
+impl<'de> DeserializeSeed<'de> for Name<'_> {
+    type Value = &'static str;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_identifier(self)
+    }
+}
+
+impl Visitor<'_> for Name<'_> {
+    type Value = &'static str;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the name of a key")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+        let known = || self.0.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        self.0
+            .iter()
+            .find(|known| **known == name)
+            .copied()
+            .ok_or_else(|| E::custom(format_args!("unknown field `{name}`, expected one of {}", known())))
+    }
+}

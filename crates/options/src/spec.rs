@@ -1,0 +1,123 @@
+//! The table of a struct's options.
+
+use crate::form::{Form, Given};
+use crate::proposal;
+use crate::text::Unit;
+
+/// A struct that [`options!`](crate::options) declares.
+pub trait Options: Default {
+    /// Every option, in the order of its declaration.
+    const OPTIONS: &'static [Spec];
+
+    /// Sets the option `name`.
+    ///
+    /// # Errors
+    /// What was expected, when there is no option of this name or the value is not of its form.
+    fn set(&mut self, name: &str, given: &Given) -> Result<(), String>;
+}
+
+/// One option, as it is declared.
+#[derive(Clone, Copy, Debug)]
+pub struct Spec {
+    /// Name of the field, of the key in files and of the keyword in Python.
+    pub name: &'static str,
+    /// Doc comment, line by line.
+    pub doc: &'static str,
+    /// Default, as it is written in Rust.
+    pub default: &'static str,
+    /// Values that it takes.
+    pub form: Form,
+    /// How the command line shows the value; `None` shows it by its form.
+    pub shown: Option<Shown>,
+}
+
+/// How the command line shows a value.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// Name of the value in help, such as `SEED`.
+    pub value: &'static str,
+    /// Units that a number may be written with.
+    pub unit: Unit,
+}
+
+/// A value with a name of its own.
+pub const fn named(value: &'static str) -> Shown {
+    Shown { value, unit: Unit::None }
+}
+
+/// A share, which may be written in per cent.
+pub const SHARE: Shown = Shown { value: "SHARE", unit: Unit::Share };
+
+/// A time in seconds, which may be written in minutes and hours.
+pub const TIME: Shown = Shown { value: "TIME", unit: Unit::Time };
+
+impl Spec {
+    /// Name of the flag, without hyphens before it.
+    pub fn flag(&self) -> String {
+        let name = if self.unit() == Unit::Time { self.name.trim_end_matches("_s") } else { self.name };
+        name.replace('_', "-")
+    }
+
+    /// Units of its numbers on the command line.
+    pub fn unit(&self) -> Unit {
+        self.shown.map_or(Unit::None, |shown| shown.unit)
+    }
+
+    /// Name of its value in help.
+    pub fn value_name(&self) -> &'static str {
+        self.shown.map_or_else(|| self.form.value_name(), |shown| shown.value)
+    }
+
+    /// The first paragraph of the doc comment on one line, with links to code as code, and without the period at the end.
+    pub fn about(&self) -> String {
+        let lines: Vec<&str> = self.doc.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+        let text = lines.join(" ").replace("[`", "`").replace("`]", "`");
+        text.strip_suffix('.').map_or(text.clone(), String::from)
+    }
+
+    /// The default, where it is a number.
+    pub fn number(&self) -> Option<&'static str> {
+        let plain = self.default.strip_suffix(".0").unwrap_or(self.default);
+        plain.parse::<f64>().is_ok().then_some(plain)
+    }
+
+    /// The value that a text of the command line gives.
+    ///
+    /// # Errors
+    /// What was expected.
+    pub fn parse(&self, text: &str) -> Result<Given, String> {
+        self.form.parse(text, self.unit())
+    }
+}
+
+/// The message about a name that is no option of these.
+pub fn unknown(name: &str, options: &[Spec]) -> String {
+    let known: Vec<&str> = options.iter().map(|spec| spec.name).collect();
+    format!("there is no option `{name}`; {}", proposal(name, &known))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMIT: Spec = Spec {
+        name: "time_limit_s",
+        doc: " Seconds that a frame may take,\n see [`Spec`].\n\n More.\n",
+        default: "2.0",
+        form: Form::Number,
+        shown: Some(TIME),
+    };
+
+    #[test]
+    fn a_spec_shows_itself_as_flag_and_sentence() {
+        assert_eq!((LIMIT.flag().as_str(), LIMIT.value_name(), LIMIT.number()), ("time-limit", "TIME", Some("2")));
+        assert_eq!(LIMIT.about(), "Seconds that a frame may take, see `Spec`");
+        assert_eq!(LIMIT.parse("1.5m"), Ok(Given::Number(90.0)));
+        assert!(LIMIT.parse("soon").unwrap_err().contains("90s"));
+    }
+
+    #[test]
+    fn an_unknown_name_gets_the_nearest() {
+        assert!(unknown("time_limit", &[LIMIT]).contains("did you mean `time_limit_s`?"));
+    }
+}

@@ -1,0 +1,96 @@
+//! Types that options may have.
+
+use crate::form::{Form, Given};
+
+/// A type whose values can be given on the command line and in Python.
+pub trait Value: Sized {
+    /// What values look like.
+    const FORM: Form;
+
+    /// The value that is given; `None` when it is not of the form.
+    fn read(given: &Given) -> Option<Self>;
+}
+
+impl Value for bool {
+    const FORM: Form = Form::Switch;
+
+    fn read(given: &Given) -> Option<Self> {
+        if let Given::Switch(value) = given { Some(*value) } else { None }
+    }
+}
+
+impl Value for u32 {
+    const FORM: Form = Form::Whole { most: u32::MAX as u64 };
+
+    fn read(given: &Given) -> Option<Self> {
+        u64::read(given)?.try_into().ok()
+    }
+}
+
+impl Value for u64 {
+    const FORM: Form = Form::Whole { most: u64::MAX };
+
+    fn read(given: &Given) -> Option<Self> {
+        if let Given::Whole(value) = given { Some(*value) } else { None }
+    }
+}
+
+impl Value for f64 {
+    const FORM: Form = Form::Number;
+
+    fn read(given: &Given) -> Option<Self> {
+        match given {
+            Given::Number(value) => Some(*value),
+            Given::Whole(value) => Some(*value as f64),
+            _ => None,
+        }
+    }
+}
+
+impl Value for f32 {
+    const FORM: Form = Form::Number;
+
+    fn read(given: &Given) -> Option<Self> {
+        f64::read(given).map(|value| value as f32)
+    }
+}
+
+impl Value for String {
+    const FORM: Form = Form::Text;
+
+    fn read(given: &Given) -> Option<Self> {
+        given.text().map(String::from)
+    }
+}
+
+impl Value for [u32; 2] {
+    const FORM: Form = Form::Size;
+
+    fn read(given: &Given) -> Option<Self> {
+        Vec::read(given)?.try_into().ok()
+    }
+}
+
+impl<const N: usize> Value for [f64; N] {
+    const FORM: Form = Form::List(&Form::Number);
+
+    fn read(given: &Given) -> Option<Self> {
+        Vec::read(given)?.try_into().ok()
+    }
+}
+
+impl<T: Value> Value for Option<T> {
+    const FORM: Form = T::FORM;
+
+    fn read(given: &Given) -> Option<Self> {
+        T::read(given).map(Some)
+    }
+}
+
+impl<T: Value> Value for Vec<T> {
+    const FORM: Form = Form::List(&T::FORM);
+
+    fn read(given: &Given) -> Option<Self> {
+        if let Given::List(values) = given { values.iter().map(T::read).collect() } else { None }
+    }
+}
