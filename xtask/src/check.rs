@@ -1,5 +1,6 @@
 //! `cargo xtask check`: what is quick.
 
+use crate::docs::signatures;
 use crate::house::House;
 use crate::step::{Step, choose, finish};
 use crate::{circles, dependencies, floors, pictures, seed, workflows};
@@ -8,7 +9,7 @@ use crate::{circles, dependencies, floors, pictures, seed, workflows};
 const QUICK_TESTS: &str = "tests";
 
 /// All steps.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     Step {
         name: "format",
         about: "files are formatted",
@@ -44,6 +45,12 @@ const STEPS: [Step; 10] = [
         about: "the forge's workflows and the scripts that they call are sound",
         remedy: "fix what the messages above show; https://github.com/rhysd/actionlint and https://www.shellcheck.net explain each",
         run: workflows::check,
+    },
+    Step {
+        name: "signatures",
+        about: "the Python module's stub has the options that are declared",
+        remedy: "run `cargo xtask signatures`, and commit crates/python/enfilade/__init__.pyi",
+        run: signatures::check,
     },
     Step {
         name: "seed",

@@ -46,6 +46,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask docs [STEP...]                 the documentation site, below target/docs/site
        cargo xtask fuzz [--seconds N] [--quick | --as-tested] [TARGET...]   searches for bytes that break what reads them
        cargo xtask pictures                       the pictures of README and of layers, by the demo
+       cargo xtask signatures                     options in the Python module's stub, from their declarations
        cargo xtask bench [NAME]                   measurements: all, or one; --list names them
        cargo xtask oracle [SCENE...]              our pictures against Mitsuba 3's, scene by scene
        cargo xtask readers FOLDER [--only TEXT]   our readers of scene files beside other programs', on public files
@@ -79,6 +80,7 @@ fn main() -> ExitCode {
         ["bench", "products"] => products::run(&house),
         ["bench", "storage", rest @ ..] => storage::run(&house, rest),
         ["pictures"] => pictures::make(&house),
+        ["signatures"] => docs::signatures::write(&house),
         ["simulate"] => simulate::run(&house),
         ["cluster", rest @ ..] => cluster::run(&house, rest),
         ["oracle", rest @ ..] => peers::run(&house, "oracle", rest),

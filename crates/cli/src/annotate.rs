@@ -15,7 +15,7 @@ pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
         labels: args.labels.clone(),
         classes: args.classes.clone(),
         meters_per_unit: args.meters_per_unit,
-        up_axis: args.up_axis.map(Into::into),
+        up_axis: args.up_axis,
     };
     let app = {
         let progress = Progress::new(quiet);

@@ -39,7 +39,7 @@ pub fn pix3d(args: &ImportArgs) -> Result<Verdict, Problem> {
 /// The file to write. There is no usual one: it lies among the images, or anywhere else.
 fn pix3d_output(args: &ImportArgs) -> Result<&Path, Problem> {
     let root = args.input.display();
-    if let Some(flag) = args.choices.given().or(args.check.then_some("--check")) {
+    if let Some(flag) = args.choices.first().or_else(|| args.check.then(|| "--check".into())) {
         return Err(Problem::new(format!("{flag} is for scenes, but {root} is Pix3D"), format!("leave {flag} out")));
     }
     let name = || Problem::new("no file is named for the images of Pix3D", format!("give -o {}", args.input.join("all.json").display()));

@@ -1,13 +1,13 @@
 //! `run` and `label`: the stages of a dataset, all of them or some.
 
-use crate::args::{LabelArgs, QualityArg, RenderFlags, RunArgs, SettingFlags, StageArg};
+use crate::args::{LabelArgs, RunArgs, SettingFlags, StageArg};
 use crate::estimate::estimate;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use crate::released::refuse_released;
 use crate::{pictures, summary};
-use enfilade_dataset::{ColorKind, quoted};
-use enfilade_pipeline::{Config, Overrides, Quality, RenderChoices, Stage, Summary};
+use enfilade_dataset::quoted;
+use enfilade_pipeline::{Config, Stage, Summary};
 use std::path::{Path, PathBuf};
 
 /// `run`: all stages or some, of a configuration, of the demo or of a dataset made before.
@@ -80,50 +80,21 @@ fn made_before(args: &RunArgs, folder: &Path) -> Result<Config, Problem> {
         let message = format!("-o names the folder of a new dataset, but {} is one already", folder.display());
         return Err(Problem::new(message, "leave -o out; only with --only preview it names a folder, that of the pictures"));
     }
-    if args.settings.seed.is_some() {
+    let overrides = args.settings.overrides()?;
+    if overrides.seed.is_some() {
         let hint = format!(
             "make another one: enfilade run DATASET.TOML -o OTHER --seed N; or leave --seed out: enfilade run {}",
             quoted(folder.display())
         );
         return Err(Problem::new(format!("--seed decides what a dataset is of, and {} is made already", folder.display()), hint));
     }
-    Ok(enfilade_pipeline::stored_config(folder, &overrides(&args.settings), args.scenes.as_deref())?)
+    Ok(enfilade_pipeline::stored_config(folder, &overrides, args.scenes.as_deref())?)
 }
 
 /// The configuration of a file, or the demo's, with what the command line says otherwise.
 pub fn configuration(file: Option<&Path>, flags: &SettingFlags) -> Result<Config, Problem> {
-    let overrides = overrides(flags);
+    let overrides = flags.overrides()?;
     Ok(file.map_or_else(|| Config::demo(&overrides), |file| Config::read(file, &overrides))?)
-}
-
-fn overrides(flags: &SettingFlags) -> Overrides {
-    Overrides {
-        seed: flags.seed,
-        frames: flags.frames,
-        size: flags.size,
-        quality: flags.quality.map(|quality| match quality {
-            QualityArg::Draft => Quality::Draft,
-            QualityArg::Normal => Quality::Normal,
-            QualityArg::High => Quality::High,
-            QualityArg::Reference => Quality::Reference,
-        }),
-        render: choices(&flags.render),
-    }
-}
-
-fn choices(flags: &RenderFlags) -> RenderChoices {
-    RenderChoices {
-        samples: flags.samples,
-        noise: flags.noise,
-        max_bounces: flags.max_bounces,
-        clamp: flags.clamp,
-        time_limit_s: flags.time_limit,
-        light_parts: flags.light_parts,
-        fixtures: flags.fixtures,
-        extra: flags.extra,
-        lambertian: flags.lambertian,
-        color: flags.color.map(ColorKind::from),
-    }
 }
 
 /// `label`, with another table if wanted.

@@ -1,18 +1,18 @@
 //! The verbs of scene files: `look`, `import` and `home`.
 
-use crate::args::{HomeArgs, ImportArgs, LookArgs, MomentArg};
+use crate::args::{HomeArgs, ImportArgs, LookArgs, file_source};
 use crate::ingest;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
 use enfilade_dataset::quoted;
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{Event, FileSource, HomeConfig, Reporter, Stage, holds_scene, scene_file_of};
+use enfilade_pipeline::{Event, FileSource, Reporter, Stage, holds_scene, scene_file_of};
 use enfilade_scene::{Cx, Warning};
 use std::path::PathBuf;
 
 /// `look`: one picture of a scene file.
 pub fn look(args: &LookArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let source = args.choices.source(&args.input);
+    let source = file_source(&args.input, &args.choices)?;
     let name = args.input.file_stem().map_or_else(|| "look".into(), PathBuf::from);
     let output = args.output.clone().unwrap_or_else(|| name.with_extension("jpg"));
     let looked = {
@@ -37,7 +37,7 @@ pub fn import(args: &ImportArgs, quiet: bool) -> Result<Verdict, Problem> {
         let hint = format!("name a scene file, or the folder of Pix3D, in which pix3d.json is; {datasets}");
         return Err(Problem::new(format!("{} is a folder in which no scene is", args.input.display()), hint));
     }
-    let source = args.choices.source(&args.input);
+    let source = file_source(&args.input, &args.choices)?;
     if args.check {
         return check(&source, quiet);
     }
@@ -81,20 +81,7 @@ impl Cx for Unwarned<'_> {
 
 /// `home`: a furnished home of a seed.
 pub fn home(args: &HomeArgs, quiet: bool) -> Result<Verdict, Problem> {
-    let config = HomeConfig {
-        seed: args.seed,
-        rooms: args.rooms.clone(),
-        layout: args.layout,
-        furniture: args.furniture,
-        materials: args.materials,
-        realism: args.realism,
-        light: args.light,
-        moment: args.moment.map(MomentArg::moment),
-        clutter: args.clutter,
-        assets: args.assets.clone(),
-        assets_share: args.assets_share,
-        allow_broken_assets: args.allow_broken_assets,
-    };
+    let config = args.choices.options()?;
     if let Some(problem) = config.problem() {
         return Err(Problem::new(problem, "see enfilade home --help"));
     }

@@ -14,7 +14,7 @@ const SHOWN: usize = 20;
 /// `suggest`: labels proposed for one scene file.
 pub fn suggest(args: &SuggestArgs, quiet: bool) -> Result<Verdict, Problem> {
     let file = FileSource::of(args.input.to_string_lossy());
-    let source = FileSource { up_axis: args.up_axis.map(Into::into), allow_missing_textures: true, allow_missing_meshes: true, ..file };
+    let source = FileSource { up_axis: args.up_axis, allow_missing_textures: true, allow_missing_meshes: true, ..file };
     let output = args.output.clone().unwrap_or_else(|| {
         let stem = args.input.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
         PathBuf::from(format!("{stem}.labels.csv"))

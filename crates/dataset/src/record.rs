@@ -3,6 +3,7 @@
 use crate::CameraRecord;
 use crate::layout::FIXTURE_PARTS;
 use enfilade_math::DVec3;
+use enfilade_options::words;
 use enfilade_scene::{Camera, Intrinsics, Pose};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -134,15 +135,17 @@ pub struct FrameRecord {
     pub files: BTreeMap<String, FileRecord>,
 }
 
-/// What `color`, `diffuse_illumination` and `residual` hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ColorKind {
-    /// The rendered layers: unbiased and noisy.
-    #[default]
-    Rendered,
-    /// An estimate of the same without noise, and biased, as denoising is.
-    Denoised,
+words! {
+    /// What `color`, `diffuse_illumination` and `residual` hold.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum ColorKind {
+        /// The rendered layers: unbiased and noisy.
+        #[default]
+        Rendered = "rendered",
+        /// A clean estimate, biased as denoising is; what was rendered stays beside it, as color_rendered, ...
+        Denoised = "denoised",
+    }
 }
 
 /// How the colour layers of a frame were denoised.

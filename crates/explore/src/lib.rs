@@ -76,13 +76,13 @@ mod surroundings;
 mod view;
 mod view_stats;
 
-pub use carve::{CarveConfig, carve, is_indoors};
+pub use carve::{CarveConfig, CarveKeys, carve, is_indoors};
 pub use ceilings::{Ceiling, LampPlace, ceilings};
 pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use findings::{Backs, Findings, Overlap, doubled_faces, findings};
 pub use plan::{
-    CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanReport,
+    CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, PartCoverage, PlanConfig, PlanKeys, PlanReport,
     PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame, Spread, StillsConfig, VideoConfig, WalkBox, WalkBoxes, WalkConfig,
     follow, parse_keyframes, plan, plan_accepted,
 };

@@ -1,6 +1,7 @@
 //! What makes a view worth taking: scores by what a test image of it shows.
 
 use crate::ViewStats;
+use enfilade_options::{Form, Given, Value};
 use serde::{Deserialize, Serialize};
 
 /// How much a view is worth: n^`alpha` · (1 − e)^`beta`, with e the share of pixels that show no surface. What n is, says the kind.
@@ -78,6 +79,14 @@ const fn four() -> f64 {
 impl Default for Saliency {
     fn default() -> Self {
         Self::Triangles { alpha: 1.0, beta: 2.0 }
+    }
+}
+
+impl Value for Saliency {
+    const FORM: Form = Form::Table;
+
+    fn read(_: &Given) -> Option<Self> {
+        None
     }
 }
 

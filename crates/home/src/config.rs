@@ -4,67 +4,62 @@ use crate::light::Moment;
 use crate::room::RoomKind;
 use crate::room::kind::usual_programme;
 use enfilade_math::Rng;
+use enfilade_options::{named, options};
 use serde::{Deserialize, Serialize};
 
-/// What a home is a function of. Equal values give equal bytes.
-///
-/// What is not set follows from `seed`: to vary one thing and keep the others, set its seed and leave `seed` as it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct HomeConfig {
-    /// Decides everything that has no seed of its own. Zero is the home on the cover, with palette and light chosen by hand.
-    pub seed: u64,
-    /// The kinds of its rooms; empty for four to eight rooms, equally often, of the usual programme of that number. At most
-    /// [`HomeConfig::MOST_ROOMS`].
-    pub rooms: Vec<RoomKind>,
-    /// Floor plan: areas uniform over what is usual for each kind of room, shape of the whole, doors, windows.
-    pub layout: Option<u64>,
-    /// Which pieces of furniture there are, their measures, and where they stand.
-    pub furniture: Option<u64>,
-    /// Colours, woods, cloths, and the pictures that surfaces show.
-    pub materials: Option<u64>,
-    /// Share of the colours that go together, 1 for all. See [`crate::palette::DecorConfig`].
-    pub realism: f32,
-    /// Place, date, hour, weather, surroundings, and which lamps are lit.
-    pub light: Option<u64>,
-    /// Part of the day; none: day for three of five homes, evening or night for the others.
-    pub moment: Option<Moment>,
-    /// Density of small things on surfaces: 0 has none but what shelves and cabinets hold, 1 is a home that is lived in, 2 is untidy.
-    pub clutter: f32,
-    /// Folders and files of models that stand in for our own furniture. As written; the caller reads them.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub assets: Vec<String>,
-    /// Share of the things for which a model fits that are models.
-    #[serde(skip_serializing_if = "is_one")]
-    pub assets_share: f32,
-    /// Takes our own furniture, with a warning, where a model is broken.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub allow_broken_assets: bool,
+options! {
+    /// What a home is a function of. Equal values give equal bytes.
+    ///
+    /// What is not set follows from `seed`: to vary one thing and keep the others, set its seed and leave `seed` as it is.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct HomeConfig {
+        /// Seed of everything random that has no seed of its own.
+        ///
+        /// Zero is the home on the cover, with palette and light chosen by hand.
+        pub seed: u64 = 0 => named("SEED"),
+        /// Kinds of rooms, each as often as it is wanted, 12 in all at most; four to eight of the usual ones, as the seed decides, unless given.
+        ///
+        /// Four to eight rooms are equally often, of the usual programme of that number. The most are [`HomeConfig::MOST_ROOMS`].
+        pub rooms: Vec<RoomKind> = Vec::new() => named("KIND,KIND"),
+        /// Seed of the floor plan alone: areas, shape of the whole, doors and windows.
+        ///
+        /// Areas are uniform over what is usual for each kind of room.
+        pub layout: Option<u64> = None => named("SEED"),
+        /// Seed of the furniture alone: which pieces there are, their measures, and where they stand.
+        pub furniture: Option<u64> = None => named("SEED"),
+        /// Seed of the materials alone: colours, woods, cloths, and the pictures that surfaces show.
+        pub materials: Option<u64> = None => named("SEED"),
+        /// Share of the colours that match; the others are random.
+        ///
+        /// See [`crate::palette::DecorConfig`].
+        pub realism: f32 = 1.0 => named("SHARE"),
+        /// Seed of the light alone: place, date, hour, weather, surroundings, and which lamps are lit.
+        pub light: Option<u64> = None => named("SEED"),
+        /// Part of the day; as the seed decides unless given.
+        ///
+        /// It is day in three of five homes, evening or night in the others.
+        pub moment: Option<Moment> = None,
+        /// Density of small things: 0 leaves only the contents of shelves and cabinets, 1 looks lived in, 2 is untidy.
+        pub clutter: f32 = 1.0,
+        /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits.
+        ///
+        /// As written; the caller reads them.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub assets: Vec<String> = Vec::new() => named("FOLDER|FILE"),
+        /// Share of the things for which a model fits that are models.
+        #[serde(skip_serializing_if = "is_one")]
+        pub assets_share: f32 = 1.0 => named("SHARE"),
+        /// Use our own furniture, with a warning, where a model is broken.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        pub allow_broken_assets: bool = false,
+    }
 }
 
 /// True for the default, which is not written: a configuration without models stays as it was before models existed.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
 fn is_one(share: &f32) -> bool {
     *share == 1.0
-}
-
-impl Default for HomeConfig {
-    fn default() -> Self {
-        Self {
-            seed: 0,
-            rooms: Vec::new(),
-            layout: None,
-            furniture: None,
-            materials: None,
-            realism: 1.0,
-            light: None,
-            moment: None,
-            clutter: 1.0,
-            assets: Vec::new(),
-            assets_share: 1.0,
-            allow_broken_assets: false,
-        }
-    }
 }
 
 impl HomeConfig {

@@ -1,6 +1,7 @@
 //! The surroundings that light a scene instead of its file's own: a picture, or a sky without a file.
 
 use enfilade_math::{DMat3, DVec3, Rgb};
+use enfilade_options::{Form, Given, Value};
 use enfilade_scene::sky::{Daylight, Overcast, SolarMoment};
 use enfilade_scene::{Environment, Image, Light, MapRows, Scene};
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor, value::MapAccessDeserializer};
@@ -234,6 +235,14 @@ impl<'de> Deserialize<'de> for EnvironmentOverride {
             }
         }
         deserializer.deserialize_any(Words)
+    }
+}
+
+impl Value for EnvironmentOverride {
+    const FORM: Form = Form::Path;
+
+    fn read(given: &Given) -> Option<Self> {
+        given.text().map(Self::named)
     }
 }
 

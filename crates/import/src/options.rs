@@ -2,47 +2,35 @@
 
 use crate::{EnvironmentOverride, ImportError};
 use enfilade_math::{DMat3, DVec3};
+use enfilade_options::words;
 use serde::{Deserialize, Serialize};
 
-/// The axis of the file that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum UpAxis {
-    /// +x is up: a room that lies on its side.
-    #[serde(rename = "x")]
-    X,
-    /// +y is up, as in glTF.
-    #[serde(rename = "y")]
-    Y,
-    /// +z is up, as in this workspace.
-    #[serde(rename = "z")]
-    Z,
-    /// Against x.
-    #[serde(rename = "-x")]
-    MinusX,
-    /// Against y.
-    #[serde(rename = "-y")]
-    MinusY,
-    /// Against z.
-    #[serde(rename = "-z")]
-    MinusZ,
+words! {
+    /// The axis of the file that points up.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum UpAxis {
+        /// +y is up, as in glTF.
+        #[serde(rename = "y")]
+        Y = "y",
+        /// +z is up, as in this workspace.
+        #[serde(rename = "z")]
+        Z = "z",
+        /// +x is up: a room that lies on its side.
+        #[serde(rename = "x")]
+        X = "x",
+        /// −x is up.
+        #[serde(rename = "-x")]
+        MinusX = "-x",
+        /// −y is up.
+        #[serde(rename = "-y")]
+        MinusY = "-y",
+        /// −z is up.
+        #[serde(rename = "-z")]
+        MinusZ = "-z",
+    }
 }
 
 impl UpAxis {
-    /// Every one, the usual ones first.
-    pub const ALL: [Self; 6] = [Self::Y, Self::Z, Self::X, Self::MinusX, Self::MinusY, Self::MinusZ];
-
-    /// Name of the axis, as it is written in `dataset.toml` and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Z => "z",
-            Self::MinusX => "-x",
-            Self::MinusY => "-y",
-            Self::MinusZ => "-z",
-        }
-    }
-
     /// The axis nearest to a direction in the file's axes.
     pub fn nearest(direction: DVec3) -> Self {
         let [x, y, z] = direction.abs().to_array();

@@ -3,7 +3,7 @@
 //! The file is imported and looked at; it gets light if it has none, and a place to stand is found if none of its cameras stands in a
 //! room or sees something from where it is. Then one picture is rendered, denoised and shown as people see it.
 
-use crate::config::{FileSource, Lamps, closest};
+use crate::config::{FileSource, Lamps};
 use crate::error::Error;
 use crate::intake::{Held, Look, has_light, load_file, settle};
 use crate::report::Stopwatch;
@@ -14,6 +14,7 @@ use enfilade_explore::{Saliency, StartsConfig, find_starts, is_indoors, view_sta
 use enfilade_frame::{Frame, Pass};
 use enfilade_import::{EnvironmentOverride, Imported};
 use enfilade_math::{DMat3, DVec3, Ray};
+use enfilade_options::closest;
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, CameraView, Cx, Intrinsics, Pose, Scene, StartCamera, Warning};
 use enfilade_show::exposure::{Brightness, Exposure, display_exposure};

@@ -18,6 +18,7 @@ those of `enfilade farm`, which makes a dataset on many machines, are in `enfila
 """
 
 from . import farm
+from ._declared import home, import_scene
 from ._frames import Frame, render
 from ._native import (
     FORMATS,
@@ -41,8 +42,6 @@ from ._native import (
     __version__,
     compare_meshes,
     export,
-    home,
-    import_scene,
     judge_shapes,
     make,
     partition,

@@ -14,7 +14,6 @@ __version__: str
 Path = str | PathLike[str]
 Names = str | Sequence[str]
 Split = Literal["train", "val", "test"]
-Quality = Literal["draft", "normal", "high", "reference"]
 Sample = dict[str, Any]
 
 class Layer(TypedDict):
@@ -44,18 +43,20 @@ class Dataset:
         cls,
         path: Path,
         *,
+        # options: DatasetOptions
         layers: Names | None = None,
         scenes: Names | None = None,
         cameras: Names | None = None,
-        split: Split | None = None,
-        crop: tuple[int, int] | None = None,
-        crop_place: Literal["center", "random"] | tuple[int, int] = "center",
-        resize: tuple[int, int] | None = None,
+        split: Literal["train", "val", "test"] | None = None,
+        crop: Sequence[int] | None = None,
+        resize: Sequence[int] | None = None,
         tone_map: bool = False,
         mask: bool = True,
         poses: bool = True,
         stored: bool = False,
         seed: int = 0,
+        # end of options
+        crop_place: Literal["center", "random"] | tuple[int, int] = "center",
         epoch: int = 0,
         camera_table: Path | None = None,
     ) -> Dataset: ...
@@ -100,20 +101,46 @@ class Config:
     def read(
         file: Path,
         *,
+        # options: Overrides
         seed: int | None = None,
         frames: int | None = None,
         size: Sequence[int] | None = None,
-        quality: Quality | None = None,
+        quality: Literal["draft", "normal", "high", "reference"] | None = None,
+        # end of options
+        # options: RenderChoices
         samples: int | None = None,
+        noise: float | None = None,
+        max_bounces: int | None = None,
+        clamp: float | None = None,
+        time_limit_s: float | None = None,
+        light_parts: bool = False,
+        fixtures: bool = False,
+        extra: bool = False,
+        lambertian: bool = False,
+        color: Literal["rendered", "denoised"] | None = None,
+        # end of options
     ) -> Config: ...
     @staticmethod
     def demo(
         *,
+        # options: Overrides
         seed: int | None = None,
         frames: int | None = None,
         size: Sequence[int] | None = None,
-        quality: Quality | None = None,
+        quality: Literal["draft", "normal", "high", "reference"] | None = None,
+        # end of options
+        # options: RenderChoices
         samples: int | None = None,
+        noise: float | None = None,
+        max_bounces: int | None = None,
+        clamp: float | None = None,
+        time_limit_s: float | None = None,
+        light_parts: bool = False,
+        fixtures: bool = False,
+        extra: bool = False,
+        lambertian: bool = False,
+        color: Literal["rendered", "denoised"] | None = None,
+        # end of options
     ) -> Config: ...
     @staticmethod
     def from_dict(settings: dict[str, Any], base: Path = ".") -> Config: ...
@@ -177,6 +204,7 @@ class Scene:
     def read(
         file: Path,
         *,
+        # options: FileSource
         meters_per_unit: float = 1.0,
         up_axis: Literal["y", "z", "x", "-x", "-y", "-z"] | None = None,
         environment: Path | None = None,
@@ -185,6 +213,7 @@ class Scene:
         panes: Names | None = None,
         allow_missing_textures: bool = False,
         allow_missing_meshes: bool = False,
+        # end of options
         labels: Path | None = None,
         label_scene: str | None = None,
         progress: bool | None = None,
@@ -192,8 +221,9 @@ class Scene:
     @staticmethod
     def home(
         *,
-        rooms: Names | None = None,
+        # options: HomeConfig
         seed: int = 0,
+        rooms: Names | None = None,
         layout: int | None = None,
         furniture: int | None = None,
         materials: int | None = None,
@@ -204,6 +234,7 @@ class Scene:
         assets: Names | None = None,
         assets_share: float = 1.0,
         allow_broken_assets: bool = False,
+        # end of options
     ) -> Scene: ...
     def camera(self, name: str | None = None, *, size: Sequence[int] = ..., fov_x_deg: float | None = None) -> Camera: ...
     def save(self, file: Path) -> list[str]: ...
@@ -240,7 +271,8 @@ def render(
     scene: Scene,
     camera: Camera,
     *,
-    quality: Quality | None = None,
+    # options: RenderOptions
+    quality: Literal["draft", "normal", "high", "reference"] | None = None,
     samples: int | None = None,
     layers: Names | None = None,
     denoise: bool | None = None,
@@ -249,6 +281,7 @@ def render(
     max_bounces: int | None = None,
     clamp: float | None = None,
     lambertian: bool = False,
+    # end of options
     progress: bool | None = None,
 ) -> Frame: ...
 @overload
@@ -256,7 +289,8 @@ def render(
     scene: Scene,
     camera: Iterable[Camera],
     *,
-    quality: Quality | None = None,
+    # options: RenderOptions
+    quality: Literal["draft", "normal", "high", "reference"] | None = None,
     samples: int | None = None,
     layers: Names | None = None,
     denoise: bool | None = None,
@@ -265,6 +299,7 @@ def render(
     max_bounces: int | None = None,
     clamp: float | None = None,
     lambertian: bool = False,
+    # end of options
     progress: bool | None = None,
 ) -> list[Frame]: ...
 def run(
@@ -319,6 +354,7 @@ def import_scene(
     file: Path,
     output: Path | None = None,
     *,
+    # options: FileSource
     meters_per_unit: float = 1.0,
     up_axis: Literal["y", "z", "x", "-x", "-y", "-z"] | None = None,
     environment: Path | None = None,
@@ -327,12 +363,14 @@ def import_scene(
     panes: Names | None = None,
     allow_missing_textures: bool = False,
     allow_missing_meshes: bool = False,
+    # end of options
 ) -> dict[str, Any]: ...
 def home(
     output: Path = "home.scene",
     *,
-    rooms: Names | None = None,
+    # options: HomeConfig
     seed: int = 0,
+    rooms: Names | None = None,
     layout: int | None = None,
     furniture: int | None = None,
     materials: int | None = None,
@@ -343,6 +381,7 @@ def home(
     assets: Names | None = None,
     assets_share: float = 1.0,
     allow_broken_assets: bool = False,
+    # end of options
 ) -> dict[str, Any]: ...
 
 class NyuV2:

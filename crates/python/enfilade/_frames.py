@@ -1,6 +1,7 @@
 """`render`, and what it gives."""
 
 from . import _native
+from ._declared import explained
 from ._display import frame_html
 
 
@@ -26,30 +27,11 @@ class Frame(dict):
         return frame_html(self)
 
 
-def render(
-    scene,
-    camera,
-    *,
-    quality=None,
-    samples=None,
-    layers=None,
-    denoise=None,
-    seed=0,
-    noise=None,
-    max_bounces=None,
-    clamp=None,
-    lambertian=False,
-    progress=None,
-):
+def render(scene, camera, *, progress=None, **options):
     """Renders a picture of a scene in memory, with every layer; nothing is written to disk.
 
     scene: an `enfilade.Scene`. camera: an `enfilade.Camera`, or several, which are the frames of one trajectory: then a list of frames comes back.
-    quality: "draft", "normal" (the default), "high" or "reference", as of `Config`; samples: per pixel, instead.
-    layers: names; unless given, all that a run writes. Those of `extra` (such as "material_id", "optical_flow") and of `light_parts` (such as
-    "diffuse_direct") are rendered where they are named; flow leads from one camera to the next.
-    denoise: whether `color`, `diffuse_illumination` and `residual` are denoised, with what was rendered beside them as `*_rendered`; yes, but for
-    "reference", unless given.
-    seed: of the noise. noise: ends once the picture is that clean, such as 0.02. max_bounces, clamp, lambertian: as in [render].
+    {options}
     progress: shows how far it has come; unless given, in notebooks and terminals.
 
     Gives a `Frame`: a dictionary of numpy arrays as `Dataset` gives them. The same arguments give the same bytes, whatever the number of threads;
@@ -60,23 +42,10 @@ def render(
     cameras = [camera] if single else list(camera)
     if not cameras:
         raise ValueError("there is no camera; give one, or several")
-    rendered = _native.render(
-        scene,
-        cameras,
-        quality=quality,
-        samples=samples,
-        layers=layers,
-        denoise=denoise,
-        seed=seed,
-        noise=noise,
-        max_bounces=max_bounces,
-        clamp=clamp,
-        lambertian=lambertian,
-        progress=progress,
-    )
+    rendered = _native.render(scene, cameras, progress=progress, **options)
     frames = [Frame(sample) for sample in rendered]
     return frames[0] if single else frames
 
 
-for _public in (Frame, render):
-    _public.__module__ = "enfilade"
+Frame.__module__ = "enfilade"
+render = explained(render, "RenderOptions")

@@ -1,6 +1,5 @@
 //! Arguments as Python passes them, and what each is in Rust: names, layers, indices, frame numbers, positions of crops.
 
-use enfilade_dataset::Side;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_loader::CropPlace;
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -41,11 +40,6 @@ pub fn layer(name: &str) -> PyResult<Layer> {
 /// The layers of these names.
 pub fn layers(names: Option<&Names>) -> PyResult<Option<Vec<Layer>>> {
     names.map(|names| names.list().iter().map(|name| layer(name)).collect()).transpose()
-}
-
-/// The side of the partition of that name.
-pub fn split(name: Option<&str>) -> PyResult<Option<Side>> {
-    name.map(|name| name.parse().map_err(|problem| PyValueError::new_err(format!("split: {problem}")))).transpose()
 }
 
 /// The index that Python means: negative ones count from the end.

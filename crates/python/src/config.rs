@@ -1,67 +1,45 @@
 //! `enfilade.Config`: the configuration of a run, from TOML, the demo or a dictionary.
 
 use crate::errors::IntoPy;
-use crate::json;
-use enfilade_pipeline::{Overrides, Quality, RenderChoices};
-use pyo3::exceptions::PyValueError;
+use crate::{json, keywords};
+use enfilade_pipeline::{Overrides, RenderChoices};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::path::PathBuf;
 
 /// What a dataset is made from: the configuration of `enfilade run`, with all defaults filled in.
 ///
-/// `Config.read(file)` reads TOML, `Config.demo()` is the demo; both take what is to be otherwise: seed, frames per trajectory, size
-/// (width, height), quality ("draft", "normal", "high" or "reference") or samples per pixel. `to_dict` and `from_dict` have every setting.
+/// `Config.read(file)` reads TOML, `Config.demo()` is the demo; both take as keywords what is to be otherwise, as `enfilade run` takes it. `to_dict` and `from_dict` have every setting.
 #[pyclass(module = "enfilade", frozen, from_py_object)]
 #[derive(Clone)]
 pub struct Config(pub enfilade_pipeline::Config);
 
-/// The quality of that name.
-pub fn quality(name: Option<&str>) -> PyResult<Option<Quality>> {
-    Ok(Some(match name {
-        None => return Ok(None),
-        Some("draft") => Quality::Draft,
-        Some("normal") => Quality::Normal,
-        Some("high") => Quality::High,
-        Some("reference") => Quality::Reference,
-        Some(other) => {
-            return Err(PyValueError::new_err(format!("quality is {other:?}; expected \"draft\", \"normal\", \"high\" or \"reference\"")));
-        }
-    }))
-}
-
-fn overrides(
-    seed: Option<u64>,
-    frames: Option<u32>,
-    size: Option<[u32; 2]>,
-    quality: Option<&str>,
-    samples: Option<u32>,
-) -> PyResult<Overrides> {
-    let quality = self::quality(quality)?;
-    Ok(Overrides { seed, frames, size, quality, render: RenderChoices { samples, ..RenderChoices::default() } })
+/// What keywords of `function` say otherwise than the configuration; it takes those of `own` besides.
+fn overrides(options: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<Overrides> {
+    let (mut overrides, mut render) = (Overrides::default(), RenderChoices::default());
+    keywords::apply(&mut [&mut overrides, &mut render], options, function, own)?;
+    Ok(Overrides { render, ..overrides })
 }
 
 #[pymethods]
 impl Config {
     /// The configuration in a TOML file.
+    ///
+    /// {options}
     #[staticmethod]
-    #[pyo3(signature = (file, *, seed=None, frames=None, size=None, quality=None, samples=None))]
-    fn read(
-        file: PathBuf,
-        seed: Option<u64>,
-        frames: Option<u32>,
-        size: Option<[u32; 2]>,
-        quality: Option<&str>,
-        samples: Option<u32>,
-    ) -> PyResult<Self> {
-        let overrides = overrides(seed, frames, size, quality, samples)?;
+    #[pyo3(signature = (file, **options))]
+    fn read(file: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let overrides = overrides(options, "Config.read", &["file"])?;
         enfilade_pipeline::Config::read(&file, &overrides).map(Self).map_err(IntoPy::into_py)
     }
 
     /// The demo: one generated home.
+    ///
+    /// {options}
     #[staticmethod]
-    #[pyo3(signature = (*, seed=None, frames=None, size=None, quality=None, samples=None))]
-    fn demo(seed: Option<u64>, frames: Option<u32>, size: Option<[u32; 2]>, quality: Option<&str>, samples: Option<u32>) -> PyResult<Self> {
-        let overrides = overrides(seed, frames, size, quality, samples)?;
+    #[pyo3(signature = (**options))]
+    fn demo(options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let overrides = overrides(options, "Config.demo", &[])?;
         enfilade_pipeline::Config::demo(&overrides).map(Self).map_err(IntoPy::into_py)
     }
 

@@ -1,11 +1,13 @@
 //! `enfilade.Dataset`: frames of a dataset of ours or of Hypersim's release, as dictionaries of numpy arrays.
 
-use crate::arguments::{CropPosition, Names, layers, split};
+use crate::arguments::CropPosition;
+use crate::dataset_options::DatasetOptions;
 use crate::errors::IntoPy;
+use crate::keywords;
 use crate::loader::Loader;
 use crate::map_style::{MapStyle, SampleIterator, item, items, layer_names};
 use enfilade_dataset::{Layout, read_pairs};
-use enfilade_loader::{Choice, Crop, LoaderError, Options, Sample, Samples};
+use enfilade_loader::{Choice, LoaderError, Sample, Samples};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
@@ -34,16 +36,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Parameters
 /// ----------
 /// path: folder of the dataset.
-/// layers: names; all that the first frame has, unless given. Frames that lack one are left out.
-/// scenes, cameras: names, in which `*` stands for any run of characters. A camera is a trajectory.
-/// split: "train", "val" or "test", by the dataset's metadata_images_split_scene_v1.csv.
-/// crop: height and width; only the chunks of the file that it touches are decoded.
-/// crop_place: "center", "random" (by seed, epoch and index), or row and column of its first pixel.
-/// resize: height and width; light and colours are averaged over areas, of other layers the nearest value is taken.
-/// tone_map: makes `color` uint8 by Hypersim's tone map (the image's 90th percentile at 0.8, gamma 1/2.2).
-/// mask, poses: whether to give `mask`, and `K` and `world_from_camera`.
-/// stored: gives layers exactly as their files have them: type, unit and all.
-/// seed, epoch: of random crops.
+/// {options}
+/// crop_place: "center", "random" (by seed, epoch and index), or row and column of the crop's first pixel.
+/// epoch: of random crops.
 /// camera_table: another metadata_camera_parameters.csv.
 #[pyclass(module = "enfilade", subclass, frozen)]
 pub struct Dataset {
@@ -54,59 +49,37 @@ pub struct Dataset {
     arguments: Arguments,
 }
 
-/// What it was made with, so that pickling can make it again in another process.
-#[derive(Clone, IntoPyObject)]
+/// What a dataset was made with, so that pickling can make it again in another process.
 struct Arguments {
-    layers: Option<Names>,
-    scenes: Option<Names>,
-    cameras: Option<Names>,
-    split: Option<String>,
-    crop: Option<(usize, usize)>,
-    crop_place: CropPosition,
-    resize: Option<(usize, usize)>,
-    tone_map: bool,
-    mask: bool,
-    poses: bool,
-    stored: bool,
-    seed: u64,
-    camera_table: Option<PathBuf>,
     path: PathBuf,
+    crop_place: CropPosition,
+    camera_table: Option<PathBuf>,
+    /// Options as they were given.
+    options: Py<PyDict>,
 }
 
 impl Arguments {
-    fn options(&self) -> PyResult<Options> {
-        let place = self.crop_place.crop_place()?;
-        Ok(Options {
-            crop: self.crop.map(|(height, width)| Crop { size: [height, width], place }),
-            resize: self.resize.map(|(height, width)| [height, width]),
-            tone_map: self.tone_map,
-            mask: self.mask,
-            cameras: self.poses,
-            stored: self.stored,
-            seed: self.seed,
-        })
-    }
-
-    /// `root` is the absolute path of the dataset.
+    /// The samples that the arguments choose; `root` is the absolute path of the dataset.
     fn open(&self, py: Python<'_>, root: &Path) -> PyResult<Samples> {
-        let (options, layers, split) = (self.options()?, layers(self.layers.as_ref())?, split(self.split.as_deref())?);
+        let chosen: DatasetOptions =
+            keywords::options(Some(self.options.bind(py)), "Dataset", &["path", "crop_place", "epoch", "camera_table"])?;
+        let (options, layers, side) = (chosen.of_samples(self.crop_place.crop_place()?), chosen.layers()?, chosen.side()?);
         py.detach(|| {
             let dataset = enfilade_dataset::Dataset::open(root).map_err(IntoPy::into_py)?;
             let dataset = match &self.camera_table {
                 Some(table) => dataset.with_camera_table(table),
                 None => dataset,
             };
-            let select = |what, names: &[String], pattern: Option<&Names>| {
-                let chosen = pattern.map(|pattern| enfilade_pipeline::select(what, names, Some(&pattern.pattern())));
-                chosen.transpose().map_err(IntoPy::into_py)
+            let select = |what, names: &[String], chosen: &[String]| {
+                enfilade_pipeline::select(what, names, Some(&chosen.join(","))).map_err(IntoPy::into_py)
             };
             let scenes = dataset.scenes().map_err(IntoPy::into_py)?;
-            let scenes = select("scene", &scenes, self.scenes.as_ref())?.unwrap_or(scenes);
-            let cameras = match &self.cameras {
+            let scenes = chosen.scenes.as_ref().map(|pattern| select("scene", &scenes, pattern)).transpose()?.unwrap_or(scenes);
+            let cameras = match &chosen.cameras {
                 None => None,
-                pattern => select("camera", &dataset.camera_names(&scenes).map_err(IntoPy::into_py)?, pattern.as_ref())?,
+                Some(pattern) => Some(select("camera", &dataset.camera_names(&scenes).map_err(IntoPy::into_py)?, pattern)?),
             };
-            Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, side: split }, options).map_err(IntoPy::into_py)
+            Samples::open(dataset, &Choice { layers, scenes: Some(scenes), cameras, side }, options).map_err(IntoPy::into_py)
         })
     }
 }
@@ -125,29 +98,18 @@ impl MapStyle for Dataset {
 #[pymethods]
 impl Dataset {
     #[new]
-    #[pyo3(signature = (path, *, layers=None, scenes=None, cameras=None, split=None, crop=None, crop_place=CropPosition::Named("center".into()),
-        resize=None, tone_map=false, mask=true, poses=true, stored=false, seed=0, epoch=0, camera_table=None))]
+    #[pyo3(signature = (path, *, crop_place=CropPosition::Named("center".into()), epoch=0, camera_table=None, **options))]
     fn new(
         py: Python<'_>,
         path: PathBuf,
-        layers: Option<Names>,
-        scenes: Option<Names>,
-        cameras: Option<Names>,
-        split: Option<String>,
-        crop: Option<(usize, usize)>,
         crop_place: CropPosition,
-        resize: Option<(usize, usize)>,
-        tone_map: bool,
-        mask: bool,
-        poses: bool,
-        stored: bool,
-        seed: u64,
         epoch: u64,
         camera_table: Option<PathBuf>,
+        options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let (root, camera_table) = (std::path::absolute(&path)?, camera_table.map(std::path::absolute).transpose()?);
-        let arguments =
-            Arguments { layers, scenes, cameras, split, crop, crop_place, resize, tone_map, mask, poses, stored, seed, camera_table, path };
+        let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?.unbind();
+        let arguments = Arguments { path, crop_place, camera_table, options };
         Ok(Self { samples: Arc::new(arguments.open(py, &root)?), epoch: AtomicU64::new(epoch), root, arguments })
     }
 
@@ -226,8 +188,9 @@ impl Dataset {
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
-        let named = self.arguments.clone().into_pyobject(py)?;
-        named.del_item("path")?;
+        let named = self.arguments.options.bind(py).copy()?;
+        named.set_item("crop_place", self.arguments.crop_place.clone())?;
+        named.set_item("camera_table", &self.arguments.camera_table)?;
         named.set_item("epoch", self.epoch())?;
         Ok((PyTuple::new(py, [&self.root])?, named))
     }

@@ -9,16 +9,19 @@ mod arrays;
 mod camera;
 mod config;
 mod dataset;
+mod dataset_options;
 mod errors;
 mod farm;
 mod interrupt;
 mod json;
+mod keywords;
 mod loader;
 mod make;
 mod map_style;
 mod metrics;
 mod nyu;
 mod progress;
+mod render_options;
 mod rendering;
 mod scene;
 mod scene_files;
@@ -59,6 +62,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(make::make, module)?,
         wrap_pyfunction!(verbs::repack, module)?,
         wrap_pyfunction!(verbs::export, module)?,
+        wrap_pyfunction!(keywords::declared, module)?,
         wrap_pyfunction!(scene_files::import_scene, module)?,
         wrap_pyfunction!(scene_files::home, module)?,
         wrap_pyfunction!(shapes::compare_meshes, module)?,

@@ -1,17 +1,16 @@
 //! `enfilade.render`, and pictures of what it gives.
 
-use crate::arguments::{Names, layers};
 use crate::arrays;
 use crate::camera::Camera;
-use crate::config::quality;
-use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, watched};
+use crate::keywords;
 use crate::progress::Bar;
+use crate::render_options::RenderOptions;
 use crate::scene::Scene;
 use enfilade_dataset::ColorKind;
 use enfilade_frame::{Dtype, Frame, LAYERS, Layer, LayerSpec, Pass, Values, f16};
 use enfilade_loader::sample_of;
-use enfilade_pipeline::{Quality, RenderChoices, Shot};
+use enfilade_pipeline::Shot;
 use enfilade_scene::Pose;
 use enfilade_show::exposure::{Brightness, Exposure, display_exposure};
 use enfilade_show::picture::{Picture, jpeg, png};
@@ -24,29 +23,18 @@ use pyo3::types::{PyBytes, PyDict};
 
 /// Renders views, one frame each: the function behind `enfilade.render`.
 #[pyfunction]
-#[pyo3(signature = (scene, cameras, *, quality, samples, layers, denoise, seed, noise, max_bounces, clamp, lambertian, progress))]
+#[pyo3(signature = (scene, cameras, *, progress, **options))]
 pub fn render<'py>(
     py: Python<'py>,
     scene: &Bound<'py, Scene>,
     cameras: Vec<PyRef<'py, Camera>>,
-    quality: Option<&str>,
-    samples: Option<u32>,
-    layers: Option<Names>,
-    denoise: Option<bool>,
-    seed: u64,
-    noise: Option<f32>,
-    max_bounces: Option<u32>,
-    clamp: Option<f32>,
-    lambertian: bool,
     progress: Option<bool>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
     // Find out what is wanted.
-    let layers = self::layers(layers.as_ref())?;
-    let wants = |pass: Pass| layers.iter().flatten().any(|layer| layer.spec().pass == pass);
-    let color = denoise.map(|denoise| if denoise { ColorKind::Denoised } else { ColorKind::Rendered });
-    let (light_parts, extra) = (wants(Pass::LightParts), wants(Pass::Extra));
-    let choices = RenderChoices { samples, noise, max_bounces, clamp, light_parts, extra, lambertian, color, ..RenderChoices::default() };
-    let shot = Shot::new(self::quality(quality)?.unwrap_or(Quality::Normal), &choices, seed).map_err(IntoPy::into_py)?;
+    let options: RenderOptions = keywords::options(options, "render", &["scene", "camera", "progress"])?;
+    let layers = options.layers()?;
+    let shot = options.shot(layers.as_deref())?;
     check(layers.as_deref(), &shot)?;
 
     // Render, and hand the layers over.

@@ -1,6 +1,5 @@
 //! `enfilade.Scene`: a scene in memory, of which pictures are made without a dataset.
 
-use crate::arguments::Names;
 use crate::camera::Camera;
 use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, watched};
@@ -8,10 +7,11 @@ use crate::json;
 use crate::progress::Bar;
 use crate::scene_files::{file_source, home_config};
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{FileSource, LabelSource, LoadedScene};
+use enfilade_pipeline::{LabelSource, LoadedScene};
 use enfilade_scene::WorldMesh;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::path::PathBuf;
 
 /// A scene in memory: `Scene.read` reads a file in any format that enfilade imports, `Scene.home` makes a furnished home.
@@ -25,29 +25,21 @@ pub struct Scene(pub LoadedScene);
 impl Scene {
     /// Reads a scene file; the options are those of `import_scene`, and as there what was dropped or guessed is in `warnings` and `report`.
     ///
+    /// {options}
     /// labels: a table of part or material names and their NYU40 classes, instead of the labels that come with the file.
     /// label_scene: the name of the scene in the table's column `scene`; that of the file, without its extension, unless given.
     /// progress: shows how far it has come; unless given, in notebooks and terminals.
     #[staticmethod]
-    #[pyo3(signature = (file, *, meters_per_unit=1.0, up_axis=None, environment=None, lamps=None, drop_doubled_faces=false, panes=None,
-        allow_missing_textures=false, allow_missing_meshes=false, labels=None, label_scene=None, progress=None))]
+    #[pyo3(signature = (file, *, labels=None, label_scene=None, progress=None, **options))]
     fn read(
         py: Python<'_>,
         file: PathBuf,
-        meters_per_unit: f64,
-        up_axis: Option<&str>,
-        environment: Option<PathBuf>,
-        lamps: Option<&str>,
-        drop_doubled_faces: bool,
-        panes: Option<Names>,
-        allow_missing_textures: bool,
-        allow_missing_meshes: bool,
         labels: Option<PathBuf>,
         label_scene: Option<String>,
         progress: Option<bool>,
+        options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let source = file_source(&file, meters_per_unit, up_axis, environment, lamps, drop_doubled_faces, panes, allow_missing_textures)?;
-        let source = FileSource { allow_missing_meshes, ..source };
+        let source = file_source(&file, options, "Scene.read", &["file", "labels", "label_scene", "progress"])?;
         let own_name = || enfilade_pipeline::scene_file_of(&file).with_extension("").to_string_lossy().into_owned();
         let labels =
             labels.map(|table| LabelSource { table: table.to_string_lossy().into_owned(), scene: label_scene.unwrap_or_else(own_name) });
@@ -56,26 +48,12 @@ impl Scene {
     }
 
     /// Makes a furnished, labelled home of a seed; the options are those of `enfilade.home`.
+    ///
+    /// {options}
     #[staticmethod]
-    #[pyo3(signature = (*, rooms=None, seed=0, layout=None, furniture=None, materials=None, realism=1.0, light=None, moment=None, clutter=1.0,
-        assets=None, assets_share=1.0, allow_broken_assets=false))]
-    fn home(
-        py: Python<'_>,
-        rooms: Option<Names>,
-        seed: u64,
-        layout: Option<u64>,
-        furniture: Option<u64>,
-        materials: Option<u64>,
-        realism: f32,
-        light: Option<u64>,
-        moment: Option<&str>,
-        clutter: f32,
-        assets: Option<Names>,
-        assets_share: f32,
-        allow_broken_assets: bool,
-    ) -> PyResult<Self> {
-        let seeds = [layout, furniture, materials, light];
-        let config = home_config(rooms, seed, seeds, realism, moment, clutter, assets, assets_share, allow_broken_assets)?;
+    #[pyo3(signature = (**options))]
+    fn home(py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let config = home_config(options, "Scene.home", &[])?;
         watched(py, &Bar::none(), |cx: &Interrupt| LoadedScene::home(&config, cx)).map(Self)
     }
 

@@ -78,7 +78,7 @@ mod triangles;
 mod vertex;
 mod walk;
 
-pub use config::{Filter, RenderConfig};
+pub use config::{Filter, RenderConfig, RenderKeys};
 pub use error::RenderError;
 pub use extra::add_extra_layers;
 pub use extra::surfaces::{Bent, RaySurfaces};

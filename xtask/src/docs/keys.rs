@@ -3,7 +3,8 @@
 //! Names, types and sentences are read from the code. Defaults and ranges are what the program itself says: it is given a file without
 //! the key, and files with values that may be wrong, and its messages tell what it expects.
 
-use super::sources::{Declared, Sources, sentence};
+use super::fields::Declared;
+use super::sources::{Sources, sentence};
 use crate::house::House;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Lines, Write};
@@ -16,8 +17,8 @@ struct Group {
     about: &'static str,
     /// The struct that declares them.
     of: &'static str,
-    /// Structs with further sentences about them.
-    more: &'static [&'static str],
+    /// Structs whose keys are in the same table.
+    with: &'static [&'static str],
     /// Not in the table.
     without: &'static [&'static str],
     /// A file in which `§` stands for the key; [`SCENE`] is added where it has no scene.
@@ -26,7 +27,7 @@ struct Group {
     at: &'static [&'static str],
 }
 
-const NOTHING: Group = Group { heading: "", about: "", of: "", more: &[], without: &[], file: "", at: &[] };
+const NOTHING: Group = Group { heading: "", about: "", of: "", with: &[], without: &[], file: "", at: &[] };
 
 /// A scene that is not looked for.
 const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
@@ -40,6 +41,7 @@ const GROUPS: [Group; 19] = [
         heading: "At the top of the file",
         about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",
         of: "Document",
+        with: &["LevelKeys"],
         without: &SECTIONS,
         file: "§\n",
         at: &["scenes/0/plan/§", "scenes/0/§"],
@@ -50,27 +52,6 @@ const GROUPS: [Group; 19] = [
         about: "One for each scene, with the keys above, and those of `[import]` without that heading. `[scene.render]`, `[scene.camera]`, \
                 `[scene.plan]`, `[scene.carve]` and `[scene.gate]` are the sections below for one scene.",
         of: "SceneKeys",
-        without: &[
-            "seed",
-            "frames",
-            "preset",
-            "quality",
-            "labels",
-            "products",
-            "meters_per_unit",
-            "up_axis",
-            "environment",
-            "lamps",
-            "drop_doubled_faces",
-            "panes",
-            "allow_missing_textures",
-            "allow_missing_meshes",
-            "render",
-            "camera",
-            "plan",
-            "carve",
-            "gate",
-        ],
         file: "[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n§\n",
         ..NOTHING
     },
@@ -101,8 +82,8 @@ const GROUPS: [Group; 19] = [
     Group {
         heading: "`[render]`",
         about: "How light is traced, and which layers are kept.",
-        of: "RenderPatch",
-        more: &["RenderConfig"],
+        of: "RenderSection",
+        with: &["RenderKeys"],
         file: "[render]\n§\n",
         at: &["scenes/0/render/§", "scenes/0/§"],
         ..NOTHING
@@ -142,8 +123,7 @@ const GROUPS: [Group; 19] = [
     Group {
         heading: "`[plan]`",
         about: "Where pictures are taken from: [trajectories](trajectories.md).",
-        of: "PlanPatch",
-        more: &["PlanConfig"],
+        of: "PlanKeys",
         file: "[plan]\n§\n",
         at: &["scenes/0/plan/§"],
         ..NOTHING
@@ -165,8 +145,7 @@ const GROUPS: [Group; 19] = [
     Group {
         heading: "`[carve]`",
         about: "How free space is found.",
-        of: "CarvePatch",
-        more: &["CarveConfig"],
+        of: "CarveKeys",
         file: "[carve]\n§\n",
         at: &["scenes/0/carve/§"],
         ..NOTHING
@@ -174,8 +153,7 @@ const GROUPS: [Group; 19] = [
     Group {
         heading: "`[gate]`",
         about: "Which views are rendered: [gates](trajectories.md#gates-before-rendering).",
-        of: "GatePatch",
-        more: &["GateConfig"],
+        of: "GateKeys",
         file: "[gate]\n§\n",
         at: &["scenes/0/gate/§"],
         ..NOTHING
@@ -184,7 +162,6 @@ const GROUPS: [Group; 19] = [
         heading: "`[farm]`",
         about: "What nodes of a [farm](farm.md) do besides; at the top of the file alone.",
         of: "FarmKeys",
-        more: &["FarmConfig"],
         file: "[farm]\nafter_frame = [\"true\"]\n§\n",
         at: &["farm/§"],
         ..NOTHING
@@ -198,15 +175,19 @@ const fn mode(heading: &'static str, of: &'static str, file: &'static str) -> Gr
 impl Group {
     /// The keys of the table.
     fn keys<'s>(&self, sources: &'s Sources) -> Result<Vec<&'s Declared>, String> {
-        Ok(sources.fields(self.of)?.iter().filter(|key| !self.without.contains(&key.name.as_str())).collect())
+        let mut keys = Vec::new();
+        for of in std::iter::once(&self.of).chain(self.with) {
+            keys.extend(sources.fields(of)?.iter().filter(|key| !self.without.contains(&key.name.as_str())));
+        }
+        Ok(keys)
     }
 
     /// What a key means.
     ///
     /// # Errors
     /// When nothing is said about it.
-    fn sentence(&self, key: &Declared, sources: &Sources) -> Result<String, String> {
-        let found = Some(key.doc.as_str()).filter(|doc| !doc.is_empty()).or_else(|| sources.doc(&key.name, self.more));
+    fn sentence(&self, key: &Declared) -> Result<String, String> {
+        let found = Some(key.doc.as_str()).filter(|doc| !doc.is_empty());
         found.map(sentence).ok_or_else(|| format!("`{}` of {} has no doc comment", key.name, self.of))
     }
 
@@ -235,7 +216,7 @@ pub fn tables(house: &House) -> Result<String, String> {
     for group in &GROUPS {
         page += &format!("## {}\n\n{}\n\n| key | type | default | range | |\n|---|---|---|---|---|\n", group.heading, group.about);
         for key in group.keys(&sources)? {
-            let (of, says) = (sources.in_words(&key.of), group.sentence(key, &sources)?);
+            let (of, says) = (sources.in_words(&key.of), group.sentence(key)?);
             let (default, range) = (program.default(group, key, &sources)?, program.range(group, key, &of)?);
             page += &format!("| `{}` | {of} | {default} | {range} | {} |\n", key.name, says.replace('|', "\\|"));
         }
@@ -363,7 +344,7 @@ mod tests {
         let mut names = Vec::new();
         for group in &GROUPS {
             for key in group.keys(&sources).unwrap() {
-                let sentence = group.sentence(key, &sources).unwrap();
+                let sentence = group.sentence(key).unwrap();
                 assert!(sentence.len() > 12 && sentence.ends_with('.'), "{}: {sentence}", key.name);
                 assert!(!sources.in_words(&key.of).is_empty());
                 names.push(key.name.clone());

@@ -4,12 +4,15 @@
 //! line are described from the code, and by the program that is built for it. mdBook and nbconvert are installed below the target folder.
 
 mod commands;
+mod fields;
 mod keys;
 pub mod layers;
 mod links;
 mod pages;
 mod python_api;
+pub mod signatures;
 mod sources;
+mod tables;
 
 use crate::house::House;
 use crate::python;

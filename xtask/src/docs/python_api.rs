@@ -1,6 +1,8 @@
 //! The Python module: signatures from its stubs, and what is said about them where they are written, in Rust or in Python.
 
-use super::sources::doc_lines;
+use super::fields::doc_lines;
+use super::signatures::{options_of, without_marks};
+use super::sources::{Sources, paragraph};
 use crate::house::House;
 use std::collections::HashMap;
 use syn::{Attribute, ImplItem, Item, LitStr, Type};
@@ -33,6 +35,7 @@ impl Declared<'_> {
 /// When a file cannot be read.
 pub fn page(house: &House) -> Result<String, String> {
     let docs = written_in_rust(house)?;
+    let sources = Sources::read(house)?;
     let mut page = String::new();
     for (module, stub, source) in MODULES {
         let (stub, source) = (house.read(stub)?, house.read(source)?);
@@ -40,7 +43,7 @@ pub fn page(house: &House) -> Result<String, String> {
         let (explained, plain): (Vec<Declared>, Vec<Declared>) = declarations(&stub).into_iter().partition(Declared::has_functions);
         page += &format!("## {module}\n\n");
         for declared in explained {
-            page += &entry(module, &short, &declared, &docs, &source);
+            page += &entry(module, &short, &declared, &docs, &source, &sources)?;
         }
         if !plain.is_empty() {
             let stubs: Vec<&str> = plain.iter().map(|declared| declared.stub.as_str()).collect();
@@ -51,18 +54,41 @@ pub fn page(house: &House) -> Result<String, String> {
 }
 
 /// A heading with what belongs to it.
-fn entry(module: &str, short: &str, declared: &Declared, docs: &HashMap<String, Vec<String>>, source: &str) -> String {
+fn entry(
+    module: &str,
+    short: &str,
+    declared: &Declared,
+    docs: &HashMap<String, Vec<String>>,
+    source: &str,
+    sources: &Sources,
+) -> Result<String, String> {
     let Declared { name, stub } = declared;
-    let mut text = format!("### {module}.{name}\n\n```python\n{stub}\n```\n\n");
-    let own = docs.get(&format!("{short}{name}")).cloned().or_else(|| written_in_python(source, name));
-    text += &own.map_or(String::new(), |lines| markdown(&lines) + "\n");
+    let mut text = format!("### {module}.{name}\n\n```python\n{}\n```\n\n", without_marks(stub));
+    let own = written_in_python(source, name).or_else(|| docs.get(&format!("{short}{name}")).cloned());
+    if let Some(lines) = own {
+        text += &(markdown(&with_options(lines, stub, name, sources)?) + "\n");
+    }
     let methods = stub.lines().filter_map(|line| line.strip_prefix("    def ")?.split('(').next());
     for method in methods {
         if let Some(lines) = docs.get(&format!("{name}.{method}")) {
-            text += &format!("**`{method}`**: {}\n", markdown(lines));
+            text += &format!("**`{method}`**: {}\n", markdown(&with_options(lines.clone(), stub, method, sources)?));
         }
     }
-    text
+    Ok(text)
+}
+
+/// The lines of a doc comment with the options that a function takes in place of a line `{options}`.
+fn with_options(mut lines: Vec<String>, stub: &str, function: &str, sources: &Sources) -> Result<Vec<String>, String> {
+    let Some(at) = lines.iter().position(|line| line == "{options}") else { return Ok(lines) };
+    let mut options = Vec::new();
+    for of in options_of(stub, function) {
+        options.extend(sources.fields(of)?.iter().map(|option| format!("{}: {}", option.name, paragraph(&option.doc))));
+    }
+    if options.is_empty() {
+        return Err(format!("{function} says {{options}}, but the stub has none of it"));
+    }
+    lines.splice(at..=at, options);
+    Ok(lines)
 }
 
 /// What a stub declares, but for names of types that are only abbreviations.

@@ -1,18 +1,20 @@
 //! What doc comments in the code say of structs and enums that are read from files: names, types in words, and sentences.
 
+use super::fields::{Declared, argument, declared, last_name, serde_word, text};
+use super::tables::{self, Tables};
 use crate::house::House;
 use std::collections::HashMap;
-use syn::parse::{Parse, ParseStream};
-use syn::{Attribute, Expr, Field, GenericArgument, Ident, Item, ItemEnum, Lit, Meta, PathArguments, Token, Type, braced};
+use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Where what `dataset.toml` consists of is declared.
-const FILES: [&str; 17] = [
+const FILES: [&str; 18] = [
     "crates/pipeline/src/config/document.rs",
-    "crates/pipeline/src/config/patch.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
     "crates/pipeline/src/config/camera.rs",
     "crates/pipeline/src/config/farm.rs",
+    "crates/pipeline/src/config/import.rs",
+    "crates/pipeline/src/config/rendering.rs",
     "crates/explore/src/preset.rs",
     "crates/explore/src/saliency.rs",
     "crates/explore/src/carve/config.rs",
@@ -26,7 +28,12 @@ const FILES: [&str; 17] = [
     "crates/import/src/options.rs",
 ];
 /// More of them, whose crates are not about configuration.
-const OTHERS: [&str; 2] = ["crates/scene/src/camera/lens.rs", "crates/dataset/src/record.rs"];
+const OTHERS: [&str; 4] = [
+    "crates/python/src/dataset_options.rs",
+    "crates/python/src/render_options.rs",
+    "crates/scene/src/camera/lens.rs",
+    "crates/dataset/src/record.rs",
+];
 
 /// Structs and enums by name.
 #[derive(Default)]
@@ -41,16 +48,6 @@ struct Variants {
     names: Vec<String>,
     /// True where variants hold values, so that files have a table with a `kind`.
     hold_values: bool,
-}
-
-/// A field of a struct, or of a struct variant.
-pub struct Declared {
-    /// Name of the field as files have it.
-    pub name: String,
-    /// Rust type of the field without `Option` and `Spanned`.
-    pub of: Type,
-    /// Doc comment of the field, on one line.
-    pub doc: String,
 }
 
 impl Sources {
@@ -73,13 +70,21 @@ impl Sources {
                 self.structs.insert(item.ident.to_string(), item.fields.iter().filter_map(declared).collect());
             }
             Item::Enum(item) => self.take_enum(item),
-            // `section!` of patch.rs.
-            Item::Macro(item) if item.mac.path.is_ident("section") => {
-                let section: Section = item.mac.parse_body()?;
-                self.structs.insert(section.name, section.fields);
-            }
+            Item::Macro(item) if item.mac.path.is_ident("words") => self.take_enum(item.mac.parse_body()?),
+            Item::Macro(item) => self.take_structs(&item.mac)?,
             _ => {}
         }
+        Ok(())
+    }
+
+    /// What the macros of `options` declare.
+    fn take_structs(&mut self, found: &Macro) -> syn::Result<()> {
+        let Tables(tables) = match found.path.get_ident().map(ToString::to_string).as_deref() {
+            Some("options") => found.parse_body_with(tables::options)?,
+            Some("keys") => found.parse_body_with(tables::keys)?,
+            _ => return Ok(()),
+        };
+        self.structs.extend(tables);
         Ok(())
     }
 
@@ -88,7 +93,8 @@ impl Sources {
         let style = serde_word(&item.attrs, "rename_all").unwrap_or_default();
         let mut names = Vec::new();
         for variant in &item.variants {
-            let name = serde_word(&variant.attrs, "rename").unwrap_or_else(|| renamed(&variant.ident.to_string(), &style));
+            let own = || serde_word(&variant.attrs, "rename").unwrap_or_else(|| renamed(&variant.ident.to_string(), &style));
+            let name = variant.discriminant.as_ref().and_then(|(_, word)| text(word)).unwrap_or_else(own);
             let fields = variant.fields.iter().filter_map(declared).collect();
             self.structs.insert(format!("{}::{name}", item.ident), fields);
             names.push(name);
@@ -106,12 +112,6 @@ impl Sources {
             .get(name)
             .map(Vec::as_slice)
             .ok_or_else(|| format!("no struct {name} is declared in the files of xtask/src/docs/sources.rs"))
-    }
-
-    /// The doc comment of a field in the first of these structs that has one.
-    pub fn doc(&self, name: &str, structs: &[&str]) -> Option<&str> {
-        let fields = structs.iter().filter_map(|of| self.structs.get(*of)).flatten();
-        fields.filter(|field| field.name == name).map(|field| field.doc.as_str()).find(|doc| !doc.is_empty())
     }
 
     /// Every value of an enum, as TOML; `None` for other types.
@@ -152,61 +152,9 @@ impl Sources {
     }
 }
 
-/// A section of patch.rs: `Name => Target { field: Type, … } with { /// doc field: Type, … }`.
-struct Section {
-    name: String,
-    fields: Vec<Declared>,
-}
-
-impl Parse for Section {
-    fn parse(input: ParseStream) -> syn::Result<Self> {
-        let name: Ident = input.parse()?;
-        input.parse::<Token![=>]>()?;
-        input.parse::<Type>()?;
-        let mut fields = Vec::new();
-        loop {
-            let content;
-            braced!(content in input);
-            let list = content.parse_terminated(Field::parse_named, Token![,])?;
-            fields.splice(0..0, list.iter().filter_map(declared));
-            if input.is_empty() {
-                return Ok(Self { name: name.to_string(), fields });
-            }
-            input.parse::<Ident>()?;
-        }
-    }
-}
-
-fn declared(field: &Field) -> Option<Declared> {
-    let name = serde_word(&field.attrs, "rename").or_else(|| Some(field.ident.as_ref()?.to_string()))?;
-    let mut of = field.ty.clone();
-    while matches!(last_name(&of).as_deref(), Some("Option" | "Spanned")) {
-        of = argument(&of)?.clone();
-    }
-    Some(Declared { name, of, doc: doc(&field.attrs) })
-}
-
-/// A doc comment on one line.
-pub fn doc(attributes: &[Attribute]) -> String {
-    doc_lines(attributes).join(" ").trim().to_string()
-}
-
-/// The lines of a doc comment.
-pub fn doc_lines(attributes: &[Attribute]) -> Vec<String> {
-    let line = |attribute: &Attribute| match &attribute.meta {
-        Meta::NameValue(pair) if pair.path.is_ident("doc") => match &pair.value {
-            Expr::Lit(text) => {
-                if let Lit::Str(text) = &text.lit {
-                    Some(text.value())
-                } else {
-                    None
-                }
-            }
-            _ => None,
-        },
-        _ => None,
-    };
-    attributes.iter().filter_map(line).map(|line| line.strip_prefix(' ').unwrap_or(&line).to_string()).collect()
+/// The first paragraph of a doc comment on one line, with links to code as code.
+pub fn paragraph(doc: &str) -> String {
+    doc.split("  ").next().unwrap_or_default().replace("[`", "`").replace("`]", "`")
 }
 
 /// The first sentence of a doc comment, with links to code as code.
@@ -214,23 +162,6 @@ pub fn sentence(doc: &str) -> String {
     let end = doc.match_indices(". ").map(|(at, _)| at).find(|at| !doc[..*at].ends_with(['.', 'g'])).map_or(doc.len(), |at| at + 1);
     let first = doc[..end].replace("[`", "`").replace("`]", "`");
     if first.ends_with(['.', '?']) { first } else { format!("{first}.") }
-}
-
-/// The value of `key` in a `#[serde(…)]` of these.
-fn serde_word(attributes: &[Attribute], key: &str) -> Option<String> {
-    let mut found = None;
-    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("serde")) {
-        // What else serde is told has other forms, and is of no interest.
-        let _ = attribute.parse_nested_meta(|meta| {
-            if meta.path.is_ident(key) {
-                found = Some(meta.value()?.parse::<syn::LitStr>()?.value());
-            } else if meta.input.peek(Token![=]) {
-                meta.value()?.parse::<Expr>()?;
-            }
-            Ok(())
-        });
-    }
-    found
 }
 
 /// Name of a variant as serde writes it in this style.
@@ -243,16 +174,4 @@ fn renamed(name: &str, style: &str) -> String {
     };
     let words = name.char_indices().map(|(i, c)| if i > 0 && c.is_uppercase() { format!("{separator}{c}") } else { c.to_string() });
     words.collect::<String>().to_lowercase()
-}
-
-/// `Vec` of `std::vec::Vec<T>`.
-pub fn last_name(of: &Type) -> Option<String> {
-    if let Type::Path(path) = of { Some(path.path.segments.last()?.ident.to_string()) } else { None }
-}
-
-/// `T` of `Vec<T>`.
-fn argument(of: &Type) -> Option<&Type> {
-    let Type::Path(path) = of else { return None };
-    let PathArguments::AngleBracketed(arguments) = &path.path.segments.last()?.arguments else { return None };
-    arguments.args.iter().find_map(|argument| if let GenericArgument::Type(of) = argument { Some(of) } else { None })
 }

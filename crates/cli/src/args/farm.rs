@@ -1,6 +1,6 @@
 //! `farm` and what it has below it.
 
-use super::stages::SettingFlags;
+use super::rendering::SettingFlags;
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 

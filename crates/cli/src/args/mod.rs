@@ -1,10 +1,12 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
 mod farm;
+mod flags;
 mod make;
 mod outputs;
 mod pages;
 mod reading;
+mod rendering;
 mod results;
 mod scenes;
 mod shell;
@@ -16,11 +18,11 @@ pub use make::{MakeArgs, What};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::{CamerasArg, FramesArg};
+pub use rendering::SettingFlags;
 pub use results::{InspectArgs, PartitionArgs, ReplayArgs, StatsArgs, VerifyArgs};
-pub use scenes::{HomeArgs, ImportArgs, LookArgs, MomentArg, SuggestArgs, UpAxisArg};
+pub use scenes::{HomeArgs, ImportArgs, LookArgs, SuggestArgs, file_source};
 pub use shell::CompletionsArgs;
-pub use stages::{LabelArgs, QualityArg, RenderFlags, RunArgs, SettingFlags, StageArg};
-pub use values::parse_size;
+pub use stages::{LabelArgs, RunArgs, StageArg};
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use enfilade_vray::verbs::VrayArgs;
@@ -108,7 +110,6 @@ pub enum Verb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::ValueEnum;
 
     #[test]
     fn the_definition_is_consistent_and_every_verb_shows_an_example() {
@@ -121,13 +122,11 @@ mod tests {
 
     #[test]
     fn quality_help_tells_the_numbers_that_are_used() {
-        for (arg, quality) in QualityArg::value_variants().iter().zip([
-            enfilade_pipeline::Quality::Draft,
-            enfilade_pipeline::Quality::Normal,
-            enfilade_pipeline::Quality::High,
-        ]) {
-            let value = arg.to_possible_value().unwrap();
-            assert_eq!(value.get_help().unwrap().to_string(), format!("{} samples", quality.samples()));
+        use enfilade_options::{Form, Value};
+        use enfilade_pipeline::Quality;
+        let Form::Word(words) = Quality::FORM else { panic!() };
+        for (word, quality) in words.iter().zip([Quality::Draft, Quality::Normal, Quality::High]) {
+            assert!(word.about().starts_with(&format!("{} samples, ", quality.samples())), "{word:?}");
         }
     }
 }

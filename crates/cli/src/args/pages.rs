@@ -1,6 +1,7 @@
 //! The verbs that serve pages to a browser.
 
-use super::{CamerasArg, UpAxisArg};
+use super::CamerasArg;
+use super::flags::word;
 use clap::Args;
 use enfilade_pipeline::SceneFormat;
 use std::path::PathBuf;
@@ -46,8 +47,8 @@ pub struct AnnotateArgs {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub meters_per_unit: Option<f64>,
     /// Which way is up in a scene file [default: as its format says]
-    #[arg(long, allow_hyphen_values = true)]
-    pub up_axis: Option<UpAxisArg>,
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = word::<enfilade_pipeline::UpAxis>())]
+    pub up_axis: Option<enfilade_pipeline::UpAxis>,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub listen: ListenArgs,

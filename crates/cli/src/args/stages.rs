@@ -1,10 +1,9 @@
 //! The verbs that run stages.
 
 use super::CamerasArg;
-use super::values::{parse_share, parse_size, parse_time};
+use super::rendering::SettingFlags;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use enfilade_dataset::ColorKind;
 use enfilade_pipeline::{STAGES, Stage};
 use std::path::PathBuf;
 
@@ -81,93 +80,6 @@ impl ValueEnum for StageArg {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let spec = STAGES.iter().find(|spec| spec.stage == self.0)?;
         Some(PossibleValue::new(spec.name).help(spec.about))
-    }
-}
-
-/// What to make otherwise than the file says, for `run` and `farm plan`.
-#[derive(Args)]
-pub struct SettingFlags {
-    /// Seed of everything random; homes with a seed of their own keep it
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Frames per trajectory
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub frames: Option<u32>,
-    /// Width and height of the images in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<[u32; 2]>,
-    /// How good the pictures become, in one word
-    #[arg(long, conflicts_with = "samples")]
-    pub quality: Option<QualityArg>,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub render: RenderFlags,
-}
-
-/// `--quality`.
-#[derive(Clone, Copy, ValueEnum)]
-pub enum QualityArg {
-    /// 8 samples
-    Draft,
-    /// 32 samples
-    Normal,
-    /// 128 samples
-    High,
-    /// Unbiased: color as it was rendered, with as many samples as a noise of 2% takes
-    Reference,
-}
-
-/// Choices about rendering. None is made unless asked for.
-#[derive(Args)]
-#[command(next_help_heading = "Rendering (of a dataset made before: from now on)")]
-pub struct RenderFlags {
-    /// Samples per pixel: the mean over the image, or with --noise the maximum [default: those of the quality; with --noise 65536]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub samples: Option<u32>,
-    /// Stop where the noise is this small: 2% or 0.02
-    #[arg(long, value_name = "SHARE", value_parser = parse_share, allow_hyphen_values = true)]
-    pub noise: Option<f32>,
-    /// Longest path, in surfaces that scatter light after the first [default: no limit, which is unbiased]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub max_bounces: Option<u32>,
-    /// Largest radiance of one indirect sample [default: no limit, which is unbiased]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
-    pub clamp: Option<f32>,
-    /// Wall-clock time after which a frame ends with the samples it has: 90s, 5m; two such runs differ
-    #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
-    pub time_limit: Option<f64>,
-    /// Also write the light of color by its path (diffuse_direct, ...) and by its source (light_environment, ...)
-    #[arg(long)]
-    pub light_parts: bool,
-    /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade make OUT relit`
-    #[arg(long)]
-    pub fixtures: bool,
-    /// Also write material, flow to the next frame, what is behind glass, occlusion boundaries and more, pixel by pixel
-    #[arg(long)]
-    pub extra: bool,
-    /// Make rough diffuse surfaces (plaster, cloth) Lambertian: diffuse_illumination of a point is then the same from everywhere
-    #[arg(long)]
-    pub lambertian: bool,
-    /// Contents of color, diffuse_illumination and residual [default: denoised]; changing them renders nothing again
-    #[arg(long, value_enum, value_name = "KIND")]
-    pub color: Option<ColorArg>,
-}
-
-/// What the colour layers hold.
-#[derive(Clone, Copy, ValueEnum)]
-pub enum ColorArg {
-    /// A clean but biased estimate; the rendered layers are kept beside it, as color_rendered, ...
-    Denoised,
-    /// The rendered layers: unbiased and noisy
-    Rendered,
-}
-
-impl From<ColorArg> for ColorKind {
-    fn from(color: ColorArg) -> Self {
-        match color {
-            ColorArg::Denoised => Self::Denoised,
-            ColorArg::Rendered => Self::Rendered,
-        }
     }
 }
 

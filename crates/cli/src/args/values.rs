@@ -16,18 +16,9 @@ pub fn parse_layer(text: &str) -> Result<enfilade_frame::Layer, String> {
     enfilade_frame::Layer::from_name(text.trim()).ok_or_else(|| format!("the layers are: {}", known()))
 }
 
-pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
-    parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
-}
-
 /// A share of one, or a percentage.
 pub fn parse_share(text: &str) -> Result<f32, String> {
-    let parsed = match text.trim().strip_suffix('%') {
-        Some(percent) => percent.trim().parse().map(|v: f32| v / 100.0),
-        None => text.trim().parse(),
-    };
-    parsed.map_err(|_| "expected a share or a percentage, as in 0.02 or 2%".into())
+    enfilade_options::text::parse_share(text).map(|share| share as f32)
 }
 
 /// Shares from..to, of which one may be left out.
@@ -42,14 +33,6 @@ pub fn parse_overlap(text: &str) -> Result<[f32; 2], String> {
 pub fn parse_frame(text: &str) -> Result<(String, u32), String> {
     let parsed = text.split_once('/').and_then(|(camera, number)| Some((camera.to_string(), number.parse().ok()?)));
     parsed.ok_or_else(|| "expected a camera and the number of a frame, as in cam_00/3".into())
-}
-
-/// Seconds.
-pub fn parse_time(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
-    let parsed = units.iter().find_map(|(unit, seconds)| Some(text.strip_suffix(unit)?.trim().parse::<f64>().ok()? * seconds));
-    parsed.filter(|s| s.is_finite()).ok_or_else(|| "expected a time, as in 90s, 5m or 1h".into())
 }
 
 pub fn parse_shares(text: &str) -> Result<[f64; 3], String> {
@@ -67,9 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_and_pixels_are_read() {
-        assert_eq!(parse_size("640x480"), Ok([640, 480]));
-        assert!(parse_size("640").is_err() && parse_size("axb").is_err());
+    fn shares_and_pixels_are_read() {
         assert_eq!(parse_pixel("3, 4"), Ok((3, 4)));
         assert!(parse_pixel("3").is_err());
         assert_eq!(parse_shares("80,10, 10"), Ok([80.0, 10.0, 10.0]));
@@ -83,8 +64,6 @@ mod tests {
         assert!(["0.2", "0.7..0.2", "0..2", "a..b"].iter().all(|text| parse_overlap(text).is_err()));
         assert_eq!(parse_frame("cam_00/3"), Ok(("cam_00".into(), 3)));
         assert!(parse_frame("3").is_err() && parse_frame("cam_00/three").is_err());
-        assert_eq!((parse_time("90s"), parse_time("1.5m"), parse_time("1h"), parse_time("7")), (Ok(90.0), Ok(90.0), Ok(3600.0), Ok(7.0)));
-        assert!(parse_time("soon").is_err() && parse_time("inf").is_err());
         assert_eq!((parse_range("0..10"), parse_range("5.."), parse_range("7")), (Ok(0..10), Ok(5..u32::MAX), Ok(7..8)));
         assert!(parse_range("3..3").is_err() && parse_range("a..b").is_err() && parse_layer("colour").is_err());
     }

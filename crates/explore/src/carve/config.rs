@@ -2,40 +2,37 @@
 
 use crate::error::require;
 use crate::{ExploreError, Preset};
+use enfilade_options::options;
 use serde::{Deserialize, Serialize};
 
-/// How free space is carved. The defaults are Hypersim's.
-///
-/// ```
-/// use enfilade_explore::CarveConfig;
-///
-/// let fine = CarveConfig { voxel_m: 0.05, ..CarveConfig::default() };
-/// assert_eq!(fine.validate(), Ok(()));
-/// let error = CarveConfig { rays: 10, ..fine }.validate().unwrap_err();
-/// assert_eq!(error.to_string(), "rays = 10: expected 64 or more");
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CarveConfig {
-    /// Whose rules are followed.
-    pub preset: Preset,
-    /// Edge of a voxel, metres.
-    pub voxel_m: f64,
-    /// Side of the cube to be carved, metres. It is centred on the box around the start cameras.
-    pub extent_m: f64,
-    /// Rays cast from each position, spread evenly over the sphere.
-    pub rays: u32,
-    /// Positions to carve from for each start camera: its own, then random free ones.
-    pub iterations: u32,
-    /// Free voxels outside the building stay free. (The other presets keep them in any case.)
-    pub keep_outside: bool,
-    /// Seed of the random positions. The published programs use 0.
-    pub seed: u64,
-}
-
-impl Default for CarveConfig {
-    fn default() -> Self {
-        Self { preset: Preset::Default, voxel_m: 0.1, extent_m: 30.0, rays: 512 * 512, iterations: 5, keep_outside: false, seed: 0 }
+options! {
+    /// How free space is carved. The defaults are Hypersim's.
+    ///
+    /// ```
+    /// use enfilade_explore::CarveConfig;
+    ///
+    /// let fine = CarveConfig { voxel_m: 0.05, ..CarveConfig::default() };
+    /// assert_eq!(fine.validate(), Ok(()));
+    /// let error = CarveConfig { rays: 10, ..fine }.validate().unwrap_err();
+    /// assert_eq!(error.to_string(), "rays = 10: expected 64 or more");
+    /// ```
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct CarveConfig keys pub CarveKeys {
+        /// Whose rules are followed.
+        pub preset: Preset = Preset::Default => fixed,
+        /// Edge of a voxel, metres.
+        pub voxel_m: f64 = 0.1,
+        /// Side of the cube to be carved, metres. It is centred on the box around the start cameras.
+        pub extent_m: f64 = 30.0,
+        /// Rays cast from each position, spread evenly over the sphere.
+        pub rays: u32 = 512 * 512,
+        /// Positions to carve from for each start camera: its own, then random free ones.
+        pub iterations: u32 = 5,
+        /// Free voxels outside the building stay free. (The other presets keep them in any case.)
+        pub keep_outside: bool = false,
+        /// Seed of the random positions. The published programs use 0.
+        pub seed: u64 = 0 => fixed,
     }
 }
 

@@ -19,7 +19,7 @@ use enfilade_scene::{Cx, Warning, WorldMesh};
 use inside::{Enclosure, Inside};
 use rays::Rays;
 
-pub use config::CarveConfig;
+pub use config::{CarveConfig, CarveKeys};
 pub use start::is_indoors;
 
 /// When a larger share of the rays than this leaves the domain, there is a warning.

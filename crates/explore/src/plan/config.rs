@@ -2,88 +2,91 @@
 
 use crate::error::require;
 use crate::{ExploreError, Preset, Saliency};
+use enfilade_options::{Form, Given, Value, options};
 use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
-/// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
-///
-/// ```
-/// use enfilade_explore::{Mode, PlanConfig, VideoConfig};
-///
-/// let mode = Mode::Video(VideoConfig { fps: 30.0, ..VideoConfig::default() });
-/// let video = PlanConfig { mode, frames: 300, camera_height_m: Some([1.4, 1.7]), ..PlanConfig::default() };
-/// assert_eq!(video.validate(), Ok(()));
-///
-/// // A share is a number from 0 to 1, not a percentage.
-/// let error = PlanConfig { max_void_share: 20.0, ..video }.validate().unwrap_err();
-/// assert_eq!(error.to_string(), "max_void_share = 20: expected a share from 0 to 1");
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct PlanConfig {
-    /// Whose rules: this crate's, or those of Hypersim's paper or program, which know walks alone.
-    pub preset: Preset,
-    /// What kind of trajectory.
-    #[serde(skip_serializing_if = "is_default")]
-    pub mode: Mode,
-    /// Poses in the trajectory, the start camera's among them.
-    pub frames: u32,
-    /// Poses compared at each step.
-    pub candidates: u32,
-    /// Random points drawn at each step of a walk for the camera, and as many for its target, before the rules sort them out.
-    pub queries: u32,
-    /// How far the camera and its target may each move in one step of a walk along x, y and z, metres.
-    pub step_m: [f64; 3],
-    /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres. Where
-    /// `camera_height_m` is given, it is about the target of a walk alone, which goes up and down with the camera.
-    pub height_range_m: f64,
-    /// The minimum and maximum height of the camera above the floor, metres; free unless given. The floor is the lowest of the
-    /// first surfaces below the camera and below eight places half a metre around it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub camera_height_m: Option<[f64; 2]>,
-    /// Views are level: neither pitch nor roll.
-    #[serde(skip_serializing_if = "is_default")]
-    pub level: bool,
-    /// The lowest and the highest angle of the viewing axis above the horizon, degrees.
-    #[serde(skip_serializing_if = "is_any_pitch")]
-    pub pitch_limits_deg: [f64; 2],
-    /// The camera keeps at least this far from every surface, metres. Measured by occupied voxels, so up to a voxel's diagonal more.
-    pub clearance_m: f64,
-    /// The target is at least this far from the camera, metres.
-    pub min_look_distance_m: f64,
-    /// Roll is uniform within plus and minus this, degrees (less than 90).
-    pub roll_limit_deg: f64,
-    /// Minimum and maximum share of the surface points in view that the view before saw too, each from 0 to 1; for walks.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub overlap: Option<[f64; 2]>,
-    /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
-    pub max_void_share: f64,
-    /// Views that show the back of things in more than this share of the pixels are taken only when nothing better is found. Parts that are
-    /// seen from behind around the start camera too (thin ones with two sides, ones modelled inside out) do not count.
-    pub max_back_face_share: f64,
-    /// Something nearer than this is too near, metres.
-    pub min_depth_m: f64,
-    /// Views that show something too near in more than this share of the pixels are taken only when nothing better is found.
-    pub max_near_share: f64,
-    /// Views from positions around which more than this share of the level or of the upward directions meets no surface, or only the
-    /// back of one, are taken only when nothing better is found. Outside of a building at least half of the level ones do, and in one
-    /// with a ceiling few of the upward ones.
-    /// Where the start camera itself stands more open, that counts instead.
-    pub max_open_share: f64,
-    /// Horizontal field of view of the test images, radians.
-    pub fov_x_rad: f64,
-    /// Width of the test images, pixels. Planning time is in proportion to width times height.
-    pub test_width: u32,
-    /// Height of the test images, pixels.
-    pub test_height: u32,
-    /// A second camera stands this far to the right of the first, metres, and keeps the same rules; 0 for none.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub stereo_baseline_m: f64,
-    /// What makes a view worth taking.
-    pub saliency: Saliency,
-    /// Seed; each trajectory has its own stream of random numbers.
-    pub seed: u64,
+options! {
+    /// How a trajectory is found. The defaults are Hypersim's, as its paper states them, with a clearance and limits added.
+    ///
+    /// ```
+    /// use enfilade_explore::{Mode, PlanConfig, VideoConfig};
+    ///
+    /// let mode = Mode::Video(VideoConfig { fps: 30.0, ..VideoConfig::default() });
+    /// let video = PlanConfig { mode, frames: 300, camera_height_m: Some([1.4, 1.7]), ..PlanConfig::default() };
+    /// assert_eq!(video.validate(), Ok(()));
+    ///
+    /// // A share is a number from 0 to 1, not a percentage.
+    /// let error = PlanConfig { max_void_share: 20.0, ..video }.validate().unwrap_err();
+    /// assert_eq!(error.to_string(), "max_void_share = 20: expected a share from 0 to 1");
+    /// ```
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct PlanConfig keys pub PlanKeys {
+        /// Whose rules: this crate's, or those of Hypersim's paper or program, which know walks alone.
+        pub preset: Preset = Preset::Default => fixed,
+        /// What kind of trajectory.
+        #[serde(skip_serializing_if = "is_default")]
+        pub mode: Mode = Mode::default(),
+        /// Poses in the trajectory, the start camera's among them.
+        pub frames: u32 = 100 => fixed,
+        /// Poses compared at each step.
+        pub candidates: u32 = 20,
+        /// Random points drawn at each step of a walk for the camera, and as many for its target, before the rules sort them out.
+        pub queries: u32 = 1000,
+        /// How far the camera and its target may each move in one step of a walk along x, y and z, metres.
+        pub step_m: [f64; 3] = [1.5, 1.5, 0.25],
+        /// How far above or below those of frame 0 the camera and its target may each be in a walk or a video, metres. Where
+        /// `camera_height_m` is given, it is about the target of a walk alone, which goes up and down with the camera.
+        pub height_range_m: f64 = 0.25,
+        /// The minimum and maximum height of the camera above the floor, metres; free unless given. The floor is the lowest of the
+        /// first surfaces below the camera and below eight places half a metre around it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub camera_height_m: Option<[f64; 2]> = None,
+        /// Views are level: neither pitch nor roll.
+        #[serde(skip_serializing_if = "is_default")]
+        pub level: bool = false,
+        /// The lowest and the highest angle of the viewing axis above the horizon, degrees.
+        #[serde(skip_serializing_if = "is_any_pitch")]
+        pub pitch_limits_deg: [f64; 2] = ANY_PITCH,
+        /// The camera keeps at least this far from every surface, metres. Measured by occupied voxels, so up to a voxel's diagonal more.
+        pub clearance_m: f64 = 0.2,
+        /// The target is at least this far from the camera, metres.
+        pub min_look_distance_m: f64 = 0.5,
+        /// Roll is uniform within plus and minus this, degrees (less than 90).
+        pub roll_limit_deg: f64 = 5.0,
+        /// Minimum and maximum share of the surface points in view that the view before saw too, each from 0 to 1; for walks.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub overlap: Option<[f64; 2]> = None,
+        /// Views that show no surface in more than this share of the pixels are taken only when nothing better is found.
+        pub max_void_share: f64 = 0.2,
+        /// Views that show the back of things in more than this share of the pixels are taken only when nothing better is found. Parts that are
+        /// seen from behind around the start camera too (thin ones with two sides, ones modelled inside out) do not count.
+        pub max_back_face_share: f64 = 0.25,
+        /// Something nearer than this is too near, metres.
+        pub min_depth_m: f64 = 0.3,
+        /// Views that show something too near in more than this share of the pixels are taken only when nothing better is found.
+        pub max_near_share: f64 = 0.5,
+        /// Views from positions around which more than this share of the level or of the upward directions meets no surface, or only the
+        /// back of one, are taken only when nothing better is found. Outside of a building at least half of the level ones do, and in one
+        /// with a ceiling few of the upward ones.
+        /// Where the start camera itself stands more open, that counts instead.
+        pub max_open_share: f64 = 0.5,
+        /// Horizontal field of view of the test images, radians.
+        pub fov_x_rad: f64 = std::f64::consts::FRAC_PI_3 => fixed,
+        /// Width of the test images, pixels. Planning time is in proportion to width times height.
+        pub test_width: u32 = 256,
+        /// Height of the test images, pixels.
+        pub test_height: u32 = 192 => fixed,
+        /// A second camera stands this far to the right of the first, metres, and keeps the same rules; 0 for none.
+        #[serde(skip_serializing_if = "is_zero")]
+        pub stereo_baseline_m: f64 = 0.0 => fixed,
+        /// What makes a view worth taking.
+        pub saliency: Saliency = Saliency::default(),
+        /// Seed; each trajectory has its own stream of random numbers.
+        pub seed: u64 = 0 => fixed,
+    }
 }
 
 /// Kinds of trajectories.
@@ -100,6 +103,14 @@ pub enum Mode {
     Coverage(CoverageConfig),
     /// Poses made by hand.
     Keyframes(KeyframesConfig),
+}
+
+impl Value for Mode {
+    const FORM: Form = Form::Table;
+
+    fn read(_: &Given) -> Option<Self> {
+        None
+    }
 }
 
 impl Default for Mode {
@@ -248,38 +259,6 @@ const ANY_PITCH: [f64; 2] = [-90.0, 90.0];
 
 fn is_any_pitch(v: &[f64; 2]) -> bool {
     *v == ANY_PITCH
-}
-
-impl Default for PlanConfig {
-    fn default() -> Self {
-        Self {
-            preset: Preset::Default,
-            mode: Mode::default(),
-            frames: 100,
-            candidates: 20,
-            queries: 1000,
-            step_m: [1.5, 1.5, 0.25],
-            height_range_m: 0.25,
-            camera_height_m: None,
-            level: false,
-            pitch_limits_deg: ANY_PITCH,
-            clearance_m: 0.2,
-            min_look_distance_m: 0.5,
-            roll_limit_deg: 5.0,
-            overlap: None,
-            max_void_share: 0.2,
-            max_back_face_share: 0.25,
-            min_depth_m: 0.3,
-            max_near_share: 0.5,
-            max_open_share: 0.5,
-            fov_x_rad: std::f64::consts::FRAC_PI_3,
-            test_width: 256,
-            test_height: 192,
-            stereo_baseline_m: 0.0,
-            saliency: Saliency::default(),
-            seed: 0,
-        }
-    }
 }
 
 impl PlanConfig {

@@ -31,7 +31,7 @@ use glance::Glancer;
 use planner::{Draft, Planner};
 use rules::Rules;
 
-pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, StillsConfig, VideoConfig, WalkConfig};
+pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{
     CoverageReport, Fault, FrameValues, PartCoverage, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame,

@@ -20,20 +20,23 @@ pub use sun::{declination_rad, to_sun};
 pub use weather::Weather;
 
 use enfilade_math::{Rng, Vec2, Vec3};
+use enfilade_options::words;
 use enfilade_scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// Part of the day.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Moment {
-    /// The sun is up; a few lamps may be lit.
-    #[default]
-    Day,
-    /// Blue dusk outside, lamps inside.
-    Evening,
-    /// Lamps inside, lit windows and street lamps outside.
-    Night,
+words! {
+    /// Part of the day.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Moment {
+        /// The sun is up; a few lamps may be lit.
+        #[default]
+        Day = "day",
+        /// Blue dusk outside, lamps inside.
+        Evening = "evening",
+        /// Lamps inside, lit windows and street lamps outside.
+        Night = "night",
+    }
 }
 
 /// What the light of a home is a function of.

@@ -5,24 +5,27 @@
 //! living, kitchens and bathrooms): a row of units needs 1.2 m of floor before it, a bath 0.75 m, a toilet a room of at least
 //! 0.9 m × 1.4 m. Habitable rooms have windows of at least an eighth of their floor (Musterbauordnung § 47).
 
+use enfilade_options::words;
 use serde::{Deserialize, Serialize};
 
-/// What a room is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[allow(missing_docs, reason = "plain words")]
-pub enum RoomKind {
-    Living,
-    Kitchen,
-    Dining,
-    Bedroom,
-    #[serde(rename = "childrens")]
-    Children,
-    Study,
-    Bathroom,
-    Toilet,
-    Hall,
-    Laundry,
+words! {
+    /// What a room is for.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    #[allow(missing_docs, reason = "plain words")]
+    pub enum RoomKind {
+        Living = "living",
+        Kitchen = "kitchen",
+        Dining = "dining",
+        Bedroom = "bedroom",
+        #[serde(rename = "childrens")]
+        Children = "childrens",
+        Study = "study",
+        Bathroom = "bathroom",
+        Toilet = "toilet",
+        Hall = "hall",
+        Laundry = "laundry",
+    }
 }
 
 /// What a kind of room asks of its floor.
@@ -39,36 +42,6 @@ pub struct Norm {
 }
 
 impl RoomKind {
-    /// All kinds.
-    pub const ALL: [Self; 10] = [
-        Self::Living,
-        Self::Kitchen,
-        Self::Dining,
-        Self::Bedroom,
-        Self::Children,
-        Self::Study,
-        Self::Bathroom,
-        Self::Toilet,
-        Self::Hall,
-        Self::Laundry,
-    ];
-
-    /// Its name, as in configurations and in the names of parts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Living => "living",
-            Self::Kitchen => "kitchen",
-            Self::Dining => "dining",
-            Self::Bedroom => "bedroom",
-            Self::Children => "childrens",
-            Self::Study => "study",
-            Self::Bathroom => "bathroom",
-            Self::Toilet => "toilet",
-            Self::Hall => "hall",
-            Self::Laundry => "laundry",
-        }
-    }
-
     /// The kind of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)

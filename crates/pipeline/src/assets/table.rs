@@ -10,11 +10,11 @@
 //! weight = 2
 //! ```
 
-use crate::config::closest;
 use crate::error::Error;
 use enfilade_home::assets::families_of;
 use enfilade_home::furniture::{FAMILIES, Place};
 use enfilade_math::{DMat3, DVec3, Vec3};
+use enfilade_options::closest;
 use enfilade_scene::{NYU40, decoded_text};
 use serde::Deserialize;
 use std::collections::BTreeMap;

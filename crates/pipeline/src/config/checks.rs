@@ -3,12 +3,13 @@
 //! What other crates read they check themselves (`validate`, `problem`); here are the other keys, and the order of all checks.
 
 use super::camera::CameraConfig;
-use super::settings::{Config, FileSource, SceneConfig, Source};
+use super::import::FileSource;
+use super::settings::{Config, SceneConfig, Source};
 use crate::error::Error;
 use crate::workdir::OWN_FILES;
 use enfilade_dataset::check_name;
 use enfilade_explore::ExploreError;
-use enfilade_import::{ImportError, ImportOptions};
+use enfilade_import::ImportError;
 use enfilade_render::{RenderConfig, RenderError};
 use std::collections::HashSet;
 
@@ -132,9 +133,7 @@ fn found(problem: Option<String>, misset: impl FnOnce(String) -> Misset) -> Resu
 }
 
 fn check_import(file: &FileSource) -> Result<(), Misset> {
-    let environment = file.environment.clone();
-    let options = ImportOptions { meters_per_unit: file.meters_per_unit, environment, ..ImportOptions::default() };
-    options.validate().map_err(|error| match error {
+    file.importer().validate().map_err(|error| match error {
         ImportError::Option { option: key @ "environment", problem } => {
             Misset::new(Section::Import, key, format!("{key}: {problem}"), ENVIRONMENT)
         }

@@ -4,21 +4,24 @@ use super::checks::{Section, check_rendering};
 use super::settings::{SceneConfig, save_every_s};
 use crate::error::Error;
 use enfilade_dataset::ColorKind;
+use enfilade_options::{SHARE, TIME, named, options, words};
 use enfilade_render::{RenderConfig, RenderError};
 use serde::{Deserialize, Serialize};
 
-/// How good pictures become, by one word. `docs/benchmarks.md` tells the error that each leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quality {
-    /// For a look: small things are smeared.
-    Draft,
-    /// For use.
-    Normal,
-    /// For publication.
-    High,
-    /// For comparison with others' pictures: unbiased, so not denoised, with as many samples as a noise of 2 % takes.
-    Reference,
+words! {
+    /// How good pictures become, by one word. `docs/benchmarks.md` tells the error that each leaves.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Quality {
+        /// 8 samples, for a look: small things are smeared.
+        Draft = "draft",
+        /// 32 samples, for use.
+        Normal = "normal",
+        /// 128 samples, for publication.
+        High = "high",
+        /// For comparison with others' pictures: unbiased, so not denoised, with as many samples as a noise of 2 % takes.
+        Reference = "reference",
+    }
 }
 
 /// Noise of a reference, see [`RenderConfig::noise`].
@@ -74,19 +77,21 @@ impl Quality {
     }
 }
 
-/// Choices that win over those of the configuration.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Overrides {
-    /// Seed of everything; homes with a seed of their own keep it.
-    pub seed: Option<u64>,
-    /// Frames per trajectory.
-    pub frames: Option<u32>,
-    /// Image width and height.
-    pub size: Option<[u32; 2]>,
-    /// Samples per pixel, or an unbiased reference.
-    pub quality: Option<Quality>,
-    /// Everything else about rendering; its samples win over `quality`.
-    pub render: RenderChoices,
+options! {
+    /// Choices that win over those of the configuration.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Overrides {
+        /// Everything else about rendering; its samples win over `quality`.
+        pub render: RenderChoices = RenderChoices::default() => fixed,
+        /// Seed of everything random; homes with a seed of their own keep it.
+        pub seed: Option<u64> = None,
+        /// Frames per trajectory.
+        pub frames: Option<u32> = None,
+        /// Width and height of the images in pixels.
+        pub size: Option<[u32; 2]> = None,
+        /// How good the pictures become, in one word.
+        pub quality: Option<Quality> = None,
+    }
 }
 
 impl Overrides {
@@ -128,29 +133,34 @@ impl Overrides {
     }
 }
 
-/// Choices about rendering that win over those of the configuration; `None` and `false` leave it as it is.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RenderChoices {
-    /// Samples per pixel, or the most of them where there is a noise target.
-    pub samples: Option<u32>,
-    /// Noise target, see [`enfilade_render::RenderConfig::noise`]. Without `samples` it takes as many as it needs, up to 65,536.
-    pub noise: Option<f32>,
-    /// Longest path.
-    pub max_bounces: Option<u32>,
-    /// Largest radiance of an indirect sample.
-    pub clamp: Option<f32>,
-    /// Seconds that a frame may take.
-    pub time_limit_s: Option<f64>,
-    /// Asks for layers of light by way and by source.
-    pub light_parts: bool,
-    /// Asks for the light of each fixture by itself.
-    pub fixtures: bool,
-    /// Asks for the further layers of geometry and material.
-    pub extra: bool,
-    /// Asks for rough diffuse surfaces to be Lambertian.
-    pub lambertian: bool,
-    /// What the colour layers hold.
-    pub color: Option<ColorKind>,
+options! {
+    /// Choices about rendering that win over those of the configuration; `None` and `false` leave it as it is.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct RenderChoices {
+        /// Samples per pixel: the mean over the image, or with a noise target the maximum; those of the quality unless given, with a noise
+        /// target 65536.
+        pub samples: Option<u32> = None,
+        /// Noise target, a share of the brightness: rendering stops where the noise is this small, as 0.02.
+        ///
+        /// See [`enfilade_render::RenderConfig::noise`].
+        pub noise: Option<f32> = None => SHARE,
+        /// Longest path, in surfaces that scatter light after the first; no limit, which is unbiased, unless given.
+        pub max_bounces: Option<u32> = None,
+        /// Largest radiance of one indirect sample; no limit, which is unbiased, unless given.
+        pub clamp: Option<f32> = None,
+        /// Wall-clock seconds after which a frame ends with the samples it has; two such runs differ.
+        pub time_limit_s: Option<f64> = None => TIME,
+        /// Also write the light of color by its path (diffuse_direct, ...) and by its source (light_environment, ...).
+        pub light_parts: bool = false,
+        /// Also write the light of each lamp and window, the sun and the sky by itself, for `enfilade make OUT relit`.
+        pub fixtures: bool = false,
+        /// Also write material, flow to the next frame, what is behind glass, occlusion boundaries and more, pixel by pixel.
+        pub extra: bool = false,
+        /// Make rough diffuse surfaces (plaster, cloth) Lambertian: diffuse_illumination of a point is then the same from everywhere.
+        pub lambertian: bool = false,
+        /// Contents of color, diffuse_illumination and residual; denoised unless given. Changing them renders nothing again.
+        pub color: Option<ColorKind> = None => named("KIND"),
+    }
 }
 
 impl RenderChoices {

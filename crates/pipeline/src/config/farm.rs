@@ -3,43 +3,24 @@
 //! `after_frame = ["program", "argument", …]` is run without a shell. In its arguments stand placeholders, which are filled in for every
 //! frame; `{{` and `}}` stand for single braces.
 
-use super::locate::closest;
+use enfilade_options::{closest, options};
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
 use std::path::Path;
-use toml::Spanned;
 
 /// A program that takes longer than an hour for a frame, which is longer than most take to be rendered, hangs.
 const TIMEOUT_S: f64 = 3600.0;
 
-/// `[farm]`, with the defaults filled in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FarmConfig {
-    /// The program that a node runs after every frame, and its arguments; empty where there is none.
-    #[serde(default)]
-    pub after_frame: Vec<String>,
-    /// Seconds on the wall clock after which that program is ended, which is a failure.
-    #[serde(default = "timeout_s")]
-    pub after_frame_timeout_s: f64,
-}
-
-const fn timeout_s() -> f64 {
-    TIMEOUT_S
-}
-
-impl Default for FarmConfig {
-    fn default() -> Self {
-        Self { after_frame: Vec::new(), after_frame_timeout_s: TIMEOUT_S }
+options! {
+    /// What nodes of a farm do besides rendering.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct FarmConfig keys pub(super) FarmKeys {
+        /// The program that a node runs after every frame, and its arguments; empty where there is none.
+        pub after_frame: Vec<String> = Vec::new(),
+        /// Seconds on the wall clock after which that program is ended, which is a failure.
+        pub after_frame_timeout_s: f64 = TIMEOUT_S,
     }
-}
-
-/// The keys of `[farm]`.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FarmKeys {
-    pub after_frame: Option<Spanned<Vec<String>>>,
-    pub after_frame_timeout_s: Option<Spanned<f64>>,
 }
 
 /// What stands in an argument for something of the frame.

@@ -1,6 +1,7 @@
 //! Places in a configuration file, and the TOML reader's errors in our words, with a proposal.
 
 use crate::error::{ConfigError, Place};
+use enfilade_options::closest;
 use std::ops::Range;
 use std::path::Path;
 
@@ -105,12 +106,6 @@ fn quoted(message: &str) -> Vec<&str> {
     message.split('`').skip(1).step_by(2).collect()
 }
 
-/// The candidate most like `found`, when one is near enough to be what was meant.
-pub(crate) fn closest<'a>(found: &str, candidates: &[&'a str]) -> Option<&'a str> {
-    let similarity = |c: &str| strsim::jaro_winkler(&found.to_lowercase(), &c.to_lowercase());
-    candidates.iter().copied().map(|c| (similarity(c), c)).filter(|(s, _)| *s > 0.75).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, c)| c)
-}
-
 fn floor_char_boundary(text: &str, mut index: usize) -> usize {
     while !text.is_char_boundary(index) {
         index -= 1;
@@ -161,11 +156,5 @@ mod tests {
             let (found, value) = in_words(message);
             assert!(found.contains(words) && value.as_deref() == instead, "{found}: {value:?}");
         }
-    }
-
-    #[test]
-    fn proposals_are_near_or_none() {
-        assert_eq!(closest("sampels", &["size", "samples", "seed"]), Some("samples"));
-        assert_eq!(closest("zzz", &["size", "samples"]), None);
     }
 }

@@ -11,10 +11,11 @@ mod document;
 mod expand;
 mod farm;
 mod files;
+mod import;
 mod locate;
-mod patch;
 mod presets;
 mod products;
+mod rendering;
 mod resolve;
 mod select;
 mod sensors;
@@ -33,10 +34,10 @@ use std::path::Path;
 pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
 pub use choices::{Overrides, Quality, RenderChoices};
 pub use farm::{FarmConfig, Placeholder};
-pub(crate) use locate::closest;
+pub use import::{FileSource, Lamps};
 pub use select::select;
 pub use sensors::read_sensors;
-pub use settings::{CameraChoice, Config, FileSource, LabelSource, Lamps, SceneConfig, Source};
+pub use settings::{CameraChoice, Config, LabelSource, SceneConfig, Source};
 
 impl Config {
     /// Reads and resolves `file`.

@@ -3,7 +3,7 @@
 //! A preset takes the place of the built-in defaults, so every key of the file wins over it, wherever that stands. Only keys of `[plan]`
 //! for rules that the preset does not have are refused beside it: they would change nothing.
 
-use super::document::Level;
+use super::document::LevelKeys;
 use super::settings::SceneConfig;
 use enfilade_dataset::LOADER_SIZE;
 use enfilade_explore::Preset;
@@ -46,7 +46,7 @@ pub(super) fn lay_over(preset: Preset, scene: &mut SceneConfig) {
 }
 
 /// A key of `[plan]` that says something about a rule which the preset does not have, and where it stands.
-pub(super) fn unused_key(preset: Preset, level: &Level) -> Option<(&'static str, Range<usize>)> {
+pub(super) fn unused_key(preset: Preset, level: &LevelKeys) -> Option<(&'static str, Range<usize>)> {
     let unused: Vec<&'static str> = match preset {
         Preset::Default => return None,
         Preset::Paper => OURS.to_vec(),

@@ -7,19 +7,22 @@
 use super::camera::CameraConfig;
 use super::checks::{HOME, Misset, NAMES, Section, check_scene_name, no_scene_name};
 use super::choices::{MOST_SAMPLES, Overrides, Quality};
-use super::document::{Document, Level, SceneKeys};
+use super::document::{Document, LevelKeys, SceneKeys};
 use super::expand::expand;
 use super::farm::FarmConfig;
 use super::files::{self, Entry};
+use super::import::FileSource;
 use super::locate::{Source as Text, in_words};
 use super::presets;
-use super::settings::{Config, FileSource, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
+use super::settings::{Config, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
 use crate::error::ConfigError;
 use crate::request::{Product, Request};
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
+use enfilade_import::EnvironmentOverride;
 use enfilade_label::LabelTable;
+use enfilade_options::with_nearest;
 use std::cell::RefCell;
 use std::collections::HashSet;
 use std::ops::Range;
@@ -133,10 +136,10 @@ impl Resolver<'_> {
     }
 
     fn scene(&self, entry: &Entry) -> Result<SceneConfig, ConfigError> {
-        let (document, keys) = (self.document, entry.keys);
+        let (document, keys) = (&self.document.level, entry.keys);
         let name = self.checked_scene_name(&entry.name)?;
-        let seed = self.overrides.seed.or(keys.seed).or(document.seed).unwrap_or(0);
-        let camera = keys.camera.as_ref().or(document.camera.as_ref());
+        let seed = self.overrides.seed.or(keys.level.seed).or(document.seed).unwrap_or(0);
+        let camera = keys.level.camera.as_ref().or(document.camera.as_ref());
 
         // Built-in defaults.
         let mut scene = SceneConfig {
@@ -162,17 +165,17 @@ impl Resolver<'_> {
             name,
         };
         scene.render.samples = QUALITY.samples();
-        presets::lay_over(keys.preset.or(document.preset).unwrap_or_default(), &mut scene);
+        presets::lay_over(keys.level.preset.or(document.preset).unwrap_or_default(), &mut scene);
         self.check_preset(keys)?;
 
         // The file over them, the scene's own keys over that, and the command line over all.
-        self.lay_over(&mut scene, document.level(), QUALITY)?;
-        self.lay_over(&mut scene, keys.level(), document.quality.unwrap_or(QUALITY))?;
+        self.lay_over(&mut scene, document, QUALITY)?;
+        self.lay_over(&mut scene, &keys.level, document.quality.unwrap_or(QUALITY))?;
         if scene.camera.k.is_some() {
             // A camera matrix is of images of the file's size, whatever the command line says.
             scene.camera.k_size.get_or_insert(scene.size);
         }
-        self.overrides.lay_over(&mut scene, keys.quality.or(document.quality).unwrap_or(QUALITY));
+        self.overrides.lay_over(&mut scene, keys.level.quality.or(document.quality).unwrap_or(QUALITY));
 
         scene.validate().map_err(|wrong| self.misset(wrong, entry))?;
         if let Some(camera) = camera {
@@ -184,7 +187,7 @@ impl Resolver<'_> {
 
     /// What is asked for of a scene; its own key replaces that of the file.
     fn products(&self, keys: &SceneKeys) -> Result<Vec<Request>, ConfigError> {
-        let Some(list) = keys.products.as_ref().or(self.document.products.as_ref()) else { return Ok(Vec::new()) };
+        let Some(list) = keys.level.products.as_ref().or(self.document.level.products.as_ref()) else { return Ok(Vec::new()) };
         let folder = self.source.file.parent().unwrap_or(Path::new(""));
         let mut requests = Vec::new();
         for key in list.get_ref() {
@@ -200,7 +203,7 @@ impl Resolver<'_> {
 
     /// Refuses products that nothing could be made of.
     fn check_products(&self, scene: &SceneConfig, keys: &SceneKeys) -> Result<(), ConfigError> {
-        let Some(list) = keys.products.as_ref().or(self.document.products.as_ref()) else { return Ok(()) };
+        let Some(list) = keys.level.products.as_ref().or(self.document.level.products.as_ref()) else { return Ok(()) };
         let has = |is_meant: &dyn Fn(&Request) -> bool| scene.products.iter().any(is_meant);
         if has(&|request| request.is_made_after(Product::Pairs) && request.product() == Product::Flow)
             && !has(&|request| request.product() == Product::Pairs)
@@ -217,21 +220,17 @@ impl Resolver<'_> {
 
     fn farm(&self) -> Result<FarmConfig, ConfigError> {
         let keys = &self.document.farm;
-        let (program, limit) = (keys.after_frame.as_ref(), keys.after_frame_timeout_s.as_ref());
         let mut farm = FarmConfig::default();
-        farm.after_frame = program.map_or(farm.after_frame, |words| words.get_ref().clone());
-        farm.after_frame_timeout_s = limit.map_or(farm.after_frame_timeout_s, |seconds| *seconds.get_ref());
-        farm.validate().map_err(|wrong| {
-            let place = if wrong.key == "after_frame" { program.map(Spanned::span) } else { limit.map(Spanned::span) };
-            ConfigError { help: Some(wrong.help), ..self.source.error(place, wrong.message) }
-        })?;
+        keys.apply(&mut farm);
+        farm.validate()
+            .map_err(|wrong| ConfigError { help: Some(wrong.help), ..self.source.error(keys.span(wrong.key), wrong.message) })?;
         Ok(farm)
     }
 
     /// Lays the keys of one level over those below, whose quality is `below`. Of paths it checks the environment variables.
-    fn lay_over(&self, scene: &mut SceneConfig, level: Level, below: Quality) -> Result<(), ConfigError> {
-        let Level { frames, quality, render, plan, carve, gate, .. } = level;
-        if let Some(quality) = quality {
+    fn lay_over(&self, scene: &mut SceneConfig, level: &LevelKeys, below: Quality) -> Result<(), ConfigError> {
+        let LevelKeys { frames, quality, render, plan, carve, gate, .. } = level;
+        if let Some(quality) = *quality {
             quality.lay_over(scene, below);
         }
         if let Some(frames) = frames {
@@ -249,10 +248,10 @@ impl Resolver<'_> {
         scene.save_every_s = value(&render.save_every_s).unwrap_or(scene.save_every_s);
         scene.color = render.color.as_ref().map_or(scene.color, |color| *color.get_ref());
         scene.keep_rendered = render.keep_rendered.as_ref().map_or(scene.keep_rendered, |keep| *keep.get_ref());
-        if render.noise.is_some() {
+        if render.transport.noise.is_some() {
             scene.render.samples = MOST_SAMPLES;
         }
-        render.apply(&mut scene.render);
+        render.transport.apply(&mut scene.render);
         plan.apply(&mut scene.plan);
         carve.apply(&mut scene.carve);
         gate.apply(&mut scene.gate);
@@ -261,9 +260,9 @@ impl Resolver<'_> {
 
     /// Refuses keys that a preset beside them, or above them, makes meaningless.
     fn check_preset(&self, keys: &SceneKeys) -> Result<(), ConfigError> {
-        let document = self.document;
-        let of_document = document.preset.and_then(|preset| Some((preset, presets::unused_key(preset, &document.level())?)));
-        let of_scene = keys.preset.or(document.preset).and_then(|preset| Some((preset, presets::unused_key(preset, &keys.level())?)));
+        let (document, keys) = (&self.document.level, &keys.level);
+        let of_document = document.preset.and_then(|preset| Some((preset, presets::unused_key(preset, document)?)));
+        let of_scene = keys.preset.or(document.preset).and_then(|preset| Some((preset, presets::unused_key(preset, keys)?)));
         let Some((preset, (key, place))) = of_document.or(of_scene) else { return Ok(()) };
         let message = format!("preset {:?} has no rule for `{key}`", preset.name());
         let help = "leave the key out, or the preset; docs/trajectories.md has the table of what each preset does";
@@ -282,16 +281,13 @@ impl Resolver<'_> {
 
     /// Where the value of a key stands that counts for a scene; `None` for a default.
     fn span(&self, section: Section, key: &str, keys: &SceneKeys) -> Option<Range<usize>> {
-        let levels = [keys.level(), self.document.level()];
-        let in_levels = |span: &dyn Fn(&Level) -> Option<Range<usize>>| levels.iter().find_map(span);
+        let levels = [&keys.level, &self.document.level];
+        let in_levels = |span: &dyn Fn(&LevelKeys) -> Option<Range<usize>>| levels.into_iter().find_map(span);
         match section {
-            Section::Scene => in_levels(&|level| level.frames.map(Spanned::span)),
-            Section::Import if key == "environment" => {
-                keys.environment.as_ref().or(self.document.import.environment.as_ref()).map(Spanned::span)
-            }
-            Section::Import => keys.meters_per_unit.as_ref().or(self.document.import.meters_per_unit.as_ref()).map(Spanned::span),
+            Section::Scene => in_levels(&|level| level.frames.as_ref().map(Spanned::span)),
+            Section::Import => [&keys.import, &self.document.import].into_iter().find_map(|keys| keys.span(key)),
             Section::Home => keys.home.as_ref().map(Spanned::span),
-            Section::Camera => in_levels(&|level| level.camera.map(Spanned::span)),
+            Section::Camera => in_levels(&|level| level.camera.as_ref().map(Spanned::span)),
             Section::Render => in_levels(&|level| level.render.span(key)),
             Section::Carve => in_levels(&|level| level.carve.span(key)),
             Section::Plan => in_levels(&|level| level.plan.span(key)).or_else(|| in_levels(&|level| level.plan.span("mode"))),
@@ -328,33 +324,23 @@ impl Resolver<'_> {
                 ));
             }
         };
-        let defaults = &self.document.import;
-        let meters_per_unit = keys.meters_per_unit.as_ref().or(defaults.meters_per_unit.as_ref());
-        let environment = keys.environment.as_ref().or(defaults.environment.as_ref());
-        if let Some(environment) = environment
-            && let Some(picture) = environment.get_ref().file()
+        let mut source = FileSource::of(file.get_ref());
+        let levels = [&self.document.import, &keys.import];
+        levels.iter().for_each(|level| level.apply(&mut source));
+        if let Some(picture) = source.environment.as_ref().and_then(EnvironmentOverride::file)
+            && let Some(place) = levels.iter().rev().find_map(|level| level.environment.as_ref())
         {
-            self.check_path(&picture.to_string_lossy(), environment)?;
+            self.check_path(&picture.to_string_lossy(), place)?;
         }
         self.check_path(file.get_ref(), file)?;
-        Ok(Source::File(FileSource {
-            file: file.get_ref().clone(),
-            meters_per_unit: meters_per_unit.map_or(1.0, |v| *v.get_ref()),
-            up_axis: keys.up_axis.or(defaults.up_axis),
-            environment: environment.map(|e| e.get_ref().clone()),
-            lamps: keys.lamps.or(defaults.lamps),
-            drop_doubled_faces: keys.drop_doubled_faces.or(defaults.drop_doubled_faces).unwrap_or(false),
-            panes: keys.panes.clone().or_else(|| defaults.panes.clone()).unwrap_or_default(),
-            allow_missing_textures: keys.allow_missing_textures.or(defaults.allow_missing_textures).unwrap_or(false),
-            allow_missing_meshes: keys.allow_missing_meshes.or(defaults.allow_missing_meshes).unwrap_or(false),
-        }))
+        Ok(Source::File(source))
     }
 
     /// A generated home; its seed is the scene's unless it has its own, and `nth` more. A seed of its own stays whatever the command line
     /// says, or all homes of a dataset would be one.
     fn home(&self, keys: &Spanned<toml::Table>, seed: u64, nth: u32) -> Result<HomeConfig, ConfigError> {
         let read: Result<HomeConfig, toml::de::Error> = keys.get_ref().clone().try_into();
-        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", in_words(e.message()).0), HOME))?;
+        let mut home = read.map_err(|e| self.refuse(keys, format!("in `home`: {}", with_nearest(&in_words(e.message()).0)), HOME))?;
         if !names_seed(keys) {
             home.seed = seed;
         }
@@ -364,10 +350,10 @@ impl Resolver<'_> {
     }
 
     fn labels(&self, keys: &SceneKeys, name: &str) -> Result<Option<LabelSource>, ConfigError> {
-        let table = match (&keys.labels, &keys.home) {
+        let table = match (&keys.level.labels, &keys.home) {
             (Some(table), _) => table,
             (None, Some(_)) => return Ok(None), // a home knows its own
-            (None, None) => match &self.document.labels {
+            (None, None) => match &self.document.level.labels {
                 Some(table) => table,
                 None => return Ok(None),
             },

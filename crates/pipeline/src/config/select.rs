@@ -1,8 +1,8 @@
 //! Choosing scenes and cameras by a pattern of names.
 
-use super::locate::closest;
 use crate::error::Error;
 use crate::pattern::matches;
+use enfilade_options::closest;
 
 /// The names (of things called `what`) that match `pattern`, in which `*` stands for any run of characters and `,` separates alternatives; all of
 /// them without a pattern.

@@ -6,13 +6,13 @@
 use super::camera::CameraConfig;
 use super::expand::expand;
 use super::farm::FarmConfig;
+use super::import::FileSource;
 use super::select::select;
 use crate::error::Error;
 use crate::request::Request;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
-use enfilade_import::{EnvironmentOverride, UpAxis};
 use enfilade_math::hash_u64;
 use enfilade_render::RenderConfig;
 use enfilade_verify::view_gates::GateConfig;
@@ -115,59 +115,6 @@ pub enum Source {
     File(FileSource),
     /// The procedural furnished home.
     Home(HomeConfig),
-}
-
-/// A scene file and what it does not say itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FileSource {
-    /// As written: may be relative and may hold environment variables.
-    pub file: String,
-    /// Metres per unit of the file.
-    pub meters_per_unit: f64,
-    /// `None` takes the format's own.
-    pub up_axis: Option<UpAxis>,
-    /// Replaces the file's surroundings; a path is as written.
-    pub environment: Option<EnvironmentOverride>,
-    /// Adds lamps to the file's own.
-    pub lamps: Option<Lamps>,
-    /// Keeps the first of all faces with the same corners.
-    #[serde(default)]
-    pub drop_doubled_faces: bool,
-    /// Parts or materials of these names, with `*` for any characters, become clear panes.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub panes: Vec<String>,
-    /// Goes on, with a warning, where a texture file is missing.
-    #[serde(default)]
-    pub allow_missing_textures: bool,
-    /// Goes on, with a warning, where the file of a mesh is missing or damaged.
-    #[serde(default)]
-    pub allow_missing_meshes: bool,
-}
-
-impl FileSource {
-    /// The file as it comes.
-    pub fn of(file: impl Into<String>) -> Self {
-        Self {
-            file: file.into(),
-            meters_per_unit: 1.0,
-            up_axis: None,
-            environment: None,
-            lamps: None,
-            drop_doubled_faces: false,
-            panes: Vec::new(),
-            allow_missing_textures: false,
-            allow_missing_meshes: false,
-        }
-    }
-}
-
-/// Lamps for a scene whose file has none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Lamps {
-    /// Square ones below the ceiling of every room.
-    Ceiling,
 }
 
 /// Who wants less on disk says so; who wants what was rendered later cannot.

@@ -709,6 +709,32 @@ fn a_table_of_many_homes_numbers_them_and_their_seeds() {
 }
 
 #[test]
+fn words_are_written_alike_in_files_and_on_the_command_line() {
+    fn check<T: Copy + serde::Serialize>(all: &[T], name: impl Fn(T) -> &'static str) {
+        for &value in all {
+            assert_eq!(serde_json::to_value(value).unwrap(), name(value));
+        }
+    }
+    check(&Quality::ALL, Quality::name);
+    check(&ColorKind::ALL, ColorKind::name);
+    check(&Lamps::ALL, Lamps::name);
+    check(&Moment::ALL, Moment::name);
+    check(&RoomKind::ALL, RoomKind::name);
+    check(&enfilade_render::Filter::ALL, enfilade_render::Filter::name);
+    check(&GateAction::ALL, GateAction::name);
+}
+
+#[test]
+fn keys_of_a_scene_win_over_those_of_import_one_by_one() {
+    let text = "[import]\nmeters_per_unit = 0.01\npanes = [\"glass\"]\n[[scene]]\nname = \"a\"\nfile = \"a.obj\"\npanes = []\n\
+        drop_doubled_faces = true\nup_axis = \"-z\"\n";
+    let config = resolve(Path::new("a.toml"), text, &Overrides::default(), &|_| None).unwrap();
+    let Source::File(source) = &config.scenes[0].source else { panic!() };
+    let expected = FileSource { meters_per_unit: 0.01, drop_doubled_faces: true, ..FileSource::of("a.obj") };
+    assert_eq!(*source, FileSource { up_axis: Some(UpAxis::MinusZ), ..expected });
+}
+
+#[test]
 fn products_of_which_nothing_could_be_made_are_refused() {
     let text = error(&format!("products = [\"flow\"]\n{SCENE}"));
     assert!(text.contains("flow follows the list of pairs") && text.contains("{ flow = { step = 1 } }"), "{text}");

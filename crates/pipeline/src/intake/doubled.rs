@@ -1,15 +1,36 @@
 //! `drop_doubled_faces`: of faces with the same corners only the first stays.
 
 use super::seen::Look;
+use crate::config::FileSource;
 use enfilade_dataset::counted;
 use enfilade_geometry::Mesh;
 use enfilade_import::Imported;
-use enfilade_scene::PartId;
+use enfilade_scene::{PartId, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Drops every doubled face, and with its last face a part; says how many went.
-pub(super) fn drop_faces(imported: &mut Imported, look: &Look) -> Option<String> {
+/// What doubled faces do, and how they go; `None` where there are none, or they go.
+pub(super) fn remark(source: &FileSource, scene: &Scene, look: &Look) -> Option<String> {
     let doubled = &look.findings.doubled;
+    let part = |triangle: u32| look.world.sources[triangle as usize].part;
+    let [earlier, later] = *doubled.first()?;
+    if source.drop_doubled_faces {
+        return None;
+    }
+    Some(format!(
+        "{} the corners of another, as of part {:?} and {:?}: which of the two is seen is chance; drop_doubled_faces = true (or \
+         --drop-doubled-faces) keeps the first",
+        if doubled.len() == 1 { "1 face has".into() } else { format!("{} faces have", doubled.len()) },
+        scene.parts[part(earlier) as usize].name,
+        scene.parts[part(later) as usize].name
+    ))
+}
+
+/// Drops every doubled face if that is asked for, and with its last face a part; says how many went.
+pub(super) fn drop_faces(source: &FileSource, imported: &mut Imported, look: &Look) -> Option<String> {
+    let doubled = &look.findings.doubled;
+    if !source.drop_doubled_faces {
+        return None;
+    }
     let mut by_part: BTreeMap<PartId, BTreeSet<u32>> = BTreeMap::new();
     for [_, later] in doubled {
         let source = look.world.sources[*later as usize];

@@ -20,7 +20,7 @@ pub(crate) use seen::Look;
 
 use crate::config::{FileSource, Lamps};
 use crate::error::Error;
-use enfilade_import::{ImportOptions, Imported};
+use enfilade_import::Imported;
 use enfilade_scene::{Cx, Warning};
 use std::path::{Path, PathBuf};
 
@@ -44,17 +44,10 @@ pub(crate) fn load_file(
     locate: &dyn Fn(&str) -> Result<PathBuf, Error>,
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
-    let mut environment = source.environment.clone();
-    if let Some(written) = environment.as_mut().and_then(|e| e.file_mut()) {
+    let mut options = source.importer();
+    if let Some(written) = options.environment.as_mut().and_then(|e| e.file_mut()) {
         *written = locate(&written.to_string_lossy())?;
     }
-    let options = ImportOptions {
-        meters_per_unit: source.meters_per_unit,
-        up_axis: source.up_axis,
-        environment,
-        allow_missing_textures: source.allow_missing_textures,
-        allow_missing_meshes: source.allow_missing_meshes,
-    };
     enfilade_import::load(file, &options, cx).map_err(Error::stage)
 }
 
@@ -62,9 +55,7 @@ pub(crate) fn load_file(
 pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Look {
     let look = Look::at(&imported.scene);
     let mut remarks = remarks::of_geometry(source, imported, &look);
-    if source.drop_doubled_faces {
-        remarks.extend(doubled::drop_faces(imported, &look));
-    }
+    remarks.extend(doubled::drop_faces(source, imported, &look));
     if source.lamps == Some(Lamps::Ceiling) {
         remarks.push(lamps::hang(&mut imported.scene, imported.labels.as_mut(), &look));
     }

@@ -1,5 +1,6 @@
 //! What a look at a scene finds, in sentences that name the key that mends it.
 
+use super::doubled;
 use super::labels::labels_by_part;
 use super::seen::Look;
 use super::suspect::{self, Sizes, UNITS};
@@ -37,7 +38,8 @@ pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look)
         }
         (_, by_length) => by_length,
     };
-    let found = [suspicions.axes, unit, open_floor(look), doubled(source, scene, look), overlapping(scene, look), backs(scene, look)];
+    let found =
+        [suspicions.axes, unit, open_floor(look), doubled::remark(source, scene, look), overlapping(scene, look), backs(scene, look)];
     found.into_iter().flatten().chain(without_area(scene, look)).collect()
 }
 
@@ -98,22 +100,6 @@ fn open_floor(look: &Look) -> Option<String> {
             100.0 * share
         )
     })
-}
-
-fn doubled(source: &FileSource, scene: &Scene, look: &Look) -> Option<String> {
-    let doubled = &look.findings.doubled;
-    let part = |triangle: u32| look.world.sources[triangle as usize].part;
-    let [earlier, later] = *doubled.first()?;
-    if source.drop_doubled_faces {
-        return None;
-    }
-    Some(format!(
-        "{} the corners of another, as of part {:?} and {:?}: which of the two is seen is chance; drop_doubled_faces = true (or \
-         --drop-doubled-faces) keeps the first",
-        if doubled.len() == 1 { "1 face has".into() } else { format!("{} faces have", doubled.len()) },
-        scene.parts[part(earlier) as usize].name,
-        scene.parts[part(later) as usize].name
-    ))
 }
 
 fn overlapping(scene: &Scene, look: &Look) -> Option<String> {

@@ -6,7 +6,7 @@ use super::stale::{States, key};
 use super::update::{MakeOptions, update};
 use super::whole::{files, parts};
 use crate::error::Error;
-use crate::request::{Product, Request};
+use crate::request::Request;
 use crate::stages::{Output, Stage, record_key};
 use crate::workdir::{Hash, Workdir};
 use enfilade_dataset::{Dataset, WORKDIR};

@@ -1,13 +1,14 @@
 //! Where trajectories begin: the cameras that were chosen, the file's, or places that are found, with the free space around them.
 
 use super::Job;
-use crate::config::{CameraChoice, closest};
+use crate::config::CameraChoice;
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::world::World;
 use enfilade_dataset::counted_as;
 use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Preset, StartsConfig};
 use enfilade_math::DVec3;
+use enfilade_options::closest;
 use enfilade_scene::{Cx, Pose, Quiet, Scene, StartCamera, Warning};
 
 /// The cameras where trajectories begin, and the space around them. The file's own cameras give way to found places where none of them is

@@ -2,62 +2,49 @@
 
 use super::{VIEW_GATES, ViewGate, ViewMeasures};
 use crate::frame_gates::Gate;
+use enfilade_options::{options, words};
 use serde::{Deserialize, Serialize};
 
-/// What becomes of a view that a gate does not let through.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum GateAction {
-    /// The view is not rendered, and planning looks for another one where it can.
-    #[default]
-    Reject,
-    /// The view is rendered as if nothing were wrong, and reported.
-    Report,
+words! {
+    /// What becomes of a view that a gate does not let through.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum GateAction {
+        /// The view is not rendered, and planning looks for another one where it can.
+        #[default]
+        Reject = "reject",
+        /// The view is rendered as if nothing were wrong, and reported.
+        Report = "report",
+    }
 }
 
-/// The limits; values equal to a limit pass.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct GateConfig {
-    /// What becomes of a view that does not pass. Default: it is rejected.
-    pub action: GateAction,
-    /// Largest share of the pixels that show no surface, for a view not to be blank. Default 0.9.
-    pub max_void_share: f64,
-    /// Something nearer to the camera than this closes it in, metres. Default 0.5.
-    pub enclosed_m: f64,
-    /// Largest share of the directions around the camera that may be closed. Default 0.8: a corner of a room closes less.
-    pub max_enclosed_share: f64,
-    /// Largest share of the level directions around the camera that may lead out. Default 0.5: outside of a building more do.
-    pub max_open_share: f64,
-    /// Largest share of the pixels that may show the back of things. Default 0.25.
-    pub max_back_face_share: f64,
-    /// Something nearer than this is too near, metres. Default 0.3.
-    pub min_depth_m: f64,
-    /// Largest share of the pixels that may show something too near. Default 0.5.
-    pub max_near_share: f64,
-    /// Least range of depths, metres. Default 0.5.
-    pub min_depth_range_m: f64,
-    /// Largest share of the pixels that one plane may fill. Default 0.9.
-    pub max_plane_share: f64,
-    /// Largest share of pixels without depth. Default 0.03.
-    pub max_invalid_share: f64,
-}
-
-impl Default for GateConfig {
-    fn default() -> Self {
-        Self {
-            action: GateAction::Reject,
-            max_void_share: 0.9,
-            enclosed_m: 0.5,
-            max_enclosed_share: 0.8,
-            max_open_share: 0.5,
-            max_back_face_share: 0.25,
-            min_depth_m: 0.3,
-            max_near_share: 0.5,
-            min_depth_range_m: Gate::DepthRange.spec().bound,
-            max_plane_share: Gate::PlaneShare.spec().bound,
-            max_invalid_share: Gate::InvalidShare.spec().bound,
-        }
+options! {
+    /// The limits; values equal to a limit pass.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GateConfig keys pub GateKeys {
+        /// What becomes of a view that does not pass. Default: it is rejected.
+        pub action: GateAction = GateAction::Reject,
+        /// Largest share of the pixels that show no surface, for a view not to be blank. Default 0.9.
+        pub max_void_share: f64 = 0.9,
+        /// Something nearer to the camera than this closes it in, metres. Default 0.5.
+        pub enclosed_m: f64 = 0.5,
+        /// Largest share of the directions around the camera that may be closed. Default 0.8: a corner of a room closes less.
+        pub max_enclosed_share: f64 = 0.8,
+        /// Largest share of the level directions around the camera that may lead out. Default 0.5: outside of a building more do.
+        pub max_open_share: f64 = 0.5,
+        /// Largest share of the pixels that may show the back of things. Default 0.25.
+        pub max_back_face_share: f64 = 0.25,
+        /// Something nearer than this is too near, metres. Default 0.3.
+        pub min_depth_m: f64 = 0.3,
+        /// Largest share of the pixels that may show something too near. Default 0.5.
+        pub max_near_share: f64 = 0.5,
+        /// Least range of depths, metres. Default 0.5.
+        pub min_depth_range_m: f64 = Gate::DepthRange.spec().bound,
+        /// Largest share of the pixels that one plane may fill. Default 0.9.
+        pub max_plane_share: f64 = Gate::PlaneShare.spec().bound,
+        /// Largest share of pixels without depth. Default 0.03.
+        pub max_invalid_share: f64 = Gate::InvalidShare.spec().bound,
     }
 }
 

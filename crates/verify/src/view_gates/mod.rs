@@ -7,6 +7,6 @@ mod config;
 mod gate;
 mod measure;
 
-pub use config::{GateAction, GateConfig, LimitError};
+pub use config::{GateAction, GateConfig, GateKeys, LimitError};
 pub use gate::{VIEW_GATES, ViewGate, ViewGateSpec};
 pub use measure::{Place, ViewMeasures};

@@ -1,0 +1,39 @@
+"""Functions whose keywords are options that are declared once, in Rust: their signatures and doc strings have every one of them."""
+
+import functools
+import inspect
+
+from . import _native
+
+
+def explained(function, *declarations):
+    """The function with the options of declarations in its signature and in its doc string."""
+    rows = [row for declaration in declarations for row in _native.declared(declaration)]
+    options = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default) for name, default, _ in rows]
+    signature = inspect.signature(function)
+    own = [parameter for parameter in signature.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
+    places = [parameter for parameter in own if parameter.kind is not parameter.KEYWORD_ONLY]
+    keywords = [parameter for parameter in own if parameter.kind is parameter.KEYWORD_ONLY]
+
+    @functools.wraps(function)
+    def call(*places, **keywords):
+        return function(*places, **keywords)
+
+    call.__module__ = "enfilade"
+    call.__signature__ = signature.replace(parameters=[*places, *options, *keywords])
+    call.__doc__ = _described(function, rows)
+    return call
+
+
+def _described(documented, rows):
+    """The doc string with a line for each option in place of `{options}`."""
+    return documented.__doc__.replace("{options}", "\n".join(f"{name}: {sentence}" for name, _, sentence in rows))
+
+
+home = explained(_native.home, "HomeConfig")
+import_scene = explained(_native.import_scene, "FileSource")
+_native.Config.demo = staticmethod(explained(_native.Config.demo, "Overrides", "RenderChoices"))
+_native.Config.read = staticmethod(explained(_native.Config.read, "Overrides", "RenderChoices"))
+_native.Dataset.__doc__ = _described(_native.Dataset, _native.declared("DatasetOptions"))
+_native.Scene.home = staticmethod(explained(_native.Scene.home, "HomeConfig"))
+_native.Scene.read = staticmethod(explained(_native.Scene.read, "FileSource"))

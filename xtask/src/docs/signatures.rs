@@ -1,0 +1,135 @@
+//! `cargo xtask signatures`: options in the signatures of the Python module's stub, from their declarations.
+//!
+//! They are the lines from `# options: STRUCT` to `# end of options`; the rest of the stub is written by hand.
+
+use super::fields::{Declared, last_name};
+use super::sources::Sources;
+use crate::house::House;
+use syn::Type;
+
+const STUB: &str = "crates/python/enfilade/__init__.pyi";
+const BEGINS: &str = "# options: ";
+const ENDS: &str = "# end of options";
+
+/// Writes the lines anew.
+///
+/// # Errors
+/// When the stub cannot be read or written, or an option has a type without a word in Python.
+pub fn write(house: &House) -> Result<(), String> {
+    let text = renewed(&house.read(STUB)?, &Sources::read(house)?)?;
+    std::fs::write(house.root.join(STUB), text).map_err(|error| format!("cannot write {STUB}: {error}"))
+}
+
+/// Compares the lines with the declarations.
+///
+/// # Errors
+/// With the first line that differs.
+pub fn check(house: &House) -> Result<String, String> {
+    let text = house.read(STUB)?;
+    let expected = renewed(&text, &Sources::read(house)?)?;
+    let differs = text.lines().zip(expected.lines()).position(|(found, expected)| found != expected);
+    match differs {
+        Some(line) => {
+            let [found, expected] = [&text, &expected].map(|text| text.lines().nth(line).unwrap_or_default().trim());
+            Err(format!("{STUB}:{}: found `{found}`, expected `{expected}`", line + 1))
+        }
+        None if text != expected => Err(format!("{STUB} ends otherwise than it should")),
+        None => Ok(format!("{} signatures", text.matches(BEGINS).count())),
+    }
+}
+
+/// The structs whose options the function or method `name` of a stub takes; those of a class are those of `__new__`.
+pub fn options_of<'s>(stub: &'s str, name: &str) -> Vec<&'s str> {
+    let begins = [format!("def {name}("), "def __new__(".into()];
+    let from = begins.iter().find_map(|begin| stub.find(begin.as_str()));
+    let own = from.and_then(|from| stub[from + 1..].split("def ").next()).unwrap_or_default();
+    own.lines().filter_map(|line| line.trim_start().strip_prefix(BEGINS)).collect()
+}
+
+/// The stub without the lines that mark options.
+pub fn without_marks(stub: &str) -> String {
+    let is_mark = |line: &&str| line.trim_start().starts_with(BEGINS) || line.trim() == ENDS;
+    stub.lines().filter(|line| !is_mark(line)).collect::<Vec<_>>().join("\n")
+}
+
+fn renewed(text: &str, sources: &Sources) -> Result<String, String> {
+    let (mut renewed, mut inside) = (String::new(), false);
+    for line in text.lines() {
+        if line.trim() == ENDS {
+            inside = false;
+        }
+        if !inside {
+            renewed += &format!("{line}\n");
+        }
+        if let Some(name) = line.trim_start().strip_prefix(BEGINS) {
+            inside = true;
+            let indent = &line[..line.len() - line.trim_start().len()];
+            for option in sources.fields(name)? {
+                renewed += &format!("{indent}{}\n", keyword(option, sources)?);
+            }
+        }
+    }
+    if inside { Err(format!("{STUB}: a line `{ENDS}` is missing")) } else { Ok(renewed) }
+}
+
+/// `name: type = default,`.
+fn keyword(option: &Declared, sources: &Sources) -> Result<String, String> {
+    let of = python_type(option, sources)?;
+    let (of, default) = match option.default.as_deref() {
+        Some("true") => (of, "True"),
+        Some("false") => (of, "False"),
+        Some(number) if number != "None" => (of, number),
+        _ => (format!("{of} | None"), "None"),
+    };
+    Ok(format!("{}: {of} = {default},", option.name))
+}
+
+fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
+    if let Some(values) = sources.values(&option.of) {
+        return Ok(format!("Literal[{}]", values.join(", ")));
+    }
+    if let Type::Array(_) = option.of {
+        return Ok("Sequence[int]".into());
+    }
+    let of = match last_name(&option.of).as_deref() {
+        Some("bool") => "bool",
+        Some("u32" | "u64") => "int",
+        Some("f32" | "f64") => "float",
+        Some("String") => "str",
+        Some("EnvironmentOverride") => "Path",
+        Some("Vec") => "Names",
+        other => {
+            return Err(format!(
+                "the option `{}` is a {other:?}, which has no word in Python yet: xtask/src/docs/signatures.rs",
+                option.name
+            ));
+        }
+    };
+    Ok(of.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stub_has_the_options_that_are_declared() {
+        check(&House::find().unwrap()).unwrap();
+    }
+
+    #[test]
+    fn lines_between_the_marks_are_renewed_and_others_stay() {
+        let sources = Sources::read(&House::find().unwrap()).unwrap();
+        let old = "def home(\n    *,\n    # options: HomeConfig\n    gone: int = 3,\n    # end of options\n    progress: bool = True,\n) -> None: ...\n";
+        let new = renewed(old, &sources).unwrap();
+        assert!(
+            !new.contains("gone") && new.contains("\n    clutter: float = 1.0,\n") && new.contains("    progress: bool = True,\n"),
+            "{new}"
+        );
+        assert!(new.contains("moment: Literal[\"day\", \"evening\", \"night\"] | None = None,"), "{new}");
+        assert_eq!(renewed(&new, &sources).unwrap(), new);
+        assert_eq!(options_of(&new, "home"), ["HomeConfig"]);
+        assert!(!without_marks(&new).contains('#'));
+        assert!(renewed("    # options: HomeConfig\n", &sources).unwrap_err().contains("is missing"));
+    }
+}
