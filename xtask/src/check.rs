@@ -24,7 +24,7 @@ const STEPS: [Step; 11] = [
     },
     Step {
         name: "circles",
-        about: "no file of a crate imports another in a circle",
+        about: "no file or module of a crate imports another in a circle",
         remedy: "move what both need to a file of its own, below them; if the circle is right, say why in xtask/src/circles/mod.rs",
         run: circles::check,
     },

@@ -36,19 +36,19 @@ pub fn check(house: &House) -> Result<String, String> {
 
 /// The circles of a crate in words: those of its files, then those of its modules that no circle of files makes.
 fn circles_of(modules: &Crate) -> Vec<String> {
-    let files = graph::circles(&modules.imports());
+    let imports = modules.imports();
+    let files = graph::circles(&imports);
     if !files.is_empty() {
-        return files.iter().map(|circle| told(modules, circle)).collect();
+        return files.iter().map(|circle| told(modules, &imports, circle)).collect();
     }
-    let within = modules.imports_within();
+    let within = modules.imports_within(&imports);
     within.values().flat_map(|imports| graph::circles(imports).into_iter().map(|circle| told_of_modules(imports, &circle))).collect()
 }
 
 /// A circle in words: its files, then which imports what from which.
-fn told(modules: &Crate, circle: &[usize]) -> String {
+fn told(modules: &Crate, imports: &Imports, circle: &[usize]) -> String {
     let names: Vec<&str> = circle.iter().map(|&file| modules.files[file].as_str()).collect();
     let mut text = format!("{} files import each other in a circle: {}", circle.len(), names.join(", "));
-    let imports = modules.imports();
     for (&(from, to), items) in imports.iter().filter(|((from, to), _)| circle.contains(from) && circle.contains(to)) {
         let items: Vec<&str> = items.iter().map(String::as_str).collect();
         text += &format!("\n    {} -> {}: {}", modules.files[from], modules.files[to], items.join(", "));

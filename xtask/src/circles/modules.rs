@@ -116,16 +116,16 @@ impl Crate {
         imports
     }
 
-    /// What the modules within each module import from each other, each taken as one with all that is below it.
+    /// What the modules within each module import from each other, each taken as one with all that is below it, by the `imports` of files.
     ///
     /// A module and what is below it are not compared here: their files are, by [`Crate::imports`].
-    pub fn imports_within(&self) -> BTreeMap<Path, Imports<Path>> {
-        let mut within: BTreeMap<Path, Imports<Path>> = BTreeMap::new();
-        for ((from, to), names) in self.imports() {
-            let (a, b) = (self.module_of(from), self.module_of(to));
+    pub fn imports_within(&self, imports: &Imports) -> BTreeMap<Path, Imports<Path>> {
+        let (begins, mut within) = (self.modules_of_files(), BTreeMap::<Path, Imports<Path>>::new());
+        for (&(from, to), names) in imports {
+            let (a, b) = (begins[from], begins[to]);
             let shared = a.iter().zip(b).take_while(|(a, b)| a == b).count();
             if shared < a.len().min(b.len()) {
-                let names = names.into_iter().collect::<Vec<_>>().join(", ");
+                let names = names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
                 let import = format!("{} -> {}: {names}", self.files[from], self.files[to]);
                 let pair = (a[..=shared].to_vec(), b[..=shared].to_vec());
                 within.entry(a[..shared].to_vec()).or_default().entry(pair).or_default().insert(import);
@@ -134,10 +134,16 @@ impl Crate {
         within
     }
 
-    /// The module that a file begins with.
-    fn module_of(&self, file: usize) -> &[String] {
-        let own = self.modules.iter().filter(|(_, module)| module.file == file).map(|(path, _)| path.as_slice());
-        own.min_by_key(|path| path.len()).unwrap_or_default()
+    /// The module that each file begins with; modules within it have longer paths.
+    fn modules_of_files(&self) -> Vec<&[String]> {
+        let mut begins: Vec<Option<&[String]>> = vec![None; self.files.len()];
+        for (path, module) in &self.modules {
+            let known = &mut begins[module.file];
+            if known.is_none_or(|known| path.len() < known.len()) {
+                *known = Some(path);
+            }
+        }
+        begins.into_iter().map(Option::unwrap_or_default).collect()
     }
 
     /// File and name of the item that a path leads to from a module; `None` for other crates, local names and methods.
