@@ -7,6 +7,9 @@ use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
+/// Keys that had another name in 0.1.0, whose datasets have their files beside them: the old name, and today's.
+const FORMER: [(&str, &str); 1] = [("splits", "light_parts")];
+
 /// A struct whose fields are keys of a table, all of which may be left out.
 pub trait Keys: Default {
     /// Adds the name of every key.
@@ -66,9 +69,10 @@ impl Visitor<'_> for Name<'_> {
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         let known = || self.0.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let today = FORMER.iter().find(|(former, _)| *former == name).map_or(name, |(_, today)| *today);
         self.0
             .iter()
-            .find(|known| **known == name)
+            .find(|known| **known == today)
             .copied()
             .ok_or_else(|| E::custom(format_args!("unknown field `{name}`, expected one of {}", known())))
     }

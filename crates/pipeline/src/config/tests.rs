@@ -87,6 +87,11 @@ fn color_is_denoised_unless_asked_otherwise_and_no_library_can_be_named() {
 }
 
 #[test]
+fn a_key_by_its_name_in_files_of_stored_datasets_is_read() {
+    assert!(config(&format!("[render]\nsplits = true\n{SCENE}")).scenes[0].render.light_parts);
+}
+
+#[test]
 fn choices_of_the_command_line_win_over_the_file_and_its_samples_over_the_quality() {
     let text = format!("[render]\nsamples = 5\nnoise = 0.1\nclamp = 4\ntime_limit_s = 60\nsave_every_s = 5\nlight_parts = true\n{SCENE}");
     let scene = config(&text).scenes.remove(0);
