@@ -1,5 +1,7 @@
 //! The command line: one definition per verb and flag, with its help and an example.
 
+#[cfg(test)]
+mod examples;
 mod farm;
 mod flags;
 mod make;
