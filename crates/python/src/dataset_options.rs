@@ -40,11 +40,11 @@ words! {
     /// A side of the dataset's division.
     #[derive(Clone, Copy)]
     pub enum Side {
-        /// What models learn from.
+        /// Scenes that models learn from.
         Train = "train",
-        /// What training is steered by.
+        /// Scenes that training is steered by.
         Val = "val",
-        /// What models are judged by.
+        /// Scenes that models are judged by.
         Test = "test",
     }
 }

@@ -25,11 +25,11 @@ options! {
         pub seed: u64 = 0,
         /// Noise target: rendering stops once the picture is that clean, such as 0.02.
         pub noise: Option<f32> = None => SHARE,
-        /// Longest path, as of [render].
+        /// Longest path, as of `[render]`.
         pub max_bounces: Option<u32> = None,
-        /// Largest radiance of one indirect sample, as of [render].
+        /// Largest radiance of one indirect sample, as of `[render]`.
         pub clamp: Option<f32> = None,
-        /// Makes rough diffuse surfaces Lambertian, as of [render].
+        /// Makes rough diffuse surfaces Lambertian, as of `[render]`.
         pub lambertian: bool = false,
     }
 }
