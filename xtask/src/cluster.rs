@@ -89,7 +89,7 @@ fn is_root(house: &House) -> bool {
 }
 
 /// A folder with Debian 13, of which HTCondor is taken, since Debian 12 has none, and with a user for it: it does no work for root.
-/// `None` where it cannot be made, which is told.
+/// `None` where it cannot be made, which is reported.
 fn condor_root(house: &House, folder: PathBuf) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);

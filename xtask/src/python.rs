@@ -34,7 +34,7 @@ const READERS: [&str; 4] = ["pillow", "pycocotools", "OpenEXR", "webdataset"];
 /// system's if it has h5py, else one made with h5py alone.
 ///
 /// # Errors
-/// On an unattended machine, when none can be had; elsewhere that is told, and `None`.
+/// On an unattended machine, when none can be had; elsewhere that is reported, and `None`.
 pub fn with_h5py(house: &House) -> Result<Option<PathBuf>, String> {
     if let Some(named) = std::env::var_os(VARIABLE) {
         let works = reads_hdf5(house, Path::new(&named));

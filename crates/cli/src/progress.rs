@@ -71,7 +71,7 @@ impl Progress {
         VerbCx(self)
     }
 
-    /// The [`Cx`] of work on `name` that is no stage of the pipeline, and all that is told.
+    /// The [`Cx`] of work on `name` that is no stage of the pipeline, and all that is reported.
     pub fn begun(self, name: &str, verb: &'static str) -> impl Cx + use<> {
         self.start(name, verb);
         VerbCx(self)
@@ -131,7 +131,7 @@ impl Progress {
                 state.end();
                 state.line(&format!("  {name:<8} {summary} ({wall_s:.1} s)"));
             }
-            // The reason is told once, at the end.
+            // The reason is reported once, at the end.
             Event::Failed { .. } => {
                 state.heading(scene);
                 state.end();

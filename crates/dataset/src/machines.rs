@@ -10,7 +10,7 @@ const GIB: f64 = 1_073_741_824.0;
 /// Memory that a machine's system keeps for itself, GiB; `farm submit` asks engines for as much beside the program's own.
 const SYSTEM_GIB: f64 = 0.5;
 
-/// The smallest machine with room for `threads` and for a process of `peak_bytes`; `None` when none is as large, or no size is told.
+/// The smallest machine with room for `threads` and for a process of `peak_bytes`; `None` when none is as large, or no size is given.
 pub fn smallest_feasible(prices: &[Price], threads: u32, peak_bytes: u64) -> Option<&Price> {
     let fits = |machine: &Machine| machine.vcpus >= threads && machine.memory_gib >= memory_gib(peak_bytes);
     let sized = prices.iter().filter_map(|price| Some((price.machine.filter(fits)?, price)));

@@ -1,6 +1,6 @@
 //! What is paid for processor time: the machine, and whatever is licensed beside it.
 //!
-//! A price is one way to pay, such as spot machines; a table of prices has several, and every sum is told for each. A price has one rate
+//! A price is one way to pay, such as spot machines; a table of prices has several, and every sum is given for each. A price has one rate
 //! or more: that of the machine, and those of licences. Hypersim paid 0.0161 to 0.0484 dollars per vCPU-hour for machines, half of them
 //! 0.0165 or less, and 0.009 for V-Ray on each, which is 0.00015 per core-minute.
 
@@ -76,7 +76,7 @@ pub struct Price {
     pub name: String,
     /// Rate of the machine; 0 or more.
     pub dollars_per_vcpu_hour: f64,
-    /// The machine that is paid, where its size is told.
+    /// The machine that is paid, where its size is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<Machine>,
     /// What is paid beside it.

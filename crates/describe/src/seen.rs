@@ -43,7 +43,7 @@ impl SeenFrame {
     }
 }
 
-/// Looks at these frames of a camera. Frames without instances or distances are left out, which `cx` is told; without reflectance things have
+/// Looks at these frames of a camera. Frames without instances or distances are left out, which `cx` hears of; without reflectance things have
 /// no colour.
 ///
 /// # Errors

@@ -115,7 +115,7 @@ impl fmt::Display for ImportReport {
     }
 }
 
-/// Warnings of one import, each once. They are told, and kept for the report, when the import ends: one for all of a kind.
+/// Warnings of one import, each once. They are reported, and kept for the report, when the import ends: one for all of a kind.
 pub(crate) struct Warnings<'a> {
     cx: &'a dyn Cx,
     seen: HashSet<(String, String)>,

@@ -1,6 +1,6 @@
 //! Instances that are hardly one thing, and things that are hardly several: what a look at the geometry tells of labels.
 //!
-//! Boxes of parts stand for the parts, so that only what is surely apart is told.
+//! Boxes of parts stand for the parts, so that only what is surely apart is reported.
 
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Labels, PartId, Scene, is_stuff};

@@ -43,7 +43,7 @@ impl Budget {
     pub fn allocate(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
         let errors = errors(width, estimates);
 
-        // Where no error can be told, either nothing is left to improve or nothing is known.
+        // Where no error is known, either nothing is left to improve or nothing is known.
         let total: f64 = errors.iter().sum();
         if !(total > 0.0 && total.is_finite()) {
             let is_clean = total == 0.0 && self.noise.is_some();

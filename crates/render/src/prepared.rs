@@ -161,7 +161,7 @@ impl<'s> RenderScene<'s> {
         (through, farthest.get().1)
     }
 
-    /// The fraction of light that gets through; `pane` is told every pane on the way, in no order.
+    /// The fraction of light that gets through; `pane` is called for every pane on the way, in no order.
     #[inline]
     fn transmittance_of(&self, ray: &Ray, pane: impl Fn(&Hit)) -> Rgb {
         let through = Cell::new(Rgb::WHITE);

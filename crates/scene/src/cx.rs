@@ -31,7 +31,7 @@ pub trait Cx: Sync {
 
 /// Tells a [`Cx`] how many units of parallel work are finished.
 ///
-/// It is told before each unit as well as after it. A caller may end the work by unwinding from [`Cx::progress`], which ends what one thread
+/// It hears of each unit before and after it. A caller may end the work by unwinding from [`Cx::progress`], which ends what one thread
 /// does; the other threads take over what that one leaves, and end at their next unit before they have begun it.
 pub struct Counted<'a> {
     cx: &'a dyn Cx,
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-    /// Keeps what is told, and ends the work when a number of units is finished.
+    /// Keeps what it hears, and ends the work when a number of units is finished.
     struct Ending(Mutex<Vec<(u64, u64)>>, u64);
 
     impl Cx for Ending {

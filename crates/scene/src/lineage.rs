@@ -3,7 +3,7 @@
 use crate::{ObjectId, Part, PartId, Scene};
 
 impl Scene {
-    /// A number that all parts of one object share and no other part has: what instances are told by. A part without an object is one by
+    /// A number that all parts of one object share and no other part has: by which instances are known. A part without an object is one by
     /// itself.
     ///
     /// ```

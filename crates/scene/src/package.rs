@@ -1,7 +1,7 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
-//! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is told from a scene that is wrong.
+//! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is distinguished from a scene that is wrong.
 //!
 //! ```
 //! # use enfilade_geometry::Mesh;

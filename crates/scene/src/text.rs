@@ -10,7 +10,7 @@ const WINDOWS: [char; 32] = [
 
 /// The text that `bytes` are, without a byte order mark.
 ///
-/// UTF-16 is told by its mark, or by the zeros in its first two letters. What is no UTF-8 is taken for Windows-1252, the Western code page.
+/// UTF-16 is recognised by its mark, or by the zeros in its first two letters. What is no UTF-8 is taken for Windows-1252, the Western code page.
 ///
 /// ```
 /// use enfilade_scene::decoded_text;

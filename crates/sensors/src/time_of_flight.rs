@@ -119,7 +119,7 @@ impl TimeOfFlight {
         Ok(Reading { drawn, data: Data::Layer(Layer::DepthMeters, Values::F32(distances)) })
     }
 
-    /// A distance as it is told: without whole turns of the phase, in steps.
+    /// A distance as the sensor gives it: without whole turns of the phase, in steps.
     fn read_out(&self, distance_m: f32) -> f32 {
         let turned = self.ambiguity_m.map_or(distance_m, |m| f64::from(distance_m).rem_euclid(m) as f32);
         if self.step_m > 0.0 { in_steps(f64::from(turned), self.step_m) as f32 } else { turned }

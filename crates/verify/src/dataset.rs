@@ -271,7 +271,7 @@ impl SceneFacts {
         let poses = &filmed.trajectory.poses;
         let index = poses.iter().position(|pose| pose.frame == number && filmed.frames.contains(&pose.frame))?;
         let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
-        // What cannot be read is told where that frame itself is checked.
+        // What cannot be read is reported where that frame itself is checked.
         let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
         let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
         Some(Listed::new(view, distances))
@@ -385,7 +385,7 @@ impl SceneFacts {
     ) -> Option<PairValues> {
         let (partner, poses) = (&other.trajectory.name, &other.trajectory.poses);
         let number = poses[index].frame;
-        // What cannot be read is told where that frame itself is checked.
+        // What cannot be read is reported where that frame itself is checked.
         let (frame, rounding) = read_frame(self.stored(dataset), partner, number, &two_views::COMPARED, &mut Card::default())?;
         let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
         let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];

@@ -47,7 +47,7 @@ pub(super) fn check(pair: &FramePair, layers: &PairLayers, [first, second]: [&Li
     card.observe(Law::PairVisibility, share, || format!("{}: {contradictions} of {pixels} pixels", from_to()));
 }
 
-/// 0 where nothing is told of a pixel that shows nothing.
+/// 0 where nothing is known of a pixel that shows nothing.
 fn is_empty(layers: &PairLayers, pixel: usize) -> f64 {
     let empty = layers.flow.get(2 * pixel).is_nan() && layers.moved.get(3 * pixel).is_nan() && layers.seen.get(pixel) == 0.0;
     if empty { 0.0 } else { f64::INFINITY }

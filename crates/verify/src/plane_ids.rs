@@ -1,4 +1,4 @@
-//! The law of planes: pixels that are told to show a plane of the layout lie on it.
+//! The law of planes: pixels that are recorded to show a plane of the rooms lie on it.
 
 use super::card::Card;
 use super::law::Law;

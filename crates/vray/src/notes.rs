@@ -1,4 +1,4 @@
-//! Things that should be known about images and happen many times: each is told once, with how often and where first.
+//! Things that should be known about images and happen many times: each is reported once, with how often and where first.
 
 use enfilade_scene::{Cx, Warning};
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Files come back as they were; edits change what they name and nothing else; damage is told with its place.
+//! Files come back as they were; edits change what they name and nothing else; damage is reported with its place.
 
 use enfilade_vrscene::{Document, Include, Item, Plugin, Transform, Value};
 use std::path::Path;

@@ -105,7 +105,7 @@ struct Whole {
     mask: Vec<u8>,
 }
 
-/// What is told of one image.
+/// Facts about one image.
 type Told = (ImageCamera, Vec<(Truth, TruthInfo)>);
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {

@@ -180,7 +180,7 @@ fn runs(instance: &Instance, width: u32, height: u32) -> Vec<i64> {
     run_lengths(&places, width * height).into_iter().map(i64::from).collect()
 }
 
-/// COCO's string of runs: from the fourth on, each is told by its difference to the run before the last.
+/// COCO's string of runs: from the fourth on, each is stored as its difference to the run before the last.
 fn compress(runs: &[i64]) -> String {
     let mut text = String::new();
     for (i, &run) in runs.iter().enumerate() {

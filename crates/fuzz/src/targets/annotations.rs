@@ -63,7 +63,7 @@ pub fn logs() -> Vec<Seed> {
     vec![Seed { name: "edits".into(), bytes: log[header.len()..].to_vec() }]
 }
 
-/// Requests that change something are told to a new program after this many, so that its log does not fill the memory.
+/// Requests that change something go to a new program after this many, so that its log does not fill the memory.
 const MAX_REQUESTS: usize = 400;
 
 /// Answers requests: a line of method and address, then the body. Whatever is asked, nothing may fail within.

@@ -51,7 +51,7 @@ pub enum Reads {
         /// The file that is imported.
         scene: &'static str,
     },
-    /// By a function of its own, which is told of a folder where it may write.
+    /// By a function of its own, which gets a folder where it may write.
     Own(fn(&Path) -> Run),
 }
 

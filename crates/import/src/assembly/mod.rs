@@ -52,7 +52,7 @@ pub(crate) struct Assembly<'a> {
     object_depths: Vec<u8>,
     camera_names: Names,
     reversed: HashMap<u32, u32>,
-    /// The points from which the positions of meshes are told.
+    /// The points from which the positions of meshes count.
     origins: HashMap<u32, DVec3>,
     /// Where the lights of the scene are in the world, in double precision.
     light_positions: Vec<DVec3>,

@@ -1,4 +1,4 @@
-//! Coordinates of surveys: what stands far from the origin of its coordinates, such as those of a map (UTM), is told from a point nearby.
+//! Coordinates of surveys: what stands far from the origin of its coordinates, such as those of a map (UTM), is given from a point nearby.
 //!
 //! Meshes and rays are in single precision, whose numbers lie half a metre apart where northings of maps are. So a mesh that stands far off
 //! has positions from a point of its own and a placement in double precision, and a scene that does is moved, and the report says by how
@@ -16,7 +16,7 @@ const NEAR_M: f64 = 1024.0;
 /// What reaches farther than this share of its distance from the origin would be little nearer to another.
 const REACH: f64 = 0.25;
 
-/// The point, in whole units, from which positions of a mesh are to be told: zero unless they are far from it, and together.
+/// The point, in whole units, from which positions of a mesh count: zero unless they are far from it, and together.
 pub(crate) fn origin_of(points: impl Iterator<Item = DVec3> + Clone, meters_per_unit: f64) -> DVec3 {
     let is_far = |p: DVec3| p.is_finite() && p.abs().max_element() * meters_per_unit.abs() >= FAR_M;
     if points.clone().any(is_far) { origin(points.map(|p| (p, 0.0)).collect(), meters_per_unit) } else { DVec3::ZERO }

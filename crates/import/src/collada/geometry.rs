@@ -60,7 +60,7 @@ struct Inputs {
     stride: usize,
 }
 
-/// The mesh of a primitive with the set of texture coordinates `set`, and the point from which its positions are told.
+/// The mesh of a primitive with the set of texture coordinates `set`, and the point from which its positions count.
 ///
 /// # Errors
 /// When it refers to vertices that are not there, or has no positions.

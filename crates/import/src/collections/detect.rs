@@ -39,7 +39,7 @@ const NO_SCENES: [(&str, &str); 5] = [
     (".lighting_config.json", "the lights of Habitat scenes"),
 ];
 
-/// Layouts that are told by keys of their JSON, all of which they have, and what they are.
+/// Layouts that are recognised by keys of their JSON, all of which they have, and what they are.
 const BY_KEYS: [(Layout, &[&str], &str); 5] = [
     (Layout::Habitat, &["stage_instance"], "a Habitat scene instance"),
     (Layout::Front3d, &["scene", "mesh"], "a house of 3D-FRONT"),

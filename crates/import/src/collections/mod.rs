@@ -15,11 +15,11 @@
 //!
 //! # What all layouts have in common
 //!
-//! - Which layout a file has is told by the keys of its JSON. A folder stands for the one scene in it.
+//! - The keys of its JSON decide which layout a file has. A folder stands for the one scene in it.
 //! - A model's file is read once, by the importer of its format (glTF, OBJ, PLY, USD, FBX), and its meshes are shared by all places.
 //! - Objects have names such as `chair_2 (ab12cd)`: their category, numbered, and what the collection calls their model. Where a model has
 //!   several parts they are `chair_2 (ab12cd)/seat`, so that a label table can name the object.
-//! - Categories become classes of NYU40 by `classes.csv`; other categories are told and stay unlabelled. Each object is an instance;
+//! - Categories become classes of NYU40 by `classes.csv`; other categories are reported and stay unlabelled. Each object is an instance;
 //!   walls, floors and ceilings are none.
 //! - Numbers may be text (`"1.0"`, as 3D-FRONT has some), and vectors of URDF have commas (as ReplicaCAD has them).
 //! - Models that are missing or cannot be read are left out, with a warning for each and their number, and so are other entries of lists

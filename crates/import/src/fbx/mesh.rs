@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use ufbx::MeshPart;
 
 /// The triangles of `part` with texture coordinates of set `uv_set`. Vertices are shared by corners that agree in everything.
-/// Faces that are holes are left out. Besides, the point from which positions are told.
+/// Faces that are holes are left out. Besides, the point from which positions count.
 pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize, meters_per_unit: f64) -> (Mesh, DVec3) {
     let uvs = mesh.uv_sets.get(uv_set).map(|set| &set.vertex_uv).filter(|uv| uv.exists);
     let (positions, normals) = (&mesh.skinned_position, &mesh.skinned_normal);

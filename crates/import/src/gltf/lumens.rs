@@ -2,7 +2,7 @@
 //!
 //! Units of `KHR_lights_punctual` are photometric, while emission has none in practice, and converters write watts and numbers without a
 //! unit alike. Candela and lux are read as W/sr and W/m², which keeps lights and emitters of one file together. The one exception is
-//! Blender's exporter: it multiplies lights, and only them, by 683 lm/W unless it is told otherwise ("Lighting Mode: Standard").
+//! Blender's exporter: it multiplies lights, and only them, by 683 lm/W unless set otherwise ("Lighting Mode: Standard").
 
 use crate::assembly::Assembly;
 use gltf::json::Root;

@@ -20,7 +20,7 @@
 //! | dropped with a warning | further vertex colours, animations, light ranges, other extensions |
 //!
 //! A file that requires an extension outside this list is an error, unless it is one of looks, metadata, sound, behaviour or animation: that
-//! is told and left out. Text may have a byte order mark, whole numbers a point (`3.0`), bounds `NaN`, values `null`, and paddings that are counted
+//! is reported and left out. Text may have a byte order mark, whole numbers a point (`3.0`), bounds `NaN`, values `null`, and paddings that are counted
 //! may be missing. A texture that names no picture leaves the plain colour or number, with a warning.
 //!
 //! # Labels

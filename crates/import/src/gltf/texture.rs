@@ -7,7 +7,7 @@ use crate::images::Use;
 use gltf::json::texture::Texture;
 use serde_json::Value;
 
-/// Extensions by which a texture has a picture of another format. All formats are told by their content; AVIF alone is not read, and named
+/// Extensions by which a texture has a picture of another format. All formats are recognised by their content; AVIF alone is not read, and named
 /// for what the message then says.
 const EXTENSIONS: [&str; 4] = ["KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds", "EXT_texture_avif"];
 

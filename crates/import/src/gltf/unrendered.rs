@@ -1,4 +1,4 @@
-//! Extensions of materials that the scene has no place for: each is told once, with the materials that have it and what is rendered instead.
+//! Extensions of materials that the scene has no place for: each is reported once, with the materials that have it and what is rendered instead.
 
 use crate::assembly::Assembly;
 use gltf::json::Root;

@@ -23,7 +23,7 @@ const MAX_ELEMENTS: u64 = 1 << 26;
 /// Longest name of a mesh, bytes.
 const MAX_NAME: u64 = 1 << 16;
 
-/// Reads mesh `index` of the file, and the point from which its positions are told (see `origin_of`). Texture coordinates stay as they are.
+/// Reads mesh `index` of the file, and the point from which its positions count (see `origin_of`). Texture coordinates stay as they are.
 pub(super) fn read(bytes: &[u8], index: i64, file: &Path, meters_per_unit: f64) -> Result<(Mesh, DVec3), ImportError> {
     let error = |problem: String| ImportError::malformed(file, format!("mesh {index}"), problem);
     let (start, version) = locate(bytes, index).map_err(error)?;

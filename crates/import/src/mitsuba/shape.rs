@@ -190,7 +190,7 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
-/// A mesh, the point from which its positions are told, its attributes, and the file to name in messages.
+/// A mesh, the point from which its positions count, its attributes, and the file to name in messages.
 struct Built {
     mesh: Mesh,
     origin: DVec3,

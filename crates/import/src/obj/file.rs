@@ -14,7 +14,7 @@ pub(super) const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(crate) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
-    /// The point from which the positions of meshes are told.
+    /// The point from which the positions of meshes count.
     pub(crate) origin: DVec3,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,

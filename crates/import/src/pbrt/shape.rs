@@ -207,7 +207,7 @@ impl Reader<'_> {
     }
 }
 
-/// `P`, `N`, `uv` (or `st`) and `indices`, which a single triangle may omit; and the point from which positions are told.
+/// `P`, `N`, `uv` (or `st`) and `indices`, which a single triangle may omit; and the point from which positions count.
 fn triangle_mesh(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3), ImportError> {
     let (mut mesh, origin) = vertices(params, meters_per_unit)?;
     let count = mesh.positions.len();

@@ -25,7 +25,7 @@ const TEXCOORD: [&str; 1] = ["texcoord"];
 pub(crate) struct PlyFile {
     /// Mesh of the file, with texture coordinates as they are. Without faces it has no triangles.
     pub mesh: Mesh,
-    /// The point from which its positions are told: zero unless they are far from the origin of their coordinates.
+    /// The point from which its positions count: zero unless they are far from the origin of their coordinates.
     pub origin: DVec3,
     /// Mean of the colours of the vertices, or of the faces, 0 … 1 as they are written; `None` when they have none.
     pub mean_color: Option<[f64; 3]>,

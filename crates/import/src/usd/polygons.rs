@@ -15,7 +15,7 @@ const MAX_CORNERS: usize = 4096;
 /// A mesh prim's points and faces, checked.
 pub(super) struct Polygons {
     points: Vec<Vec3>,
-    /// The point from which the points are told.
+    /// The point from which the points count.
     pub origin: DVec3,
     /// Point of each corner.
     corners: Vec<u32>,

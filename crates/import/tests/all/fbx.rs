@@ -131,7 +131,7 @@ fn lambert_phong_and_physical_materials_become_ours() {
     assert!((p.roughness.factor.powi(2) - 0.1).abs() < 1e-6 && p.specular_color.factor == Rgb::splat(0.5));
     let clear = [color("TransparentColor", [0.5; 3]), number("TransparencyFactor", 0.5)];
     assert!(matches!(painted(&folder, material("lambert", clear.to_vec())).alpha, Alpha::Blend { opacity } if opacity.factor == 0.75));
-    // 3ds Max's physical material is told by its class.
+    // 3ds Max's physical material is recognised by its class.
     let physical = vec![
         int("3dsMax|ClassIDa", "int", 0x3d6b_1cec),
         int("3dsMax|ClassIDb", "int", 0xdead_c001),

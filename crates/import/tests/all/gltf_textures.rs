@@ -1,4 +1,4 @@
-//! Textures of glTF in formats of extensions, and extensions of materials that are told alone.
+//! Textures of glTF in formats of extensions, and extensions of materials that are only reported.
 
 use crate::common::{Folder, Gltf, base64, png, principled, warnings};
 use enfilade_import::{ImportError, Imported};

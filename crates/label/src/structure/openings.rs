@@ -28,7 +28,7 @@ struct Found {
     off_m: f64,
 }
 
-/// The openings of all faces. One that two faces have between them is told once, on the face that it lies nearer to.
+/// The openings of all faces. One that two faces have between them is listed once, on the face that is nearer to it.
 pub fn find(walls: &[WallFace], triangles: &[LabelledTriangle]) -> Vec<WallOpening> {
     let mut found: Vec<Found> = Vec::new();
     for (kind, class) in [(OpeningKind::Door, DOOR), (OpeningKind::Window, WINDOW)] {

@@ -1,6 +1,6 @@
 //! Fixtures: what lights a scene, thing by thing. The sky is one, the sun is one, and so is each window and each lamp with all its bulbs.
 //!
-//! What belongs to one lamp is told by distance alone, so that it needs no labels and no names: emissive parts and lights at a point are
+//! Distance alone decides what belongs to one lamp, so that it needs no labels and no names: emissive parts and lights at a point are
 //! joined where their boxes are close, and large ones, such as a ceiling that glows, stand for themselves. The panes of a window are joined
 //! in the same way.
 

@@ -35,7 +35,7 @@ pub fn costs(dataset: &Dataset, images: &[NamedImage], prices: &[Price]) -> Resu
     Ok((!frames.is_empty()).then(|| CostReport::new(&frames, prices)))
 }
 
-/// Writes the tables, at the first price; of all of them the smallest machine that could have made a trajectory is told.
+/// Writes the tables, at the first price; with the smallest machine of all that could have made a trajectory.
 ///
 /// # Errors
 /// When a file cannot be written.

@@ -204,7 +204,7 @@ impl Spread {
     }
 }
 
-/// What is told of one image; `None` where it lacks the layers.
+/// Measures of one image; `None` where it lacks the layers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Image {
     /// Width and height in pixels.

@@ -84,7 +84,7 @@ pub fn group(objects: &[NamedObject]) -> Vec<NameGroup> {
 
 /// The groups with curtains labelled as NYUv2 does: what is named a curtain, and labelled blinds, counts as curtain.
 ///
-/// Hypersim has most of its curtains as blinds, which NYUv2 keeps apart; nobody who is told that a curtain is one would agree.
+/// Hypersim has most of its curtains as blinds, which NYUv2 keeps apart; nobody who calls it a curtain would agree.
 pub fn with_curtains(groups: &[NameGroup], lexicon: &Lexicon) -> Vec<NameGroup> {
     let read = |group: &NameGroup| {
         let mut group = group.clone();

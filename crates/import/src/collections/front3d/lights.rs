@@ -26,7 +26,7 @@ const SKY_WIDTH: u32 = 1024;
 /// Names that a warning gives.
 const NAMED: usize = 3;
 
-/// Adds the lights that can be told, and says what became of the others.
+/// Adds the lights that can be understood, and reports what became of the others.
 ///
 /// # Errors
 /// When a mesh of a light is not valid, which its sizes exclude.

@@ -16,7 +16,7 @@ pub(super) const PICTURES: &str = "3D-FRONT-texture";
 /// Reflectance of what has neither picture nor colour: the toolbox's light grey, 220 of 255.
 const PLAIN: f32 = 220.0;
 
-/// Classes by the type of a mesh, in lower case. Others are told by the words wall, floor and ceil in them, as in the toolbox.
+/// Classes by the type of a mesh, in lower case. Others are recognised by the words wall, floor and ceil in them, as in the toolbox.
 const TYPES: [(&str, i16); 22] = [
     ("baseboard", 1),
     ("cornice", 1),
@@ -66,7 +66,7 @@ pub(super) struct Surfaces<'h> {
     /// `None` for those without faces.
     meshes: HashMap<&'h str, Option<u32>>,
     materials: HashMap<&'h str, u32>,
-    /// Whether it was told that pictures are not available.
+    /// True once it was reported that pictures are not available.
     told: bool,
 }
 

@@ -14,7 +14,7 @@
 //! | `articulated_object_instances` | the visual meshes of the URDF at rest; primitive shapes are left out, told and counted |
 //! | `*.lighting_config.json` | point, spot and directional lights of the frame `global`; color × intensity as W/sr or W/m², because Habitat states no unit. Lights of negative intensity, which cannot be, are left out |
 //! | categories | `semantics/objects.csv` by model (`main_category`, else the noun of `wnsynsetkey`), as in HSSD; else `semantic_id` in the dataset's lexicon |
-//! | `units_to_meters`, `origin`, physics, shaders, navigation | not used, as in habitat-sim; a `units_to_meters` other than 1 is told |
+//! | `units_to_meters`, `origin`, physics, shaders, navigation | not used, as in habitat-sim; a `units_to_meters` other than 1 is reported |
 //!
 //! A translation is that of the middle of the box around the model (or of `COM`), unless `translation_origin` is `asset_local`.
 
