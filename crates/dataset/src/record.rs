@@ -143,7 +143,7 @@ words! {
         /// The rendered layers: unbiased and noisy.
         #[default]
         Rendered = "rendered",
-        /// A clean estimate, biased as denoising is; what was rendered stays beside it, as color_rendered, ...
+        /// A clean but biased estimate; the rendered layers are kept beside it, as color_rendered, ...
         Denoised = "denoised",
     }
 }

@@ -16,7 +16,7 @@
 //!     }
 //! }
 //! options! {
-//!     /// What a scene file does not say itself.
+//!     /// What a scene file does not state.
 //!     pub struct Import {
 //!         /// Metres per unit of the file.
 //!         pub meters_per_unit: f64 = 1.0,
