@@ -92,7 +92,7 @@ fn report(ours: &Picture, reference: &Picture) {
     println!("  median {:.2} %, 90th percentile {:.2} %, worst {:.2} %", at(0.5), at(0.9), at(1.0));
 }
 
-/// Both pictures at the exposure that puts the reference's 90th percentile of brightness at 0.8 (before gamma 1/2.2).
+/// The pictures beside each other, at the exposure that puts the reference's 90th percentile of brightness at 0.8 (before gamma 1/2.2).
 fn side_by_side(left: &Picture, right: &Picture) -> image::RgbImage {
     let mut brightness: Vec<f32> = left.rgb.iter().map(|[r, g, b]| 0.3 * r + 0.59 * g + 0.11 * b).collect();
     brightness.sort_by(f32::total_cmp);

@@ -43,7 +43,7 @@ pub enum Error {
     Interrupted {
         /// Trajectory of the frame.
         camera: String,
-        /// Its number.
+        /// Number of the frame.
         frame: u32,
         /// What was kept of it.
         kept: PathBuf,
@@ -169,13 +169,13 @@ impl fmt::Display for ConfigError {
     }
 }
 
-/// Of a longer line this many characters are shown, ...
+/// Greatest length of a line that is shown whole, characters; of a longer one this many are shown, ...
 pub(crate) const LONGEST_LINE: usize = 160;
 /// ... up to so many of them before the place.
 const BEFORE_PLACE: usize = 60;
 
 impl Place {
-    /// As much of the line as is shown, and where in it and over how many characters it is marked.
+    /// The part of the line that is shown, and where in it and over how many characters it is marked.
     fn excerpt(&self) -> (String, usize, usize) {
         let (start, length) = (self.column - 1, self.text.chars().count());
         if length <= LONGEST_LINE {

@@ -71,8 +71,8 @@ fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) 
 }
 
 impl Session<'_> {
-    /// As [`forecast`], and nothing of the folder changes: scenes that are planned are tried out as they are, and the others, all of whose
-    /// frames count, in a folder that is removed.
+    /// Forecasts as [`forecast`] does, and nothing of the folder changes: scenes that are planned are tried out as they are, and the
+    /// others, all of whose frames count, in a folder that is removed.
     fn forecast_aside(&self, scenes: &[&SceneConfig], reporter: &dyn Reporter) -> Result<Forecasts, Error> {
         let time = Stopwatch::start();
         let folder = self.workdir.aside()?;

@@ -13,7 +13,7 @@ use std::ops::Add;
 const DEVIATIONS: f64 = 1.96;
 /// Processor time of the same work differs by this share between runs (shared caches, clock rates, neighbours), standard deviation.
 const MACHINE_SHARE: f64 = 0.08;
-/// The same where other programs keep the machine busy during the pilot: processor time has been seen to double.
+/// Share by which it differs where other programs keep the machine busy during the pilot: processor time has been seen to double.
 const BUSY_MACHINE_SHARE: f64 = 0.3;
 /// Variance is estimated from few samples where a noise target decides how many are taken; standard deviation of the number taken.
 const NOISE_SHARE: f64 = 0.2;
@@ -50,13 +50,13 @@ impl Expected {
         Self { mean: factor * self.mean, deviation: factor * self.deviation }
     }
 
-    /// Both ends of the interval that holds the truth in 95 of 100 cases; never below 0.
+    /// Ends of the interval that holds the truth in 95 of 100 cases; never below 0.
     pub fn interval(&self) -> [f64; 2] {
         [(self.mean - DEVIATIONS * self.deviation).max(0.0), self.mean + DEVIATIONS * self.deviation]
     }
 }
 
-/// Of two numbers whose errors have the same reasons, as those of two scenes on one machine: deviations add up.
+/// Adds two numbers whose errors have the same reasons, as those of two scenes on one machine: deviations add up.
 impl Add for Expected {
     type Output = Self;
 
@@ -129,7 +129,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Of a scene.
+    /// The forecast of a scene.
     pub fn of(pilot: &ScenePilot) -> Self {
         let frames = pilot.frames as f64;
         let threads = f64::from(pilot.threads.max(1));
@@ -148,7 +148,7 @@ impl Forecast {
         Self { frames: pilot.frames, cpu_s, wall_s, vcpu_hours: wall_s.times(threads / 3600.0), disk_bytes, memory_bytes, busy: pilot.busy }
     }
 
-    /// Of several scenes one after the other.
+    /// The forecast of several scenes one after the other.
     pub fn sum(forecasts: impl Iterator<Item = Self>) -> Self {
         forecasts.fold(Self::default(), |a, b| Self {
             frames: a.frames + b.frames,

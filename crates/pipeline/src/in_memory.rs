@@ -55,7 +55,8 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// As a run makes them with this quality and these choices, but for the seed, which is taken as it is. A time limit does not count.
+    /// A shot as a run makes it with this quality and these choices, but for the seed, which is taken as it is. A time limit does not
+    /// count.
     ///
     /// # Errors
     /// When a number is out of its range.
@@ -111,7 +112,7 @@ impl LoadedScene {
         }
     }
 
-    /// Its name: that of the file, without what tells the format.
+    /// Name of the scene: that of the file, without what tells the format.
     pub fn name(&self) -> &str {
         &self.name
     }

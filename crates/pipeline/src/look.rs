@@ -169,8 +169,8 @@ fn with_usable_view(camera: &StartCamera) -> StartCamera {
     StartCamera { fov_x_rad: camera.fov_x_rad.clamp(FOV_RAD[0], FOV_RAD[1]), ..camera.clone() }
 }
 
-/// Of the places that were found and others in the rooms around them, with all headings, the view that shows most, not from close by:
-/// its saliency times the root of how far it goes. `None` where nothing was found.
+/// The view that shows most, not from close by, of the places that were found and others in the rooms around them, with all headings: its
+/// saliency times the root of how far it goes. `None` where nothing was found.
 fn best_view(look: &Look, places: &[StartCamera]) -> Option<StartCamera> {
     if places.is_empty() {
         return None;

@@ -33,13 +33,13 @@ pub struct Prepared {
 /// What rendering needs of one scene.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
-    /// Its name in the dataset.
+    /// Name of the scene in the dataset.
     pub name: String,
     /// What its rendering will take.
     pub forecast: Forecast,
     /// Trajectories with the numbers of the frames that are to be rendered.
     pub trajectories: Vec<(String, Vec<u32>)>,
-    /// Its files, relative to the dataset's folder.
+    /// Files of the scene, relative to the dataset's folder.
     pub files: Vec<PathBuf>,
 }
 

@@ -23,7 +23,7 @@ pub struct Replay {
 pub struct ReplayedFile {
     /// Path relative to the scene's folder.
     pub name: String,
-    /// It has the bytes that the record tells.
+    /// True where the file has the bytes that the record tells.
     pub same: bool,
 }
 
@@ -44,7 +44,7 @@ struct Source {
     scene: Scene,
     camera: Camera,
     trajectory: Trajectory,
-    /// Of the frame in the trajectory.
+    /// Index of the frame in the trajectory.
     index: usize,
 }
 

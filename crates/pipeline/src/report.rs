@@ -12,7 +12,7 @@ use std::time::Instant;
 /// What happens to a stage of a scene.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
-    /// It begins.
+    /// The stage begins.
     Started,
     /// `done` of `total` units of `what` are finished.
     Progress {
@@ -20,21 +20,21 @@ pub enum Event<'a> {
         what: &'a str,
         /// How many are finished.
         done: u64,
-        /// Of how many.
+        /// Number of all units.
         total: u64,
     },
     /// Something was dropped, guessed or fixed.
     Warned(&'a Warning),
     /// Nothing had to be done.
     UpToDate,
-    /// It is done.
+    /// The stage is done.
     Finished {
         /// One line: what it made.
         summary: &'a str,
         /// Seconds on the wall clock.
         wall_s: f64,
     },
-    /// It could not be done; the scene's later stages are left out.
+    /// The stage could not be done; the scene's later stages are left out.
     Failed {
         /// One line with all causes.
         message: &'a str,
@@ -60,7 +60,7 @@ impl Reporter for Silent {
 /// What a run came to.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// One per scene, in the order of the configuration.
+    /// Outcomes of the scenes, in the order of the configuration.
     pub scenes: Vec<SceneOutcome>,
     /// What concerns the dataset as a whole and should be known, a line each.
     pub warnings: Vec<String>,
@@ -91,7 +91,7 @@ impl Summary {
 /// What became of one scene.
 #[derive(Clone, Debug)]
 pub struct SceneOutcome {
-    /// Its name in the dataset.
+    /// Name of the scene in the dataset.
     pub name: String,
     /// The stages that came through, in order.
     pub stages: Vec<StageOutcome>,

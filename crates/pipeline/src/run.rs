@@ -194,7 +194,7 @@ fn no_settings(path: &Path, problem: &dyn std::fmt::Display) -> Error {
     Error::usage(message, "use the version that wrote it, or run `enfilade run` for this folder once; what is finished is kept")
 }
 
-/// As [`open`], with `change` made to the chosen scenes; [`store_config`] makes it last.
+/// Opens a dataset as [`open`] does, with `change` made to the chosen scenes; [`store_config`] makes it last.
 fn open_with(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig)) -> Result<(Workdir, Config), Error> {
     let (workdir, mut config) = open(out)?;
     let chosen: Vec<String> = config.select(pattern)?.iter().map(|s| s.name.clone()).collect();
@@ -202,7 +202,7 @@ fn open_with(out: &Path, pattern: Option<&str>, change: impl Fn(&mut SceneConfig
     Ok((workdir, config))
 }
 
-/// Some of the names, and how many more there are.
+/// The first of the names, and how many more there are.
 pub(crate) fn first_of(names: &[&str]) -> String {
     let shown = names[..names.len().min(NAMES_SHOWN)].join(", ");
     match names.len().saturating_sub(NAMES_SHOWN) {
@@ -245,7 +245,7 @@ impl<'a> Session<'a> {
         Ok(Self { config, workdir, dataset: Dataset::create(workdir.out()).map_err(Error::stage)?, makes_products: false })
     }
 
-    /// As [`Session::new`], for runs that bring products up to date as well.
+    /// A session as by [`Session::new`], for runs that bring products up to date as well.
     pub fn with_products(config: &'a Config, workdir: &'a Workdir) -> Result<Self, Error> {
         Ok(Self { makes_products: true, ..Self::new(config, workdir)? })
     }

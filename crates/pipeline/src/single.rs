@@ -81,7 +81,7 @@ pub struct Checked {
     pub warnings: Vec<Warning>,
 }
 
-/// As [`import_file`], but writes nothing.
+/// Reads a scene as [`import_file`] does, but writes nothing.
 ///
 /// # Errors
 /// When the file cannot be imported.

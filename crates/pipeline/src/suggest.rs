@@ -31,9 +31,9 @@ pub struct SuggestedLabels {
 /// A part that nobody knows the class of.
 #[derive(Clone, Debug)]
 pub struct UnsurePart {
-    /// Its name.
+    /// Name of the part.
     pub part: String,
-    /// Its material's name.
+    /// Name of the part's material.
     pub material: String,
     /// The best guess, if its names say anything.
     pub guess: Option<Suggestion>,

@@ -144,13 +144,13 @@ impl Hash {
         Self(blake3::hash(bytes).to_hex().to_string())
     }
 
-    /// Of the plain data `value`, by its JSON text.
+    /// The hash of the plain data `value`, by its JSON text.
     pub fn of<T: Serialize + ?Sized>(value: &T) -> Self {
         // Plain data of ours always has a JSON text; were it not so, an empty text would only cause work to be redone.
         Self::of_bytes(&serde_json::to_vec(value).unwrap_or_default())
     }
 
-    /// Of a file's content.
+    /// The hash of a file's content.
     pub fn of_file(path: &Path) -> Result<Self, Error> {
         let mut hasher = blake3::Hasher::new();
         let mut file = File::open(path).map_err(Error::io("read", path))?;

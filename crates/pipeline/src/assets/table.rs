@@ -20,13 +20,13 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Its name.
+/// Name of the table.
 pub(super) const NAME: &str = "assets.toml";
 
 /// The axis of a file, whose y points up, that a model's front looks along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub(super) enum Front {
-    /// As glTF has it.
+    /// +z is the front, as in glTF.
     #[default]
     #[serde(rename = "+z")]
     Z,

@@ -51,7 +51,7 @@ impl Quality {
         self.lay_over_settings(&mut scene.render, &mut scene.color, below);
     }
 
-    /// The same over the settings alone.
+    /// Lays the quality over the settings alone.
     fn lay_over_settings(self, render: &mut RenderConfig, color: &mut ColorKind, below: Self) {
         render.samples = self.samples();
         if self == Self::Reference {

@@ -37,12 +37,12 @@ keys! {
         pub name: Option<Spanned<String>>,
         /// The scene file.
         pub file: Option<Spanned<String>>,
-        /// Instead of name and file, a pattern such as `"hssd/scenes/*.scene_instance.json"`: each file that it means is a scene, named
+        /// Pattern in place of name and file, such as `"hssd/scenes/*.scene_instance.json"`: each file that it means is a scene, named
         /// after its file.
         pub files: Option<Spanned<String>>,
-        /// Instead of a file, a generated home: a table, as below.
+        /// Generated home in place of a file: a table, as below.
         pub home: Option<Spanned<toml::Table>>,
-        /// Instead of one home as many, 1 to 100 000: their seeds follow on the home's, and their names end with a number.
+        /// Number of homes in place of one, 1 to 100 000: their seeds follow on the home's, and their names end with a number.
         pub count: Option<Spanned<u32>>,
         /// Name of the scene in the label table; its own name unless it is given.
         pub label_scene: Option<String>,

@@ -9,7 +9,7 @@ use toml::Spanned;
 pub(super) struct Entry<'a> {
     pub keys: &'a SceneKeys,
     pub name: Spanned<String>,
-    /// As it would be written: with the variables of the pattern.
+    /// File as it would be written: with the variables of the pattern.
     pub file: Option<Spanned<String>>,
     /// Among the homes of its table.
     pub nth: u32,

@@ -117,7 +117,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// As many homes as `count` says, numbered from 0.
+    /// Entries for as many homes as `count` says, numbered from 0.
     fn homes<'k>(&self, keys: &'k SceneKeys, name: &Spanned<String>, count: &Spanned<u32>) -> Result<Vec<Entry<'k>>, ConfigError> {
         let homes = *count.get_ref();
         if !(1..=MAX_COUNT).contains(&homes) {

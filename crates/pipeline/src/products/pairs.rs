@@ -10,7 +10,7 @@ use enfilade_multiview::{CovisibilityConfig, Filmed, ScenePackage, choose_pairs,
 use enfilade_scene::Cx;
 use std::path::PathBuf;
 
-/// The one part of a scene's covisibility: all frames of the cameras.
+/// The single part of a scene's covisibility: all frames of the cameras.
 pub(super) fn covisibility_parts(subject: &Subject, request: &Request) -> Result<Vec<Part>, Error> {
     let Request::Covisibility { pixels, cameras } = request else { return Ok(Vec::new()) };
     let frames = subject.chosen(|camera, _| cameras.as_ref().is_none_or(|names| names.iter().any(|name| name == camera)))?;
@@ -35,7 +35,7 @@ pub(super) fn covisibility_files(subject: &Subject, _part: &Part) -> Result<Vec<
     Ok(vec![layout.covisibility(subject.scene), layout.covisibility_frames(subject.scene)])
 }
 
-/// The one part of the list.
+/// The single part of the list.
 pub(super) fn parts(_subject: &Subject, request: &Request) -> Result<Vec<Part>, Error> {
     Ok(vec![Part { name: String::new(), frames: Vec::new(), settings: Hash::of(request) }])
 }

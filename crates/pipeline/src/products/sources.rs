@@ -43,7 +43,7 @@ pub(crate) enum Source {
 /// A scene whose products are looked at, with what is known of its files: hashes are taken once.
 pub(crate) struct Subject<'a> {
     pub dataset: &'a Dataset,
-    /// Its name; empty for the dataset as a whole.
+    /// Name of the scene; empty for the dataset as a whole.
     pub scene: &'a str,
     frames: OnceCell<Vec<(String, Vec<u32>)>>,
     records: RefCell<BTreeMap<(String, u32), Rc<Recorded>>>,

@@ -16,7 +16,7 @@ const HINT: &str = "a table of mixes has the columns mix, fixture, r, g and b, a
 /// A mix: what each fixture's light is multiplied by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Mix {
-    /// Its name, and that of its folder.
+    /// Name of the mix, and of its folder.
     pub name: String,
     rules: Vec<Rule>,
 }

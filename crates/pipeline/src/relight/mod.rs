@@ -15,7 +15,7 @@ use enfilade_show::preview::{PreviewSpec, Subject};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// So many mixes are made at once: each takes 24 bytes per pixel.
+/// Number of mixes that are made at once: each takes 24 bytes per pixel.
 const AT_ONCE: usize = 8;
 
 /// The picture of a mix, exposed as the frame's own.

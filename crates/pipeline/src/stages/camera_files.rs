@@ -8,13 +8,13 @@ use std::path::PathBuf;
 /// The four arrays of a trajectory.
 const KEYFRAMES: [&str; 4] = ["frame_indices", "positions", "look_at_positions", "orientations"];
 
-/// Those of the planned trajectories, as inputs.
+/// Camera files of the planned trajectories, as inputs.
 pub(super) fn inputs(job: &Job) -> Result<Vec<Input>, Error> {
     let trajectories: Vec<Trajectory> = job.filmed()?.iter().map(|(_, trajectory)| trajectory.clone()).collect();
     files(job, &trajectories).iter().map(|path| job.input_from(Stage::Plan, path)).collect()
 }
 
-/// Those of `trajectories`.
+/// Camera files of `trajectories`.
 pub(super) fn files(job: &Job, trajectories: &[Trajectory]) -> Vec<PathBuf> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     let keyframes = trajectories.iter().flat_map(|t| KEYFRAMES.map(|what| layout.keyframes(name, &t.name, what)));

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// The cameras where trajectories begin, in the work folder.
 pub(super) const STARTS: &str = "starts.json";
 
-/// One of them.
+/// A camera where a trajectory begins.
 #[derive(Serialize, Deserialize)]
 struct Start {
     #[serde(flatten)]
@@ -32,7 +32,7 @@ pub(super) fn starts(job: &Job) -> Result<Vec<StartCamera>, Error> {
     Ok(read_starts(job)?.into_iter().map(|start| start.camera).collect())
 }
 
-/// Those that stand on the right side of things: carving began there.
+/// Start cameras that stand on the right side of things: carving began there.
 pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
     Ok(read_starts(job)?.into_iter().filter(|start| !start.is_skipped).map(|start| start.camera).collect())
 }

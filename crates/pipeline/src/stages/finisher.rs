@@ -12,11 +12,11 @@ use std::path::PathBuf;
 /// A frame that [`render_part`](crate::render_part) has made.
 #[derive(Clone, Debug)]
 pub struct FinishedFrame {
-    /// Its trajectory.
+    /// Trajectory of the frame.
     pub camera: String,
-    /// Its number.
+    /// Number of the frame.
     pub frame: u32,
-    /// Its files, relative to the dataset's folder: layers, labels, pictures, and the records that vouch for them.
+    /// Files of the frame, relative to the dataset's folder: layers, labels, pictures, and the records that vouch for them.
     pub files: Vec<PathBuf>,
     /// The laws of verification that it breaks; normally none.
     pub broken: Vec<&'static str>,

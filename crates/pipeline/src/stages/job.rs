@@ -46,7 +46,7 @@ impl<'a> Job<'a> {
         Self { config, scene, dataset, force, shift: None, workdir, loaded: Arc::default() }
     }
 
-    /// The same scene, of which only the frames of `shift` are made. What is loaded by one of the two is there for both.
+    /// A job of the same scene, of which only the frames of `shift` are made. What is loaded by one of the two is there for both.
     pub fn on_shift<'b>(&'b self, shift: &'b Shift<'b>) -> Job<'b> {
         let Self { config, scene, dataset, force, workdir, .. } = *self;
         Job { config, scene, dataset, force, shift: Some(shift), workdir, loaded: self.loaded.clone() }
@@ -164,7 +164,7 @@ impl<'a> Job<'a> {
         Ok(trajectory.poses.iter().map(|pose| pose.frame).filter(is_made).collect())
     }
 
-    /// The same by trajectory, those without any left out.
+    /// Frames by trajectory, those without any left out.
     pub fn frames_by_trajectory(&self) -> Result<FramesByTrajectory, Error> {
         let filmed = self.filmed()?;
         let frames = filmed.iter().map(|(_, trajectory)| Ok((trajectory.name.clone(), self.frames_of(trajectory)?)));
@@ -196,12 +196,12 @@ impl<'a> Job<'a> {
         self.frames()?.iter().map(record).collect()
     }
 
-    /// The same as far as they tell what was rendered: whether colour is denoised since does not count.
+    /// Records of the frames as far as they tell what was rendered: whether colour is denoised since does not count.
     pub fn rendered_records(&self) -> Result<Vec<Input>, Error> {
         self.frames()?.iter().map(|(camera, frame)| self.rendered_record(camera, *frame)).collect()
     }
 
-    /// That of one frame.
+    /// Record of one frame, likewise.
     pub fn rendered_record(&self, camera: &str, frame: u32) -> Result<Input, Error> {
         let name = &self.scene.name;
         let path = self.dataset.layout().frame_record(name, camera, frame);

@@ -37,7 +37,7 @@ impl Made {
         Ok(Self { from, files: files.iter().map(|path| Output::by_length(job.out(), path)).collect::<Result<_, _>>()? })
     }
 
-    /// Its files, if they are there and made from `from`.
+    /// Files of the product, if they are there and made from `from`.
     fn files(&self, job: &Job, from: &Hash) -> Option<Vec<PathBuf>> {
         let are_there = self.from == *from && self.files.iter().all(|file| file.has_its_length(job.out()));
         are_there.then(|| self.files.iter().map(|file| job.out().join(&file.path)).collect())
@@ -51,7 +51,7 @@ pub(super) struct Furniture {
 }
 
 impl Furniture {
-    /// Of a scene whose label tables are there.
+    /// Furniture of a scene whose label tables are there.
     pub fn of(job: &Job) -> Result<Self, Error> {
         let scene = scene_of_pieces(job)?;
         let labels = job.dataset.read_label_tables(&job.scene.name).map_err(Error::stage)?;

@@ -20,7 +20,7 @@ const FOLDER: &str = "pilot";
 const FRAME_SAMPLES: u32 = 2;
 /// Samples per pixel of a probe at most: enough to tell how noisy a place is.
 const PROBE_SAMPLES: u32 = 16;
-/// The same where noise decides how many samples are taken.
+/// Samples per pixel of a probe at most, where noise decides how many are taken.
 const NOISE_SAMPLES: u32 = 64;
 /// The pilot takes about this share of the run's samples.
 const SHARE: f64 = 0.01;

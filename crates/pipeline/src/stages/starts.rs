@@ -40,8 +40,8 @@ pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Resul
     Ok((starts, space))
 }
 
-/// Those of the file's cameras that stand in a building; where none does, found places, and without any the cameras after all: an open
-/// place. Hypersim's program takes all.
+/// Start cameras of the file that stand in a building; where none does, found places, and without any the cameras after all: an open place.
+/// Hypersim's program takes all.
 fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
     let is_inside = |camera: &StartCamera| !camera.position.is_finite() || enfilade_explore::is_indoors(&world.bvh, camera.position);
     let (inside, outside): (Vec<StartCamera>, Vec<StartCamera>) = scene.cameras.iter().cloned().partition(is_inside);

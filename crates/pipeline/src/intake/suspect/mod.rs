@@ -24,7 +24,7 @@ const STATE_UP: [&str; 10] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "z
 
 /// What is suspected of a scene.
 pub(super) struct Suspicions {
-    /// That it lies on its side or stands on its head, in a sentence that names the key.
+    /// Suspicion that it lies on its side or stands on its head, in a sentence that names the key.
     pub axes: Option<String>,
     /// What the sizes of rooms and things tell of its unit.
     pub sizes: Sizes,

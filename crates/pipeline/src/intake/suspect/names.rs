@@ -61,7 +61,7 @@ impl Named {
     }
 }
 
-/// The one class that words mean.
+/// The class that all words mean; `None` where they mean several or none.
 fn only(meanings: &[i16]) -> Option<i16> {
     let first = *meanings.first()?;
     meanings.iter().all(|class| *class == first).then_some(first)

@@ -17,7 +17,7 @@ const AROUND: usize = 16;
 const WALLED: usize = 12;
 /// Least share of the lines that a room has to be on.
 const LEAST_SHARE: f64 = 0.04;
-/// Of free heights within walls, furniture below or above makes most smaller than the room's: this one is taken.
+/// Quantile of the free heights within walls that is taken for the room's: furniture below or above makes most smaller.
 const MOSTLY: f64 = 0.8;
 
 /// How high rooms are.

@@ -49,8 +49,8 @@ pub(super) struct Thing {
     pub height_m: f64,
 }
 
-/// Of every kind in the table the highest thing; what is lower than usual only where that tells. An object that is called so is one thing, else
-/// a part is.
+/// Finds the highest thing of every kind in the table; what is lower than usual only where that tells. An object that is called so is one
+/// thing, else a part is.
 pub(super) fn things(scene: &Scene, look: &Look, named: &Named, up: DVec3) -> Vec<Thing> {
     let kind_of = |class: Option<i16>| class.and_then(|class| KINDS.iter().position(|kind| kind.class == class));
     let object_of =

@@ -34,9 +34,9 @@ const UNUSUAL: u32 = 6;
 pub(in crate::intake) enum Sizes {
     /// Nothing is known by name, or what is known contradicts itself.
     Unknown,
-    /// They are those of rooms or furniture.
+    /// The sizes are those of rooms or furniture.
     Fit,
-    /// They are not.
+    /// The sizes are not.
     Suspect(Suspicion),
 }
 

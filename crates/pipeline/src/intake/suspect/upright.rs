@@ -82,7 +82,7 @@ struct Flat {
 }
 
 impl Flat {
-    /// Of the parts of a class; of those that are neither floor nor ceiling without one.
+    /// Flat surfaces of the parts of a class; of those that are neither floor nor ceiling without one.
     fn of(look: &Look, named: &Named, class: Option<i16>) -> Self {
         let mut flat = Self::default();
         for (corners, source) in look.world.corners.iter().zip(&look.world.sources) {

@@ -24,7 +24,7 @@ use tempfile::TempDir;
 struct Made {
     /// Versions of its stages.
     stages: BTreeMap<String, u32>,
-    /// As [`values::checksums`] gave them.
+    /// Checksums as [`values::checksums`] gave them.
     values: BTreeMap<String, String>,
 }
 
@@ -80,7 +80,7 @@ impl Stored {
     }
 }
 
-/// Those of all versions.
+/// Stored datasets of all versions.
 fn all() -> Vec<Stored> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let mut archives: Vec<PathBuf> = fs::read_dir(data).unwrap().map(|entry| entry.unwrap().path()).collect();
