@@ -2,7 +2,8 @@
 //! removed and why, what is wrong, how much processor time they took and how large they are. With `--random-rooms` each has one to
 //! twelve rooms of any kinds, which its seed decides.
 
-use enfilade_home::check::{family_of, faults};
+use enfilade_furniture::family_of;
+use enfilade_home::check::faults;
 use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_math::Rng;
 use enfilade_testkit::process_cpu_s;

@@ -4,12 +4,9 @@
 //!
 //! VARIANTS may be `FROM..TO`; `list` alone prints the names of all families with the triangles of a variant.
 
-use enfilade_home::builder::{Builder, Class, pose};
-use enfilade_home::furniture::{FAMILIES, Family, Furniture, Place, family_named};
+use enfilade_furniture::shape::{Reshape, bevelled_box};
+use enfilade_furniture::{Builder, Class, FAMILIES, Family, Furniture, Materials, Palette, Place, family_named, pose};
 use enfilade_home::light::LightConfig;
-use enfilade_home::materials::Materials;
-use enfilade_home::palette::Palette;
-use enfilade_home::shape::{Reshape, bevelled_box};
 use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::ops::Range;
@@ -63,7 +60,7 @@ fn exhibits(families: &str, variants: Range<u64>) -> Result<Vec<Exhibit>, String
 }
 
 fn triangles(family: &Family) -> usize {
-    let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
+    let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default().lamp_light(), Rng::new(1)));
     let mut rng = Rng::new(1);
     (family.random)(&mut rng).build(&mut b, pose(0.0, 0.0, 0.0, 0.0), &mut rng);
     let scene = b.finish().0;
@@ -71,7 +68,7 @@ fn triangles(family: &Family) -> usize {
 }
 
 fn showroom(exhibits: &[Exhibit]) -> Scene {
-    let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default(), Rng::new(1)));
+    let mut b = Builder::new(Materials::new(Palette::all()[0], LightConfig::default().lamp_light(), Rng::new(1)));
     let mean = exhibits.iter().map(|e| e.thing.size().x).sum::<f32>() / exhibits.len() as f32;
     let gap = 0.22 * mean;
     let width = exhibits.iter().map(|e| e.thing.size().x + gap).sum::<f32>() + gap;

@@ -4,11 +4,9 @@
 //!
 //! writes one package for each kind of finish; the seed chooses the palette.
 
-use enfilade_home::builder::{Builder, Class, pose};
+use enfilade_furniture::shape::{Reshape, bevelled_box, leaf, pillow, sphere};
+use enfilade_furniture::{Builder, Class, DecorConfig, Finish, Materials, pose};
 use enfilade_home::light::LightConfig;
-use enfilade_home::materials::{Finish, Materials};
-use enfilade_home::palette::DecorConfig;
-use enfilade_home::shape::{Reshape, bevelled_box, leaf, pillow, sphere};
 use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec2, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::path::Path;
@@ -66,7 +64,7 @@ fn variants(finish: Finish) -> Vec<Finish> {
 
 fn sheet(finishes: &[Finish], seed: u64, side: f32, body: Body) -> Scene {
     let decor = DecorConfig { seed, realism: 1.0 };
-    let mut b = Builder::new(Materials::new(decor.palette(), LightConfig::default(), decor.pictures()));
+    let mut b = Builder::new(Materials::new(decor.palette(), LightConfig::default().lamp_light(), decor.pictures()));
     let rows = finishes.len().div_ceil(COLUMNS);
     let cell = 1.18 * side;
     for (k, &finish) in finishes.iter().enumerate() {

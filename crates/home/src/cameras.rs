@@ -4,9 +4,9 @@
 //! from their fronts, and nothing in the way. The best views are taken, one after another, each from another place or in another
 //! direction. All are level, so that verticals stay vertical (two-point perspective).
 
-use crate::builder::Class;
 use crate::plan::FloorPlan;
-use crate::room::{Room, RoomKind};
+use crate::room::Room;
+use enfilade_furniture::{Class, RoomKind};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
 use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};

@@ -1,8 +1,8 @@
 //! The configuration of a home: a seed for everything, seeds for one domain alone, and what a user chooses.
 
 use crate::light::Moment;
-use crate::room::RoomKind;
 use crate::room::kind::usual_programme;
+use enfilade_furniture::RoomKind;
 use enfilade_math::Rng;
 use enfilade_options::{named, options};
 use serde::{Deserialize, Serialize};
@@ -32,7 +32,7 @@ options! {
         pub materials: Option<u64> = None => named("SEED"),
         /// Share of the colours that match; the others are random.
         ///
-        /// See [`crate::palette::DecorConfig`].
+        /// See [`enfilade_furniture::DecorConfig`].
         pub realism: f32 = 1.0 => named("SHARE"),
         /// Seed of the light alone: place, date, hour, weather, surroundings, and which lamps are lit.
         pub light: Option<u64> = None => named("SEED"),

@@ -5,8 +5,8 @@
 //! centimetres at most; what would have to go further stays, for [`crate::settle`] to remove.
 
 use crate::check::contact::{Contacts, core, cores_meet, cuts, touches};
-use crate::check::is_shell;
-use crate::check::meet::{Body, Triangle, overlap};
+use crate::shell::is_shell;
+use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_math::{Bounds3, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -210,7 +210,7 @@ fn shared_ground(a: &Triangle, b: &Triangle) -> Vec<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::{Reshape, bevelled_box, sphere};
+    use enfilade_furniture::shape::{Reshape, bevelled_box, sphere};
     use enfilade_geometry::Mesh;
 
     fn body(name: &str, mesh: Mesh) -> Body {

@@ -1,7 +1,8 @@
 //! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
-use crate::check::{Fault, family_of, object_of};
+use crate::check::Fault;
 use crate::plan::FloorPlan;
+use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{DVec3, Vec3};
 use enfilade_scene::{Labels, Scene, Structure, StructureThing};
 use std::collections::BTreeMap;
@@ -29,7 +30,7 @@ pub struct Home {
 }
 
 impl Home {
-    /// Its rooms, walls and openings, and what its instances are called.
+    /// The home's rooms, walls and openings, and what its instances are called.
     pub fn structure(&self) -> Structure {
         let parts = self.scene.parts.iter().zip(&self.labels.parts);
         let names: BTreeMap<i16, &str> =
@@ -46,7 +47,7 @@ impl Home {
 /// An object that was removed, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Removal {
-    /// Its name.
+    /// Name of the object.
     pub object: String,
     /// What was wrong with it.
     pub fault: Fault,
@@ -55,7 +56,7 @@ pub struct Removal {
 /// An object that was moved until it rested on something and ran into nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shift {
-    /// Its name.
+    /// Name of the object.
     pub object: String,
     /// How far, metres.
     pub by: Vec3,

@@ -1,10 +1,9 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
-//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: [`shape`] makes meshes; [`materials`] and
-//! [`palette`] say what things are made of; [`furniture`] has one file per family of things; [`plan`] lays out rooms, [`room`] and
-//! [`shell`] are their walls; [`place`] decides what fits where, [`rooms`] says what each kind of room holds, [`builder`] names, labels
-//! and collects the parts. What [`check`] would object to is moved until it rests on something and runs into nothing, and removed where
-//! that fails. [`assets`] are models of others that may stand in for our furniture.
+//! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: `plan` lays out rooms, [`room`] and `shell` are their walls;
+//! `place` decides what fits where, `rooms` says what each kind of room holds, out of the crate `enfilade-furniture`. What [`check`] would
+//! object to is moved until it rests on something and runs into nothing, and removed where that fails. [`light`] is the hour, the sky and
+//! what stands outside.
 //!
 //! ```
 //! use enfilade_home::check::faults;
@@ -17,37 +16,29 @@
 //! assert_eq!(faults(&made), []);
 //! ```
 
-pub mod assets;
-pub mod builder;
 mod cameras;
 pub mod check;
 mod config;
-pub mod furniture;
 mod gravity;
 mod home;
 pub mod light;
-pub mod materials;
-pub mod palette;
-pub mod place;
-pub mod plan;
+mod place;
+mod plan;
 pub mod room;
-pub mod rooms;
+mod rooms;
 mod settle;
-pub mod shape;
-pub mod shell;
+mod shell;
 
 pub use config::HomeConfig;
+pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
 pub use plan::FloorPlan;
-pub use room::RoomKind;
 
-use assets::{Library, Model};
-use builder::Builder;
+use enfilade_furniture::assets::{Library, Model};
+use enfilade_furniture::{Builder, DecorConfig, Materials, object_of};
 use enfilade_math::{Rng, Vec2};
 use enfilade_scene::Scene;
 use light::{LightConfig, Moment};
-use materials::Materials;
-use palette::DecorConfig;
 use room::Wall;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -61,17 +52,21 @@ pub fn home(config: &HomeConfig) -> Home {
 ///
 /// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards.
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
+    // What is decided before anything is built: the plan, the hour, the colours. Each has random numbers of its own.
     let kinds = config.programme();
     let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
     let light = light(&plan, config, &config.stream(config.light, 4));
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
-    let mut builder = Builder::new(Materials::new(decor.palette(), light, decor.pictures()));
+    // Shell and furniture of every room.
+    let mut builder = Builder::new(Materials::new(decor.palette(), light.lamp_light(), decor.pictures()));
     rooms::furnish(&mut builder, &plan, &decor, config, library);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
     let (scene, labels) = builder.finish();
     let mut home = Home { scene, labels, plan, fronts, removed: Vec::new(), moved: Vec::new(), credits: Vec::new() };
+    // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
     home.credits = credits(&home.scene, &models);
+    // Light and cameras are for the home as it is in the end.
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
     home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
     home
@@ -79,7 +74,7 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
 
 /// The models that are still in the scene, one line each.
 fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
-    let used = scene.parts.iter().filter_map(|part| models.get(check::object_of(&part.name)));
+    let used = scene.parts.iter().filter_map(|part| models.get(object_of(&part.name)));
     let lines: BTreeSet<String> = used.map(|model| format!("{} ({}): {}", model.name, model.file, model.licence)).collect();
     lines.into_iter().collect()
 }

@@ -3,12 +3,14 @@
 //! Furniture is placed by its box; here its triangles count, which creases, tilts and clutter move a little. Of two objects that run
 //! into each other the smaller is removed, and with it what stood on it, which floats then. So is what blocks the only way into a room.
 
-use crate::assets::repictured;
 use crate::check::contact::Contacts;
-use crate::check::meet::Body;
-use crate::check::{Fault, bodies, is_shell, object_of, walk};
+use crate::check::{Fault, bodies, walk};
 use crate::gravity;
+use crate::shell::is_shell;
 use crate::{Home, Removal, Shift};
+use enfilade_furniture::assets::repictured;
+use enfilade_furniture::meet::Body;
+use enfilade_furniture::object_of;
 use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
@@ -112,9 +114,9 @@ fn retain<T>(list: &mut Vec<T>, used: impl Iterator<Item = u32>) -> BTreeMap<u32
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::builder::pose;
-    use crate::shape::bevelled_box;
     use crate::{HomeConfig, RoomKind};
+    use enfilade_furniture::pose;
+    use enfilade_furniture::shape::bevelled_box;
 
     #[test]
     fn what_stands_in_the_only_way_goes() {

@@ -3,18 +3,16 @@
 //! Each room has its own half of the walls between rooms, so that both faces of a wall can have their own finish; outer walls belong
 //! to the room whole. The halves keep a hair's breadth apart; linings of doors and passages cover it.
 
-use crate::builder::{Builder, Class, pose};
-use crate::furniture::{Door, Passage, Window, board};
-use crate::materials::Finish;
-use crate::room::{Filling, Room, RoomKind, Wall};
-use crate::shape::{Reshape, slab_with_openings};
+use crate::room::{Filling, Room, Wall};
+use enfilade_furniture::shape::{Reshape, slab_with_openings};
+use enfilade_furniture::{Builder, Class, Door, Finish, Passage, RoomKind, Window, board, family_of, pose};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use enfilade_textures::FLOOR_STRIPS;
 
 /// How far floor, walls and ceiling reach into each other, so that no light comes through the joints.
 const OVERLAP: f32 = 0.1;
-/// The same at walls between rooms, which are thin.
+/// The overlap at walls between rooms, which are thin.
 const THIN_OVERLAP: f32 = 0.03;
 /// Half the air between the two halves of a wall.
 const AIR: f32 = 0.0005;
@@ -100,16 +98,21 @@ pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wa
     }
     for opening in &room.openings {
         match opening.filling {
-            Filling::Window { sashes } => Window { sashes }.build(b, room, opening),
-            Filling::Door(leaf) => Door { leaf }.build(b, room, opening),
-            Filling::Passage { lined: true } => Passage.build(b, room, opening),
+            Filling::Window { sashes } => Window { sashes }.build(b, &room.wall_opening(opening)),
+            Filling::Door(leaf) => Door { leaf }.build(b, &room.wall_opening(opening)),
+            Filling::Passage { lined: true } => Passage.build(b, &room.wall_opening(opening)),
             Filling::Passage { lined: false } | Filling::DoorBack => {}
         }
     }
 }
 
+/// True for objects of the shell: its pieces reach into each other, and carry everything else.
+pub fn is_shell(object: &str) -> bool {
+    is_shell_family(family_of(object))
+}
+
 /// True for the names of families that [`build`] makes: `wall_living_south`, `floor_hall`, `window`, but not `wall_lamp` or `window_seat`.
-pub fn is_shell_family(family: &str) -> bool {
+fn is_shell_family(family: &str) -> bool {
     let room = |name: &str| RoomKind::from_name(name).is_some();
     let wall = |name: &str| name.rsplit_once('_').is_some_and(|(kind, side)| room(kind) && SIDES.contains(&side));
     let piece = |of: &str| family.strip_prefix(of);

@@ -22,7 +22,7 @@ const FILES: [&str; 18] = [
     "crates/render/src/config.rs",
     "crates/verify/src/view_gates/config.rs",
     "crates/home/src/config.rs",
-    "crates/home/src/room/kind.rs",
+    "crates/furniture/src/room_kind.rs",
     "crates/home/src/light/mod.rs",
     "crates/import/src/environment.rs",
     "crates/import/src/options.rs",

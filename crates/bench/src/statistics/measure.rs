@@ -1,6 +1,7 @@
 //! What one home is made of, and what it cost to make.
 
-use enfilade_home::check::{family_of, faults, object_of};
+use enfilade_furniture::{family_of, object_of};
+use enfilade_home::check::faults;
 use enfilade_home::{Home, HomeConfig, home};
 use enfilade_math::{Bounds3, DVec2, Vec2, Vec3};
 use enfilade_scene::{Labels, NYU40, Part, Scene, is_stuff, to_bytes_with_labels};

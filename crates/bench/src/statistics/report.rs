@@ -117,7 +117,7 @@ fn room_table(homes: &[Measured]) -> String {
             .filter(|found| found.kind == room.kind)
             .map(|found| f64::from(found.area_m2))
             .collect();
-        let [from, to] = enfilade_home::RoomKind::from_name(room.kind).map_or([0.0; 2], |kind| kind.norm().area);
+        let [from, to] = enfilade_home::RoomKind::from_name(room.kind).map_or([0.0; 2], |kind| enfilade_home::room::kind::norm(kind).area);
         let found = if areas.count() == 0 {
             "– | –".into()
         } else {

@@ -1,47 +1,16 @@
 //! Which objects cut each other deeper than they may, and which touch.
 
-use super::meet::{Body, overlap};
-use super::{family_of, is_shell};
+use crate::shell::is_shell;
+use enfilade_furniture::meet::{Body, overlap};
+use enfilade_furniture::touch::{SOFT_REACH, is_draped, is_soft, reach};
 use enfilade_math::Vec3;
 
 /// Objects may sink this far into each other: feet into a rug's pile, screws into a wall, metres.
 const SINK: f32 = 0.004;
-/// The same for cloth and cushions, which give way, metres.
+/// Cloth and cushions, which give way, may sink this far into others, metres.
 const SOFT_SINK: f32 = 0.03;
-/// Families of cloth that lies in folds over or in something: it follows what it lies on, so its depth is not checked.
-const DRAPED: [&str; 6] = ["throw", "blanket", "clothes", "towel", "napkin", "crumpled_paper"];
-/// What is nearer than this touches, metres.
-const TOUCH: f32 = 0.0025;
-/// The same for what is soft: cloth hangs and lies in waves.
-const SOFT_TOUCH: f32 = 0.02;
-/// Families of soft things.
-const SOFT: [&str; 15] = [
-    "crumpled_paper",
-    "pillow",
-    "cushion",
-    "floor_cushion",
-    "bench_cushion",
-    "throw",
-    "blanket",
-    "towel",
-    "tea_towel",
-    "clothes",
-    "curtain",
-    "plush_toy",
-    "handbag",
-    "shopping_bag",
-    "shower_curtain",
-];
 /// The six ways along the axes.
 const WAYS: [Vec3; 6] = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
-
-fn is_soft(object: &str) -> bool {
-    SOFT.contains(&family_of(object))
-}
-
-fn is_draped(object: &str) -> bool {
-    DRAPED.contains(&family_of(object))
-}
 
 /// What is left of a soft body that gives way on all sides; `None` for a hard one.
 pub fn core(body: &Body) -> Option<Body> {
@@ -67,11 +36,6 @@ pub fn cores_meet([a, b]: [&Body; 2], cores: [Option<&Body>; 2], offset: Vec3) -
     }
 }
 
-/// Distance below which objects of these names touch, metres.
-pub fn reach(a: &str, b: &str) -> f32 {
-    if is_soft(a) || is_soft(b) { SOFT_TOUCH } else { TOUCH }
-}
-
 /// True when `a`, moved by `offset`, comes so near to `b` that either can carry the other.
 pub fn touches(a: &Body, b: &Body, offset: Vec3) -> bool {
     let reach = reach(&a.name, &b.name);
@@ -87,8 +51,8 @@ fn neighbours(bodies: &[Body]) -> Vec<(usize, usize)> {
     order.sort_by(|&a, &b| bodies[a].bounds.min.x.total_cmp(&bodies[b].bounds.min.x));
     let mut pairs = Vec::new();
     for (k, &a) in order.iter().enumerate() {
-        for &b in order[k + 1..].iter().take_while(|&&b| bodies[b].bounds.min.x <= bodies[a].bounds.max.x + SOFT_TOUCH) {
-            if !(shell[a] && shell[b]) && overlap(&bodies[a].bounds, &bodies[b].bounds, SOFT_TOUCH) {
+        for &b in order[k + 1..].iter().take_while(|&&b| bodies[b].bounds.min.x <= bodies[a].bounds.max.x + SOFT_REACH) {
+            if !(shell[a] && shell[b]) && overlap(&bodies[a].bounds, &bodies[b].bounds, SOFT_REACH) {
                 pairs.push((a.min(b), a.max(b)));
             }
         }
@@ -99,9 +63,9 @@ fn neighbours(bodies: &[Body]) -> Vec<(usize, usize)> {
 
 /// The contacts between many bodies: sorted pairs of their numbers, the smaller first.
 pub struct Contacts {
-    /// Those that touch.
+    /// Pairs that touch.
     pub touching: Vec<(usize, usize)>,
-    /// Those that run into each other.
+    /// Pairs that run into each other.
     pub meeting: Vec<(usize, usize)>,
 }
 

@@ -1,6 +1,6 @@
 //! What can be wrong with a home, in words for people and in families to be counted.
 
-use super::family_of;
+use enfilade_furniture::family_of;
 use std::fmt;
 
 /// Something that is wrong with a home.
@@ -19,7 +19,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The same in words that name families instead of objects, so that equal faults can be counted.
+    /// The fault in words that name families instead of objects, so that equal faults can be counted.
     pub fn kind(&self) -> String {
         match self {
             Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),

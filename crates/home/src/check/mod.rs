@@ -4,21 +4,18 @@
 
 pub(crate) mod contact;
 mod fault;
-pub(crate) mod meet;
-mod names;
 pub(crate) mod walk;
 
 pub use fault::Fault;
-pub(crate) use names::is_shell;
-pub use names::{family_of, object_of};
 
 use crate::Home;
 use crate::cameras::CLEARANCES;
 use contact::Contacts;
+use enfilade_furniture::meet::Body;
+use enfilade_furniture::object_of;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{NYU40, is_stuff};
-use meet::Body;
 use std::collections::BTreeMap;
 
 /// Slack for rounding, metres: cameras keep their distance from boxes that are computed in another way than those here.

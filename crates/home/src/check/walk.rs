@@ -1,9 +1,10 @@
 //! Where a person can go in a finished home, and what stands in the way.
 
-use super::{family_of, is_shell, object_of};
 use crate::Home;
 use crate::place::BODY;
 use crate::plan::FloorPlan;
+use crate::shell::is_shell;
+use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{Vec2, Vec3};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -122,7 +123,7 @@ struct Ways {
 }
 
 impl<'a> Floor<'a> {
-    /// Of a home as it stands.
+    /// The floor of a home with all that stands on it.
     pub fn new(home: &'a Home) -> Self {
         let plan = &home.plan;
         let grid = Grid::of(plan);

@@ -4,21 +4,16 @@
 //! brings the walls of a home to about the same value by day and by night and balances the white as a camera does; the radiance's
 //! luminance divided by [`Exposure::per_kcd`] and multiplied by 1000 is about that in cd/m² again.
 
-mod blackbody;
-mod exposure;
-mod lamp;
 mod outside;
 mod sky;
 mod sun;
 mod weather;
 
-pub use blackbody::blackbody;
-pub use exposure::Exposure;
-pub use lamp::{Glow, area_m2};
 pub use outside::Outside;
 pub use sun::{declination_rad, to_sun};
 pub use weather::Weather;
 
+use enfilade_furniture::{Exposure, LampLight};
 use enfilade_math::{Rng, Vec2, Vec3};
 use enfilade_options::words;
 use enfilade_scene::Scene;
@@ -125,7 +120,7 @@ impl LightConfig {
         light
     }
 
-    /// The same light with the home turned so that the sun of the day stands before `outward`, a direction of the home's plan, within
+    /// This light with the home turned so that the sun of the day stands before `outward`, a direction of the home's plan, within
     /// 50 degrees to one side or the other as `u` on [0,1) says.
     #[must_use]
     pub fn facing_sun(mut self, outward: Vec2, u: f32) -> Self {
@@ -144,13 +139,13 @@ impl LightConfig {
 
     /// How bright the scene is shown.
     pub fn exposure(&self) -> Exposure {
-        Exposure::of(&self.weather(), self.lamps)
+        let weather = self.weather();
+        Exposure::of(weather.sky_klx(), weather.sun_klx(), self.lamps)
     }
 
-    /// True when the lamp of this name is lit.
-    pub fn lit(&self, name: &str) -> bool {
-        let key = name.bytes().fold(0u64, |key, byte| key.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte));
-        Rng::new(self.seed).fork(key).next_f32() < self.lamps
+    /// How bright the lamps of the home are, and which of them are lit.
+    pub fn lamp_light(&self) -> LampLight {
+        LampLight { exposure: self.exposure(), lit: self.lamps, seed: self.seed }
     }
 
     /// Adds sun, sky and surroundings to `scene`. `outward` are the directions out of the home's windows: what faces away from all of
@@ -216,12 +211,5 @@ mod tests {
         let levels = [at(12.0, 0.0), at(18.0, 0.0), at(19.9, 1.0), at(23.5, 1.0)];
         assert!(levels.windows(2).all(|p| p[0] < p[1]), "{levels:?}");
         assert!(levels[0] > 0.4 && levels[3] < 40.0, "{levels:?}");
-    }
-
-    #[test]
-    fn as_many_lamps_are_lit_as_asked_for() {
-        let light = LightConfig { lamps: 0.3, seed: 5, ..LightConfig::default() };
-        let lit = (0..1000).filter(|k| light.lit(&format!("lamp_{k}"))).count();
-        assert!((250..350).contains(&lit), "{lit}");
     }
 }

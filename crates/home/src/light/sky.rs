@@ -1,7 +1,8 @@
 //! The picture of sky and surroundings that lights a home, and the sun's own light.
 
+use super::Weather;
 use super::outside::Surroundings;
-use super::{Exposure, Weather};
+use enfilade_furniture::Exposure;
 use enfilade_math::{Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::sky::SUN_RADIUS_RAD;
 use enfilade_scene::{Environment, Image, Light, MapRows, Pixels, Scene, direction_from_uv};

@@ -16,9 +16,9 @@ pub struct Weather {
     pub(super) to_sun: Vec3,
     cloud: f32,
     clear: Box<dyn Fn(Vec3) -> Rgb + Send + Sync>,
-    /// Of the disk through the clouds, on a surface that faces it, kilo-lux.
+    /// Illuminance by the sun's disk through the clouds, on a surface that faces it, kilo-lux.
     pub(super) sun: Rgb,
-    /// Of the whole sky on level ground, kilo-lux.
+    /// Illuminance by the whole sky on level ground, kilo-lux.
     sky: Rgb,
 }
 

@@ -11,14 +11,13 @@ pub use crate::room::Footprint;
 pub use scatter::scatter;
 pub use walk::{BODY, Walk};
 
-use crate::builder::pose;
-use crate::furniture::CONTACT;
 use crate::room::{Room, Wall};
+use enfilade_furniture::{CONTACT, pose};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Distance between walls and what stands along them, because of the skirting, metres.
 const WALL_GAP: f32 = 0.02;
-/// The same in rooms with tiles, where things are fixed to the wall.
+/// Distance between walls and what stands along them in rooms with tiles, where things are fixed to the wall, metres.
 const TILED_GAP: f32 = 0.0;
 /// Distance between things that do not belong together, metres.
 const AIR: f32 = 0.02;
@@ -40,11 +39,11 @@ const TRIALS: usize = 80;
 /// A thing of a group, in the group's space: origin just before the wall behind it, x along the wall, y into the room.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
-    /// Its box.
+    /// Width, depth and height of the box around the thing.
     pub size: Vec3,
     /// The middle of its footprint.
     pub at: Vec2,
-    /// Its turn; 0 faces into the room.
+    /// Turn of the thing; 0 faces into the room.
     pub yaw: f32,
     /// Lower end of its box above the floor.
     pub z: f32,
@@ -60,7 +59,7 @@ impl Piece {
         Self { size, at: Vec2::new(0.0, 0.5 * size.y), yaw: 0.0, z: 0.0, reach, flat: false }
     }
 
-    /// The same elsewhere in the group.
+    /// The thing at another place of the group.
     #[must_use]
     pub fn at(self, x: f32, y: f32, yaw: f32) -> Self {
         Self { at: Vec2::new(x, y), yaw, ..self }
@@ -70,13 +69,13 @@ impl Piece {
 /// Where a group may stand.
 #[derive(Clone, Copy, Debug)]
 pub struct Spot {
-    /// Its origin.
+    /// The origin of the group.
     pub origin: Vec2,
-    /// Its turn.
+    /// Turn of the group.
     pub yaw: f32,
     /// The wall behind it.
     pub wall: Option<Wall>,
-    /// Its place along that wall.
+    /// Place of the group along that wall.
     pub x: f32,
 }
 

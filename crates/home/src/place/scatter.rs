@@ -1,6 +1,6 @@
 //! Scatters small things over the surfaces of larger ones, at random places that do not overlap.
 
-use crate::furniture::{Furniture, Surface, on};
+use enfilade_furniture::{Furniture, Surface, on};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// Distance between small things, metres.

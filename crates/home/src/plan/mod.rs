@@ -8,10 +8,10 @@ mod search;
 pub mod slicing;
 mod structure;
 
-pub use crate::room::kind::{self, RoomKind, usual_programme};
 pub use openings::Doorway;
 
 use crate::room::{Room, Wall};
+use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec3};
 use search::{Site, Sketch, on_side, search};
 use slicing::Cell;
@@ -82,6 +82,7 @@ impl FloorPlan {
 mod tests {
     use super::*;
     use crate::room::Filling;
+    use crate::room::kind::{norm, usual_programme};
 
     /// Programmes of one to eight rooms, and some that lack what others take for granted.
     fn programmes() -> Vec<Vec<RoomKind>> {
@@ -115,7 +116,7 @@ mod tests {
                 let plan = FloorPlan::new(&kinds, &Rng::new(seed));
                 assert_eq!(reachable(&plan), kinds.len(), "{kinds:?} {seed}");
                 for room in &plan.rooms {
-                    let norm = room.kind.norm();
+                    let norm = norm(room.kind);
                     let windows = room.openings.iter().filter(|o| matches!(o.filling, Filling::Window { .. }));
                     let lit = !norm.window || windows.count() > 0;
                     broken += usize::from(room.size.truncate().min_element() < norm.width - 0.03 || !lit);

@@ -5,7 +5,8 @@
 //! rooms, above the worktop in kitchens and above eye level of a bather in bathrooms.
 
 use super::search::{Site, Sketch, shared_wall};
-use crate::room::{Filling, Leaf, Opening, Room, RoomKind, Wall};
+use crate::room::{Filling, Opening, Room, Wall};
+use enfilade_furniture::{Leaf, RoomKind};
 use enfilade_math::Rng;
 
 /// Height of the openings of doors, metres.

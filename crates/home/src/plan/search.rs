@@ -1,7 +1,9 @@
 //! The search for a floor plan: simulated annealing over slicing plans, areas and the shape of the whole.
 
 use super::slicing::{Cell, Slicing};
-use crate::room::{RoomKind, Wall};
+use crate::room::Wall;
+use crate::room::kind::{access, norm};
+use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec2};
 
 /// Shortest piece of wall that two rooms share where a door between them has room for its casings.
@@ -112,7 +114,7 @@ fn first(kinds: &[RoomKind], rng: &mut Rng) -> State {
     rng.shuffle(&mut others);
     let (front, back) = others.split_at(others.len() / 2);
     let slicing = Slicing::rows(&[front.to_vec(), vec![hub], back.to_vec()]);
-    let areas = kinds.iter().map(|kind| gross(kind.norm().area, rng.next_f32())).collect();
+    let areas = kinds.iter().map(|kind| gross(norm(*kind).area, rng.next_f32())).collect();
     State { slicing, areas, aspect: rng.range(1.0, 1.6) }
 }
 
@@ -127,7 +129,7 @@ fn moved(state: &State, kinds: &[RoomKind], rng: &mut Rng) -> State {
         0 => next.aspect = (next.aspect * rng.range(0.9, 1.1)).clamp(0.8, 1.8),
         1 | 2 => {
             let i = rng.below(kinds.len());
-            let area = kinds[i].norm().area;
+            let area = norm(kinds[i]).area;
             next.areas[i] = (next.areas[i] * rng.range(0.85, 1.18)).clamp(gross(area, 0.0), gross(area, 1.0));
         }
         _ => next.slicing = next.slicing.changed(rng),
@@ -163,7 +165,7 @@ fn judge(kinds: &[RoomKind], site: Site, state: &State, wished: &[f32]) -> Sketc
 }
 
 fn shape_cost(kind: RoomKind, cell: &Cell) -> f32 {
-    let (norm, clear) = (kind.norm(), cell.size() - WALLS);
+    let (norm, clear) = (norm(kind), cell.size() - WALLS);
     let (width, length) = (clear.min_element(), clear.max_element());
     let narrow = ((norm.width - width) / norm.width).max(0.0);
     let long = (length / width.max(0.1) / norm.aspect - 1.0).max(0.0);
@@ -177,7 +179,7 @@ fn daylight_cost(kind: RoomKind, cell: &Cell, whole: &Cell, site: Site) -> f32 {
     let wall = |w: Wall| if site.open[w as usize] && on_side(cell, whole, w) { side_length(cell, w) } else { 0.0 };
     let (longest, all) = Wall::ALL.into_iter().map(wall).fold((0.0f32, 0.0f32), |(l, a), w| (l.max(w), a + w));
     match kind {
-        _ if kind.norm().window && longest < WINDOW_WALL => 1.5 * BROKEN - 2.0 * longest,
+        _ if norm(kind).window && longest < WINDOW_WALL => 1.5 * BROKEN - 2.0 * longest,
         RoomKind::Living => 0.5 * (4.5 - longest).max(0.0) - 0.05 * all,
         // Halls, stores and toilets leave the façades to others.
         RoomKind::Hall | RoomKind::Laundry | RoomKind::Toilet => 0.12 * all,
@@ -196,7 +198,7 @@ fn doors(kinds: &[RoomKind], cells: &[Cell], hub: usize) -> (Vec<(usize, usize)>
             for into in (0..kinds.len()).filter(|i| !inside.contains(i)) {
                 let Some((_, [low, high])) = shared_wall(&cells[from], &cells[into]) else { continue };
                 let short = if high - low < DOOR_WALL { 1.5 * BROKEN } else { 0.0 };
-                let access = kinds[into].access_from(kinds[from]) + short;
+                let access = access(kinds[into], kinds[from]) + short;
                 if access < next.0 {
                     next = (access, from, into);
                 }

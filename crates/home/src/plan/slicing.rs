@@ -19,9 +19,9 @@ pub enum Word {
 /// An axis-aligned rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Its corner with the smallest x and y.
+    /// The corner with the smallest x and y.
     pub min: Vec2,
-    /// Its corner with the largest.
+    /// The corner with the largest x and y.
     pub max: Vec2,
 }
 
@@ -31,7 +31,7 @@ impl Cell {
         self.max - self.min
     }
 
-    /// Its middle.
+    /// The middle of the cell.
     pub fn center(&self) -> Vec2 {
         0.5 * (self.min + self.max)
     }

@@ -1,7 +1,8 @@
 //! A floor plan as rooms, wall faces and openings: the exact layout that a dataset of a generated home states.
 
 use super::FloorPlan;
-use crate::room::{Filling, Leaf, Opening, Room, Wall};
+use crate::room::{Filling, Opening, Room, Wall};
+use enfilade_furniture::Leaf;
 use enfilade_math::{DVec2, DVec3, Vec2};
 use enfilade_scene::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, WallOpening};
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 /// A turned rectangle on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
-    /// Its middle.
+    /// The middle of the rectangle.
     pub center: Vec2,
     /// Half its width and depth.
     pub half: Vec2,
@@ -19,7 +19,7 @@ impl Footprint {
         [x, x.perp()]
     }
 
-    /// Its four corners.
+    /// The four corners of the rectangle.
     pub fn corners(&self) -> [Vec2; 4] {
         let [x, y] = self.axes();
         [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|[sx, sy]| self.center + x * self.half.x * sx + y * self.half.y * sy)

@@ -3,14 +3,12 @@
 mod footprint;
 pub mod kind;
 
-pub use footprint::Footprint;
-pub use kind::RoomKind;
-
-use crate::builder::pose;
+use enfilade_furniture::{Leaf, RoomKind, WallOpening, pose};
 use enfilade_math::{DAffine3, Vec2, Vec3};
+pub use footprint::Footprint;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// One of the four walls of a room. North is +y.
+/// A wall of a room, by its side. North is +y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Wall {
@@ -71,22 +69,11 @@ pub enum Filling {
     Door(Leaf),
     /// A door whose leaf swings into the room beyond.
     DoorBack,
-    /// Nothing: an open way.
+    /// An open way, without a door.
     Passage {
         /// Both rooms have the opening; one of them builds its lining.
         lined: bool,
     },
-}
-
-/// How a door hangs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leaf {
-    /// Hinges at the end with the smaller (−1) or larger (+1) x.
-    pub hinge: f32,
-    /// How far it stands open; 0 is shut.
-    pub open_rad: f32,
-    /// Thickness of the wall that it hangs in.
-    pub back: f32,
 }
 
 impl Opening {
@@ -150,6 +137,13 @@ impl Room {
     pub fn wall_pose(&self, wall: Wall) -> DAffine3 {
         let p = self.center - wall.inward() * 0.5 * self.size.truncate();
         pose(f64::from(p.x), f64::from(p.y), 0.0, wall.yaw())
+    }
+
+    /// An opening of the room as what fills it needs to know it.
+    pub fn wall_opening(&self, opening: &Opening) -> WallOpening {
+        let wall = opening.wall;
+        let (pose, thickness) = (self.wall_pose(wall), self.thickness(wall));
+        WallOpening { wall: pose, x: opening.x, z: opening.z, thickness, outer: self.outer[wall as usize] }
     }
 
     /// From a range of the home's x or y, whichever the wall runs along, to the wall's own x.

@@ -16,7 +16,7 @@ pub fn furnish(f: &mut Furnisher) {
     } else if has_tub && large {
         f.perhaps(0.5, "shower", cornered);
     }
-    if !f.home_has(crate::room::RoomKind::Laundry) {
+    if !f.home_has(enfilade_furniture::RoomKind::Laundry) {
         f.perhaps(0.5, "washing_machine", cornered);
     }
     f.perhaps(0.7, "towel_radiator", by_door);

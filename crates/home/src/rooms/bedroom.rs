@@ -2,9 +2,8 @@
 
 use super::Furnisher;
 use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
-use crate::furniture::bedroom::Bed;
-use crate::furniture::{Furniture, Surface, TableLamp};
 use crate::place::Piece;
+use enfilade_furniture::{Bed, Furniture, Surface, TableLamp};
 use enfilade_math::Vec2;
 
 /// Distance between a bed and what stands beside it, metres.

@@ -1,9 +1,8 @@
 //! Blinds in the reveals of windows.
 
 use super::Furnisher;
-use crate::furniture::living::{Blind, BlindKind};
-use crate::furniture::{Window, on};
-use crate::room::{Filling, Opening, RoomKind};
+use crate::room::{Filling, Opening};
+use enfilade_furniture::{Blind, BlindKind, RoomKind, Window, on};
 use enfilade_math::{Rng, Vec3};
 
 /// Where the backs of blinds are, seen from the wall's inner face, metres: just before the handles of the sashes.

@@ -1,13 +1,13 @@
 //! Switches by the doors, and sockets.
 
 use super::Furnisher;
-use crate::furniture::{Furniture, Socket, Switch, on};
-use crate::room::{Filling, Opening, RoomKind, Wall};
+use crate::room::{Filling, Opening, Wall};
+use enfilade_furniture::{Furniture, RoomKind, Socket, Switch, on};
 use enfilade_math::Vec3;
 
 /// Height of the middle of switches above the floor, metres (DIN 18015-3).
 const SWITCH: f32 = 1.05;
-/// The same for sockets.
+/// Height of sockets above the floor, metres.
 const SOCKET: f32 = 0.30;
 /// Share of switches with a socket below.
 const BELOW: f32 = 0.7;

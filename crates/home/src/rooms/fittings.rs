@@ -1,9 +1,8 @@
 //! What belongs to a room whoever lives in it: radiators, curtains, lamps.
 
 use super::Furnisher;
-use crate::furniture::living::CeilingLamp;
-use crate::furniture::{Candles, CeilingDome, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
-use crate::room::{Footprint, Opening, RoomKind};
+use crate::room::{Footprint, Opening};
+use enfilade_furniture::{Candles, CeilingDome, CeilingLamp, Curtains, Furniture, Pendant, Plant, Radiator, RoomKind, Window, on};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Minimum height of a sill with a radiator below it, metres.
@@ -77,7 +76,7 @@ impl Furnisher<'_> {
         }
         let width = self.rng.range(0.36, 0.44).min(beyond[0].min(beyond[1]) + 0.12);
         let curtains = Curtains { width, beyond };
-        curtains.build(self.b, self.room, window, &mut self.rng);
+        curtains.build(self.b, &self.room.wall_opening(window), self.room.size.z, &mut self.rng);
         let (low, high) = (window.x[0] - beyond[0] - 0.04, window.x[1] + beyond[1] + 0.04);
         for x in [[low, low + width + 0.1], [high - width - 0.1, high]] {
             self.floor.take(self.floor.strip(window.wall, x, Curtains::DEPTH), [0.0, self.room.size.z]);
@@ -138,7 +137,7 @@ impl Furnisher<'_> {
 
     /// Hangs a lamp from the ceiling over a point of the floor.
     pub fn above(&mut self, at: Vec2, lamp: &dyn Furniture) {
-        let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
+        let pose = enfilade_furniture::pose(f64::from(at.x), f64::from(at.y), f64::from(self.room.size.z), 0.0);
         self.build(lamp, pose);
     }
 }
@@ -146,9 +145,9 @@ impl Furnisher<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assets::{Body, Library, Model};
     use crate::rooms::tests::furnished;
-    use crate::shape::bevelled_box;
+    use enfilade_furniture::assets::{Body, Library, Model};
+    use enfilade_furniture::shape::bevelled_box;
     use enfilade_math::{DMat3, Rgb};
     use enfilade_scene::{Material, Part, Scene};
     use std::sync::Arc;

@@ -1,12 +1,10 @@
 //! The hand that furnishes a room: it finds a place for a thing, and builds the thing there.
 
-use crate::assets::{Borrowed, Library};
-use crate::builder::Builder;
-use crate::furniture::{FAMILIES, Family, Furniture, PictureOnWall, Place, Rug, Surface, family_named, on};
-use crate::palette::Palette;
 use crate::place::{Floor, Piece, Spot, scatter};
 use crate::plan::FloorPlan;
-use crate::room::{Room, RoomKind, Wall};
+use crate::room::{Room, Wall};
+use enfilade_furniture::assets::{Borrowed, Library};
+use enfilade_furniture::{Builder, FAMILIES, Family, Furniture, Palette, PictureOnWall, Place, RoomKind, Rug, Surface, family_named, on};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A room being furnished.
@@ -51,7 +49,7 @@ const VARIANTS: usize = 4;
 pub struct Standing {
     /// Where it stands.
     pub pose: DAffine3,
-    /// Its box.
+    /// Width, depth and height of the box around the thing.
     pub size: Vec3,
     /// Where its group stands.
     pub spot: Spot,

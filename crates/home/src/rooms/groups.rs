@@ -2,9 +2,8 @@
 
 use super::Furnisher;
 use super::wishes::{centred, cornered, tucked_away};
-use crate::builder::Class;
-use crate::furniture::{FAMILIES, Place};
 use crate::place::{Floor, Piece, Spot};
+use enfilade_furniture::{Class, FAMILIES, Place};
 use enfilade_math::Vec2;
 use std::f32::consts::PI;
 

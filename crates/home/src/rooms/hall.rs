@@ -3,14 +3,14 @@
 use super::Furnisher;
 use super::furnisher::Standing;
 use super::wishes::{by_door, centred, cornered, in_view, tucked_away};
-use crate::furniture::{Furniture, Rug};
 use crate::place::{Piece, Spot};
+use enfilade_furniture::{Furniture, Rug};
 use enfilade_math::Vec2;
 use std::f32::consts::FRAC_PI_2;
 
 /// Width of a runner, metres.
 const RUNNER: f32 = 0.66;
-/// Its lengths, the longest first, metres.
+/// Lengths of the runner, the longest first, metres.
 const LENGTHS: [f32; 4] = [2.4, 1.9, 1.5, 1.2];
 /// Length of floor that a runner leaves free at its ends together, metres.
 const BORDER: f32 = 0.5;

@@ -2,10 +2,10 @@
 
 use super::Furnisher;
 use super::wishes::cornered;
-use crate::furniture::Furniture;
-use crate::furniture::kitchen::{self, FittedKitchen, Run};
 use crate::place::{Piece, Spot};
-use crate::room::{Opening, RoomKind, Wall};
+use crate::room::{Opening, Wall};
+use enfilade_furniture::kitchen::{self, FittedKitchen, Run};
+use enfilade_furniture::{Furniture, RoomKind};
 use enfilade_math::{Vec2, Vec3};
 
 /// Units keep this distance from walls.
@@ -168,8 +168,8 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
     let (wall, corners) = (stretch.wall, stretch.corners);
     let Some(_) = f.floor.place(&group, vec![spot], |_, _| 0.0) else { return false };
     let at = spot.point(back);
-    let z = f64::from(crate::furniture::CONTACT);
-    let pose = crate::builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));
+    let z = f64::from(enfilade_furniture::CONTACT);
+    let pose = enfilade_furniture::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));
     f.build(kitchen, pose);
     // Nothing else hangs or stands where the wall units and tall units are.
     let above = f.floor.strip(wall, stretch.x, 0.4);

@@ -3,12 +3,12 @@
 use super::Furnisher;
 use super::furnisher::Standing;
 use super::wishes::centred;
-use crate::furniture::{
-    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CoffeeTable, FloorLamp, Furniture, Magazines, Mirror, Mug, PictureOnWall, Plant,
-    Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
-};
 use crate::place::{Piece, Spot};
-use crate::room::{RoomKind, Wall};
+use crate::room::Wall;
+use enfilade_furniture::{
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CoffeeTable, FloorLamp, Furniture, Magazines, Mirror, Mug, PictureOnWall, Plant,
+    RoomKind, Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
+};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_textures::PaintingStyle;
 use std::f32::consts::PI;

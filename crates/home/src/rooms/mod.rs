@@ -24,12 +24,10 @@ mod wishes;
 pub use furnisher::Furnisher;
 
 use crate::HomeConfig;
-use crate::assets::Library;
-use crate::builder::Builder;
-use crate::palette::DecorConfig;
 use crate::plan::FloorPlan;
-use crate::room::RoomKind;
 use crate::shell::{self, ShellFinish};
+use enfilade_furniture::assets::Library;
+use enfilade_furniture::{Builder, DecorConfig, RoomKind};
 
 /// Builds all rooms of a home and what is in them.
 pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig, library: &Library) {
@@ -40,10 +38,12 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
         let palette = decor.room(&home, i as u64);
         b.enter_room(palette, room.windows().next().is_none());
         let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
+        // What belongs to the room whoever lives in it comes first, then what its kind of room wants, then what still fits.
         f.fittings();
         content(&mut f);
         f.extras();
         f.sockets();
+        // The shell is built last: it has an accent wall behind what stands there, and no skirting behind what is built in.
         let (accent, built_in) = (f.accent, std::mem::take(&mut f.built_in));
         let mut shape = shape.fork(i as u64);
         let finish = ShellFinish::usual(room.kind, accent, &mut shape, &mut look.fork(i as u64));

@@ -1,13 +1,10 @@
 //! A table with chairs around it.
 
 use super::Furnisher;
-use crate::assets::Borrowed;
-use crate::builder;
-use crate::furniture::dining::LongTable;
-use crate::furniture::living::CeilingLamp;
-use crate::furniture::{Chair, DiningTable, Furniture, Pendant};
 use crate::place::{Floor, Piece, Spot};
 use crate::room::Footprint;
+use enfilade_furniture::assets::Borrowed;
+use enfilade_furniture::{CeilingLamp, Chair, DiningTable, Furniture, LongTable, Pendant, pose};
 use enfilade_math::{Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -26,7 +23,7 @@ const CHAIRS: [&str; 4] = ["chair", "spindle_chair", "shell_chair", "upholstered
 
 /// Chairs of one family.
 fn chair(family: usize, rng: &mut Rng) -> Box<dyn Furniture> {
-    use crate::furniture::dining::{ShellChair, SpindleChair, UpholsteredChair};
+    use enfilade_furniture::{ShellChair, SpindleChair, UpholsteredChair};
     match family {
         0 => Box::new(Chair::random(rng)),
         1 => Box::new(SpindleChair::random(rng)),
@@ -144,8 +141,8 @@ impl Furnisher<'_> {
         }
         for (piece, _) in group.iter().zip(&poses).skip(1) {
             let at = spot.point(piece.at);
-            let z = f64::from(crate::furniture::CONTACT);
-            self.build(chair, builder::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw + piece.yaw)));
+            let z = f64::from(enfilade_furniture::CONTACT);
+            self.build(chair, pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw + piece.yaw)));
         }
         let laid = matches!(table, Table::Long(LongTable { laid: Some(_), .. }));
         self.litter(&table.thing().surfaces(), poses[0], if laid { 0.3 } else { 0.7 });
@@ -160,7 +157,7 @@ impl Furnisher<'_> {
         };
         let model = self.borrow("pendant", &pendant, |size| size.z < drop + 0.1);
         let lamp: &dyn Furniture = model.as_ref().map_or(own, |model| model);
-        let above = builder::pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), f64::from(spot.yaw));
+        let above = pose(f64::from(spot.origin.x), f64::from(spot.origin.y), f64::from(self.room.size.z), f64::from(spot.yaw));
         self.build(lamp, above);
         let around = Footprint { center: spot.origin, half: 0.5 * lamp.size().truncate(), yaw: spot.yaw };
         self.floor.take(around, [LAMP, self.room.size.z]);
@@ -171,8 +168,8 @@ impl Furnisher<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::room::RoomKind;
     use crate::rooms::tests::lacks_without_clutter;
+    use enfilade_furniture::RoomKind;
 
     fn guests(f: &mut Furnisher) {
         let center = f.room.center;

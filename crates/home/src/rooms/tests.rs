@@ -1,14 +1,10 @@
 //! Rooms that tests furnish by hand, thing by thing.
 
 use super::Furnisher;
-use crate::assets::Library;
-use crate::builder::Builder;
-use crate::check::{family_of, object_of};
 use crate::light::LightConfig;
-use crate::materials::Materials;
-use crate::palette::Palette;
 use crate::plan::FloorPlan;
-use crate::room::RoomKind;
+use enfilade_furniture::assets::Library;
+use enfilade_furniture::{Builder, Materials, Palette, RoomKind, family_of, object_of};
 use enfilade_math::Rng;
 use enfilade_scene::{Part, Scene};
 
@@ -19,7 +15,7 @@ const SEEDS: u64 = 24;
 pub(super) fn furnished(kind: RoomKind, seed: u64, clutter: f32, library: &Library, furnish: impl FnOnce(&mut Furnisher)) -> (Scene, u64) {
     let plan = FloorPlan::new(&[kind], &Rng::new(1));
     let palette = Palette::all()[0];
-    let mut b = Builder::new(Materials::new(palette, LightConfig::default(), Rng::new(1)));
+    let mut b = Builder::new(Materials::new(palette, LightConfig::default().lamp_light(), Rng::new(1)));
     let mut f = Furnisher::new(&mut b, &plan, &plan.rooms[0], &palette, library, clutter, Rng::new(seed));
     furnish(&mut f);
     let next = f.rng.next_u64();

@@ -12,7 +12,7 @@ mod table;
 mod tests;
 
 use crate::error::Error;
-use enfilade_home::assets::{Library, Model};
+use enfilade_furniture::assets::{Library, Model};
 use enfilade_home::{Home, HomeConfig};
 use enfilade_scene::{Cx, Warning};
 use notes::Notes;

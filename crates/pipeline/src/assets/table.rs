@@ -11,8 +11,8 @@
 //! ```
 
 use crate::error::Error;
-use enfilade_home::assets::families_of;
-use enfilade_home::furniture::{FAMILIES, Place};
+use enfilade_furniture::assets::families_of;
+use enfilade_furniture::{FAMILIES, Place};
 use enfilade_math::{DMat3, DVec3, Vec3};
 use enfilade_options::closest;
 use enfilade_scene::{NYU40, decoded_text};
@@ -187,7 +187,7 @@ impl Table {
 impl Entry {
     fn families(&self) -> Option<Vec<&'static str>> {
         let class = self.class.as_ref().and_then(|class| NYU40.iter().find(|c| c.name.eq_ignore_ascii_case(class)));
-        let meant = |family: &&enfilade_home::furniture::Family| match (&self.family, class) {
+        let meant = |family: &&enfilade_furniture::Family| match (&self.family, class) {
             (Some(name), _) => family.name == name,
             (None, Some(class)) => family.class as i16 == class.id && allowed(family.name, self.stands),
             (None, None) => false,

@@ -1,0 +1,235 @@
+//! Puts parts, labels and materials together into a scene.
+
+use crate::assets::{Body, Model, repictured};
+use crate::lamplight::Glow;
+use crate::materials::{Materials, Surfacing};
+use crate::palette::Palette;
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, DVec3, Rgb};
+use enfilade_scene::{Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The NYU40 classes that a home has; the number is the class's id.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i16)]
+#[allow(missing_docs, reason = "plain words")]
+pub enum Class {
+    Wall = 1,
+    Floor = 2,
+    Cabinet = 3,
+    Bed = 4,
+    Chair = 5,
+    Sofa = 6,
+    Table = 7,
+    Door = 8,
+    Window = 9,
+    Bookshelf = 10,
+    Picture = 11,
+    Counter = 12,
+    Blinds = 13,
+    Desk = 14,
+    Shelves = 15,
+    Curtain = 16,
+    Dresser = 17,
+    Pillow = 18,
+    Mirror = 19,
+    FloorMat = 20,
+    Clothes = 21,
+    Ceiling = 22,
+    Books = 23,
+    Refrigerator = 24,
+    Television = 25,
+    Paper = 26,
+    Towel = 27,
+    ShowerCurtain = 28,
+    Box = 29,
+    Whiteboard = 30,
+    NightStand = 32,
+    Toilet = 33,
+    Sink = 34,
+    Lamp = 35,
+    Bathtub = 36,
+    Bag = 37,
+    OtherStructure = 38,
+    OtherFurniture = 39,
+    OtherProp = 40,
+}
+
+/// One thing that people count: its parts share its name, label and place.
+#[derive(Clone, Debug)]
+pub struct Object {
+    name: String,
+    id: ObjectId,
+    label: PartLabel,
+    /// Takes the object's own space (x right, y to its front, z up) to the world.
+    pub pose: DAffine3,
+}
+
+/// A scene in the making.
+pub struct Builder {
+    materials: Materials,
+    /// No daylight comes into the room: its lamps are lit.
+    dark: bool,
+    scene: Scene,
+    labels: Labels,
+    families: BTreeMap<String, u32>,
+    /// To where the fronts of objects look, by the objects' names.
+    fronts: BTreeMap<String, DVec3>,
+    instances: i16,
+    /// Where the models of the library that were used are in the scene, by their numbers.
+    loaned: BTreeMap<usize, Arc<Loaned>>,
+    /// The models behind objects, by the objects' names.
+    models: BTreeMap<String, Arc<Model>>,
+}
+
+/// Where a model's meshes and materials are in the scene.
+#[derive(Debug)]
+pub(crate) struct Loaned {
+    pub meshes: Vec<u32>,
+    pub materials: Vec<u32>,
+}
+
+/// The pose at (x, y, z), turned by `yaw` radians about the vertical.
+pub fn pose(x: f64, y: f64, z: f64, yaw: f64) -> DAffine3 {
+    DAffine3::from_translation(DVec3::new(x, y, z)) * DAffine3::from_rotation_z(yaw)
+}
+
+impl Builder {
+    /// A builder of an empty scene; finishes become materials when they are first used.
+    pub fn new(materials: Materials) -> Self {
+        Self {
+            materials,
+            dark: false,
+            scene: Scene::default(),
+            labels: Labels::default(),
+            families: BTreeMap::new(),
+            fronts: BTreeMap::new(),
+            instances: 0,
+            loaned: BTreeMap::new(),
+            models: BTreeMap::new(),
+        }
+    }
+
+    /// Parts added from now on have the colours of `palette`; in a `dark` room all lamps are lit at any hour.
+    pub fn enter_room(&mut self, palette: Palette, dark: bool) {
+        self.dark = dark;
+        self.materials.enter_room(palette);
+    }
+
+    /// A new object of a family: named `family_1`, `family_2`, … with an instance number of its own.
+    pub fn object(&mut self, family: &str, class: Class, pose: DAffine3) -> Object {
+        let count = self.families.entry(family.to_string()).or_insert(0);
+        *count += 1;
+        let semantic = class as i16;
+        let instance = if enfilade_scene::is_stuff(semantic) {
+            -1
+        } else {
+            self.instances += 1;
+            self.instances
+        };
+        let name = format!("{family}_{count}");
+        self.fronts.insert(name.clone(), pose.transform_vector3(DVec3::Y));
+        let id = self.scene.objects.len() as ObjectId;
+        self.scene.objects.push(enfilade_scene::Object { name: name.clone(), parent: None });
+        Object { name, id, label: PartLabel { semantic, instance }, pose }
+    }
+
+    /// Adds a part of `object`, its mesh in the object's space.
+    pub fn part(&mut self, object: &Object, name: &str, mesh: Mesh, made_of: impl Into<Surfacing>) {
+        self.part_at(object, name, mesh, DAffine3::IDENTITY, made_of);
+    }
+
+    /// Adds a part of `object` whose mesh is placed in the object's space by `object_from_mesh`.
+    pub fn part_at(&mut self, object: &Object, name: &str, mesh: Mesh, object_from_mesh: DAffine3, made_of: impl Into<Surfacing>) {
+        let material = match made_of.into() {
+            Surfacing::Finish(finish) => match finish.glow(&mesh) {
+                Some(glow) => self.materials.glow(&mut self.scene, &object.name, self.dark, &mesh, glow),
+                None => self.materials.get(&mut self.scene, finish),
+            },
+            Surfacing::Own(material) => material,
+        };
+        let mesh = self.mesh(mesh);
+        self.push(object, name, mesh, material, object.pose * object_from_mesh);
+    }
+
+    fn push(&mut self, object: &Object, name: &str, mesh: u32, material: u32, world_from_mesh: DAffine3) {
+        self.scene.parts.push(Part { name: format!("{}/{name}", object.name), object: Some(object.id), mesh, material, world_from_mesh });
+        self.labels.parts.push(object.label);
+    }
+
+    /// Records that `object` is the model of this number, and adds the model's meshes and materials unless they are there. The materials
+    /// do not emit light: only lamps do, by [`Builder::glow`].
+    pub(crate) fn loan(&mut self, object: &Object, number: usize, model: &Arc<Model>, body: &Body) -> Arc<Loaned> {
+        self.models.insert(object.name.clone(), Arc::clone(model));
+        if let Some(known) = self.loaned.get(&number) {
+            return Arc::clone(known);
+        }
+        let first_image = self.scene.images.len() as u32;
+        self.scene.images.extend(body.images.iter().cloned());
+        let dark = |m: &Material| Material { emission: Rgb::BLACK.into(), ..m.clone() };
+        let materials = body.materials.iter().map(|m| self.material(repictured(dark(m), |k| k + first_image))).collect();
+        let meshes = body.parts.iter().map(|part| self.mesh(part.mesh.clone())).collect();
+        let loaned = Arc::new(Loaned { meshes, materials });
+        self.loaned.insert(number, Arc::clone(&loaned));
+        loaned
+    }
+
+    /// Adds a part of `object` whose mesh and material are in the scene already.
+    pub(crate) fn loaned_part(&mut self, object: &Object, name: &str, mesh: u32, material: u32) {
+        self.push(object, name, mesh, material, object.pose);
+    }
+
+    /// The models behind objects, by the objects' names.
+    pub fn models(&self) -> &BTreeMap<String, Arc<Model>> {
+        &self.models
+    }
+
+    /// Adds a luminous part of a lamp. Flux and area give its radiance; the light of the home decides whether it is lit.
+    pub fn glow(&mut self, object: &Object, name: &str, mesh: Mesh, glow: Glow) {
+        let material = self.materials.glow(&mut self.scene, &object.name, self.dark, &mesh, glow);
+        self.part(object, name, mesh, material);
+    }
+
+    /// How many parts there are.
+    pub fn part_count(&self) -> usize {
+        self.scene.parts.len()
+    }
+
+    /// Removes all parts but the first `count`; meshes and materials that nothing else uses are dropped when the home settles.
+    pub fn take_back(&mut self, count: usize) {
+        self.scene.parts.truncate(count);
+        self.labels.parts.truncate(count);
+    }
+
+    /// Adds a material that only one object has.
+    pub fn material(&mut self, material: Material) -> u32 {
+        self.scene.materials.push(material);
+        self.scene.materials.len() as u32 - 1
+    }
+
+    /// Adds a picture that only one object has.
+    pub fn image(&mut self, image: Image) -> u32 {
+        self.scene.images.push(image);
+        self.scene.images.len() as u32 - 1
+    }
+
+    /// To where the fronts of objects look, by the objects' names.
+    pub fn fronts(&self) -> &BTreeMap<String, DVec3> {
+        &self.fronts
+    }
+
+    /// The scene for its last touches, and the labels.
+    pub fn finish(self) -> (Scene, Labels) {
+        (self.scene, self.labels)
+    }
+
+    /// Equal meshes are stored once.
+    fn mesh(&mut self, mesh: Mesh) -> u32 {
+        let found = self.scene.meshes.iter().position(|m| *m == mesh);
+        found.unwrap_or_else(|| {
+            self.scene.meshes.push(mesh);
+            self.scene.meshes.len() - 1
+        }) as u32
+    }
+}

@@ -1,0 +1,46 @@
+//! What furnishes a home: shapes and materials, and out of them one file per family of things.
+//!
+//! From the bottom up: [`shape`] makes meshes; [`Materials`] and [`Palette`] say what things are made of, [`LampLight`] how bright what
+//! glows is; `pieces` has one file per family of things, which [`FAMILIES`] lists; [`Builder`] names, labels and collects their parts.
+//! [`assets`] are models of others that may stand in for ours. [`meet`] and [`touch`] tell whether things run into each other.
+//!
+//! ```
+//! use enfilade_furniture::{Builder, LampLight, Materials, Palette, family_named, pose};
+//! use enfilade_math::Rng;
+//!
+//! let mut rng = Rng::new(7);
+//! let mut builder = Builder::new(Materials::new(Palette::all()[0], LampLight::default(), rng.fork(1)));
+//! let sofa = (family_named("sofa").unwrap().random)(&mut rng);
+//! sofa.build(&mut builder, pose(0.0, 0.0, 0.0, 0.0), &mut rng);
+//! let (scene, labels) = builder.finish();
+//! assert!(scene.parts.iter().any(|part| part.name.starts_with("sofa_1/")));
+//! assert_eq!(scene.parts.len(), labels.parts.len());
+//! ```
+
+pub mod assets;
+mod builder;
+mod lamplight;
+mod materials;
+pub mod meet;
+mod names;
+mod palette;
+mod pieces;
+mod room_kind;
+pub mod shape;
+pub mod touch;
+
+pub use builder::{Builder, Class, Object, pose};
+pub use lamplight::{Exposure, Glow, LampLight};
+pub use materials::{Finish, Materials, Surfacing};
+pub use names::{family_of, object_of};
+pub use palette::{DecorConfig, Palette};
+pub use pieces::bedroom::Bed;
+pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
+pub use pieces::kitchen;
+pub use pieces::living::{Blind, BlindKind, CeilingLamp};
+pub use pieces::{
+    Armchair, Basket, BookStack, Bookshelf, Bowl, CONTACT, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES,
+    Family, FloorLamp, Furniture, Leaf, Magazines, Mirror, Mug, Passage, Pendant, PictureOnWall, Place, Plant, Radiator, Rug, SideTable,
+    Socket, Surface, Switch, TableLamp, TelevisionBench, Tray, Vase, WallOpening, Window, board, family_named, on,
+};
+pub use room_kind::RoomKind;

@@ -1,0 +1,17 @@
+//! The bedroom: beds and their bedding, nightstands, chests of drawers, wardrobes, dressing tables, benches, and clothes on hangers or
+//! folded.
+
+mod bed;
+mod bedding;
+mod clothes;
+mod drawers;
+mod dressing;
+mod garment;
+mod wardrobe;
+
+pub use bed::Bed;
+pub use clothes::FoldedClothes;
+pub use drawers::{Dresser, Nightstand};
+pub use dressing::{Bench, DressingTable, LaundryBasket};
+pub use garment::Garment;
+pub use wardrobe::Wardrobe;

@@ -1,0 +1,433 @@
+//! The table of all families: what there is, where it stands and in which rooms, and a way to draw one of its variants.
+
+use super::bathroom::{
+    BathMat, Bathtub, FoldedTowels, MirrorCabinet, PaperHolder, PedalBin, Shower, SoapDispenser, Toilet, ToiletBrush, Toiletries,
+    ToothbrushMug, TowelRadiator, TowelRail, TowelShelf, Washbasin,
+};
+use super::bedroom::{Bed, Bench, Dresser, DressingTable, FoldedClothes, LaundryBasket, Nightstand, Wardrobe};
+use super::children::{Crib, Globe, Guitar, MusicKeyboard, PlayTable, PlushBear, Toy, ToyChair, ToyChest};
+use super::clutter::{
+    BoardGame, BookRow, Cable, Figurine, FoldedBlanket, MagazineRack, OpenBook, Phone, PhotoFrame, PillarCandles, RemoteControl,
+    ScatterCushion, StorageBasket, Tablet, TissueBox,
+};
+use super::dining::{BarStool, DiningBench, GlassCabinet, LongTable, ShellChair, Sideboard, SpindleChair, UpholsteredChair};
+use super::hall::{
+    Backpack, CardboardBox, CoatHooks, CoatStand, Console, Handbag, KeyBoard, ShoeCabinet, Shoes, ShoppingBag, StorageBox, Suitcase,
+    TallMirror, UmbrellaStand,
+};
+use super::kitchen::{FittedKitchen, KitchenIsland, Refrigerator};
+use super::laundry::{Bucket, DryingRack, IroningBoard, Vacuum, WashingMachine};
+use super::living::{
+    Blind, CeilingLamp, Chesterfield, CornerSofa, CubeShelf, DayBed, Fireplace, FloorCushion, FlowerVase, Foliage, GameConsole,
+    HangingPlant, Pouf, RecordPlayer, Speaker, Stove, WallClock, WallLamp, WallShelf,
+};
+use super::study::{Desk, DeskLamp, FilingCabinet, Keyboard, Laptop, Monitor, Mouse, OfficeChair, PaperStack, PenCup, Printer, WallBoard};
+use super::tableware::{
+    Bottle, Bread, Cookware, Crockery, CuttingBoard, Drinkware, FruitBowl, HerbPot, Jar, KitchenMachine, KitchenRoll, KnifeBlock, Piece,
+    PlaceSetting, SpiceRack, UtensilJar, WasteBin,
+};
+use super::{
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, Chair, CoffeeTable, DiningTable, FloorLamp, Furniture, Magazines, Mirror, Mug,
+    Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Socket, Sofa, Switch, TableLamp, TelevisionBench, Tray, Vase,
+};
+use crate::builder::Class;
+use crate::room_kind::RoomKind;
+use crate::room_kind::RoomKind::{Bathroom, Bedroom, Children, Dining, Hall, Kitchen, Laundry, Living, Study};
+use enfilade_math::{Bounds3, Rng, Vec3};
+
+/// Where a thing stands, hangs or lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// On the floor with its back to a wall, or fixed to that wall at a height of its own.
+    AgainstWall,
+    /// On the floor; it is seen from all sides.
+    Free,
+    /// On the floor, best in a corner.
+    Corner,
+    /// On a wall at a height of the room's choice: the origin is the middle of its back, on the wall's face.
+    OnWall,
+    /// Under the ceiling, which has the origin.
+    Ceiling,
+    /// On a [`super::Surface`] of another thing.
+    OnSurface,
+    /// Flat on the floor: others may stand on it.
+    Underfoot,
+}
+
+impl Place {
+    /// The box, in a thing's own space, that holds a thing of this [`Furniture::size`].
+    pub fn bounds(self, size: Vec3) -> Bounds3 {
+        let low = match self {
+            Self::OnWall => Vec3::new(-0.5 * size.x, 0.0, -0.5 * size.z),
+            Self::Ceiling => Vec3::new(-0.5 * size.x, -0.5 * size.y, -size.z),
+            Self::AgainstWall | Self::Free | Self::Corner | Self::OnSurface | Self::Underfoot => {
+                Vec3::new(-0.5 * size.x, -0.5 * size.y, 0.0)
+            }
+        };
+        Bounds3 { min: low, max: low + size }
+    }
+}
+
+/// One row of the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// The family's name, also that of its objects in a scene.
+    pub name: &'static str,
+    /// The class of the thing itself; what lies on it has classes of its own.
+    pub class: Class,
+    /// Where it goes.
+    pub place: Place,
+    /// The rooms in which people expect it.
+    pub rooms: &'static [RoomKind],
+    /// One of its variants.
+    pub random: fn(&mut Rng) -> Box<dyn Furniture>,
+}
+
+const fn family<F: Furniture + 'static>(name: &'static str, class: Class, place: Place, rooms: &'static [RoomKind]) -> Family {
+    Family { name, class, place, rooms, random: |rng| Box::new(F::random(rng)) }
+}
+
+/// Rooms in which people sit, sleep or work.
+const DWELLING: &[RoomKind] = &[Living, Dining, Bedroom, Children, Study];
+const ANY: &[RoomKind] = &[Living, Dining, Kitchen, Bedroom, Children, Study, Bathroom, Hall, Laundry];
+
+/// All families.
+pub static FAMILIES: &[Family] = &[
+    // Living and dining.
+    family::<Armchair>("armchair", Class::Chair, Place::Free, &[Living, Bedroom, Study]),
+    family::<Bookshelf>("bookshelf", Class::Bookshelf, Place::AgainstWall, &[Living, Study, Children, Hall]),
+    family::<Chair>("chair", Class::Chair, Place::Free, &[Dining, Living, Kitchen, Bedroom]),
+    family::<CoffeeTable>("coffee_table", Class::Table, Place::Free, &[Living]),
+    family::<DiningTable>("dining_table", Class::Table, Place::Free, &[Dining, Living, Kitchen]),
+    family::<SideTable>("side_table", Class::Table, Place::Free, &[Living, Bedroom]),
+    family::<Sofa>("sofa", Class::Sofa, Place::AgainstWall, &[Living, Study]),
+    family::<TelevisionBench>("tv_bench", Class::Cabinet, Place::AgainstWall, &[Living]),
+    // Bedroom.
+    family::<Bed>("bed", Class::Bed, Place::AgainstWall, &[Bedroom, Children]),
+    family::<Nightstand>("nightstand", Class::NightStand, Place::AgainstWall, &[Bedroom, Children]),
+    family::<Wardrobe>("wardrobe", Class::Cabinet, Place::AgainstWall, &[Bedroom, Children, Hall]),
+    family::<Dresser>("dresser", Class::Dresser, Place::AgainstWall, &[Bedroom, Children, Hall]),
+    family::<DressingTable>("dressing_table", Class::Table, Place::AgainstWall, &[Bedroom]),
+    family::<Bench>("bench", Class::OtherFurniture, Place::Free, &[Bedroom, Hall]),
+    family::<FoldedClothes>("clothes", Class::Clothes, Place::OnSurface, &[Bedroom, Children, Laundry]),
+    family::<LaundryBasket>("laundry_basket", Class::OtherProp, Place::Corner, &[Bedroom, Bathroom, Laundry]),
+    // Bathroom.
+    family::<Bathtub>("bathtub", Class::Bathtub, Place::AgainstWall, &[Bathroom]),
+    family::<Shower>("shower", Class::OtherStructure, Place::AgainstWall, &[Bathroom]),
+    family::<Washbasin>("washbasin", Class::Sink, Place::AgainstWall, &[Bathroom]),
+    family::<Toilet>("toilet", Class::Toilet, Place::AgainstWall, &[Bathroom]),
+    family::<MirrorCabinet>("mirror_cabinet", Class::Cabinet, Place::OnWall, &[Bathroom]),
+    family::<TowelRadiator>("towel_radiator", Class::OtherStructure, Place::AgainstWall, &[Bathroom]),
+    family::<TowelRail>("towel_rail", Class::OtherProp, Place::OnWall, &[Bathroom]),
+    family::<TowelShelf>("towel_shelf", Class::Shelves, Place::OnWall, &[Bathroom]),
+    family::<FoldedTowels>("towel", Class::Towel, Place::OnSurface, &[Bathroom, Laundry]),
+    family::<BathMat>("bath_mat", Class::FloorMat, Place::Underfoot, &[Bathroom]),
+    family::<PaperHolder>("paper_holder", Class::OtherProp, Place::OnWall, &[Bathroom]),
+    family::<SoapDispenser>("soap_dispenser", Class::OtherProp, Place::OnSurface, &[Bathroom, Kitchen]),
+    family::<ToothbrushMug>("toothbrush_mug", Class::OtherProp, Place::OnSurface, &[Bathroom]),
+    family::<Toiletries>("bottle", Class::OtherProp, Place::OnSurface, &[Bathroom, Bedroom]),
+    family::<ToiletBrush>("toilet_brush", Class::OtherProp, Place::Corner, &[Bathroom]),
+    family::<PedalBin>("bin", Class::OtherProp, Place::Corner, &[Bathroom, Bedroom, Study]),
+    // Hall.
+    family::<CoatHooks>("coat_hooks", Class::OtherProp, Place::OnWall, &[Hall]),
+    family::<CoatStand>("coat_stand", Class::OtherFurniture, Place::Corner, &[Hall]),
+    family::<Console>("console", Class::Table, Place::AgainstWall, &[Hall, Living]),
+    family::<KeyBoard>("key_board", Class::OtherProp, Place::OnWall, &[Hall]),
+    family::<ShoeCabinet>("shoe_cabinet", Class::Cabinet, Place::AgainstWall, &[Hall]),
+    family::<Shoes>("shoes", Class::OtherProp, Place::Free, &[Hall, Bedroom]),
+    family::<TallMirror>("tall_mirror", Class::Mirror, Place::AgainstWall, &[Hall, Bedroom]),
+    family::<UmbrellaStand>("umbrella_stand", Class::OtherProp, Place::Corner, &[Hall]),
+    family::<Backpack>("backpack", Class::Bag, Place::Free, &[Hall, Children, Study, Bedroom]),
+    family::<Handbag>("handbag", Class::Bag, Place::OnSurface, &[Hall, Bedroom]),
+    family::<ShoppingBag>("shopping_bag", Class::Bag, Place::Free, &[Hall, Kitchen]),
+    family::<Suitcase>("suitcase", Class::Bag, Place::Corner, &[Hall, Bedroom]),
+    family::<CardboardBox>("cardboard_box", Class::Box, Place::Free, &[Hall, Laundry, Study]),
+    family::<StorageBox>("storage_box", Class::Box, Place::OnSurface, &[Hall, Bedroom, Children, Study, Laundry]),
+    // Laundry.
+    family::<WashingMachine>("washing_machine", Class::OtherFurniture, Place::AgainstWall, &[Laundry, Bathroom, Kitchen]),
+    family::<DryingRack>("drying_rack", Class::OtherFurniture, Place::Free, &[Laundry, Bathroom]),
+    family::<IroningBoard>("ironing_board", Class::OtherFurniture, Place::Free, &[Laundry, Bedroom]),
+    family::<Vacuum>("vacuum_cleaner", Class::OtherProp, Place::Corner, &[Laundry, Hall]),
+    family::<Bucket>("bucket", Class::OtherProp, Place::Corner, &[Laundry, Bathroom]),
+    // Light, walls, floors.
+    family::<FloorLamp>("floor_lamp", Class::Lamp, Place::Corner, &[Living, Bedroom, Study]),
+    family::<Pendant>("pendant", Class::Lamp, Place::Ceiling, ANY),
+    family::<TableLamp>("table_lamp", Class::Lamp, Place::OnSurface, DWELLING),
+    family::<Mirror>("mirror", Class::Mirror, Place::OnWall, &[Living, Bedroom, Hall]),
+    family::<PictureOnWall>("picture", Class::Picture, Place::OnWall, DWELLING),
+    family::<Radiator>("radiator", Class::OtherStructure, Place::AgainstWall, ANY),
+    family::<Rug>("rug", Class::FloorMat, Place::Underfoot, DWELLING),
+    family::<Switch>("switch", Class::OtherProp, Place::OnWall, ANY),
+    family::<Socket>("socket", Class::OtherProp, Place::OnWall, ANY),
+    // Small things.
+    family::<Basket>("basket", Class::OtherProp, Place::Corner, DWELLING),
+    family::<BookStack>("books", Class::Books, Place::OnSurface, DWELLING),
+    family::<Bowl>("bowl", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen, Hall]),
+    family::<Candles>("candlestick", Class::OtherProp, Place::OnSurface, &[Living, Dining, Bedroom]),
+    family::<Magazines>("magazines", Class::Paper, Place::OnSurface, &[Living, Bedroom, Study]),
+    family::<Mug>("mug", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen, Study]),
+    family::<Plant>("plant", Class::OtherProp, Place::Corner, DWELLING),
+    Family {
+        random: |rng| Box::new(Plant::small(rng.range(0.09, 0.14), rng.range(0.05, 0.07))),
+        ..family::<Plant>("small_plant", Class::OtherProp, Place::OnSurface, ANY)
+    },
+    family::<Tray>("tray", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen]),
+    family::<Vase>("vase", Class::OtherProp, Place::OnSurface, &[Living, Dining, Bedroom, Hall]),
+    // Kitchen.
+    family::<FittedKitchen>("kitchen_unit", Class::Cabinet, Place::AgainstWall, &[Kitchen]),
+    family::<KitchenIsland>("kitchen_island", Class::Cabinet, Place::Free, &[Kitchen]),
+    family::<Refrigerator>("refrigerator", Class::Refrigerator, Place::AgainstWall, &[Kitchen]),
+    family::<KitchenMachine>("kitchen_machine", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<Cookware>("cookware", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<CuttingBoard>("cutting_board", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<KnifeBlock>("knife_block", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<UtensilJar>("utensil_jar", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<Crockery>("crockery", Class::OtherProp, Place::OnSurface, &[Kitchen, Dining]),
+    family::<Drinkware>("glass", Class::OtherProp, Place::OnSurface, &[Kitchen, Dining, Living, Bedroom]),
+    family::<Piece>("cutlery", Class::OtherProp, Place::OnSurface, &[Kitchen, Dining]),
+    family::<PlaceSetting>("place_setting", Class::OtherProp, Place::OnSurface, &[Dining]),
+    family::<Bottle>("drink_bottle", Class::OtherProp, Place::OnSurface, &[Kitchen, Dining, Living]),
+    family::<Jar>("jar", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<SpiceRack>("spice_rack", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<FruitBowl>("fruit_bowl", Class::OtherProp, Place::OnSurface, &[Kitchen, Dining]),
+    family::<Bread>("bread", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<HerbPot>("herbs", Class::OtherProp, Place::OnSurface, &[Kitchen]),
+    family::<KitchenRoll>("kitchen_roll", Class::Paper, Place::OnSurface, &[Kitchen]),
+    family::<WasteBin>("waste_bin", Class::OtherFurniture, Place::Corner, &[Kitchen, Study, Bathroom]),
+    // Dining.
+    family::<LongTable>("long_table", Class::Table, Place::Free, &[Dining, Kitchen]),
+    family::<SpindleChair>("spindle_chair", Class::Chair, Place::Free, &[Dining, Kitchen, Study]),
+    family::<UpholsteredChair>("upholstered_chair", Class::Chair, Place::Free, &[Dining, Living, Study, Bedroom]),
+    family::<ShellChair>("shell_chair", Class::Chair, Place::Free, &[Dining, Kitchen, Study, Children]),
+    family::<DiningBench>("dining_bench", Class::OtherFurniture, Place::Free, &[Dining, Kitchen]),
+    family::<BarStool>("bar_stool", Class::Chair, Place::Free, &[Kitchen]),
+    family::<Sideboard>("sideboard", Class::Cabinet, Place::AgainstWall, &[Dining, Living, Hall]),
+    family::<GlassCabinet>("glass_cabinet", Class::Cabinet, Place::AgainstWall, &[Dining, Living]),
+    // Study.
+    family::<Desk>("desk", Class::Desk, Place::AgainstWall, &[Study, Children, Bedroom]),
+    family::<OfficeChair>("office_chair", Class::Chair, Place::Free, &[Study, Children]),
+    family::<Monitor>("monitor", Class::OtherProp, Place::OnSurface, &[Study]),
+    family::<Keyboard>("keyboard", Class::OtherProp, Place::OnSurface, &[Study]),
+    family::<Mouse>("mouse", Class::OtherProp, Place::OnSurface, &[Study]),
+    family::<Laptop>("laptop", Class::OtherProp, Place::OnSurface, &[Study, Living, Dining, Bedroom]),
+    family::<Printer>("printer", Class::OtherProp, Place::OnSurface, &[Study]),
+    family::<DeskLamp>("desk_lamp", Class::Lamp, Place::OnSurface, &[Study, Children, Bedroom]),
+    family::<PaperStack>("paper", Class::Paper, Place::OnSurface, &[Study]),
+    family::<PenCup>("pen_cup", Class::OtherProp, Place::OnSurface, &[Study, Children]),
+    family::<FilingCabinet>("filing_cabinet", Class::Cabinet, Place::AgainstWall, &[Study]),
+    Family {
+        random: |rng| Box::new(WallBoard { cork: true, ..WallBoard::random(rng) }),
+        ..family::<WallBoard>("pin_board", Class::OtherStructure, Place::OnWall, &[Study, Children, Kitchen])
+    },
+    Family {
+        random: |rng| Box::new(WallBoard { cork: false, ..WallBoard::random(rng) }),
+        ..family::<WallBoard>("whiteboard", Class::Whiteboard, Place::OnWall, &[Study, Children])
+    },
+    // Children.
+    family::<Crib>("crib", Class::Bed, Place::AgainstWall, &[Children, Bedroom]),
+    family::<PlayTable>("play_table", Class::Table, Place::Free, &[Children]),
+    family::<ToyChair>("toy_chair", Class::Chair, Place::Free, &[Children]),
+    family::<ToyChest>("toy_chest", Class::Box, Place::AgainstWall, &[Children]),
+    family::<Toy>("toy", Class::OtherProp, Place::OnSurface, &[Children]),
+    family::<PlushBear>("plush_toy", Class::OtherProp, Place::OnSurface, &[Children, Bedroom]),
+    family::<Globe>("globe", Class::OtherProp, Place::OnSurface, &[Children, Study]),
+    family::<Guitar>("guitar", Class::OtherProp, Place::Corner, &[Children, Living, Study, Bedroom]),
+    family::<MusicKeyboard>("music_keyboard", Class::OtherFurniture, Place::AgainstWall, &[Children, Living, Study]),
+    // More of the living room.
+    family::<CornerSofa>("corner_sofa", Class::Sofa, Place::AgainstWall, &[Living]),
+    family::<Chesterfield>("chesterfield", Class::Sofa, Place::AgainstWall, &[Living, Study]),
+    Family {
+        random: |rng| Box::new(Chesterfield { seats: 1, ..Chesterfield::random(rng) }),
+        ..family::<Chesterfield>("club_chair", Class::Chair, Place::Free, &[Living, Study])
+    },
+    family::<DayBed>("day_bed", Class::Sofa, Place::AgainstWall, &[Living, Study]),
+    family::<Pouf>("pouf", Class::OtherFurniture, Place::Free, &[Living, Bedroom, Children]),
+    family::<FloorCushion>("floor_cushion", Class::Pillow, Place::Free, &[Living, Children]),
+    family::<WallShelf>("wall_shelf", Class::Shelves, Place::OnWall, DWELLING),
+    family::<CubeShelf>("cube_shelf", Class::Shelves, Place::AgainstWall, DWELLING),
+    family::<Fireplace>("fireplace", Class::OtherStructure, Place::AgainstWall, &[Living]),
+    family::<Stove>("stove", Class::OtherStructure, Place::AgainstWall, &[Living]),
+    family::<Blind>("blind", Class::Blinds, Place::OnWall, ANY),
+    family::<CeilingLamp>("ceiling_lamp", Class::Lamp, Place::Ceiling, ANY),
+    family::<WallLamp>("wall_lamp", Class::Lamp, Place::OnWall, &[Living, Bedroom, Hall]),
+    family::<WallClock>("wall_clock", Class::OtherProp, Place::OnWall, &[Living, Kitchen, Dining, Study, Hall]),
+    family::<RecordPlayer>("record_player", Class::OtherProp, Place::OnSurface, &[Living]),
+    family::<Speaker>("speaker", Class::OtherProp, Place::OnSurface, &[Living, Study]),
+    Family {
+        random: |rng| Box::new(Speaker::tall(rng)),
+        ..family::<Speaker>("floor_speaker", Class::OtherProp, Place::AgainstWall, &[Living])
+    },
+    family::<GameConsole>("game_console", Class::OtherProp, Place::OnSurface, &[Living, Children]),
+    family::<Foliage>("foliage", Class::OtherProp, Place::Corner, DWELLING),
+    family::<HangingPlant>("hanging_plant", Class::OtherProp, Place::Ceiling, &[Living, Kitchen, Bedroom, Study]),
+    family::<FlowerVase>("flower_vase", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen, Bedroom, Hall]),
+    // What lies about.
+    family::<BookRow>("book_row", Class::Books, Place::OnSurface, &[Living, Study, Children, Bedroom]),
+    family::<OpenBook>("open_book", Class::Books, Place::OnSurface, &[Living, Study, Bedroom]),
+    family::<MagazineRack>("magazine_rack", Class::OtherFurniture, Place::Free, &[Living]),
+    family::<RemoteControl>("remote_control", Class::OtherProp, Place::OnSurface, &[Living]),
+    family::<Phone>("phone", Class::OtherProp, Place::OnSurface, DWELLING),
+    family::<Tablet>("tablet", Class::OtherProp, Place::OnSurface, DWELLING),
+    family::<Cable>("cable", Class::OtherProp, Place::OnSurface, &[Study, Living]),
+    family::<TissueBox>("tissue_box", Class::Box, Place::OnSurface, &[Living, Bedroom, Study, Bathroom]),
+    family::<StorageBasket>("storage_basket", Class::OtherProp, Place::OnSurface, ANY),
+    family::<PhotoFrame>("photo_frame", Class::Picture, Place::OnSurface, &[Living, Bedroom, Study, Hall]),
+    family::<PillarCandles>("candle", Class::OtherProp, Place::OnSurface, &[Living, Dining, Bathroom]),
+    family::<Figurine>("figurine", Class::OtherProp, Place::OnSurface, &[Living, Study, Hall]),
+    family::<BoardGame>("board_game", Class::Box, Place::OnSurface, &[Living, Children]),
+    family::<FoldedBlanket>("folded_blanket", Class::OtherProp, Place::OnSurface, &[Living, Bedroom]),
+    family::<ScatterCushion>("cushion", Class::Pillow, Place::OnSurface, &[Living, Bedroom]),
+];
+
+/// The family of this name.
+pub fn family_named(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().find(|f| f.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::builder::{Builder, pose};
+    use crate::lamplight::LampLight;
+    use crate::materials::Materials;
+    use crate::palette::Palette;
+    use enfilade_geometry::Mesh;
+    use enfilade_math::{DVec3, Vec2};
+    use enfilade_scene::{Labels, Scene};
+    use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+    /// Variants of each family that are built.
+    fn seeds() -> usize {
+        enfilade_testkit::seeds(5, 20) as usize
+    }
+    /// Variants of a family are built this far apart, metres.
+    const APART: f64 = 100.0;
+    /// Soft and slanted things may reach this far out of their box, metres.
+    const SLACK: f32 = 0.002;
+
+    /// Variants of one family, built side by side.
+    fn shown(family: &Family) -> (Scene, Labels, Vec<Bounds3>) {
+        let mut b = Builder::new(Materials::new(Palette::all()[0], LampLight::default(), Rng::new(1)));
+        let mut expected = Vec::new();
+        for k in 0..seeds() {
+            let mut rng = Rng::new(k as u64);
+            let thing = (family.random)(&mut rng);
+            expected.push(family.place.bounds(thing.size()));
+            thing.build(&mut b, pose(APART * k as f64, 0.0, 0.0, 0.0), &mut rng);
+        }
+        let (scene, labels) = b.finish();
+        (scene, labels, expected)
+    }
+
+    /// What each variant fills, in its own space.
+    fn filled(scene: &Scene) -> Vec<Bounds3> {
+        let mut filled = vec![Bounds3::EMPTY; seeds()];
+        for part in &scene.parts {
+            for p in &scene.meshes[part.mesh as usize].positions {
+                let p = part.world_from_mesh.transform_point3(p.as_dvec3());
+                let k = (p.x / APART).round();
+                filled[k as usize] = filled[k as usize].include((p - DVec3::X * (APART * k)).as_vec3());
+            }
+        }
+        filled
+    }
+
+    /// The names of closed pieces of `mesh` that are inside out, and of shading normals that point inward.
+    fn inside_out(mesh: &Mesh) -> Option<&'static str> {
+        let mut points: HashMap<[i64; 3], usize> = HashMap::new();
+        let key = |i: u32| mesh.positions[i as usize].to_array().map(|v| (f64::from(v) * 1e6).round() as i64);
+        let triangles: Vec<[usize; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|t| {
+                t.map(|i| {
+                    let next = points.len();
+                    *points.entry(key(i)).or_insert(next)
+                })
+            })
+            .collect();
+        let mut root: Vec<usize> = (0..points.len()).collect();
+        fn find(root: &mut [usize], mut i: usize) -> usize {
+            while root[i] != i {
+                root[i] = root[root[i]];
+                i = root[i];
+            }
+            i
+        }
+        let mut edges: BTreeMap<(usize, usize), i32> = BTreeMap::new();
+        for t in &triangles {
+            for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                let (p, q) = (find(&mut root, a), find(&mut root, b));
+                root[p] = q;
+                *edges.entry((a.min(b), a.max(b))).or_default() += if a < b { 1 } else { -1 };
+            }
+        }
+        let open: BTreeSet<usize> = edges.iter().filter(|(_, n)| **n != 0).map(|(e, _)| find(&mut root, e.0)).collect();
+        let mut volumes: BTreeMap<usize, f64> = BTreeMap::new();
+        for (t, triangle) in triangles.iter().enumerate() {
+            let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+            *volumes.entry(find(&mut root, triangle[0])).or_default() += a.dot(b.cross(c));
+            let face = (b - a).cross(c - a).normalize_or_zero();
+            if !mesh.normals.is_empty() && mesh.triangles[t].iter().any(|&i| mesh.normals[i as usize].as_dvec3().dot(face) < -0.1) {
+                return Some("a shading normal points inward");
+            }
+        }
+        volumes.iter().any(|(piece, v)| !open.contains(piece) && *v < -1e-9).then_some("a closed piece is inside out")
+    }
+
+    /// True when the texture coordinates run over the unit square.
+    fn covers_unit_square(mesh: &Mesh) -> bool {
+        let low = mesh.uvs.iter().fold(Vec2::INFINITY, |low, uv| low.min(*uv));
+        let high = mesh.uvs.iter().fold(Vec2::NEG_INFINITY, |high, uv| high.max(*uv));
+        low == Vec2::ZERO && high == Vec2::ONE
+    }
+
+    #[test]
+    fn every_family_has_a_name_of_its_own_and_rooms() {
+        let names: BTreeSet<&str> = FAMILIES.iter().map(|f| f.name).collect();
+        assert_eq!(names.len(), FAMILIES.len());
+        assert!(FAMILIES.iter().all(|f| !f.rooms.is_empty() && family_named(f.name).is_some_and(|g| g.class == f.class)));
+    }
+
+    #[test]
+    fn every_variant_is_valid_labelled_outward_within_its_box_and_held_as_its_place_says() {
+        let mut problems = Vec::new();
+        for family in FAMILIES {
+            let (scene, labels, expected) = shown(family);
+            let name = family.name;
+            problems.extend(scene.validate().err().map(|error| format!("{name}: {error}")));
+            assert_eq!(scene.parts.len(), labels.parts.len(), "{name}");
+            if labels.parts[0].semantic != family.class as i16 {
+                problems.push(format!("{name} does not come first in itself"));
+            }
+            for part in &scene.parts {
+                let mesh = &scene.meshes[part.mesh as usize];
+                problems.extend(inside_out(mesh).map(|wrong| format!("{name}, {}: {wrong}", part.name)));
+                if scene.materials[part.material as usize].name == "lit screen" && !covers_unit_square(mesh) {
+                    problems.push(format!("{name}, {}, does not show its whole picture", part.name));
+                }
+            }
+            for (seed, (found, expected)) in filled(&scene).iter().zip(&expected).enumerate() {
+                let over = [expected.min - found.min, found.max - expected.max];
+                if over[0].max(over[1]).max_element() > SLACK {
+                    problems.push(format!("{name}, seed {seed}, reaches {over:?} m below and beyond its box"));
+                }
+                if !held(family.place, found, expected) {
+                    problems.push(format!("{name}, seed {seed}, floats: {found:?} ({:?})", family.place));
+                }
+            }
+        }
+        assert!(problems.is_empty(), "{problems:#?}");
+    }
+
+    /// True when a thing that fills `found` is carried by floor, wall or ceiling, as its place says.
+    fn held(place: Place, found: &Bounds3, expected: &Bounds3) -> bool {
+        let near = |a: f32, b: f32| (a - b).abs() < 0.003;
+        match place {
+            Place::AgainstWall => near(found.min.z, 0.0) || near(found.min.y, expected.min.y),
+            Place::OnWall => near(found.min.y, 0.0),
+            Place::Ceiling => near(found.max.z, 0.0),
+            Place::Free | Place::Corner | Place::OnSurface | Place::Underfoot => near(found.min.z, 0.0),
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Parts that cabinets share: carcasses, drawer and door fronts, handles and feet. Fronts lie in the xz plane and face +y; sizes are those
+//! of common cabinets, and the caller gives thicknesses and finishes.
+
+use super::form::{all, rod, turned};
+use super::{board, grained, leg, on};
+use crate::builder::{Builder, Object};
+use crate::materials::Finish;
+use crate::shape::{Reshape, rounded_box};
+use enfilade_geometry::Mesh;
+use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use std::f32::consts::FRAC_PI_2;
+
+/// Air between boards that meet, and between feet and what they carry, metres: it keeps two faces out of one plane.
+const GAP: f32 = 0.0002;
+/// How a drawer or door is opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Handle {
+    /// A turned knob.
+    Knob(Finish),
+    /// A rod on two feet.
+    Bar(Finish),
+    /// A small cup of sheet metal, open below.
+    Cup(Finish),
+    /// None: the front is pushed or gripped behind.
+    None,
+}
+
+impl Handle {
+    /// How far handles stand out from the front at most, metres.
+    pub const DEPTH: f32 = 0.032;
+
+    /// A random kind; a third are bars, and knobs may be of wood.
+    pub fn random(rng: &mut Rng) -> Self {
+        let metal = [Finish::Brass, Finish::BlackMetal, Finish::Steel][rng.below(3)];
+        [Self::Knob(metal), Self::Knob(Finish::Wood), Self::Bar(metal), Self::Bar(metal), Self::Cup(metal), Self::None][rng.below(6)]
+    }
+
+    /// Adds a handle to a front whose face is at y = `at.y`; bars are `length` long, along x or upright.
+    pub fn add(self, b: &mut Builder, object: &Object, name: &str, at: Vec3, length: f32, upright: bool) {
+        let (mesh, finish) = match self {
+            Self::Knob(finish) => {
+                let profile =
+                    [[0.0, -0.002], [0.007, -0.002], [0.006, 0.008], [0.012, 0.016], [0.014, 0.022], [0.012, 0.028], [0.0, 0.0295]];
+                (super::form::to_front(turned(&profile, 20)), finish)
+            }
+            Self::Bar(finish) => {
+                let half = 0.5 * length;
+                let bar = rod([-half, 0.026, 0.0], [half, 0.026, 0.0], 0.005, 12);
+                let feet = [-1.0f32, 1.0].map(|s| rod([s * (half - 0.02), -0.002, 0.0], [s * (half - 0.02), 0.026, 0.0], 0.004, 10));
+                let mesh = bar.with(all(feet));
+                (if upright { mesh.turned(Vec3::Y, FRAC_PI_2) } else { mesh }, finish)
+            }
+            Self::Cup(finish) => {
+                (super::form::to_front(turned(&[[0.0, -0.001], [0.03, -0.001], [0.028, 0.01], [0.018, 0.02], [0.0, 0.024]], 24)), finish)
+            }
+            Self::None => return,
+        };
+        b.part(object, name, mesh.moved(at), finish);
+    }
+}
+
+/// A carcass of boards: bottom, sides, top and rear, with its front edges in the plane y = `front`.
+#[derive(Clone, Copy, Debug)]
+pub struct Carcass {
+    /// Left, right.
+    pub x: [f32; 2],
+    /// Rear, front.
+    pub y: [f32; 2],
+    /// Lower and upper face.
+    pub z: [f32; 2],
+    /// Thickness of the boards.
+    pub thick: f32,
+    /// What they are made of.
+    pub finish: Finish,
+}
+
+impl Carcass {
+    /// Adds its boards.
+    pub fn add(&self, b: &mut Builder, object: &Object, rng: &mut Rng) {
+        let ([x0, x1], [y0, y1], [z0, z1], t) = (self.x, self.y, self.z, self.thick);
+        let e = GAP;
+        let boards = [
+            ("bottom", [x0, y0, z0], [x1, y1, z0 + t]),
+            ("top", [x0, y0, z1 - t], [x1, y1, z1]),
+            ("side_left", [x0, y0, z0 + t + e], [x0 + t, y1, z1 - t - e]),
+            ("side_right", [x1 - t, y0, z0 + t + e], [x1, y1, z1 - t - e]),
+            ("rear", [x0 + t, y0 + 0.004, z0 + t + e], [x1 - t, y0 + 0.010, z1 - t - e]),
+        ];
+        for (name, min, max) in boards {
+            b.part(object, name, grained(board(min, max, 0.0015), rng), self.finish);
+        }
+    }
+
+    /// The open space between its boards: left, right, low, high.
+    pub fn inside(&self) -> [f32; 4] {
+        let t = self.thick;
+        [self.x[0] + t, self.x[1] - t, self.z[0] + t, self.z[1] - t]
+    }
+}
+
+/// What furniture stands on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feet {
+    /// Four round, splayed legs.
+    Round(Finish),
+    /// A frame of square metal tube.
+    Runners(Finish),
+    /// A plinth, set back.
+    Plinth,
+}
+
+impl Feet {
+    /// A random kind.
+    pub fn random(rng: &mut Rng) -> Self {
+        [Self::Round(Finish::Wood), Self::Round(Finish::BlackMetal), Self::Runners(Finish::BlackMetal), Self::Plinth][rng.below(4)]
+    }
+
+    /// Adds feet `height` high below a body of this half width and half depth whose middle is the origin.
+    pub fn add(self, b: &mut Builder, object: &Object, half: Vec2, height: f32, body: Finish) {
+        match self {
+            Self::Round(finish) => {
+                for (i, s) in
+                    [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate()
+                {
+                    let at = on(DAffine3::IDENTITY, (s * (half - 0.05)).extend(0.0), 0.0);
+                    b.part_at(object, &format!("leg_{}", i + 1), leg(height - GAP, [0.011, 0.018], s * 0.025), at, finish);
+                }
+            }
+            Self::Runners(finish) => {
+                for (name, s) in [("runner_left", -1.0f32), ("runner_right", 1.0)] {
+                    let (x, y) = (s * (half.x - 0.03), half.y - 0.02);
+                    let bar = |min: [f32; 3], max: [f32; 3]| board([x - 0.0125, min[1], min[2]], [x + 0.0125, max[1], max[2]], 0.002);
+                    let parts = [
+                        bar([0.0, -y, 0.0], [0.0, y, 0.025]),
+                        bar([0.0, -y, height - 0.0252], [0.0, y, height - GAP]),
+                        bar([0.0, -y, 0.0252], [0.0, -y + 0.025, height - 0.0254]),
+                        bar([0.0, y - 0.025, 0.0252], [0.0, y, height - 0.0254]),
+                    ];
+                    b.part(object, name, all(parts), finish);
+                }
+            }
+            Self::Plinth => {
+                let mesh = rounded_box(Vec3::new(2.0 * half.x - 0.03, 2.0 * half.y - 0.05, height - GAP), 0.001, 1);
+                b.part(object, "plinth", mesh.moved(Vec3::new(0.0, -0.015, 0.5 * height - 0.0001)), body);
+            }
+        }
+    }
+}
+
+/// How far a framed front's panel lies behind its frame, metres.
+const RECESS: f32 = 0.007;
+
+/// True when a front has a panel: small ones are plain even where `framed` ones are wanted.
+fn has_panel([x0, x1, z0, z1]: [f32; 4], framed: bool) -> bool {
+    framed && x1 - x0 >= 0.2 && z1 - z0 >= 0.14
+}
+
+/// Thickness of a [`front`] in its middle, where handles are fixed.
+pub fn thickness_at_middle(rect: [f32; 4], thick: f32, framed: bool) -> f32 {
+    if has_panel(rect, framed) { thick - RECESS } else { thick }
+}
+
+/// A front board in the xz rectangle `[x0, x1, z0, z1]`, its back at y = `back`; framed fronts have a recessed panel.
+pub fn front(rect: [f32; 4], back: f32, thick: f32, framed: bool, rng: &mut Rng) -> Mesh {
+    let [x0, x1, z0, z1] = rect;
+    let whole = |depth: f32, inset: f32| board([x0 + inset, back, z0 + inset], [x1 - inset, back + depth, z1 - inset], 0.0015);
+    if !has_panel(rect, framed) {
+        return grained(whole(thick, 0.0), rng);
+    }
+    let rail = 0.05f32.min(0.3 * (z1 - z0)).min(0.3 * (x1 - x0));
+    let panel = grained(whole(thick - RECESS, rail - 0.004), rng);
+    let piece = |min: [f32; 2], max: [f32; 2]| board([min[0], back, min[1]], [max[0], back + thick, max[1]], 0.0015);
+    let e = 0.0001;
+    let frame = [
+        piece([x0, z0], [x0 + rail, z1]),
+        piece([x1 - rail, z0], [x1, z1]),
+        piece([x0 + rail + e, z0], [x1 - rail - e, z0 + rail]),
+        piece([x0 + rail + e, z1 - rail], [x1 - rail - e, z1]),
+    ];
+    frame.into_iter().fold(panel, |mesh, part| mesh.with(grained(part, rng)))
+}
+
+/// A finish that bodies of bedroom furniture have, at random.
+pub fn body_finish(rng: &mut Rng) -> Finish {
+    [Finish::Wood, Finish::Wood, Finish::DarkWood, Finish::WhiteLacquer, Finish::WhiteLacquer, Finish::ColoredLacquer(0)][rng.below(6)]
+}

@@ -1,0 +1,73 @@
+//! What stands, hangs and lies in a home: one file per family, or a folder for the families of one kind of room.
+//!
+//! A piece of furniture lives in its own space: the middle of its footprint on the floor is the origin, x is to the right,
+//! y to the front, z up.
+
+mod armchair;
+pub mod bathroom;
+pub mod bedroom;
+mod boards;
+mod book;
+mod bookshelf;
+mod catalogue;
+mod ceiling_dome;
+mod chair;
+pub mod children;
+pub mod clutter;
+mod coffee_table;
+mod curtain;
+pub mod dining;
+mod dining_table;
+mod door;
+mod electric;
+pub mod form;
+pub mod hall;
+pub mod joinery;
+pub mod kitchen;
+mod lamp;
+pub mod laundry;
+pub mod living;
+mod opening;
+mod ornament;
+mod piece;
+#[cfg(test)]
+mod piece_tests;
+mod plant;
+mod radiator;
+mod rug;
+mod side_table;
+mod sofa;
+pub mod soft;
+pub mod study;
+mod surface;
+#[cfg(test)]
+mod surface_tests;
+pub mod tableware;
+mod television;
+mod wall_art;
+mod window;
+
+pub use armchair::Armchair;
+pub use boards::{board, grained, leg, standing};
+pub use bookshelf::Bookshelf;
+pub use catalogue::{FAMILIES, Family, Place, family_named};
+pub use ceiling_dome::CeilingDome;
+pub use chair::Chair;
+pub use coffee_table::CoffeeTable;
+pub use curtain::Curtains;
+pub use dining_table::DiningTable;
+pub use door::{Door, Leaf, Passage};
+pub use electric::{Socket, Switch};
+pub use lamp::{FloorLamp, Pendant, TableLamp};
+pub use opening::WallOpening;
+pub use ornament::{Basket, BookStack, Bowl, Candles, Magazines, Mug, Tray, Vase};
+pub use piece::Furniture;
+pub use plant::Plant;
+pub use radiator::Radiator;
+pub use rug::Rug;
+pub use side_table::SideTable;
+pub use sofa::Sofa;
+pub use surface::{CONTACT, Surface, on};
+pub use television::TelevisionBench;
+pub use wall_art::{Mirror, PictureOnWall};
+pub use window::Window;
