@@ -14,7 +14,7 @@ cp "$program" "$root/README.md" "$root/CHANGELOG.md" "$root/LICENSE-APACHE" "$ro
 # Of what is within the program under other licences.
 cp "$root/crates/suggest/data/LICENSE" "$folder/$name/LICENSE-suggest-data"
 cp "$root/crates/denoise/data/LICENSE" "$folder/$name/LICENSE-denoise-data"
-cp "$root/crates/annotate/web/vendor/three.LICENSE" "$folder/$name/LICENSE-three.js"
+cp "$root/crates/serve/web/vendor/three.LICENSE" "$folder/$name/LICENSE-three.js"
 cd "$folder"
 case $target in
     *-windows-*) 7z a -bso0 "$name.zip" "$name" ;;

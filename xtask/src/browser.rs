@@ -11,7 +11,7 @@ const BROWSER_VARIABLE: &str = "ENFILADE_CHROMIUM";
 /// Tells the tests which program to serve with.
 const PROGRAM_VARIABLE: &str = "ENFILADE_BINARY";
 /// Where the tests and their packages live, from the root.
-const ROOM: &str = "crates/annotate/browser";
+const ROOM: &str = "crates/serve/browser";
 /// What browsers of the tests are called.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
@@ -32,7 +32,7 @@ const STEPS: [Step; 5] = [
     Step {
         name: "vendor",
         about: "web/vendor/three.js is what its package gives",
-        remedy: "run `npm run vendor` in crates/annotate/browser and commit what it writes",
+        remedy: "run `npm run vendor` in crates/serve/browser and commit what it writes",
         run: vendor,
     },
     Step { name: "program", about: "the program builds, as for the tests", remedy: "fix what the messages above show", run: test::build },
@@ -73,7 +73,7 @@ fn vendor(house: &House) -> Result<String, String> {
     command.arg(format!("--outfile={}", fresh.display())).current_dir(house.root.join(ROOM));
     finish(command)?;
     let read = |path: &Path| std::fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
-    let same = read(&fresh)? == read(&house.root.join("crates/annotate/web/vendor/three.js"))?;
+    let same = read(&fresh)? == read(&house.root.join("crates/serve/web/vendor/three.js"))?;
     if same { Ok(String::new()) } else { Err("the bundle that is kept differs from the one made now".into()) }
 }
 

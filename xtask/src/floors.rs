@@ -17,7 +17,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 36] = [
+const FLOORS: [(&str, Floor); 39] = [
     ("math", Floor::Number(0)),
     ("options", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
@@ -46,7 +46,9 @@ const FLOORS: [(&str, Floor); 36] = [
     ("pipeline", Floor::Number(7)),
     ("export", Floor::Number(7)),
     ("animate", Floor::Number(7)),
-    ("annotate", Floor::Number(8)),
+    ("serve", Floor::Number(7)),
+    ("label_page", Floor::Number(8)),
+    ("view_page", Floor::Number(8)),
     ("farm", Floor::Number(8)),
     ("cli", Floor::Number(9)),
     ("python", Floor::Number(10)),
@@ -60,15 +62,15 @@ const FLOORS: [(&str, Floor); 36] = [
 /// What package names start with, but for the program's and this one's.
 const PREFIX: &str = "enfilade-";
 
-/// The folder of a package of ours.
-fn folder_of(package: &str) -> Option<&str> {
-    if package == "enfilade" { Some("cli") } else { package.strip_prefix(PREFIX) }
+/// The folder of a package of ours; packages of several words have hyphens where folders have underscores.
+fn folder_of(package: &str) -> Option<String> {
+    if package == "enfilade" { Some("cli".into()) } else { Some(package.strip_prefix(PREFIX)?.replace('-', "_")) }
 }
 
 /// The packages of the floors from the ground to `highest`.
 pub fn packages_up_to(highest: u8) -> impl Iterator<Item = String> {
     let low = move |floor| matches!(floor, Floor::Number(n) if n <= highest);
-    FLOORS.iter().filter(move |(_, floor)| low(*floor)).map(|(name, _)| format!("{PREFIX}{name}"))
+    FLOORS.iter().filter(move |(_, floor)| low(*floor)).map(|(name, _)| format!("{PREFIX}{}", name.replace('_', "-")))
 }
 
 /// Checks all crates and the table of the architecture page.
@@ -116,7 +118,7 @@ fn wrong_imports(name: &str, manifest: &Table) -> Vec<String> {
     };
     let kinds = ["dependencies", "build-dependencies"];
     let packages = listed(manifest, &kinds).map(|(key, value)| value.get("package").and_then(toml::Value::as_str).unwrap_or(key));
-    packages.filter_map(|package| wrong_import(name, own, folder_of(package)?)).collect()
+    packages.filter_map(|package| wrong_import(name, own, &folder_of(package)?)).collect()
 }
 
 fn wrong_import(name: &str, own: Floor, other: &str) -> Option<String> {

@@ -3,8 +3,8 @@
 use crate::args::{AnnotateArgs, ListenArgs};
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_annotate::label::{AnnotateOptions, App, routes};
-use enfilade_annotate::serve::{Listen, serve};
+use enfilade_label_page::{AnnotateOptions, App, PAGE, routes};
+use enfilade_serve::{Listen, serve};
 use std::sync::Arc;
 
 /// `annotate`: serves the page until the program is asked to end.
@@ -25,7 +25,7 @@ pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
         Arc::new(app)
     };
     say(&format!("labels   {}", app.labels_folder().display()));
-    let served = serve(routes(app.clone()), &args.listen.listen(), "/annotate/", |addresses| {
+    let served = serve(routes(app.clone()), PAGE, &args.listen.listen(), |addresses| {
         say(&addresses.to_string());
         say("End with Ctrl-C; every edit is on the disk as soon as the page shows it.");
     });

@@ -119,9 +119,9 @@ impl From<enfilade_export::ExportError> for Problem {
     }
 }
 
-impl From<enfilade_annotate::serve::ServeError> for Problem {
-    fn from(error: enfilade_annotate::serve::ServeError) -> Self {
-        let usage = matches!(error, enfilade_annotate::serve::ServeError::Bind { .. });
+impl From<enfilade_serve::ServeError> for Problem {
+    fn from(error: enfilade_serve::ServeError) -> Self {
+        let usage = matches!(error, enfilade_serve::ServeError::Bind { .. });
         Self { message: error.to_string(), hint: None, usage }
     }
 }

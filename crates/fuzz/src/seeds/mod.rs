@@ -9,7 +9,7 @@ mod pictures;
 mod import;
 #[cfg(feature = "program")]
 #[allow(dead_code, reason = "made for other tests, of which a part is used")]
-#[path = "../../../annotate/tests/label/room.rs"]
+#[path = "../../../label_page/tests/label/room.rs"]
 pub mod room;
 
 use crate::Seed;

@@ -5,10 +5,10 @@ use crate::{Run, Seed};
 use axum::Router;
 use axum::body::Body;
 use axum::http::{Request, Response, StatusCode};
-use enfilade_annotate::label::{AnnotateOptions, App, routes};
-use enfilade_annotate::serve::{Guard, guarded};
-use enfilade_annotate::view::{Viewer, router};
+use enfilade_label_page::{AnnotateOptions, App, PAGE, routes};
 use enfilade_scene::Quiet;
+use enfilade_serve::{Guard, guarded};
+use enfilade_view_page::{Viewer, router};
 use std::net::Ipv4Addr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -101,7 +101,7 @@ impl Asked {
             pages = pages.merge(router(viewer));
         }
         let guard = Guard::new(Ipv4Addr::LOCALHOST.into(), false).expect("random numbers");
-        Self { runtime, router: guarded(pages, "/annotate/", guard), labels }
+        Self { runtime, router: guarded(pages, PAGE, guard), labels }
     }
 
     /// The answer; `None` for what is no request.

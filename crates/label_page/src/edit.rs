@@ -1,0 +1,60 @@
+//! An edit as it stands in the log: every decision is made, so that doing it again gives the same labels.
+
+use enfilade_dataset::number_runs;
+use serde::{Deserialize, Serialize};
+
+/// What was done, with everything that is needed to do it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Edit {
+    /// Pieces got labels.
+    Label {
+        /// For people.
+        description: String,
+        /// Which pieces.
+        pieces: Vec<u32>,
+        /// The class of each from now on.
+        semantic: Vec<i16>,
+        /// The instance of each from now on.
+        instance: Vec<i16>,
+        /// Instance numbers from here on are free.
+        next_instance: i32,
+    },
+    /// Faces became pieces of their own.
+    Split {
+        /// For people.
+        description: String,
+        /// The piece they were taken from.
+        piece: u32,
+        /// Names of the new ones.
+        names: Vec<String>,
+        /// Faces of each new piece, as runs of first number and count.
+        faces: Vec<Vec<[u32; 2]>>,
+    },
+    /// The last edit that was not undone was undone.
+    Undo,
+    /// The last edit that was undone was done again.
+    Redo,
+}
+
+impl Edit {
+    /// What was done, for people.
+    pub fn description(&self) -> &str {
+        match self {
+            Self::Label { description, .. } | Self::Split { description, .. } => description,
+            Self::Undo => "Undo",
+            Self::Redo => "Redo",
+        }
+    }
+}
+
+/// Ascending numbers as runs of first number and count.
+pub fn runs(numbers: &[u32]) -> Vec<[u32; 2]> {
+    number_runs(numbers.iter().copied()).iter().map(|run| [*run.start(), run.end() - run.start() + 1]).collect()
+}
+
+/// The numbers in runs; `None` when a run goes beyond `end`.
+pub fn numbers(runs: &[[u32; 2]], end: usize) -> Option<Vec<u32>> {
+    let inside = |[first, count]: &[u32; 2]| u64::from(*first) + u64::from(*count) <= end as u64;
+    runs.iter().all(inside).then(|| runs.iter().flat_map(|&[first, count]| first..first + count).collect())
+}

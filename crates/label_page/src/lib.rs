@@ -1,0 +1,53 @@
+//! The page on which people label the parts of a scene.
+//!
+//! [`App::open`] loads a scene, [`routes`] answers its page. What is labelled is called a piece: a part of the scene, or a piece of a part
+//! that was split.
+//!
+//! The way of an edit: a page sends an action (`action.rs`). Rays find the visible faces, filters and expansion the selected pieces, and the
+//! action becomes an edit that needs no further decision (`edit.rs`). The edit is appended to the log and flushed to disk (`log.rs`), applied to
+//! the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever happens to the page
+//! or the program; Hypersim's files are written from it shortly after (`save.rs`). What reviewers say of pieces is no label and has a log of
+//! its own (`review.rs`).
+
+mod action;
+mod answer;
+mod app;
+mod camera;
+mod change;
+mod clock;
+mod edit;
+mod events;
+mod face_colors;
+mod json_lines;
+mod log;
+mod log_lines;
+mod options;
+mod pieces;
+mod planned;
+mod progress;
+mod review;
+mod routes;
+mod save;
+mod scene;
+mod selection;
+mod session;
+mod shape;
+mod split;
+mod stroke;
+mod suggestions;
+mod surfaces;
+mod viewpoint;
+mod worklog;
+
+pub use app::{App, OpenError};
+pub use options::AnnotateOptions;
+pub use routes::routes;
+
+use enfilade_serve::Page;
+
+/// The page, to serve beside its [`routes`].
+pub const PAGE: Page = Page::new::<Files>("/annotate/");
+
+#[derive(rust_embed::RustEmbed)]
+#[folder = "web"]
+struct Files;

@@ -1,0 +1,177 @@
+//! The log of edits: one line of JSON for each edit, appended and flushed to disk before the edit counts.
+//!
+//! The current labels are what results from replaying the log, so nothing is lost when the program is killed. An incomplete last line
+//! is dropped.
+
+use super::json_lines::JsonLines;
+use super::log_lines::{Entry, FORMAT, Form, Header};
+use super::scene::AnnotatedScene;
+use enfilade_dataset::ANNOTATION_LOG;
+use enfilade_scene::PartLabel;
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// Why the log cannot be opened or written.
+#[derive(Debug, thiserror::Error)]
+pub enum LogError {
+    /// The file cannot be read or written.
+    #[error("cannot {action} {}: {source}; check that the folder can be written, or name another with --labels", path.display())]
+    Io {
+        /// "read", "write" or "lock".
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// Another program has it open.
+    #[error("{} is in use: somebody annotates this scene already; open that page, or end that program", .0.display())]
+    InUse(PathBuf),
+    /// The log is about another scene.
+    #[error(
+        "{} is about another scene ({log}; here {scene}); name another folder with --labels, or move the log away to start again", path.display()
+    )]
+    OtherScene {
+        /// The file.
+        path: PathBuf,
+        /// What it says.
+        log: String,
+        /// What is here.
+        scene: String,
+    },
+    /// The log is of another form, which a newer program may have written: nothing in it is to be lost.
+    #[error(
+        "{}:1: found the format {found:?}, expected {FORMAT:?}; open it with the enfilade that wrote it, or a newer one, or name another \
+        folder with --labels",
+        path.display()
+    )]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it calls itself.
+        found: String,
+    },
+    /// A line is not valid.
+    #[error("{}:{line}: {problem}; remove this line and those after it to continue from there, or restore a copy", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+/// An open log, locked for this program.
+pub struct Log {
+    path: PathBuf,
+    lines: JsonLines,
+}
+
+/// What a log holds.
+pub struct Recorded {
+    /// The labels that the parts began with.
+    pub initial: Vec<PartLabel>,
+    /// The edits in order.
+    pub entries: Vec<Entry>,
+    /// What was dropped, if anything.
+    pub warning: Option<String>,
+}
+
+impl Log {
+    /// Opens the log in `folder`, or begins one with the labels that the scene comes with. A log without edits is begun again, because
+    /// the scene may have got labels since it was last opened.
+    ///
+    /// # Errors
+    /// When the file cannot be opened or locked, is about another scene, or has an invalid line.
+    pub fn open(folder: &Path, scene: &AnnotatedScene) -> Result<(Self, Recorded), LogError> {
+        let path = folder.join(ANNOTATION_LOG);
+        let at = &folder.join(ANNOTATION_LOG);
+        let io = |action| move |source| LogError::Io { action, path: at.clone(), source };
+        std::fs::create_dir_all(folder).map_err(io("write"))?;
+        let file = File::options().create(true).truncate(false).read(true).write(true).open(&path).map_err(io("write"))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(LogError::InUse(path)),
+            // Some network file systems know no locks.
+            Err(TryLockError::Error(e)) if e.kind() == std::io::ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(e)) => return Err(io("lock")(e)),
+        }
+        let (lines, bytes, was_cut) = JsonLines::read(file).map_err(io("read"))?;
+        let warning = was_cut.then(|| format!("{}: the last line was cut short and is dropped", path.display()));
+        let mut log = Self { path, lines };
+        let (initial, entries) = if bytes.is_empty() { (Vec::new(), Vec::new()) } else { log.parse(&bytes, scene)? };
+        if entries.is_empty() {
+            log.lines.clear();
+            log.begin(scene)?;
+            return Ok((log, Recorded { initial: scene.labels.clone(), entries, warning }));
+        }
+        log.lines.drop_incomplete().map_err(io("write"))?;
+        Ok((log, Recorded { initial, entries, warning }))
+    }
+
+    /// Writes the first line.
+    fn begin(&mut self, scene: &AnnotatedScene) -> Result<(), LogError> {
+        let header = Header {
+            format: FORMAT.into(),
+            scene: scene.name.clone(),
+            scene_hash: scene.hash(),
+            parts: scene.parts.len(),
+            faces: scene.corners.len(),
+            initial_semantic: scene.labels.iter().map(|l| l.semantic).collect(),
+            initial_instance: scene.labels.iter().map(|l| l.instance).collect(),
+        };
+        self.lines.append(&header).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
+    }
+
+    fn parse(&self, bytes: &[u8], scene: &AnnotatedScene) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
+        let wrong = |line: usize, problem: String| LogError::Line { path: self.path.clone(), line, problem };
+        let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n').peekable();
+        let first = lines.next().unwrap_or_default();
+        let no_log = |e: serde_json::Error| wrong(1, format!("not the beginning of a log: {e}"));
+        let Form { format: found } = serde_json::from_slice(first).map_err(no_log)?;
+        if found != FORMAT {
+            return Err(LogError::Format { path: self.path.clone(), found });
+        }
+        let header: Header = serde_json::from_slice(first).map_err(no_log)?;
+        if lines.peek().is_none() {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        if header.scene_hash != scene.hash() {
+            let describe = |name: &str, parts: usize, faces: usize| format!("{name:?} of {parts} parts and {faces} faces");
+            return Err(LogError::OtherScene {
+                path: self.path.clone(),
+                log: describe(&header.scene, header.parts, header.faces),
+                scene: describe(&scene.name, scene.parts.len(), scene.corners.len()),
+            });
+        }
+        let (semantic, instance) = (header.initial_semantic, header.initial_instance);
+        if semantic.len() != scene.parts.len() || instance.len() != scene.parts.len() {
+            return Err(wrong(1, format!("labels of {} parts, expected {}", semantic.len(), scene.parts.len())));
+        }
+        let initial = semantic.into_iter().zip(instance).map(|(semantic, instance)| PartLabel { semantic, instance }).collect();
+        let mut entries = Vec::new();
+        for (i, line) in lines.enumerate() {
+            let entry: Entry = serde_json::from_slice(line).map_err(|e| wrong(i + 2, e.to_string()))?;
+            if entry.revision != i as u64 + 1 {
+                return Err(wrong(i + 2, format!("revision {}, expected {}", entry.revision, i + 1)));
+            }
+            entries.push(entry);
+        }
+        Ok((initial, entries))
+    }
+
+    /// The problem of the entry with this revision.
+    pub fn problem(&self, revision: u64, problem: String) -> LogError {
+        LogError::Line { path: self.path.clone(), line: revision as usize + 1, problem }
+    }
+
+    /// Appends an edit. When this returns it is on the disk; when it fails the log is as it was.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn append(&mut self, entry: &Entry) -> Result<(), LogError> {
+        self.lines.append(entry).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
+    }
+}

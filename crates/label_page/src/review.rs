@@ -1,0 +1,171 @@
+//! What reviewers say of pieces: to do, done, approved, or a question with a note.
+//!
+//! It has a log of its own beside that of the edits, one line of JSON each, flushed before it counts. A review is no label: undoing an edit
+//! leaves it, and a program that knows nothing of it reads the labels all the same. Pieces are named, because numbers change when a split is
+//! undone.
+
+use super::json_lines::JsonLines;
+use enfilade_dataset::{DatasetError, write_bytes};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Name of the log in the folder of labels.
+pub const REVIEW_LOG: &str = "annotation_review.jsonl";
+/// How the reviews of all pieces stand, as a table in the folder of labels.
+pub const REVIEW_TABLE: &str = "metadata_object_review.csv";
+
+/// How far a piece is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReviewState {
+    /// Nothing was said of it, or it has to be done again.
+    ToDo,
+    /// The annotator is content with it.
+    Done,
+    /// Somebody else is content too.
+    Approved,
+    /// The note asks something.
+    Question,
+}
+
+impl ReviewState {
+    fn name(self) -> &'static str {
+        match self {
+            Self::ToDo => "to_do",
+            Self::Done => "done",
+            Self::Approved => "approved",
+            Self::Question => "question",
+        }
+    }
+}
+
+/// A line of the log.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Review {
+    /// When, in UTC.
+    pub time: String,
+    /// Who said it.
+    pub client: String,
+    /// Names of the pieces.
+    pub pieces: Vec<String>,
+    /// How far they are from now on.
+    pub state: ReviewState,
+    /// For people; may be empty.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// How the reviews of a scene stand.
+pub struct Reviews {
+    folder: PathBuf,
+    /// The log, once there is one.
+    log: Option<JsonLines>,
+    /// State and note of each piece that something was said of.
+    of_piece: BTreeMap<String, (ReviewState, String)>,
+}
+
+impl Reviews {
+    /// Reads the log in `folder`, if there is one. A last line that was cut short is dropped.
+    ///
+    /// # Errors
+    /// When the log cannot be read, or has an invalid line.
+    pub fn open(folder: &Path) -> Result<Self, String> {
+        let path = folder.join(REVIEW_LOG);
+        let mut reviews = Self { folder: folder.into(), log: None, of_piece: BTreeMap::new() };
+        let (log, bytes, _) = match File::options().read(true).write(true).open(&path).and_then(JsonLines::read) {
+            Ok(read) => read,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(reviews),
+            Err(e) => return Err(format!("cannot read {}: {e}", path.display())),
+        };
+        for (i, line) in bytes.split(|&b| b == b'\n').filter(|line| !line.is_empty()).enumerate() {
+            let wrong = |e| format!("{}:{}: {e}; fix this line or move the file away", path.display(), i + 1);
+            reviews.take(serde_json::from_slice(line).map_err(wrong)?);
+        }
+        reviews.log = Some(log);
+        Ok(reviews)
+    }
+
+    /// Appends a review. When this returns it is on the disk.
+    ///
+    /// # Errors
+    /// When the log cannot be written; then nothing has changed.
+    pub fn add(&mut self, review: Review) -> Result<(), DatasetError> {
+        let path = self.folder.join(REVIEW_LOG);
+        let begun = || {
+            File::options().create(true).truncate(false).read(true).write(true).open(&path).and_then(JsonLines::read).map(|(log, ..)| log)
+        };
+        let log = self.log.take().map_or_else(begun, Ok);
+        let appended = log.and_then(|log| self.log.insert(log).append(&review));
+        appended.map_err(|source| DatasetError::Io { action: "write", path, source })?;
+        self.take(review);
+        Ok(())
+    }
+
+    fn take(&mut self, Review { pieces, state, note, .. }: Review) {
+        for piece in pieces {
+            self.of_piece.insert(piece, (state, note.clone()));
+        }
+    }
+
+    /// State and note of a piece; none if nothing was said of it, or that it is to do, without a note.
+    pub fn of(&self, piece: &str) -> Option<(ReviewState, &str)> {
+        let (state, note) = self.of_piece.get(piece)?;
+        (*state != ReviewState::ToDo || !note.is_empty()).then_some((*state, note.as_str()))
+    }
+
+    /// Writes the table: a row for each of these pieces that something was said of. Without any review there is no table.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write<'a>(&self, pieces: impl Iterator<Item = &'a str>) -> Result<Option<PathBuf>, DatasetError> {
+        if self.of_piece.is_empty() {
+            return Ok(None);
+        }
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let mut row = |fields: [&str; 3]| table.write_record(fields).expect("writing to memory cannot fail");
+        row(["object_name", "state", "note"]);
+        for piece in pieces {
+            if let Some((state, note)) = self.of(piece) {
+                row([piece, state.name(), note]);
+            }
+        }
+        let path = self.folder.join(REVIEW_TABLE);
+        write_bytes(&path, table.into_inner().expect("flushing memory cannot fail"))?;
+        Ok(Some(path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn review(pieces: &[&str], state: ReviewState, note: &str) -> Review {
+        let pieces = pieces.iter().map(|&piece| piece.into()).collect();
+        Review { time: "2026-01-01T00:00:00Z".into(), client: "test".into(), pieces, state, note: note.into() }
+    }
+
+    #[test]
+    fn reviews_are_kept_and_the_last_one_counts() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut reviews = Reviews::open(folder.path()).unwrap();
+        assert_eq!(reviews.write(["chair"].into_iter()).unwrap(), None);
+        reviews.add(review(&["chair", "table"], ReviewState::Done, "")).unwrap();
+        reviews.add(review(&["chair"], ReviewState::Question, "a stool, or not?")).unwrap();
+        reviews.add(review(&["table"], ReviewState::ToDo, "")).unwrap();
+        let log = folder.path().join(REVIEW_LOG);
+        let mut cut = std::fs::read(&log).unwrap();
+        cut.extend(b"{\"cut");
+        std::fs::write(&log, cut).unwrap();
+        let again = Reviews::open(folder.path()).unwrap();
+        assert_eq!(again.of("chair"), Some((ReviewState::Question, "a stool, or not?")));
+        assert_eq!(again.of("table"), None);
+        let table = again.write(["chair", "table", "lamp"].into_iter()).unwrap().unwrap();
+        assert_eq!(std::fs::read_to_string(table).unwrap(), "object_name,state,note\nchair,question,\"a stool, or not?\"\n");
+        std::fs::write(&log, "nonsense\n").unwrap();
+        assert!(Reviews::open(folder.path()).err().unwrap().contains("annotation_review.jsonl:1: "));
+    }
+}
