@@ -94,6 +94,7 @@ impl App {
                 format!("{} has class {}, which the list of classes lacks; give the list with --classes", piece.name, piece.label.semantic);
             cx.warn(Warning { place: scene.name.clone(), message });
         }
+        // What people did beside editing.
         let worklog = WorkLog::open(folder).map_err(OpenError::WorkLog)?;
         let reviews = Reviews::open(folder).map_err(OpenError::Reviews)?;
         let revision = session.standing().revision;

@@ -106,6 +106,7 @@ impl Session {
             known: HashMap::new(),
             recent: VecDeque::new(),
         };
+        // Everything that was done since the scene was first opened is done again.
         for entry in entries {
             let problem = |problem: String, session: &Self| session.log.problem(entry.revision, problem);
             session.check(&entry.edit).map_err(|e| problem(e, &session))?;
@@ -172,6 +173,7 @@ impl Session {
         if let Some(&revision) = id.and_then(|id| self.known.get(id)) {
             return self.told_again(revision).map_err(ActionError::Refused);
         }
+        // What is asked for becomes an edit that needs no further decision.
         let edit = match action {
             Action::Undo if self.done.is_empty() => {
                 return Err(Refusal::conflict("there is nothing to undo", "everything is as it was in the beginning").into());
@@ -184,6 +186,7 @@ impl Session {
             action => self.context().decide(action)?,
         };
         let Some(edit) = edit else { return Ok(Change::default().told(None, client, &self.standing())) };
+        // The log has it before the pieces do: what pages were told survives a crash.
         let (time, id) = (clock::iso(clock::now_s()), id.map(Into::into));
         let entry = Entry { revision: self.revision + 1, time, client: client.into(), id, edit };
         self.log.append(&entry).map_err(ActionError::Log)?;
