@@ -1,8 +1,8 @@
 //! Puts parts, labels and materials together into a scene.
 
-use crate::assets::{Body, Model, repictured};
 use crate::lamplight::Glow;
 use crate::materials::{Materials, Surfacing};
+use crate::models::{Body, Model, repictured};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb};

@@ -2,7 +2,7 @@
 //!
 //! From the bottom up: [`shape`] makes meshes; [`Materials`] and [`Palette`] say what things are made of, [`LampLight`] how bright what
 //! glows is; `pieces` has one file per family of things, which [`FAMILIES`] lists; [`Builder`] names, labels and collects their parts.
-//! [`assets`] are models of others that may stand in for ours. [`meet`] and [`touch`] tell whether things run into each other.
+//! [`models`] are things that others have made, of which [`assets`] takes those that may stand in for ours. [`meet`] and [`touch`] tell whether things run into each other.
 //!
 //! ```
 //! use enfilade_furniture::{Builder, LampLight, Materials, Palette, family_named, pose};
@@ -22,11 +22,13 @@ mod builder;
 mod lamplight;
 mod materials;
 pub mod meet;
+pub mod models;
 mod names;
 mod palette;
 mod pieces;
 mod room_kind;
 pub mod shape;
+mod surface;
 pub mod touch;
 
 pub use builder::{Builder, Class, Object, pose};
@@ -39,8 +41,9 @@ pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
 pub use pieces::kitchen;
 pub use pieces::living::{Blind, BlindKind, CeilingLamp};
 pub use pieces::{
-    Armchair, Basket, BookStack, Bookshelf, Bowl, CONTACT, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES,
-    Family, FloorLamp, Furniture, Leaf, Magazines, Mirror, Mug, Passage, Pendant, PictureOnWall, Place, Plant, Radiator, Rug, SideTable,
-    Socket, Surface, Switch, TableLamp, TelevisionBench, Tray, Vase, WallOpening, Window, board, family_named, on,
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES, Family,
+    FloorLamp, Furniture, Leaf, Magazines, Mirror, Mug, Passage, Pendant, PictureOnWall, Place, Plant, Radiator, Rug, SideTable, Socket,
+    Switch, TableLamp, TelevisionBench, Tray, Vase, WallOpening, Window, board, family_named,
 };
 pub use room_kind::RoomKind;
+pub use surface::{CONTACT, Surface, on};

@@ -1,6 +1,6 @@
 //! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
-use crate::check::Fault;
+use crate::fault::Fault;
 use crate::plan::FloorPlan;
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{DVec3, Vec3};

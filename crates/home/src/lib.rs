@@ -19,6 +19,7 @@
 mod cameras;
 pub mod check;
 mod config;
+mod fault;
 mod gravity;
 mod home;
 pub mod light;
@@ -34,7 +35,8 @@ pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
 pub use plan::FloorPlan;
 
-use enfilade_furniture::assets::{Library, Model};
+use enfilade_furniture::assets::Library;
+use enfilade_furniture::models::Model;
 use enfilade_furniture::{Builder, DecorConfig, Materials, object_of};
 use enfilade_math::{Rng, Vec2};
 use enfilade_scene::Scene;

@@ -1,8 +1,8 @@
 //! A model of a library as a piece of furniture: it stands where ours would, carries things, and gives as much light.
 
-use super::{Body, BodyPart, Model};
 use crate::builder::{Builder, Class};
 use crate::lamplight::Glow;
+use crate::models::{Body, BodyPart, Model};
 use crate::pieces::{FAMILIES, Family, Furniture, Place, Surface, family_named};
 use crate::shape::{Reshape, sphere};
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -99,9 +99,9 @@ impl Furniture for Borrowed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assets::Bulb;
     use crate::lamplight::LampLight;
     use crate::materials::Materials;
+    use crate::models::Bulb;
     use crate::names::object_of;
     use crate::palette::Palette;
     use crate::shape::bevelled_box;

@@ -1,8 +1,8 @@
 //! The models of a library by family, and which of them stands in for a piece of furniture.
 
-use super::Model;
 use super::range::believable;
 use crate::builder::Class;
+use crate::models::Model;
 use crate::pieces::{FAMILIES, Family, family_named};
 use enfilade_math::{Rng, Vec3};
 use std::collections::{BTreeMap, BTreeSet};

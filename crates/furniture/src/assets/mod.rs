@@ -3,19 +3,11 @@
 //! The caller reads files into a [`Library`]; wherever a room takes a family from the catalogue, the library may give a model instead.
 //! Only models with the size of such a thing are given, so that they can be placed, reached and walked around like ours.
 
-mod body;
 mod borrowed;
 mod library;
-mod model;
 mod range;
-mod surfaces;
-mod textures;
 mod words;
 
-pub use body::{Body, BodyPart, Bulb};
 pub use borrowed::Borrowed;
 pub use library::Library;
-pub use model::Model;
-pub use range::believable;
-pub use textures::repictured;
 pub use words::families_of;

@@ -18,8 +18,8 @@ use super::hall::{
 use super::kitchen::{FittedKitchen, KitchenIsland, Refrigerator};
 use super::laundry::{Bucket, DryingRack, IroningBoard, Vacuum, WashingMachine};
 use super::living::{
-    Blind, CeilingLamp, Chesterfield, CornerSofa, CubeShelf, DayBed, Fireplace, FloorCushion, FlowerVase, Foliage, GameConsole,
-    HangingPlant, Pouf, RecordPlayer, Speaker, Stove, WallClock, WallLamp, WallShelf,
+    Blind, CeilingLamp, Chesterfield, CornerSofa, CubeShelf, DayBed, Fireplace, FloorCushion, GameConsole, Pouf, RecordPlayer, Speaker,
+    Stove, WallClock, WallLamp, WallShelf,
 };
 use super::study::{Desk, DeskLamp, FilingCabinet, Keyboard, Laptop, Monitor, Mouse, OfficeChair, PaperStack, PenCup, Printer, WallBoard};
 use super::tableware::{
@@ -27,8 +27,9 @@ use super::tableware::{
     PlaceSetting, SpiceRack, UtensilJar, WasteBin,
 };
 use super::{
-    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, Chair, CoffeeTable, DiningTable, FloorLamp, Furniture, Magazines, Mirror, Mug,
-    Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Socket, Sofa, Switch, TableLamp, TelevisionBench, Tray, Vase,
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, Chair, CoffeeTable, DiningTable, FloorLamp, FlowerVase, Foliage, Furniture,
+    HangingPlant, Magazines, Mirror, Mug, Pendant, PictureOnWall, Plant, Radiator, Rug, SideTable, Socket, Sofa, Switch, TableLamp,
+    TelevisionBench, Tray, Vase,
 };
 use crate::builder::Class;
 use crate::room_kind::RoomKind;

@@ -3,10 +3,9 @@
 //! The finished triangles are judged, not what placed them.
 
 pub(crate) mod contact;
-mod fault;
 pub(crate) mod walk;
 
-pub use fault::Fault;
+pub use crate::fault::Fault;
 
 use crate::Home;
 use crate::cameras::CLEARANCES;

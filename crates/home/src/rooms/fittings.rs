@@ -146,7 +146,8 @@ impl Furnisher<'_> {
 mod tests {
     use super::*;
     use crate::rooms::tests::furnished;
-    use enfilade_furniture::assets::{Body, Library, Model};
+    use enfilade_furniture::assets::Library;
+    use enfilade_furniture::models::{Body, Model};
     use enfilade_furniture::shape::bevelled_box;
     use enfilade_math::{DMat3, Rgb};
     use enfilade_scene::{Material, Part, Scene};

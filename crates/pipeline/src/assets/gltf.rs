@@ -1,7 +1,7 @@
 //! glTF files as models: metres, y up, the front toward +z unless `assets.toml` says otherwise.
 
 use super::table::Table;
-use enfilade_furniture::assets::{Body, Model};
+use enfilade_furniture::models::{Body, Model};
 use enfilade_import::ImportOptions;
 use enfilade_math::{DMat3, Vec3};
 use enfilade_scene::Quiet;

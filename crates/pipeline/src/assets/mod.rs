@@ -12,7 +12,8 @@ mod table;
 mod tests;
 
 use crate::error::Error;
-use enfilade_furniture::assets::{Library, Model};
+use enfilade_furniture::assets::Library;
+use enfilade_furniture::models::Model;
 use enfilade_home::{Home, HomeConfig};
 use enfilade_scene::{Cx, Warning};
 use notes::Notes;

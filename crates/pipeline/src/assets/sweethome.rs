@@ -5,7 +5,7 @@
 use super::notes::Notes;
 use super::table::{Front, Table};
 use crate::error::Error;
-use enfilade_furniture::assets::{Body, Bulb, Model};
+use enfilade_furniture::models::{Body, Bulb, Model};
 use enfilade_import::sweethome::{CatalogueKind, CatalogueLight, CataloguePiece, catalogue};
 use enfilade_math::{DMat3, Vec3};
 use enfilade_scene::Cx;

@@ -12,8 +12,7 @@ pub use decor::{BoardGame, Figurine, PhotoFrame, PillarCandles, StorageBasket, T
 pub use device::{Phone, RemoteControl, Tablet};
 pub use soft::{FoldedBlanket, ScatterCushion};
 
-use super::living::FlowerVase;
-use super::{Bowl, Candles, Furniture, Plant, Vase};
+use super::{Bowl, Candles, FlowerVase, Furniture, Plant, Vase};
 use enfilade_math::Rng;
 
 /// Something to look at that is at most `headroom` high.

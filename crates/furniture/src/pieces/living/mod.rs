@@ -1,5 +1,5 @@
 //! Further things of a living room: corner sofas, chesterfields and day beds, poufs, shelves, fireplaces and stoves, blinds, lamps on
-//! ceiling and wall, clocks, music, and plants.
+//! ceiling and wall, clocks, and music.
 
 mod blind;
 mod ceiling_lamp;
@@ -7,7 +7,6 @@ mod chesterfield;
 mod clock;
 mod corner_sofa;
 mod day_bed;
-mod foliage;
 mod hearth;
 mod music;
 mod pouf;
@@ -20,7 +19,6 @@ pub use chesterfield::Chesterfield;
 pub use clock::WallClock;
 pub use corner_sofa::CornerSofa;
 pub use day_bed::DayBed;
-pub use foliage::{FlowerVase, Foliage, HangingPlant};
 pub use hearth::{Fireplace, Stove};
 pub use music::{GameConsole, RecordPlayer, Speaker};
 pub use pouf::{FloorCushion, Pouf};

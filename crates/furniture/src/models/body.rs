@@ -1,7 +1,7 @@
 //! What a model looks like: its meshes and materials, brought into the space that furniture lives in.
 
-use crate::pieces::Surface;
 use crate::shape::bevelled_box;
+use crate::surface::Surface;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Image, Material, Part, Scene};
@@ -79,7 +79,7 @@ impl Body {
     }
 
     /// A plain grey block of `size`.
-    pub(super) fn block(size: Vec3) -> Result<Self, String> {
+    pub fn block(size: Vec3) -> Result<Self, String> {
         let part = Part { name: "block".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let grey = Material::diffuse("block", Rgb::splat(0.5));
         let scene = Scene { meshes: vec![bevelled_box(size, 0.004)], parts: vec![part], materials: vec![grey], ..Scene::default() };

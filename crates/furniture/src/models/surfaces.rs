@@ -4,7 +4,7 @@
 //! are free (a ray up finds nothing near) are covered by the largest rectangles that hold only such cells. What the model closes around
 //! is left out: the inside of a cabinet with its doors shut.
 
-use crate::pieces::{CONTACT, Surface};
+use crate::surface::{CONTACT, Surface};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Vec2, Vec3};
 
