@@ -21,7 +21,7 @@ pub enum Product {
 }
 
 impl Product {
-    /// Those that people ask for by name.
+    /// Products that people request by name.
     pub(crate) const ON_REQUEST: [Self; 8] =
         [Self::Pairs, Self::Flow, Self::Tracks, Self::Surfaces, Self::Rooms, Self::Words, Self::Sensors, Self::Relit];
 
