@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// Changes that are kept for pages that lost the answer and send the edit again.
 const KEPT: usize = 64;
 
-/// The one place where labels change: edits are done one after the other, each logged before it counts.
+/// A session of labelling, in which all labels change: edits are done one after the other, each logged before it counts.
 pub struct Session {
     pieces: Pieces,
     classes: Arc<Classes>,

@@ -12,7 +12,7 @@ pub struct Suggestion {
     semantic: i16,
     /// Probability that it is right, in [0, 1].
     confidence: f32,
-    /// Other classes and their probabilities, the likeliest first.
+    /// Classes other than the first and their probabilities, the likeliest first.
     alternatives: Vec<(i16, f32)>,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Line {
 }
 
 impl Default for Line {
-    /// One that has just begun.
+    /// A connection that has just begun.
     fn default() -> Self {
         Self { begun: Instant::now(), moved_ms: AtomicU64::new(0), turns: AtomicUsize::new(0), close: Notify::new() }
     }

@@ -94,7 +94,7 @@ fn one_surface(path: &Path, nth: usize, channels: usize) -> Result<([usize; 2], 
     Ok((size, channels_of(&array.values, all, first, channels)))
 }
 
-/// Some channels of an image that has `all`.
+/// Values of some channels of an image that has `all`.
 fn channels_of(values: &Elements, all: usize, first: usize, count: usize) -> Elements {
     fn some<T: Copy>(values: &[T], all: usize, first: usize, count: usize) -> Vec<T> {
         values.chunks_exact(all).flat_map(|pixel| &pixel[first..first + count]).copied().collect()

@@ -69,7 +69,7 @@ impl Library {
         self.draw(models.iter().filter(|(_, model)| fits(model.size)).collect(), rng)
     }
 
-    /// One of these, by their weights.
+    /// A fitting model, drawn by its weight; `None` where the drawing decides for no model.
     fn draw(&self, fitting: Vec<&(usize, Arc<Model>)>, rng: &mut Rng) -> Option<(usize, Arc<Model>)> {
         let total: f32 = fitting.iter().map(|(_, model)| model.weight).sum();
         if total <= 0.0 || rng.next_f32() >= self.share {

@@ -59,7 +59,7 @@ impl Maker<'_> {
         paint
     }
 
-    /// As [`Maker::picture`] for a surface with its heights, which follow its colours in the scene.
+    /// Pictures of a surface with its heights, which follow its colours in the scene; otherwise as [`Maker::picture`].
     pub fn skin(&mut self, name: &'static str, variant: &impl Debug, covers: [f32; 2], make: impl FnOnce(u32) -> Skin) -> Layers {
         let mut relief = None;
         let color = self.picture(name, variant, covers, |seed| {

@@ -80,7 +80,7 @@ pub struct Family {
     pub place: Place,
     /// The rooms in which people expect it.
     pub rooms: &'static [RoomKind],
-    /// One of its variants.
+    /// Draws a variant of the family.
     pub random: fn(&mut Rng) -> Box<dyn Furniture>,
 }
 

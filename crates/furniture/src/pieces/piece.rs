@@ -8,7 +8,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// A family of things that a home can have; its fields are what varies.
 pub trait Furniture {
-    /// One of its many variants.
+    /// Draws one of the many variants of the piece.
     fn random(rng: &mut Rng) -> Self
     where
         Self: Sized;

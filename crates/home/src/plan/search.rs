@@ -31,9 +31,9 @@ pub struct Site {
 /// Rooms in their cells, how good that is, and which rooms have doors to which.
 #[derive(Clone, Debug)]
 pub struct Sketch {
-    /// One per room.
+    /// Cells of the rooms, one for each.
     pub cells: Vec<Cell>,
-    /// The whole.
+    /// Cell of the whole home.
     pub whole: Cell,
     /// Pairs (from, into) such that every room but the first of them is entered once.
     pub doors: Vec<(usize, usize)>,

@@ -71,7 +71,7 @@ pub enum Filling {
     DoorBack,
     /// An open way, without a door.
     Passage {
-        /// Both rooms have the opening; one of them builds its lining.
+        /// True in one of the two rooms that have the opening, which builds its lining.
         lined: bool,
     },
 }

@@ -11,7 +11,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct Furnisher<'a> {
     /// Takes the parts.
     pub b: &'a mut Builder,
-    /// The whole home.
+    /// Plan of the whole home.
     pub plan: &'a FloorPlan,
     /// The room.
     pub room: &'a Room,
@@ -138,7 +138,7 @@ impl<'a> Furnisher<'a> {
         None
     }
 
-    /// As [`Furnisher::furnish`] with this probability.
+    /// Furnishes as [`Furnisher::furnish`] does, with this probability.
     pub fn perhaps(&mut self, probability: f32, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         if self.chance(probability) { self.furnish(family, cost) } else { None }
     }
