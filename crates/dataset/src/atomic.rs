@@ -85,6 +85,31 @@ pub(crate) fn rename(aside: &Path, path: &Path) -> Result<(), DatasetError> {
     fs::rename(aside, path).map_err(DatasetError::at("put in place", path))
 }
 
+/// Gives the file at `from` the second name `path`: a hard link, or a copy where the file system has none. What is there is replaced, unless
+/// it is the same already.
+pub(crate) fn link(from: &Path, path: &Path) -> Result<(), DatasetError> {
+    if is_same(from, path) {
+        return Ok(());
+    }
+    replace_file(path, |aside| {
+        remove_if_there(aside)?;
+        fs::hard_link(from, aside).or_else(|_| fs::copy(from, aside).map(drop)).map_err(DatasetError::at("write", path))
+    })
+}
+
+/// True when both paths lead to one file, or to files of the same bytes.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let (Ok(of_a), Ok(of_b)) = (fs::metadata(a), fs::metadata(b)) else { return false };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        if (of_a.dev(), of_a.ino()) == (of_b.dev(), of_b.ino()) {
+            return true;
+        }
+    }
+    of_a.len() == of_b.len() && fs::read(a).is_ok_and(|bytes| fs::read(b).is_ok_and(|other| other == bytes))
+}
+
 /// Removes a file that may not exist.
 ///
 /// # Errors

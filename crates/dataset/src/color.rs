@@ -1,22 +1,56 @@
-//! What the colour layers of a frame hold, rendered or denoised, and the change from one to the other without rendering.
+//! What the colour layers of a frame hold, and how they are made from what was rendered.
 //!
-//! The record of a frame says which. A change takes its steps in an order in which the files tell at any moment what it has come to:
-//! as long as the record says `rendered`, a file of the name `*_rendered` is what was rendered, on its way to or from its plain name, and
-//! [`Dataset::settle_color`] takes it back.
+//! Rendering writes `*_rendered`. From these come `color`, `diffuse_illumination` and `residual`: denoised, or the same files under a
+//! second name (a hard link; a copy where the file system has none). The record of a frame says which, and lists every content once:
+//! where colour is as it was rendered it lists the plain names alone. While colour is made it lists only what was rendered, so a change
+//! that is killed anywhere leaves a frame without colour, and the next run makes it.
 
-use crate::atomic::{remove_if_there, rename};
-use crate::{ColorKind, Dataset, DatasetError, Denoised, FrameRecord, write_json};
+use crate::atomic::{link, remove_if_there};
+use crate::frames::Problem;
+use crate::{ColorKind, Dataset, DatasetError, Denoised, FileRecord, FrameRecord, write_json};
 use enfilade_frame::{DENOISED, Frame, Layer};
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 impl Dataset {
-    /// Puts the denoised layers (`diffuse_illumination`, `residual`, `color`) in place of the rendered ones. These stay under names that end
-    /// with `_rendered` where `keep_rendered` says so. Where the frame is denoised already, what was rendered must still be there.
+    /// The layer under which `layer` is stored as it was rendered; `None` where it is denoised and what was rendered was not kept.
     ///
     /// # Errors
-    /// When the frame has no record, or what was rendered is gone, or a file cannot be written. Then the frame is as it was, or
-    /// [`Dataset::settle_color`] makes it so.
+    /// When the frame's record cannot be read.
+    pub fn rendered_layer(&self, [scene, camera]: [&str; 2], frame: u32, layer: Layer) -> Result<Option<Layer>, DatasetError> {
+        let Some((_, kept)) = DENOISED.into_iter().find(|(plain, _)| *plain == layer) else { return Ok(Some(layer)) };
+        let record = self.frame_record(scene, camera, frame)?;
+        Ok(if record.as_ref().is_some_and(|record| !record.has_rendered()) {
+            None
+        } else if self.layout().layer(scene, camera, frame, kept).is_file() {
+            Some(kept)
+        } else {
+            Some(layer).filter(|_| record.is_none_or(|record| record.denoised.is_none()))
+        })
+    }
+
+    /// The given layers of a frame as [`Dataset::read_frame`] gives them, but colour as it was rendered, under its plain names.
+    ///
+    /// # Errors
+    /// As there, and when what was rendered was not kept.
+    pub fn read_rendered(&self, [scene, camera]: [&str; 2], frame: u32, layers: &[Layer]) -> Result<Frame, DatasetError> {
+        let stored = |&layer: &Layer| {
+            self.rendered_layer([scene, camera], frame, layer)?
+                .ok_or_else(|| self.not_kept(&self.layout().frame_record(scene, camera, frame)))
+        };
+        let stored = layers.iter().map(stored).collect::<Result<Vec<_>, _>>()?;
+        let read = self.read_frame(scene, camera, frame, &stored)?;
+        let mut frame = Frame::new(read.width, read.height);
+        let values = layers.iter().zip(stored).filter_map(|(&layer, stored)| Some((layer, read.get(stored)?.clone())));
+        values.for_each(|(layer, values)| frame.insert(layer, values));
+        Ok(frame)
+    }
+
+    /// Makes `diffuse_illumination`, `residual` and `color` of a frame the denoised `layers`. What was rendered stays under names that end
+    /// with `_rendered` where `keep_rendered` says so, and is removed otherwise.
+    ///
+    /// # Errors
+    /// When the frame has no record, or what was rendered is gone, or a file cannot be written. Then the frame has the colour that it had,
+    /// or none.
     pub fn write_denoised(
         &self,
         [scene, camera]: [&str; 2],
@@ -25,57 +59,39 @@ impl Dataset {
         [denoiser, denoise_hash]: [&str; 2],
         keep_rendered: bool,
     ) -> Result<FrameRecord, DatasetError> {
-        self.restore_rendered([scene, camera], frame)?;
-        let mut record = self.recorded(scene, camera, frame)?;
+        let stored = self.with_rendered_apart([scene, camera], frame)?;
         let written = self.write_aside(scene, camera, frame, layers)?;
-
-        // What was rendered makes way, and `color` goes first, so that nobody finds a frame of both kinds.
-        let mut rendered = BTreeMap::new();
-        for (plain, kept) in DENOISED.into_iter().rev() {
-            let [from, to] = [plain, kept].map(|layer| self.layout().layer(scene, camera, frame, layer));
-            if let Some(file) = record.files.remove(&self.name_in_scene(scene, &from)) {
-                rename(&from, &to)?;
-                rendered.insert(self.name_in_scene(scene, &to), file);
-            }
-        }
-        self.put_in_place(scene, camera, frame, layers)?;
+        let mut record = self.take_color_off([scene, camera], frame, &stored)?;
+        self.put_in_place(scene, camera, frame, layers).inspect_err(|_| self.remove_aside(scene, camera, frame, layers))?;
 
         // The record says that it is done; only then is anything dropped.
+        let is_dropped = |path: &String, _: &mut FileRecord| !keep_rendered && plain_name(path).is_some();
+        let dropped = record.files.extract_if(.., is_dropped).collect();
         record.files.extend(written);
-        let mut dropped = BTreeMap::new();
-        if keep_rendered { &mut record.files } else { &mut dropped }.extend(rendered);
         record.color = ColorKind::Denoised;
         record.denoised = Some(Denoised { denoiser: denoiser.into(), denoise_hash: denoise_hash.into(), dropped });
         write_json(&self.layout().frame_record(scene, camera, frame), &record)?;
         if !keep_rendered {
-            self.remove_kept(scene, camera, frame)?;
+            self.remove_rendered([scene, camera], frame)?;
         }
         Ok(record)
     }
 
-    /// Puts the layers that were rendered back in place of denoised ones; a frame that is as it was rendered stays so.
+    /// Makes the colour of a frame what was rendered, by a second name of the same files. A frame that is so already stays as it is.
     ///
     /// # Errors
     /// When the frame has no record, or what was rendered was not kept, or a file cannot be written.
-    pub fn restore_rendered(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<(), DatasetError> {
-        self.settle_color([scene, camera], frame)?;
-        let record = self.recorded(scene, camera, frame)?;
-        if record.denoised.is_none() {
-            return Ok(());
+    pub fn link_rendered(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<(), DatasetError> {
+        let stored = self.with_rendered_apart([scene, camera], frame)?;
+        let shown = stored.as_rendered();
+        if stored != shown {
+            self.take_color_off([scene, camera], frame, &stored)?;
         }
-        let path = self.layout().frame_record(scene, camera, frame);
-        let kept = DENOISED.map(|(_, kept)| self.layout().layer(scene, camera, frame, kept));
-        if !record.has_rendered() || !kept.iter().all(|path| path.is_file()) {
-            return Err(DatasetError::text(
-                &path,
-                "its color is denoised and what was rendered was not kept (keep_rendered = false); render the frame again".to_string(),
-            ));
-        }
-        write_json(&path, &record.as_rendered())?;
-        self.settle_color([scene, camera], frame)
+        self.rendered_files([scene, camera], frame, &stored).try_for_each(|[plain, kept]| link(&kept, &plain))?;
+        if stored == shown { Ok(()) } else { write_json(&self.layout().frame_record(scene, camera, frame), &shown) }
     }
 
-    /// Drops the layers that were rendered of a denoised frame.
+    /// Removes the layers that were rendered of a denoised frame; what its record says was dropped goes if it is still there.
     ///
     /// # Errors
     /// When the record cannot be read or written, or a file cannot be removed.
@@ -86,30 +102,32 @@ impl Dataset {
             denoised.dropped = record.files.extract_if(.., |path, _| plain_name(path).is_some()).collect();
             write_json(&self.layout().frame_record(scene, camera, frame), &record)?;
         }
-        self.remove_kept(scene, camera, frame)
+        self.remove_rendered([scene, camera], frame)
     }
 
-    /// Ends what a killed change has left: the frame is what its record says afterwards, if all its files are there.
-    ///
-    /// # Errors
-    /// When a file cannot be moved or removed.
-    pub fn settle_color(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<(), DatasetError> {
-        let kept: Vec<(PathBuf, PathBuf)> = DENOISED
-            .into_iter()
-            .map(|(plain, kept)| [plain, kept].map(|layer| self.layout().layer(scene, camera, frame, layer)))
-            .map(|[plain, kept]| (plain, kept))
-            .filter(|(_, kept)| kept.is_file())
-            .collect();
-        if kept.is_empty() {
-            return Ok(());
-        }
-        // Without a record that can be read there is no frame, and it is rendered again.
-        let Some(record) = self.frame_record(scene, camera, frame).ok().flatten() else { return Ok(()) };
-        match &record.denoised {
-            None => kept.iter().try_for_each(|(plain, kept)| rename(kept, plain)),
-            Some(_) if record.has_rendered() => Ok(()),
-            Some(_) => self.remove_kept(scene, camera, frame),
-        }
+    /// The record of a frame of which all that rendering has left is there in full length; `None` where it is not, or the record cannot be
+    /// read. Its colour may be missing, and is made from the rest.
+    pub fn rendered_record(&self, scene: &str, camera: &str, frame: u32) -> Option<FrameRecord> {
+        let record = self.frame_record(scene, camera, frame).ok().flatten()?;
+        let files = if record.has_rendered() { record.as_rendered().files } else { record.files.clone() };
+        let folder = self.layout().scene_dir(scene);
+        let is_there = |(name, file): (&String, &FileRecord)| {
+            let kept = kept_name(name).filter(|_| record.has_rendered()).map(|kept| Problem::of(&folder.join(kept), file));
+            match kept {
+                // What earlier versions rendered, and what comes from another machine, has its plain name alone.
+                Some(Some(Problem::Missing)) if record.denoised.is_none() => Problem::of(&folder.join(name), file).is_none(),
+                Some(problem) => problem.is_none(),
+                None => Problem::of(&folder.join(name), file).is_none(),
+            }
+        };
+        files.iter().all(is_there).then_some(record)
+    }
+
+    /// True when a frame of the scene has the colour that `record`, its own, tells, in full length.
+    pub fn color_is_whole(&self, scene: &str, record: &FrameRecord) -> bool {
+        let folder = self.layout().scene_dir(scene);
+        let mut colors = record.files.iter().filter(|(name, _)| kept_name(name).is_some());
+        record.has_color() && colors.all(|(name, file)| Problem::of(&folder.join(name), file).is_none())
     }
 
     fn recorded(&self, scene: &str, camera: &str, frame: u32) -> Result<FrameRecord, DatasetError> {
@@ -118,41 +136,101 @@ impl Dataset {
         self.frame_record(scene, camera, frame)?.ok_or_else(missing)
     }
 
-    fn remove_kept(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
+    /// The record of a frame whose rendered layers lie under names of their own. Earlier versions wrote them under the plain names: they get
+    /// the others here.
+    fn with_rendered_apart(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<FrameRecord, DatasetError> {
+        let record = self.recorded(scene, camera, frame)?;
+        let not_kept = || self.not_kept(&self.layout().frame_record(scene, camera, frame));
+        if !record.has_rendered() {
+            return Err(not_kept());
+        }
+        for [plain, kept] in self.rendered_files([scene, camera], frame, &record) {
+            match kept.is_file() {
+                true => {}
+                false if record.denoised.is_none() => link(&plain, &kept)?,
+                false => return Err(not_kept()),
+            }
+        }
+        Ok(record)
+    }
+
+    /// Takes the colour out of the record of a frame, `stored`, before its files change: what is read from here on is a frame without one.
+    fn take_color_off(&self, [scene, camera]: [&str; 2], frame: u32, stored: &FrameRecord) -> Result<FrameRecord, DatasetError> {
+        let record = stored.without_color();
+        if record != *stored {
+            write_json(&self.layout().frame_record(scene, camera, frame), &record)?;
+        }
+        Ok(record)
+    }
+
+    /// The plain and the other name of each colour layer that was rendered, `color` last: who looks for it finds all or nothing.
+    fn rendered_files(&self, [scene, camera]: [&str; 2], frame: u32, record: &FrameRecord) -> impl Iterator<Item = [PathBuf; 2]> + use<> {
+        let files = record.as_rendered().files;
+        let paths = DENOISED.map(|names| <[Layer; 2]>::from(names).map(|layer| self.layout().layer(scene, camera, frame, layer)));
+        let rendered: Vec<[PathBuf; 2]> =
+            paths.into_iter().filter(|[plain, _]| files.contains_key(&self.name_in_scene(scene, plain))).collect();
+        rendered.into_iter()
+    }
+
+    fn remove_rendered(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<(), DatasetError> {
         let remove = |layer: Layer| remove_if_there(&self.layout().layer(scene, camera, frame, layer));
         DENOISED.into_iter().try_for_each(|(_, kept)| remove(kept))
     }
+
+    fn not_kept(&self, record: &Path) -> DatasetError {
+        let problem = "its color is denoised and what was rendered was not kept (keep_rendered = false); render the frame again";
+        DatasetError::text(record, problem.to_string())
+    }
 }
 
-/// The path of a layer that `path` holds as it was rendered, where it is one that is named so.
+/// The plain path of a layer that `path` holds as it was rendered; `None` of every other path.
 fn plain_name(path: &str) -> Option<String> {
-    let mut layers = DENOISED.into_iter();
-    layers.find_map(|(plain, kept)| {
-        let start = path.strip_suffix(&format!(".{}.hdf5", kept.spec().name))?;
-        Some(format!("{start}.{}.hdf5", plain.spec().name))
+    renamed(path, |(plain, kept)| [kept, plain])
+}
+
+/// The path where a layer that has the plain `path` is stored as it was rendered; `None` of paths that denoising leaves alone.
+fn kept_name(path: &str) -> Option<String> {
+    renamed(path, |(plain, kept)| [plain, kept])
+}
+
+fn renamed(path: &str, names: impl Fn((Layer, Layer)) -> [Layer; 2]) -> Option<String> {
+    DENOISED.into_iter().map(names).find_map(|[from, to]| {
+        let start = path.strip_suffix(".hdf5")?.strip_suffix(from.spec().name)?.strip_suffix('.')?;
+        Some(format!("{start}.{}.hdf5", to.spec().name))
     })
 }
 
 impl FrameRecord {
-    /// The record as it was when the frame was rendered: it names what is told by geometry, labels and light, whatever was denoised since.
+    /// The record as it was when the frame was rendered, with plain names: what is told by geometry, labels and light, whatever colour holds.
     #[must_use]
     pub fn as_rendered(&self) -> Self {
-        let mut record = self.clone();
-        let Some(denoised) = record.denoised.take() else { return record };
-        record.color = ColorKind::Rendered;
+        let mut record = Self { color: ColorKind::Rendered, ..self.clone() };
         let mut files = std::mem::take(&mut record.files);
-        files.extend(denoised.dropped);
-        for (path, file) in &files {
-            match plain_name(path) {
-                Some(plain) => drop(record.files.insert(plain, file.clone())),
-                None => drop(record.files.entry(path.clone()).or_insert_with(|| file.clone())),
+        files.extend(record.denoised.take().map(|denoised| denoised.dropped).unwrap_or_default());
+        for (path, file) in files {
+            match plain_name(&path) {
+                Some(plain) => drop(record.files.insert(plain, file)),
+                None => drop(record.files.entry(path).or_insert(file)),
             }
         }
+        record
+    }
+
+    /// The record while colour is made: what was rendered, under the names that rendering gives it.
+    fn without_color(&self) -> Self {
+        let mut record = self.as_rendered();
+        let files = std::mem::take(&mut record.files);
+        record.files = files.into_iter().map(|(path, file)| (kept_name(&path).unwrap_or(path), file)).collect();
         record
     }
 
     /// True where what was rendered is there, under one name or the other.
     pub fn has_rendered(&self) -> bool {
         self.denoised.as_ref().is_none_or(|denoised| denoised.dropped.is_empty())
+    }
+
+    /// True where colour is made; between rendering and that it is not.
+    pub fn has_color(&self) -> bool {
+        self.files.keys().filter_map(|path| plain_name(path)).all(|plain| self.files.contains_key(&plain))
     }
 }

@@ -6,7 +6,7 @@ use crate::layout_version::newer;
 use crate::read::{frame_number, sorted_names};
 use crate::record::RECORD_FORMAT;
 use crate::{ColorKind, Dataset, DatasetError, FileRecord, FrameRecord, FrameTime, LabelRecord, Recipe, Sampling, check_name, write_json};
-use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::{Camera, Cx, Pose, Warning};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -35,8 +35,22 @@ pub struct FrameInfo {
     pub recipe: Option<Recipe>,
 }
 
+/// A frame in memory, and the layer under whose name each of its layers is stored.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed<'f> {
+    frame: &'f Frame,
+    name: fn(Layer) -> Layer,
+}
+
+impl<'f> From<&'f Frame> for Placed<'f> {
+    fn from(frame: &'f Frame) -> Self {
+        Self { frame, name: |layer| layer }
+    }
+}
+
 impl Dataset {
-    /// Writes a rendered frame: all its layers, then the commit record. The frame's number is that of the pose.
+    /// Writes a frame as somebody else rendered it, with colour under its plain names: all its layers, then the commit record. The frame's
+    /// number is that of the pose.
     ///
     /// An older frame of that number, and its labels, cease to exist before the new files take their places, so that what is
     /// there is never a mixture. Frames may be written from several threads at once.
@@ -48,6 +62,33 @@ impl Dataset {
         scene: &str,
         camera: &str,
         frame: &Frame,
+        info: &FrameInfo,
+        time: FrameTime,
+    ) -> Result<FrameRecord, DatasetError> {
+        self.write_placed([scene, camera], Placed { frame, name: |layer| layer }, info, time)
+    }
+
+    /// Writes a frame that was rendered, with colour under names that end with `_rendered`: its plain names are made from these, by
+    /// [`Dataset::write_denoised`] or [`Dataset::link_rendered`], and until then the frame does not count as complete.
+    ///
+    /// # Errors
+    /// As [`Dataset::write_frame`].
+    pub fn write_rendered(
+        &self,
+        scene: &str,
+        camera: &str,
+        frame: &Frame,
+        info: &FrameInfo,
+        time: FrameTime,
+    ) -> Result<FrameRecord, DatasetError> {
+        let name = |layer| DENOISED.into_iter().find(|(plain, _)| *plain == layer).map_or(layer, |(_, kept)| kept);
+        self.write_placed([scene, camera], Placed { frame, name }, info, time)
+    }
+
+    fn write_placed(
+        &self,
+        [scene, camera]: [&str; 2],
+        placed: Placed<'_>,
         info: &FrameInfo,
         time: FrameTime,
     ) -> Result<FrameRecord, DatasetError> {
@@ -71,16 +112,16 @@ impl Dataset {
             recipe: info.recipe.clone(),
             color: ColorKind::Rendered,
             denoised: None,
-            files: self.write_aside(scene, camera, number, frame)?,
+            files: self.write_aside(scene, camera, number, placed)?,
         };
         let commit = || {
             self.remove_frame(scene, camera, number)?;
-            self.put_in_place(scene, camera, number, frame)?;
+            self.put_in_place(scene, camera, number, placed)?;
             self.append_time(scene, camera, number, time)?;
             write_json(&self.layout().frame_record(scene, camera, number), &record)
         };
         if let Err(error) = commit() {
-            self.remove_aside(scene, camera, number, frame);
+            self.remove_aside(scene, camera, number, placed);
             let _ = self.remove_frame(scene, camera, number);
             return Err(error);
         }
@@ -131,17 +172,9 @@ impl Dataset {
         Ok(())
     }
 
-    /// True when the frame was made with `config_hash` and all its files are there in full length.
+    /// True when the frame was rendered with `config_hash` and all that rendering has left is there in full length.
     pub fn frame_is_complete(&self, scene: &str, camera: &str, frame: u32, config_hash: &str) -> bool {
-        let record = self.frame_record(scene, camera, frame).ok().flatten();
-        record.is_some_and(|record| record.config_hash == config_hash && self.files_are_there(scene, &record.files))
-    }
-
-    /// True when the record of the frame of `pose` can be read and says that it was taken from there with `with`, and all its files are
-    /// there in full length.
-    pub fn frame_is_taken(&self, scene: &str, camera: &str, with: &Camera, pose: &Pose) -> bool {
-        let record = self.frame_record(scene, camera, pose.frame).ok().flatten();
-        record.is_some_and(|record| record.is_taken(with, pose) && self.files_are_there(scene, &record.files))
+        self.rendered_record(scene, camera, frame).is_some_and(|record| record.config_hash == config_hash)
     }
 
     /// True when the frame's label layers were joined from the tables `labels_hash` and are there in full length.
@@ -182,7 +215,7 @@ impl Dataset {
         let mut incomplete = BTreeMap::new();
         for frame in names.iter().filter_map(|name| frame_number(name, "json")).filter(|frame| complete.binary_search(frame).is_err()) {
             let record = self.frame_record(scene, camera, frame)?;
-            incomplete.extend(record.and_then(|record| self.wrong_file(scene, &record.files, Pass::Final)).map(|problem| (frame, problem)));
+            incomplete.extend(record.and_then(|record| self.wrong_frame([scene, camera], &record)).map(|problem| (frame, problem)));
         }
         Ok(incomplete)
     }
@@ -288,6 +321,20 @@ impl Dataset {
         Ok(())
     }
 
+    /// True when the frame of a record has its colour, and all files of the record are there in full length.
+    pub(crate) fn frame_is_whole(&self, shot: [&str; 2], record: &FrameRecord) -> bool {
+        self.wrong_frame(shot, record).is_none()
+    }
+
+    /// Why the frame of a record does not count; `None` where it does.
+    fn wrong_frame(&self, [scene, camera]: [&str; 2], record: &FrameRecord) -> Option<DatasetError> {
+        let unmade = || {
+            let color = self.layout().layer(scene, camera, record.frame, Layer::Color);
+            DatasetError::hdf5(&color, "it is not made yet: the frame is rendered, and its run was interrupted; run again".to_string())
+        };
+        self.wrong_file(scene, &record.files, Pass::Final).or_else(|| (!record.has_color()).then(unmade))
+    }
+
     /// True when all files of a record are there in full length.
     pub(crate) fn files_are_there(&self, scene: &str, files: &BTreeMap<String, FileRecord>) -> bool {
         self.wrong_file(scene, files, Pass::Final).is_none()
@@ -310,17 +357,14 @@ impl Dataset {
         };
         files.iter().find_map(|(name, file)| {
             let path = folder.join(name);
-            match fs::metadata(&path).map(|found| found.len()) {
-                Ok(bytes) if bytes == file.bytes => None,
-                Ok(bytes) => {
+            Some(match Problem::of(&path, file)? {
+                Problem::Length(bytes) => {
                     let problem = format!("it has {bytes} bytes, but the record of its frame says {}; {remedy}", file.bytes);
-                    Some(DatasetError::hdf5(&path, problem))
+                    DatasetError::hdf5(&path, problem)
                 }
-                Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                    Some(DatasetError::hdf5(&path, format!("it is missing, but its frame has a record; {remedy}")))
-                }
-                Err(error) => Some(DatasetError::io("look for", &path, error)),
-            }
+                Problem::Missing => DatasetError::hdf5(&path, format!("it is missing, but its frame has a record; {remedy}")),
+                Problem::Unreadable(error) => DatasetError::io("look for", &path, error),
+            })
         })
     }
 
@@ -331,29 +375,30 @@ impl Dataset {
     }
 
     /// Writes every layer under its temporary name and says what will lie where. On an error no temporary file stays.
-    pub(crate) fn write_aside(
+    pub(crate) fn write_aside<'f>(
         &self,
         scene: &str,
         camera: &str,
         number: u32,
-        frame: &Frame,
+        placed: impl Into<Placed<'f>>,
     ) -> Result<BTreeMap<String, FileRecord>, DatasetError> {
-        let size = [frame.height as usize, frame.width as usize];
-        let files: Vec<_> = self.files_of(scene, camera, number, frame).collect();
+        let placed = placed.into();
+        let size = [placed.frame.height as usize, placed.frame.width as usize];
+        let files: Vec<_> = self.files_of(scene, camera, number, placed).collect();
         let write = |(path, layer, values, description): &(PathBuf, Layer, &Values, Option<String>)| {
             let record = write_file_aside(path, size, *layer, values, &attributes(*layer, description.as_deref()))?;
             Ok((self.name_in_scene(scene, path), record))
         };
         let written: Result<Vec<_>, DatasetError> = enfilade_parallel::try_map(&files, write);
         if written.is_err() {
-            self.remove_aside(scene, camera, number, frame);
+            self.remove_aside(scene, camera, number, placed);
         }
         Ok(written?.into_iter().collect())
     }
 
     /// Removes what [`Self::write_aside`] wrote. Failures are ignored, since an earlier error is being returned.
-    pub(crate) fn remove_aside(&self, scene: &str, camera: &str, number: u32, frame: &Frame) {
-        for (path, ..) in self.files_of(scene, camera, number, frame) {
+    pub(crate) fn remove_aside<'f>(&self, scene: &str, camera: &str, number: u32, placed: impl Into<Placed<'f>>) {
+        for (path, ..) in self.files_of(scene, camera, number, placed.into()) {
             let _ = fs::remove_file(temporary(&path));
         }
     }
@@ -365,15 +410,22 @@ impl Dataset {
         scene: &str,
         camera: &str,
         number: u32,
-        frame: &'f Frame,
+        Placed { frame, name }: Placed<'f>,
     ) -> impl Iterator<Item = (PathBuf, Layer, &'f Values, Option<String>)> {
-        let layers = frame.iter().map(move |(layer, values)| (self.layout().layer(scene, camera, number, layer), layer, values, None));
+        let layers =
+            frame.iter().map(move |(layer, values)| (self.layout().layer(scene, camera, number, name(layer)), layer, values, None));
         layers.chain(self.fixture_layers(scene, camera, number, frame))
     }
 
     /// Renames the layers of `frame` from their temporary names, colour last: loaders that look for colour find all or nothing.
-    pub(crate) fn put_in_place(&self, scene: &str, camera: &str, number: u32, frame: &Frame) -> Result<(), DatasetError> {
-        let mut files: Vec<_> = self.files_of(scene, camera, number, frame).map(|(path, layer, ..)| (path, layer)).collect();
+    pub(crate) fn put_in_place<'f>(
+        &self,
+        scene: &str,
+        camera: &str,
+        number: u32,
+        placed: impl Into<Placed<'f>>,
+    ) -> Result<(), DatasetError> {
+        let mut files: Vec<_> = self.files_of(scene, camera, number, placed.into()).map(|(path, layer, ..)| (path, layer)).collect();
         files.sort_by_key(|&(_, layer)| layer == Layer::Color);
         files.iter().try_for_each(|(path, _)| rename(&temporary(path), path))
     }
@@ -455,6 +507,28 @@ fn write_file_aside(
     let aside = temporary(path);
     write_view(&aside, ArrayView::of_values(shape, values), Storage::Image(Packing::of_layer(layer)), attributes)?;
     FileRecord::of(&aside)
+}
+
+/// What is wrong with a file, as far as its length tells.
+pub(crate) enum Problem {
+    /// It is not there.
+    Missing,
+    /// It has another length, this one.
+    Length(u64),
+    /// It cannot be looked at.
+    Unreadable(io::Error),
+}
+
+impl Problem {
+    /// Compares the file at `path` with its record; `None` where all is well.
+    pub fn of(path: &Path, file: &FileRecord) -> Option<Self> {
+        match fs::metadata(path).map(|found| found.len()) {
+            Ok(bytes) if bytes == file.bytes => None,
+            Ok(bytes) => Some(Self::Length(bytes)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Some(Self::Missing),
+            Err(error) => Some(Self::Unreadable(error)),
+        }
+    }
 }
 
 impl FileRecord {

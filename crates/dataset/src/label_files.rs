@@ -87,8 +87,7 @@ impl MeshFiles {
         let instance = read_column(&path)?;
         if semantic.len() != instance.len() {
             let problem = format!(
-                "{} rows, but {OBJECTS_SEMANTIC} has {}; if the scene was annotated, open it in `enfilade annotate`, which writes both from its log, \
-                 else run the label stage again",
+                "{} rows, but {OBJECTS_SEMANTIC} has {}; run the label stage again, or open the folder in `enfilade annotate`, if that wrote both",
                 instance.len(),
                 semantic.len()
             );

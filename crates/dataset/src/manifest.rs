@@ -252,7 +252,7 @@ impl Dataset {
         rejected: Option<&ViewFault>,
         info: &ManifestInfo,
     ) -> Result<FrameEntry, DatasetError> {
-        let record = self.frame_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));
+        let record = self.frame_record(scene, camera, frame)?.filter(|record| self.frame_is_whole([scene, camera], record));
         if let Some(record) = record {
             let mut files = record.files;
             let labels = self.label_record(scene, camera, frame)?.filter(|record| self.files_are_there(scene, &record.files));

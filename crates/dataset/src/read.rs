@@ -5,7 +5,7 @@ use crate::layout::camera_of_layer_dir;
 use crate::release::planar_depth_of_part;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
-use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Values};
+use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values};
 use enfilade_scene::Projection;
 use half::slice::HalfFloatSliceExt;
 use std::collections::BTreeSet;
@@ -71,7 +71,7 @@ impl Dataset {
 
     /// The numbers of a camera's complete frames, ascending.
     ///
-    /// A frame of ours is complete when its commit record and all the record's files are there. Where a camera has no folder of
+    /// A frame of ours is complete when its commit record and all the record's files are there, colour among them. Where a camera has no folder of
     /// records (Hypersim's own data), a frame counts when it has any layer.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl Dataset {
         }
         let mut frames = Vec::new();
         for frame in sorted_names(&records)?.iter().filter_map(|name| frame_number(name, "json")) {
-            if self.frame_record(scene, camera, frame)?.is_some_and(|record| self.files_are_there(scene, &record.files)) {
+            if self.frame_record(scene, camera, frame)?.is_some_and(|record| self.frame_is_whole([scene, camera], &record)) {
                 frames.push(frame);
             }
         }
@@ -204,9 +204,17 @@ impl Dataset {
         Ok(Values::F32(planar_depth_of_part(projection, part, distance)))
     }
 
-    /// True when the frame has a file for `layer`.
+    /// True when the frame has a file for `layer`. A `*_rendered` file that its record does not list is no layer of its own: it is another
+    /// name of what the plain name holds.
     pub fn has_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> bool {
-        self.layout().layer(scene, camera, frame, layer).is_file()
+        let path = self.layout().layer(scene, camera, frame, layer);
+        path.is_file() && (layer.spec().pass != Pass::Rendered || self.is_listed(scene, camera, frame, &path))
+    }
+
+    /// True when the frame's record lists the file, and where there is no record to read.
+    fn is_listed(&self, scene: &str, camera: &str, frame: u32, path: &Path) -> bool {
+        let record = self.frame_record(scene, camera, frame).ok().flatten();
+        record.is_none_or(|record| record.files.contains_key(&self.name_in_scene(scene, path)))
     }
 
     /// The numbers of frames that have any layer, ascending.

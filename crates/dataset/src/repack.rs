@@ -106,7 +106,7 @@ impl Dataset {
         for frame in self.frame_numbers(scene, camera)? {
             for layer in LAYERS.iter().map(|spec| spec.layer).filter(|layer| layers.is_none_or(|layers| layers.contains(layer))) {
                 let (from, to) = (self.layout().layer(scene, camera, frame, layer), copy.layer(scene, camera, frame, layer));
-                if from.is_file() {
+                if self.has_layer(scene, camera, frame, layer) {
                     images.push(ImageCopy { from, to, attributes: if released { Vec::new() } else { attributes_of(layer) } });
                 }
             }

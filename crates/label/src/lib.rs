@@ -3,8 +3,9 @@
 //! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
 //! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
 //! therefore costs a join, not a rendering. Where people cut parts into pieces, [`Pieces`] says which piece a pixel shows.
-//! [`structure`] finds rooms in what is labelled as walls, floors and ceilings.
+//! [`annotation`] has what people labelled. [`structure`] finds rooms in what is labelled as walls, floors and ceilings.
 
+pub mod annotation;
 mod assign;
 pub mod boxes;
 mod doubts;

@@ -42,7 +42,7 @@ impl Pieces {
             |piece: u32, part: usize| piece as usize == part || pieces.get((piece as usize).wrapping_sub(whole)) == Some(&(part as u32));
         let other = || DatasetError::Hdf5 {
             path: files.file("mesh_faces_oi.hdf5"),
-            problem: "it is about another version of the scene; open `enfilade annotate` and save again".into(),
+            problem: "it is about another version of the scene; run the label stage again".into(),
         };
         for (part, placed) in scene.parts.iter().enumerate() {
             let count = scene.meshes[placed.mesh as usize].triangles.len();

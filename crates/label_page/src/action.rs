@@ -1,13 +1,13 @@
 //! The actions of a page, and how each is turned into an edit, in which every decision is made.
 
 use super::camera::CameraRequest;
-use super::edit::{Edit, runs};
 use super::pieces::Pieces;
 use super::selection::{Expand, Filters, select};
 use super::split;
 use super::stroke::{Picked, StrokeShape, VisibleScene};
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
+use enfilade_label::annotation::{Edit, runs};
 use enfilade_scene::PartLabel;
 use serde::Deserialize;
 use std::collections::HashSet;

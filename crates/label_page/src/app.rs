@@ -252,7 +252,7 @@ impl App {
         self.worklog().sessions()
     }
 
-    /// Writes Hypersim's files, and returns their paths.
+    /// Writes all that is made from the log here, and returns the files. Tables that a label stage makes are left to it.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -265,7 +265,11 @@ impl App {
         };
         let objects = snapshot.objects_hash();
         let folder = self.scene.labels_folder.as_path();
-        let mut files = snapshot.write(&MeshFiles::new(folder), &self.classes, saved.objects != Some(objects))?;
+        let mesh = MeshFiles::new(folder);
+        let mut files = vec![snapshot.write_list(&mesh, &self.classes)?];
+        if !self.scene.has_label_stage {
+            files.extend(snapshot.write_tables(&mesh, &self.classes, saved.objects != Some(objects))?);
+        }
         files.extend(self.write_reviews()?);
         *saved = Saved { revision, objects: Some(objects) };
         let worklog = self.worklog();

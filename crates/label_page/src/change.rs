@@ -1,8 +1,8 @@
 //! What an edit changed, as every page that shows the scene is told.
 
-use super::edit::Edit;
 use super::pieces::{Piece, Pieces};
 use super::scene::NO_MATERIAL;
+use enfilade_label::annotation::Edit;
 use serde::Serialize;
 
 /// A change, as it is sent to pages.

@@ -4,10 +4,10 @@
 //! that was split.
 //!
 //! The way of an edit: a page sends an action (`action.rs`). Rays find the visible faces, filters and expansion the selected pieces, and the
-//! action becomes an edit that needs no further decision (`edit.rs`). The edit is appended to the log and flushed to disk (`log.rs`), applied to
-//! the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever happens to the page
-//! or the program; Hypersim's files are written from it shortly after (`save.rs`). What reviewers say of pieces is no label and has a log of
-//! its own (`review.rs`).
+//! action becomes an edit that needs no further decision (`enfilade_label::annotation`). The edit is appended to the log and flushed to disk
+//! (`log.rs`), applied to the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever
+//! happens to the page or the program. The label stage makes the tables of a dataset's scene from it; other tables are written shortly after
+//! (`save.rs`). What reviewers say of pieces is no label and has a log of its own (`review.rs`).
 
 mod action;
 mod answer;
@@ -15,12 +15,10 @@ mod app;
 mod camera;
 mod change;
 mod clock;
-mod edit;
 mod events;
 mod face_colors;
 mod json_lines;
 mod log;
-mod log_lines;
 mod options;
 mod pieces;
 mod planned;
@@ -36,6 +34,7 @@ mod split;
 mod stroke;
 mod suggestions;
 mod surfaces;
+mod unsplit;
 mod viewpoint;
 mod worklog;
 

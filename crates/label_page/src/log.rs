@@ -4,9 +4,9 @@
 //! is dropped.
 
 use super::json_lines::JsonLines;
-use super::log_lines::{Entry, FORMAT, Form, Header};
 use super::scene::AnnotatedScene;
 use enfilade_dataset::ANNOTATION_LOG;
+use enfilade_label::annotation::{Entry, FORMAT, Header, LogProblem, parse};
 use enfilade_scene::PartLabel;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -61,6 +61,15 @@ pub enum LogError {
         /// What is wrong with it.
         problem: String,
     },
+}
+
+impl LogError {
+    fn of(path: PathBuf, problem: LogProblem) -> Self {
+        match problem {
+            LogProblem::Format { found } => Self::Format { path, found },
+            LogProblem::Line { line, problem } => Self::Line { path, line, problem },
+        }
+    }
 }
 
 /// An open log, locked for this program.
@@ -126,19 +135,9 @@ impl Log {
     }
 
     fn parse(&self, bytes: &[u8], scene: &AnnotatedScene) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
-        let wrong = |line: usize, problem: String| LogError::Line { path: self.path.clone(), line, problem };
-        let mut lines = bytes.strip_suffix(b"\n").unwrap_or(bytes).split(|&b| b == b'\n').peekable();
-        let first = lines.next().unwrap_or_default();
-        let no_log = |e: serde_json::Error| wrong(1, format!("not the beginning of a log: {e}"));
-        let Form { format: found } = serde_json::from_slice(first).map_err(no_log)?;
-        if found != FORMAT {
-            return Err(LogError::Format { path: self.path.clone(), found });
-        }
-        let header: Header = serde_json::from_slice(first).map_err(no_log)?;
-        if lines.peek().is_none() {
-            return Ok((Vec::new(), Vec::new()));
-        }
-        if header.scene_hash != scene.hash() {
+        let located = |problem| LogError::of(self.path.clone(), problem);
+        let Some((header, entries)) = parse(bytes).map_err(located)? else { return Ok((Vec::new(), Vec::new())) };
+        if !entries.is_empty() && header.scene_hash != scene.hash() {
             let describe = |name: &str, parts: usize, faces: usize| format!("{name:?} of {parts} parts and {faces} faces");
             return Err(LogError::OtherScene {
                 path: self.path.clone(),
@@ -147,24 +146,13 @@ impl Log {
             });
         }
         let (semantic, instance) = (header.initial_semantic, header.initial_instance);
-        if semantic.len() != scene.parts.len() || instance.len() != scene.parts.len() {
-            return Err(wrong(1, format!("labels of {} parts, expected {}", semantic.len(), scene.parts.len())));
-        }
         let initial = semantic.into_iter().zip(instance).map(|(semantic, instance)| PartLabel { semantic, instance }).collect();
-        let mut entries = Vec::new();
-        for (i, line) in lines.enumerate() {
-            let entry: Entry = serde_json::from_slice(line).map_err(|e| wrong(i + 2, e.to_string()))?;
-            if entry.revision != i as u64 + 1 {
-                return Err(wrong(i + 2, format!("revision {}, expected {}", entry.revision, i + 1)));
-            }
-            entries.push(entry);
-        }
         Ok((initial, entries))
     }
 
     /// The problem of the entry with this revision.
     pub fn problem(&self, revision: u64, problem: String) -> LogError {
-        LogError::Line { path: self.path.clone(), line: revision as usize + 1, problem }
+        LogError::of(self.path.clone(), LogProblem::of_edit(revision, problem))
     }
 
     /// Appends an edit. When this returns it is on the disk; when it fails the log is as it was.

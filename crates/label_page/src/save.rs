@@ -1,4 +1,4 @@
-//! The labels in Hypersim's files, and beside them a table for `enfilade label`.
+//! What is written beside the log: a table of labels or the list of classes, and, where no label stage does, Hypersim's files.
 
 use super::pieces::Pieces;
 use enfilade_dataset::{Classes, DatasetError, LabelColors, MeshFiles, write_bytes};
@@ -42,22 +42,28 @@ impl Snapshot {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn write(&self, files: &MeshFiles, classes: &Classes, objects: bool) -> Result<Vec<PathBuf>, DatasetError> {
+    pub fn write_tables(&self, files: &MeshFiles, classes: &Classes, objects: bool) -> Result<Vec<PathBuf>, DatasetError> {
         let mut written = Vec::new();
         if objects {
             written.extend(files.write_objects(&self.whole, &self.split, &self.piece_of_face)?);
         }
         let colors = LabelColors { semantic: classes.color_rows(), instances: self.instances };
         written.extend(files.write_labels(&self.labels, &colors)?);
+        Ok(written)
+    }
+
+    /// Writes a table of labels by the names of parts, or the list of classes that is not NYU40, and returns the file.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write_list(&self, files: &MeshFiles, classes: &Classes) -> Result<PathBuf, DatasetError> {
         if classes.are_nyu40() {
             let names: Vec<&str> = self.whole.iter().map(String::as_str).collect();
             let labels: &[PartLabel] = &self.labels.parts[..names.len()];
             let path = files.file("labels.csv");
-            write_bytes(&path, write_part_table(&names, labels))?;
-            written.push(path);
+            write_bytes(&path, write_part_table(&names, labels)).map(|()| path)
         } else {
-            written.push(files.write_classes(classes)?);
+            files.write_classes(classes)
         }
-        Ok(written)
     }
 }

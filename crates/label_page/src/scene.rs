@@ -1,9 +1,9 @@
 //! The scene that is annotated: loaded from a scene file, or from the mesh folder of a dataset's scene.
 
 use super::face_colors::FaceColors;
-use super::log_lines::unsplit;
 use super::options::AnnotateOptions;
 use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view, is_plain};
+use super::unsplit::unsplit;
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, WORKDIR, mesh_names, quoted, scene_hash};
 use enfilade_frame::Pass;
 use enfilade_import::{Format, ImportOptions};
@@ -47,8 +47,8 @@ pub struct AnnotatedScene {
     pub cameras: Vec<PlannedCamera>,
     /// Metres per unit of the files.
     pub meters_per_unit: f64,
-    /// True when the folder of labels is the mesh folder that the scene was read from.
-    pub in_mesh_folder: bool,
+    /// True when a label stage makes the tables of labels and objects in that folder from the log.
+    pub has_label_stage: bool,
 }
 
 /// Why the scene cannot be loaded.
@@ -154,7 +154,7 @@ impl AnnotatedScene {
             labels: known,
             cameras: cameras_of_file(scene),
             meters_per_unit: 1.0,
-            in_mesh_folder: false,
+            has_label_stage: false,
             name,
         })
     }
@@ -170,6 +170,7 @@ impl AnnotatedScene {
         let parts = mesh.objects.len();
         let known = if is_annotated { vec![PartLabel::NONE; parts] } else { read_labels(parts, folder, home.as_ref(), cx)? };
         let name = home.as_ref().map(|home| home.scene.clone());
+        let has_label_stage = labels.is_none() && home.as_ref().is_some_and(SceneOfDataset::has_label_stage);
         Ok(Self {
             name: name.unwrap_or_else(|| folder.file_name().map_or_else(|| "scene".into(), |n| n.to_string_lossy().into_owned())),
             origin: folder.display().to_string(),
@@ -185,7 +186,7 @@ impl AnnotatedScene {
             labels: known,
             cameras: home.map(|home| home.cameras(cx)).unwrap_or_default(),
             meters_per_unit: scale,
-            in_mesh_folder: labels.is_none(),
+            has_label_stage,
         })
     }
 
@@ -247,10 +248,19 @@ impl SceneOfDataset {
         Some(Self { dataset, scene: scene.file_name()?.to_string_lossy().into_owned() })
     }
 
-    /// The colours of the materials, where the scene as it was imported is still there.
+    /// The scene as it was imported, where it is still there.
+    fn package(&self) -> Option<PathBuf> {
+        Some(self.dataset.root().join(WORKDIR).join(&self.scene).join(PACKAGE)).filter(|package| package.is_file())
+    }
+
+    /// Whether stages can run over the scene.
+    fn has_label_stage(&self) -> bool {
+        self.package().is_some()
+    }
+
+    /// The colours of the materials, where they are known.
     fn colors(&self) -> FaceColors {
-        let package = self.dataset.root().join(WORKDIR).join(&self.scene).join(PACKAGE);
-        if package.is_file() { FaceColors::Package(package) } else { FaceColors::Unknown }
+        self.package().map_or(FaceColors::Unknown, FaceColors::Package)
     }
 
     /// The planned trajectories; those that cannot be read are left out with a warning.

@@ -4,15 +4,14 @@ use super::action::{Action, Context, Look, Refusal};
 use super::camera::CameraRequest;
 use super::change::{Change, Standing};
 use super::clock;
-use super::edit::{Edit, numbers};
 use super::log::{Log, LogError, Recorded};
-use super::log_lines::Entry;
 use super::pieces::Pieces;
 use super::scene::AnnotatedScene;
 use super::stroke::Picked;
 use super::viewpoint::Viewpoint;
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
+use enfilade_label::annotation::{Before, Edit, Entry, numbers};
 use enfilade_scene::PartLabel;
 use serde::Serialize;
 use std::collections::{HashMap, VecDeque};
@@ -207,25 +206,8 @@ impl Session {
 
     /// Checks that an edit of the log can be done.
     fn check(&self, edit: &Edit) -> Result<(), String> {
-        let pieces = self.pieces.list();
-        match edit {
-            Edit::Undo if self.done.is_empty() => Err("there is nothing to undo".into()),
-            Edit::Redo if self.undone.is_empty() => Err("there is nothing to do again".into()),
-            Edit::Undo | Edit::Redo => Ok(()),
-            Edit::Label { pieces: which, semantic, instance, .. } => {
-                let fits = semantic.len() == which.len() && instance.len() == which.len();
-                let known = which.iter().all(|&piece| (piece as usize) < pieces.len());
-                if fits && known { Ok(()) } else { Err("the labels do not fit the pieces".into()) }
-            }
-            Edit::Split { piece, names, faces, .. } => {
-                let known = (*piece as usize) < pieces.len() && names.len() == faces.len();
-                let of_face = self.pieces.of_face();
-                let its_own = |runs: &Vec<[u32; 2]>| {
-                    numbers(runs, of_face.len()).is_some_and(|faces| faces.iter().all(|&face| of_face[face as usize] == *piece))
-                };
-                if known && faces.iter().all(its_own) { Ok(()) } else { Err("the faces are not of the piece that is split".into()) }
-            }
-        }
+        let steps = [self.done.len(), self.undone.len()];
+        edit.check(&Before { pieces: self.pieces.list().len(), piece_of_face: self.pieces.of_face(), steps })
     }
 
     /// Does an edit that was checked or decided here.
@@ -280,7 +262,7 @@ impl Session {
     fn revert(&mut self, done: &Done) -> Change {
         match &done.edit {
             Edit::Label { pieces, .. } => {
-                pieces.iter().zip(&done.before).for_each(|(&piece, &label)| self.pieces.set_label(piece, label));
+                pieces.iter().zip(&done.before).rev().for_each(|(&piece, &label)| self.pieces.set_label(piece, label));
                 Change::labels(&self.pieces, pieces)
             }
             Edit::Split { piece, names, .. } => {

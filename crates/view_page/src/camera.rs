@@ -91,7 +91,9 @@ impl Viewer {
             views.entry(pose.frame).or_default().pose = Some(value);
         }
         for (frame, layers) in self.layers_of_frames(scene, camera, model)? {
-            views.entry(frame).or_default().layers = layers.into_iter().collect();
+            let has =
+                |layer: &usize| LAYERS[*layer].pass != Pass::Rendered || self.dataset.has_layer(scene, camera, frame, LAYERS[*layer].layer);
+            views.entry(frame).or_default().layers = layers.into_iter().filter(has).collect();
         }
         for frame in lost.or_nothing("frame", self.dataset.frame_numbers(scene, camera).map_err(problem)) {
             views.entry(frame).or_default().complete = true;

@@ -114,7 +114,8 @@ impl Viewer {
     fn entry(&self, place: &FramePlace, faults: Vec<Fault>, tables: &Tables) -> Entry {
         let FramePlace { scene, camera, frame } = place;
         let judged = tables.report.as_ref().and_then(|report| report.frame(place));
-        let pictured = [Layer::Color, Layer::DepthMeters].map(|layer| self.layout().layer(scene, camera, *frame, layer));
+        let pictured =
+            [Layer::Color, Layer::ColorRendered, Layer::DepthMeters].map(|layer| self.layout().layer(scene, camera, *frame, layer));
         let picture = pictured.into_iter().find(|path| path.is_file());
         // The record is read where nothing was verified yet.
         let record = || self.dataset.frame_record(scene, camera, *frame).ok().flatten()?.sampling?.noise;

@@ -32,11 +32,7 @@ pub async fn thumbnail(
     let place = FramePlace::parse([scene, camera, frame])?;
     let asked = query.map_err(|e| ApiProblem::bad_request(e.body_text(), "v is the version given by the gallery"))?.0.v;
     let (bytes, version, kept) = work(viewer, move |viewer| {
-        let layer = if viewer.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
-            Layer::Color
-        } else {
-            Layer::DepthMeters
-        };
+        let layer = viewer.color_layer(&place).unwrap_or(Layer::DepthMeters);
         let path = viewer.layout().layer(&place.scene, &place.camera, place.frame, layer);
         viewer.allow(&path)?;
         let picture = viewer.thumbnails.get(&place, stamp(&path), || viewer.small_picture(&place, layer))?;
@@ -58,7 +54,7 @@ impl Viewer {
             return Err(ApiProblem::failed("the frame has no pixels", "make it again"));
         }
         let colors = match layer {
-            Layer::Color => self.tone_mapped(place, height * width)?.unwrap_or_default(),
+            Layer::Color | Layer::ColorRendered => self.tone_mapped(place, height * width)?.unwrap_or_default(),
             _ => {
                 let [low, high] = [1, 5].map(|i| decoded.summary.percentiles.get(i).copied().unwrap_or_default());
                 let share = |i: usize| (decoded.number(i) - low) / (high - low).max(1e-9);

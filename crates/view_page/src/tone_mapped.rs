@@ -7,12 +7,16 @@ use enfilade_frame::tonemap::{ToneMap, brightness, percentile};
 use enfilade_serve::ApiProblem;
 
 impl Viewer {
+    /// The layer that shows a frame as people see it: color, or what was rendered while color is still to be made; `None` without either.
+    pub(super) fn color_layer(&self, place: &FramePlace) -> Option<Layer> {
+        let has = |layer: &Layer| self.dataset.has_layer(&place.scene, &place.camera, place.frame, *layer);
+        [Layer::Color, Layer::ColorRendered].into_iter().find(has)
+    }
+
     /// A frame's color after Hypersim's tone map; `None` if the frame has no color of this many pixels.
     pub(super) fn tone_mapped(&self, place: &FramePlace, pixels: usize) -> Result<Option<Vec<[u8; 3]>>, ApiProblem> {
-        if !self.dataset.has_layer(&place.scene, &place.camera, place.frame, Layer::Color) {
-            return Ok(None);
-        }
-        let color = self.layer(place, Layer::Color)?;
+        let Some(layer) = self.color_layer(place) else { return Ok(None) };
+        let color = self.layer(place, layer)?;
         if color.shape[0] * color.shape[1] != pixels {
             return Ok(None);
         }

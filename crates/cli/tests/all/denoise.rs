@@ -1,8 +1,9 @@
 //! What `color` holds: denoised from the first run, rendered where that is asked for, and one after the other without rendering.
 
-use crate::common::{Lamp, assert_same, contents, fail, folder, scene, succeed, write_config, write_room};
+use crate::common::{Lamp, assert_same, contents, enfilade, fail, folder, scene, succeed, write_config, write_room};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::process::Stdio;
+use std::time::{Duration, SystemTime};
 
 /// The configuration of a room of three frames.
 fn room(dir: &Path) {
@@ -34,7 +35,9 @@ fn color_is_denoised_from_the_first_run_and_changes_without_rendering() {
     succeed(d, &["run", "dataset.toml", "-o", "raw", "--color", "rendered", "--threads", "1"]);
     assert_eq!(bytes(&layer(&out, "color_rendered")), bytes(&layer(&raw, "color")));
     assert_ne!(bytes(&layer(&out, "color")), bytes(&layer(&raw, "color")));
-    assert!(!layer(&raw, "color_rendered").exists());
+    assert_eq!(bytes(&layer(&raw, "color_rendered")), bytes(&layer(&raw, "color")), "by another name");
+    let names = |out: &Path| std::fs::read_to_string(out.join("manifest.json")).unwrap().matches("color_rendered.hdf5").count();
+    assert_eq!([names(&out), names(&raw)], [3, 0], "no content is listed twice");
     for (out, color) in [(&out, "denoised"), (&raw, "rendered")] {
         let manifest = std::fs::read_to_string(out.join("manifest.json")).unwrap();
         let record = std::fs::read_to_string(out.join("scenes/room/_detail/cam_00/frames/frame.0001.json")).unwrap_or_default();
@@ -70,6 +73,34 @@ fn color_is_denoised_from_the_first_run_and_changes_without_rendering() {
     let told = "3 frames denoised, and what was rendered was not kept";
     fail(d, &["run", "bare.toml", "-o", "bare", "--color", "rendered"], 0, &[told]);
     assert_eq!(bytes(&layer(&bare, "color")), bytes(&layer(&out, "color")));
+}
+
+#[test]
+fn changes_of_color_that_are_killed_end_with_the_same_bytes_and_render_nothing() {
+    let dir = folder();
+    let d = dir.path();
+    room(d);
+    let run = |out: &str, color: &str| enfilade(d, &["run", "dataset.toml", "--size", "96x72", "-o", out, "--color", color]);
+    for color in ["denoised", "rendered"] {
+        assert!(run(color, color).output().unwrap().status.success());
+    }
+    let expected = ["denoised", "rendered"].map(|color| (color, contents(&d.join(color))));
+    assert!(run("killed", "denoised").output().unwrap().status.success());
+    let rendered = rendered_at(&d.join("killed"));
+    // Moments from a fixed sequence, so that every run of the test kills at about the same places.
+    let mut state = 7u64;
+    for color in ["rendered", "denoised"].into_iter().cycle().take(10) {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let mut child = run("killed", color).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(10 + (state >> 33) % 250));
+        child.kill().unwrap(); // SIGKILL on Unix
+        child.wait().unwrap();
+    }
+    for (color, expected) in expected {
+        assert!(run("killed", color).output().unwrap().status.success());
+        assert_same(&contents(&d.join("killed")), &expected);
+    }
+    assert_eq!(rendered_at(&d.join("killed")), rendered);
 }
 
 #[test]

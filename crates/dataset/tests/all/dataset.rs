@@ -316,18 +316,24 @@ fn color_is_denoised_and_as_it_was_rendered_again() {
     assert_eq!((second.color, &second.denoiser, second.files.len()), (Some(ColorKind::Rendered), &None, 17));
     assert_eq!(dataset.verify_checksums(&manifest).unwrap(), [""; 0]);
 
-    // By another program, and back.
+    // By another program, and back: then what was rendered has both names, and the record lists one.
     dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 4", "cafe"], true).unwrap();
-    dataset.restore_rendered([SCENE, CAMERA], 0).unwrap();
-    assert!(files(folder.path()) == before, "what was rendered is as it was");
-    dataset.restore_rendered([SCENE, CAMERA], 0).unwrap();
-    assert!(files(folder.path()) == before);
+    for _ in 0..2 {
+        dataset.link_rendered([SCENE, CAMERA], 0).unwrap();
+        let mut after = files(folder.path());
+        for (plain, kept) in DENOISED {
+            let [plain, kept] = [plain, kept].map(|layer| dataset.layout().layer(SCENE, CAMERA, 0, layer));
+            assert!(fs::read(plain).unwrap() == after.remove(kept.strip_prefix(folder.path()).unwrap()).unwrap());
+        }
+        assert!(after == before, "what was rendered is as it was");
+        assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorRendered), "a second name is no layer");
+    }
 
     // What is not kept cannot come back, and stays known.
     let dropped = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], false).unwrap();
     assert_eq!((dropped.has_rendered(), dropped.files.len(), dropped.as_rendered()), (false, rendered.files.len(), rendered));
     assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorRendered));
-    let error = dataset.restore_rendered([SCENE, CAMERA], 0).unwrap_err().to_string();
+    let error = dataset.link_rendered([SCENE, CAMERA], 0).unwrap_err().to_string();
     assert!(error.contains("frame.0000.json") && error.contains("keep_rendered"), "{error}");
     let again = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 4", "cafe"], true).unwrap_err();
     assert!(again.to_string().contains("render the frame again"), "{again}");
@@ -340,31 +346,97 @@ fn color_is_denoised_and_as_it_was_rendered_again() {
 }
 
 #[test]
-fn a_change_of_color_that_is_cut_anywhere_is_taken_back() {
+fn a_frame_that_was_rendered_counts_once_its_color_is_made() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();
-    crate::analytic::write(&dataset, &small(), 2);
-    let before = files(folder.path());
+    crate::analytic::write(&dataset, &small(), 3);
+    let whole = files(folder.path());
+    let pose = &crate::analytic::trajectory(3).poses[0];
+    let (frame, info) = (crate::analytic::frame(&small(), pose, 7), crate::analytic::info(&small(), pose));
+    dataset.write_rendered(SCENE, CAMERA, &frame, &info, FrameTime::default()).unwrap();
+    assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::Color) && dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorRendered));
+    assert_eq!(dataset.frame_numbers(SCENE, CAMERA).unwrap(), [1]);
+    let told = dataset.incomplete_frames(SCENE, CAMERA, &[1]).unwrap()[&0].to_string();
+    assert!(told.contains("frame.0000.color.hdf5") && told.ends_with("run again"), "{told}");
+    assert!(dataset.frame_is_complete(SCENE, CAMERA, 0, &info.config_hash), "it is not rendered again");
+    let record = dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap();
+    let read = dataset.read_rendered([SCENE, CAMERA], 0, &[Layer::Color, Layer::DepthMeters]).unwrap();
+    assert_eq!(read.get(Layer::Color), frame.get(Layer::Color));
+    dataset.link_rendered([SCENE, CAMERA], 0).unwrap();
+    assert_eq!(dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap(), record.as_rendered());
+    let layer = |layer| dataset.layout().layer(SCENE, CAMERA, 0, layer);
+    let name = |path: &std::path::Path| path.strip_prefix(folder.path()).unwrap().to_path_buf();
+    let after = files(folder.path());
+    assert!(DENOISED.iter().all(|(plain, kept)| after[&name(&layer(*plain))] == whole[&name(&layer(*plain))] && layer(*kept).is_file()));
+}
+
+#[test]
+fn a_change_of_color_that_is_cut_anywhere_costs_no_rendering_and_ends_as_if_it_had_not_been_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    crate::analytic::write(&dataset, &small(), 3);
     let path = |layer| dataset.layout().layer(SCENE, CAMERA, 0, layer);
-    for moved in 0..=3 {
-        for written in 0..=3 {
-            // `moved` layers have made way, colour first, and denoised ones have come into the place of `written` of them, colour last.
-            for (plain, kept) in DENOISED.into_iter().rev().take(moved) {
-                fs::rename(path(plain), path(kept)).unwrap();
+    let record = dataset.layout().frame_record(SCENE, CAMERA, 0);
+    let rendered = files(folder.path());
+    dataset.link_rendered([SCENE, CAMERA], 0).unwrap();
+    let linked = files(folder.path());
+    dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], true).unwrap();
+    let denoised = files(folder.path());
+    let without_color = {
+        // As it lies while colour is made.
+        let mut record = dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap();
+        (record.color, record.denoised) = (ColorKind::Rendered, None);
+        record.files.retain(|name, _| !DENOISED.iter().any(|(plain, _)| name.ends_with(&format!(".{}.hdf5", plain.spec().name))));
+        record
+    };
+    let put = |tree: &BTreeMap<PathBuf, Vec<u8>>| {
+        DENOISED.iter().for_each(|(_, kept)| drop(fs::remove_file(path(*kept))));
+        tree.iter().for_each(|(name, bytes)| enfilade_dataset::write_bytes(&folder.path().join(name), bytes).unwrap());
+    };
+    let is_complete = || dataset.frame_is_complete(SCENE, CAMERA, 0, &without_color.config_hash);
+    let end = |denoise: bool, told: &str| {
+        assert!(is_complete(), "{told}");
+        match denoise {
+            true => drop(dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], true).unwrap()),
+            false => dataset.link_rendered([SCENE, CAMERA], 0).unwrap(),
+        }
+        assert!(files(folder.path()) == if denoise { denoised.clone() } else { linked.clone() }, "{told}");
+    };
+    let hdf5 = |layer| path(layer).strip_prefix(folder.path()).unwrap().to_path_buf();
+    for denoise in [true, false] {
+        // So many layers of what earlier versions rendered have got their second name.
+        for named in 0..=3 {
+            put(&rendered);
+            DENOISED.into_iter().take(named).for_each(|(plain, kept)| fs::hard_link(path(plain), path(kept)).unwrap());
+            end(denoise, &format!("{named} named"));
+        }
+        // The record is without colour, and so many layers of the other kind have come.
+        for (from, to) in [(&linked, &denoised), (&denoised, &linked)] {
+            for written in 0..=3 {
+                put(from);
+                enfilade_dataset::write_json(&record, &without_color).unwrap();
+                for (plain, _) in DENOISED.into_iter().take(written) {
+                    enfilade_dataset::write_bytes(&path(plain), &to[&hdf5(plain)]).unwrap();
+                }
+                assert_eq!(dataset.frame_numbers(SCENE, CAMERA).unwrap(), [1]);
+                end(denoise, &format!("{written} written"));
             }
-            if moved == 3 {
-                DENOISED.into_iter().take(written).for_each(|(plain, _)| fs::write(path(plain), "denoised").unwrap());
-            }
-            dataset.settle_color([SCENE, CAMERA], 0).unwrap();
-            assert!(files(folder.path()) == before, "{moved} moved, {written} written");
+        }
+        // Earlier versions moved what was rendered away, `color` first, and then put the other in its place.
+        for (moved, written) in (0..=3).map(|moved| (moved, 0)).chain((1..=3).map(|written| (3, written))) {
+            put(&rendered);
+            DENOISED.into_iter().rev().take(moved).for_each(|(plain, kept)| fs::rename(path(plain), path(kept)).unwrap());
+            DENOISED.into_iter().take(written).for_each(|(plain, _)| fs::write(path(plain), "denoised").unwrap());
+            end(denoise, &format!("{moved} moved, {written} written by an earlier version"));
         }
     }
     // Cut after the record, before what is not kept is gone.
-    let kept = DENOISED.map(|(plain, kept)| (path(kept), fs::read(path(plain)).unwrap()));
+    put(&rendered);
     dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], false).unwrap();
     let done = files(folder.path());
-    kept.iter().for_each(|(path, bytes)| fs::write(path, bytes).unwrap());
-    dataset.settle_color([SCENE, CAMERA], 0).unwrap();
+    DENOISED.iter().for_each(|(plain, kept)| fs::write(path(*kept), &rendered[&hdf5(*plain)]).unwrap());
+    assert!(!dataset.has_layer(SCENE, CAMERA, 0, Layer::ColorRendered));
+    dataset.drop_rendered([SCENE, CAMERA], 0).unwrap();
     assert!(files(folder.path()) == done);
 }
 

@@ -76,7 +76,12 @@ pub fn records(folder: &Path) -> Run {
     Box::new(move |bytes| {
         std::fs::write(&input, bytes).expect("a folder that can be written");
         drop((dataset.read_manifest(), dataset.frame_record(SCENE, CAMERA, 0), dataset.label_record(SCENE, CAMERA, 0)));
-        drop((dataset.settle_color([SCENE, CAMERA], 0), dataset.read_amodal_masks(SCENE, CAMERA, 0), dataset.read_stereo(SCENE, CAMERA)));
+        drop(dataset.rendered_record(SCENE, CAMERA, 0).map(|record| (dataset.color_is_whole(SCENE, &record), record.as_rendered())));
+        drop((
+            dataset.read_rendered([SCENE, CAMERA], 0, &[LAYERS[0].layer]),
+            dataset.read_amodal_masks(SCENE, CAMERA, 0),
+            dataset.read_stereo(SCENE, CAMERA),
+        ));
         drop((dataset.frame_numbers(SCENE, CAMERA), dataset.frame_is_complete(SCENE, CAMERA, 0, "c0ffee")));
         if let Ok(camera) = dataset.read_camera(SCENE, CAMERA) {
             let [width, height] = camera.size().map(f64::from);

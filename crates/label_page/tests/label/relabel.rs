@@ -1,7 +1,7 @@
 //! A dataset that was rendered, whose parts are split and labelled anew: its label images follow, and nothing is rendered.
 
 use crate::room::{Page, assign};
-use enfilade_dataset::Dataset;
+use enfilade_dataset::{ANNOTATION_LOG, Dataset, mesh_names};
 use enfilade_frame::{Layer, Values};
 use enfilade_geometry::Bvh;
 use enfilade_label_page::AnnotateOptions;
@@ -25,6 +25,32 @@ fn small_demo(out: &Path) -> Config {
 /// A page of the demo in `out`.
 fn page_of(out: &Path) -> Page {
     Page::with(&AnnotateOptions { path: out.to_path_buf(), scene: Some(demo::SCENE.into()), ..AnnotateOptions::default() })
+}
+
+/// Compares the tables that the label stage made in `out` with those that the page writes to a folder of its own, `apart`.
+async fn assert_tables_are_those_of_the_page(out: &Path, apart: &Path) {
+    let mesh = Dataset::open(out).unwrap().mesh_files(demo::SCENE);
+    std::fs::create_dir(apart).unwrap();
+    std::fs::copy(mesh.file(ANNOTATION_LOG), apart.join(ANNOTATION_LOG)).unwrap();
+    let options = AnnotateOptions {
+        path: out.to_path_buf(),
+        scene: Some(demo::SCENE.into()),
+        labels: Some(apart.to_path_buf()),
+        ..AnnotateOptions::default()
+    };
+    Page::with(&options).post("save", "{}").await;
+    for table in [
+        mesh_names::OBJECTS,
+        mesh_names::FACES_OBJECTS,
+        mesh_names::OBJECT_PIECES,
+        mesh_names::OBJECTS_SEMANTIC,
+        mesh_names::OBJECTS_INSTANCE,
+        mesh_names::SEMANTIC_COLORS,
+        mesh_names::INSTANCE_COLORS,
+    ] {
+        let [stage, page] = [mesh.file(table), apart.join(table)].map(|path| std::fs::read(path).unwrap());
+        assert!(stage == page, "{table}");
+    }
 }
 
 /// What rays through the pixels of a frame meet: part (from 1) and piece, or none.
@@ -84,9 +110,12 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     page.act(json!({ "type": "assign", "pieces": all, "apply": { "layer": "instance", "unique": true } })).await;
     page.post("save", "{}").await;
 
+    assert_eq!(dataset.read_label_tables(demo::SCENE).unwrap(), tables, "the label stage makes the tables, and nobody else");
+
     let summary = run_stage(&out, Stage::Label, None, false, &Silent).unwrap();
     assert!(summary.ok(), "{:?}", summary.scenes);
     assert!(summary.scenes[0].stages[0].summary.ends_with("as annotated"), "{:?}", summary.scenes[0].stages);
+    assert_tables_are_those_of_the_page(&out, &folder.path().join("apart")).await;
     assert_eq!(std::fs::read(dataset.layout().layer(demo::SCENE, "cam_00", 0, Layer::RenderEntityId)).unwrap(), rendered);
     let (mut of_pieces, mut wrong, mut all) = (0, 0, 0);
     for frame in 0..2 {

@@ -2,7 +2,7 @@
 //!
 //! A stage is up to date when its record says that it ran with the same configuration, the same content of the same inputs and the
 //! same version of the code, and all its outputs are there as it wrote them. What a stage has beyond that rule stands in its row of
-//! the table, [`Exceptions`](super::Exceptions).
+//! the table, [`STAGES`].
 
 use super::{HASHED_AS, Input, Job, Output, Record, STAGES, Stage, StageSpec, verify};
 use crate::error::Error;
@@ -34,7 +34,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     }
 
     // Check what would be in vain later, while the old outputs are still whole.
-    if spec.exceptions.replaces_frames {
+    if spec.replaces_frames() {
         refuse_damaged(spec.stage, job, inputs.as_deref().unwrap_or_default())?;
     }
     ready()?;
@@ -43,7 +43,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     cx.event(Event::Started);
     let time = Stopwatch::start();
     remove_if_there(&record_path)?;
-    if spec.exceptions.is_verified {
+    if spec.is_verified() {
         verify::forget(job)?;
     }
 
@@ -53,7 +53,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     // Describe the outputs as they are on disk.
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
     let outputs = outcome.outputs.iter().map(|path| Output::of(job.out(), path)).collect::<Result<_, _>>()?;
-    let listed = spec.exceptions.shared_row.as_ref().and_then(|row| (row.hash)(job));
+    let listed = spec.shared_row.as_ref().and_then(|row| (row.hash)(job));
     let (wall_s, cpu_s) = (time.wall_s(), time.cpu_s());
     cx.event(Event::Finished { summary: &outcome.summary, wall_s });
 
@@ -84,17 +84,16 @@ pub(crate) fn is_up_to_date(spec: &StageSpec, job: &Job) -> Result<bool, Error> 
 
 /// Whether the stage ran with these settings and inputs, and what it wrote is there.
 fn vouches(record: &Record, spec: &StageSpec, job: &Job, settings: &Hash, inputs: &[Input]) -> bool {
-    let exceptions = &spec.exceptions;
-    let is_there = |output: &Output| output.is_there(job.out()) || (exceptions.may_be_changed)(job, &output.path);
+    let is_there = |output: &Output| output.is_committed() || output.is_there(job.out());
     record.key == key(spec, settings, inputs)
         && record.outputs.iter().all(is_there)
-        && (exceptions.is_whole)(job)
+        && (spec.is_whole)(job)
         && has_its_row(record, spec, job)
 }
 
 /// Whether the scene's row in a table that scenes share is as the stage left it; true for stages that write no such row.
 fn has_its_row(record: &Record, spec: &StageSpec, job: &Job) -> bool {
-    let Some(row) = &spec.exceptions.shared_row else { return true };
+    let Some(row) = &spec.shared_row else { return true };
     (row.hash)(job).is_some_and(|now| record.listed.as_ref().is_none_or(|then| now == *then))
 }
 
@@ -105,7 +104,7 @@ fn refuse_damaged(stage: Stage, job: &Job, inputs: &[Input]) -> Result<(), Error
         let is_other = |path: &Path, content: &Hash| inputs.iter().any(|input| input.path == path && input.content != *content);
         let noted = record.outputs.iter().filter_map(|output| Some((job.out().join(&output.path), output.content.as_ref()?)));
         let mut damaged: Vec<PathBuf> = noted.filter(|(path, content)| is_other(path, content)).map(|(path, _)| path).collect();
-        if let Some(row) = &earlier.exceptions.shared_row
+        if let Some(row) = &earlier.shared_row
             && !has_its_row(&record, earlier, job)
         {
             damaged.push((row.table)(job));

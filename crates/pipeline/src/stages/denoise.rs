@@ -1,5 +1,5 @@
-//! `denoise`: what `color`, `diffuse_illumination` and `residual` of finished frames hold, denoised or as rendered. It goes from one to the
-//! other and back; nothing is rendered for it.
+//! `denoise`: `color`, `diffuse_illumination` and `residual` of finished frames, made from what was rendered: denoised, or the same under a
+//! second name. It makes one or the other of the same rendering; nothing is rendered for it.
 
 use super::{HASHED_AS, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
@@ -24,20 +24,21 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     job.rendered_records().map(Some)
 }
 
-/// Whether every frame holds what is asked for.
+/// Whether every frame has the colour that is asked for.
 pub(super) fn frames_are_chosen(job: &Job) -> bool {
     let is_chosen = |(camera, frame): &(String, u32)| record(job, camera, *frame).is_ok_and(|record| is_chosen(job, &record));
-    job.layers_are_whole(Pass::Final) && job.frames().is_ok_and(|frames| frames.iter().all(is_chosen))
+    job.frames().is_ok_and(|frames| frames.iter().all(is_chosen))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let frames = job.frames()?;
     let mut left = Vec::new();
     for (camera, frame) in &frames {
-        job.dataset.settle_color([&job.scene.name, camera], *frame).map_err(Error::stage)?;
         let record = record(job, camera, *frame)?;
         if !is_chosen(job, &record) || job.force && job.scene.color == ColorKind::Denoised && record.has_rendered() {
             left.push((camera, *frame, record));
+        } else {
+            settle(job, camera, *frame, &record)?;
         }
     }
     let denoiser = if left.iter().any(|(_, _, record)| is_denoised_now(job, record)) { Some(Denoiser::built_in()) } else { None };
@@ -48,7 +49,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
                 denoise_frame(job, camera, *frame, denoiser)?;
                 denoised += 1;
             }
-            _ => settle(job, camera, *frame)?,
+            _ => settle(job, camera, *frame, record)?,
         }
         remove_pictures_of_rendered(job, camera, *frame)?;
         cx.progress("frames", done as u64 + 1, left.len() as u64);
@@ -78,11 +79,19 @@ pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
     }
 }
 
+/// Makes the colour of one frame that was rendered, as it is asked for, unless it is made already.
+pub(super) fn make_color(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+    match job.scene.color {
+        ColorKind::Denoised if is_chosen(job, &record(job, camera, frame)?) => Ok(()),
+        ColorKind::Denoised => denoise_frame(job, camera, frame, &Denoiser::built_in()),
+        ColorKind::Rendered => job.dataset.link_rendered([&job.scene.name, camera], frame).map_err(Error::stage),
+    }
+}
+
 /// Denoises one frame.
-pub(super) fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
+fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
-    job.dataset.restore_rendered([name, camera], frame).map_err(Error::stage)?;
-    let rendered = job.dataset.read_frame(name, camera, frame, &INPUTS).map_err(Error::stage)?;
+    let rendered = job.dataset.read_rendered([name, camera], frame, &INPUTS).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
     let by = [&denoiser.name(), &denoise_hash()];
     job.dataset
@@ -104,20 +113,22 @@ fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {
     })
 }
 
-/// Whether a frame holds what is asked for.
+/// Whether a frame has the colour that is asked for.
 fn is_chosen(job: &Job, record: &FrameRecord) -> bool {
-    match (&record.denoised, job.scene.color) {
+    let is_asked_for = match (&record.denoised, job.scene.color) {
         (None, color) => color == ColorKind::Rendered,
         (Some(_), ColorKind::Rendered) => false,
         (Some(denoised), ColorKind::Denoised) => !record.has_rendered() || is_current(denoised) && job.scene.keep_rendered,
-    }
+    };
+    is_asked_for && job.dataset.color_is_whole(&job.scene.name, record)
 }
 
-/// Whether a frame that does not hold what is asked for has to be denoised.
+/// Whether a frame that does not have the colour that is asked for has to be denoised.
 fn is_denoised_now(job: &Job, record: &FrameRecord) -> bool {
     job.scene.color == ColorKind::Denoised
         && record.has_rendered()
-        && record.denoised.as_ref().is_none_or(|denoised| job.force || !is_current(denoised))
+        && (record.denoised.as_ref().is_none_or(|denoised| job.force || !is_current(denoised))
+            || !job.dataset.color_is_whole(&job.scene.name, record))
 }
 
 /// Whether frames that were denoised so need not be denoised again.
@@ -125,11 +136,12 @@ fn is_current(denoised: &Denoised) -> bool {
     denoised.denoise_hash == denoise_hash() || denoised.denoiser.starts_with(LIBRARY)
 }
 
-/// Brings a frame that needs no denoising to what is asked for.
-fn settle(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
+/// Brings a frame that needs no denoising to what is asked for: what was rendered under both names, or gone if it is not to be kept.
+fn settle(job: &Job, camera: &str, frame: u32, record: &FrameRecord) -> Result<(), Error> {
     let of = [job.scene.name.as_str(), camera];
     let settled = match job.scene.color {
-        ColorKind::Rendered => job.dataset.restore_rendered(of, frame),
+        ColorKind::Rendered => job.dataset.link_rendered(of, frame),
+        ColorKind::Denoised if job.scene.keep_rendered && record.has_rendered() => Ok(()),
         ColorKind::Denoised => job.dataset.drop_rendered(of, frame),
     };
     settled.map_err(Error::stage)

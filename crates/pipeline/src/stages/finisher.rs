@@ -4,8 +4,7 @@
 use super::{Job, denoise, label, made};
 use crate::error::Error;
 use crate::report::StageCx;
-use enfilade_dataset::{ColorKind, FrameTime};
-use enfilade_denoise::Denoiser;
+use enfilade_dataset::FrameTime;
 use enfilade_verify::FrameVerifier;
 use std::path::PathBuf;
 
@@ -43,9 +42,7 @@ impl FrameFinisher {
     pub fn finish(&self, job: &Job, camera: &str, frame: u32) -> Result<FinishedFrame, Error> {
         let (dataset, name) = (job.dataset, &job.scene.name);
         label::label_frame(job, camera, frame, &self.known, &self.known.hash().0)?;
-        if job.scene.color == ColorKind::Denoised {
-            denoise::denoise_frame(job, camera, frame, &Denoiser::built_in())?;
-        }
+        denoise::make_color(job, camera, frame)?;
         let extra = made::make(job, camera, frame, &self.furniture)?;
         let times = dataset.read_times().map_err(Error::stage)?;
         let time = times.get(&(name.clone(), camera.to_string(), frame)).copied().unwrap_or_default();

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::intake::{self, labels_by_part};
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{ANNOTATION_LOG, FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
+use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
 use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
@@ -19,7 +19,8 @@ use std::time::SystemTime;
 
 /// Labels that came with the scene, in the work folder.
 pub(super) const LABELS: &str = "labels.json";
-/// Files of the mesh folder that no annotation changes.
+/// Files of the mesh folder that importing makes. The tables of objects are there from then on too, of whole parts; the label stage makes
+/// them, with the pieces of parts that people split.
 const GEOMETRY: [&str; 10] = [
     mesh_names::VERTICES,
     mesh_names::NORMALS,
@@ -32,8 +33,6 @@ const GEOMETRY: [&str; 10] = [
     mesh_names::GROUPS,
     mesh_names::MATERIALS,
 ];
-/// Those that `enfilade annotate` writes anew where people split parts.
-const OBJECTS: [&str; 2] = [mesh_names::FACES_OBJECTS, mesh_names::OBJECTS];
 
 pub(super) fn settings(job: &Job) -> Hash {
     match &job.scene.source {
@@ -107,7 +106,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     job.forget_scene();
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
-    outputs.extend(GEOMETRY.iter().chain(&OBJECTS).map(|file| layout.mesh_file(name, file)));
+    outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
     let drawn = [layout.structure(name), layout.structure_plan(name)];
     match &structure {
         Some(structure) => {
@@ -124,11 +123,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 fn remove_built_rooms(job: &Job, files: &[PathBuf]) -> Result<(), Error> {
     let is_fitted = matches!(job.dataset.read_structure(&job.scene.name), Ok(Some(structure)) if structure.fit.is_some());
     if is_fitted { Ok(()) } else { Ok(files.iter().try_for_each(|file| remove_if_there(file))?) }
-}
-
-/// Whether a file that importing wrote may be another by now, because people annotated the scene.
-pub(super) fn is_annotated(job: &Job, path: &Path) -> bool {
-    OBJECTS.iter().any(|name| path.ends_with(name)) && job.dataset.mesh_files(&job.scene.name).file(ANNOTATION_LOG).is_file()
 }
 
 /// Removes frames that show another scene: their part numbers may mean other parts of this one. `bytes` are those of the package that

@@ -4,16 +4,17 @@ use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{ANNOTATION_LOG, MeshFiles, counted, mesh_names, quoted, scene_hash};
-use enfilade_frame::{Frame, LAYERS, Layer, Pass, Values};
+use enfilade_dataset::{ANNOTATION_LOG, CLASS_LIST, Classes, DatasetError, LabelColors, MeshFiles, counted, mesh_names, quoted};
+use enfilade_frame::{Frame, Layer, Pass, Values};
+use enfilade_label::annotation::{Annotation, AnnotationError};
 use enfilade_label::{LabelReport, LabelTable, Pieces, doubts, join};
 use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What `enfilade annotate` writes beside its log.
-const ANNOTATION_TABLES: [&str; 4] =
-    [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_PIECES];
+/// The tables of labels and objects; that of pieces is there where people cut parts.
+const TABLES: [&str; 5] =
+    [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::OBJECTS, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_PIECES];
 /// Names listed in a warning; the report has all.
 const NAMES_SHOWN: usize = 5;
 
@@ -26,8 +27,9 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if let Some(labels) = &job.scene.labels {
         inputs.push(Input::of(&job.config.path(&labels.table)?)?);
     }
-    if annotated_scene(job)?.is_some() {
-        inputs.extend(annotation_tables(job).iter().map(|path| Input::of(path)).collect::<Result<Vec<_>, _>>()?);
+    let files = job.dataset.mesh_files(&job.scene.name);
+    if files.annotated_scene().map_err(Error::stage)?.is_some() {
+        inputs.extend([Input::of(&files.file(ANNOTATION_LOG))?, Input::of_any(&files.file(CLASS_LIST))?]);
     }
     inputs.extend(job.rendered_records()?);
     Ok(Some(inputs))
@@ -38,16 +40,13 @@ pub(super) fn frames_are_whole(job: &Job) -> bool {
     job.layers_are_whole(Pass::Label)
 }
 
-/// Which scene people labelled in `enfilade annotate`, by its hash, if they did: then its tables count, whatever else there is.
-fn annotated_scene(job: &Job) -> Result<Option<String>, Error> {
+/// What people labelled in `enfilade annotate`, if they did: then it counts, whatever else there is.
+fn annotation(job: &Job) -> Result<Option<Annotation>, Error> {
     let files = job.dataset.mesh_files(&job.scene.name);
-    if files.file(ANNOTATION_TABLES[0]).is_file() { files.annotated_scene().map_err(Error::stage) } else { Ok(None) }
-}
-
-/// The tables of an annotation that are there: without split parts one is not.
-fn annotation_tables(job: &Job) -> Vec<PathBuf> {
-    let files = job.dataset.mesh_files(&job.scene.name);
-    ANNOTATION_TABLES.map(|name| files.file(name)).into_iter().filter(|path| path.is_file()).collect()
+    match Annotation::read(&files, &*job.load_scene()?) {
+        Err(error @ AnnotationError::OtherScene { .. }) => Err(other_scene(job, &files, &error)),
+        read => read.map_err(Error::stage),
+    }
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
@@ -66,32 +65,47 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let labelled = labels.parts.iter().filter(|l| l.semantic >= 1).count();
     let parts = counted(labels.parts.len(), "part");
     let mut summary = format!("{labelled} of {parts} have a class, in {}", counted(frames.len(), "frame"));
-    if annotated_scene(job)?.is_some() {
+    if known.is_annotated {
         summary.push_str(", as annotated");
     } else if labelled == 0 && job.scene.labels.is_none() {
         summary.push_str("; the scene comes without labels and no table is given");
     }
-    Ok(Outcome { summary, outputs: outputs(job, &frames), report, ..Outcome::default() })
+    Ok(Outcome { summary, outputs: outputs(job), report, ..Outcome::default() })
 }
 
-/// What is known of a scene, with the report of how it became known; the label tables are written.
+/// What is known of a scene, with the report of how it became known; the tables of labels and objects are written.
 pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value), Error> {
-    if let Some(annotated_as) = annotated_scene(job)? {
-        return Ok((annotated(job, &annotated_as, cx)?, serde_json::Value::Null));
-    }
-    if job.dataset.mesh_files(&job.scene.name).file(mesh_names::OBJECT_PIECES).is_file() {
-        // An annotation that has been moved away had split parts: write the objects whole again.
-        job.dataset.write_scene(&job.scene.name, &*job.load_scene()?).map_err(Error::stage)?;
-    }
-    let (labels, report) = labels_of(job, cx)?;
-    job.dataset.write_label_tables(&job.scene.name, &labels).map_err(Error::stage)?;
-    Ok((Known { labels, split: None }, report))
+    let (files, scene) = (job.dataset.mesh_files(&job.scene.name), job.load_scene()?);
+    let annotation = annotation(job)?;
+    let is_annotated = annotation.is_some();
+    let (annotation, classes, report) = match annotation {
+        Some(annotation) => {
+            warn_of_unused_table(job, &files, cx);
+            (annotation, files.read_own_classes().map_err(Error::stage)?.unwrap_or_else(Classes::nyu40), serde_json::Value::Null)
+        }
+        None => {
+            let (labels, report) = labels_of(job, cx)?;
+            (Annotation::of_whole_parts(&scene, labels), Classes::nyu40(), report)
+        }
+    };
+    write_tables(&files, &scene, &annotation, &classes).map_err(Error::stage)?;
+    let split = Pieces::read(&files, &scene).map_err(Error::stage)?;
+    Ok((Known { labels: annotation.labels, split, is_annotated }, report))
+}
+
+/// Writes the tables of labels and their colours, and of objects: parts, and the pieces of those that people split.
+fn write_tables(files: &MeshFiles, scene: &Scene, annotation: &Annotation, classes: &Classes) -> Result<(), DatasetError> {
+    let parts: Vec<String> = scene.parts.iter().map(|part| part.name.clone()).collect();
+    files.write_objects(&parts, &annotation.pieces, &annotation.piece_of_face)?;
+    let colors = LabelColors { semantic: classes.color_rows(), instances: annotation.instances };
+    files.write_labels(&annotation.labels, &colors).map(drop)
 }
 
 /// What every part is called, or every piece where parts were split.
 pub(super) struct Known {
     labels: Labels,
     split: Option<Pieces>,
+    is_annotated: bool,
 }
 
 impl Known {
@@ -104,46 +118,22 @@ impl Known {
     }
 }
 
-/// What people annotated in the scene that `annotated_as` names.
-fn annotated(job: &Job, annotated_as: &str, cx: &StageCx) -> Result<Known, Error> {
-    let files: MeshFiles = job.dataset.mesh_files(&job.scene.name);
-    let scene = job.load_scene()?;
-    if hash_of(&scene) != annotated_as {
-        return Err(other_scene(job, &files));
-    }
-    let (labels, split) = (files.read_labels().map_err(Error::stage)?, Pieces::read(&files, &scene).map_err(Error::stage)?);
-    let pieces = scene.parts.len() + split.as_ref().map_or(0, Pieces::count);
-    if labels.parts.len() != pieces {
-        let message = format!("the annotation has labels of {} parts, the scene has {pieces}", labels.parts.len());
-        let command = format!("enfilade annotate {} --scene {}", quoted(job.out().display()), quoted(&job.scene.name));
-        return Err(Error::scene(message, format!("open it, which writes the tables from its log: {command}")));
-    }
-    if let Some(source) = &job.scene.labels {
-        let message =
-            format!("not used, because the scene was annotated; to use it again, move {} away", files.file(ANNOTATION_LOG).display());
-        cx.warn(Warning { place: source.table.clone(), message });
-    }
-    Ok(Known { labels, split })
+/// Says that a scene's label table is not used.
+fn warn_of_unused_table(job: &Job, files: &MeshFiles, cx: &StageCx) {
+    let Some(source) = &job.scene.labels else { return };
+    let message = format!("not used, because the scene was annotated; to use it again, move {} away", files.file(ANNOTATION_LOG).display());
+    cx.warn(Warning { place: source.table.clone(), message });
 }
 
-/// The error of an annotation of other parts: its labels would go to parts that nobody labelled so.
-fn other_scene(job: &Job, files: &MeshFiles) -> Error {
-    let message = format!(
-        "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
-        files.file(ANNOTATION_LOG).display()
-    );
+/// The error of an annotation of other parts, and what to do about it.
+fn other_scene(job: &Job, files: &MeshFiles, error: &AnnotationError) -> Error {
     let mut hint = "import the scene as it was annotated, or move the log away to label again".to_string();
     let (table, out, name) = (files.file("labels.csv"), quoted(job.out().display()), quoted(&job.scene.name));
     if table.is_file() {
         let command = format!("enfilade label {out} --scene {name} --table {}", quoted(table.display()));
         hint = format!("{hint}; with the log away, this keeps labels by the names of parts: {command}");
     }
-    Error::scene(message, hint)
-}
-
-/// By what an annotation knows a scene. Names are as the mesh folder's tables give them back.
-fn hash_of(scene: &Scene) -> String {
-    scene_hash(scene.parts.iter().map(|part| (part.name.trim(), scene.meshes[part.mesh as usize].triangles.len())))
+    Error::scene(error.to_string(), hint)
 }
 
 /// From the table if there is one, else what came with the scene, else none.
@@ -213,14 +203,8 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
     job.dataset.write_label_layers(name, camera, frame, &layers, hash).map_err(Error::stage).map(drop)
 }
 
-fn outputs(job: &Job, frames: &[(String, u32)]) -> Vec<PathBuf> {
-    let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let tables = [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE].map(|file| layout.mesh_file(name, file));
-    let mut files = tables.to_vec();
-    for (camera, frame) in frames {
-        files.push(layout.label_record(name, camera, *frame));
-        let joined = LAYERS.iter().filter(|spec| spec.pass == Pass::Label);
-        files.extend(joined.map(|spec| layout.layer(name, camera, *frame, spec.layer)));
-    }
-    files
+/// The tables; records vouch for the layers of frames.
+fn outputs(job: &Job) -> Vec<PathBuf> {
+    let files = job.dataset.mesh_files(&job.scene.name);
+    TABLES.map(|name| files.file(name)).into_iter().filter(|path| path.is_file()).collect()
 }

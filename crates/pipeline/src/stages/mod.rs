@@ -30,7 +30,7 @@ use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use record::{Input, Inputs, Outcome, Record};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub use crate::stage::Stage;
 pub use finisher::FinishedFrame;
@@ -64,23 +64,11 @@ pub struct StageSpec {
     inputs: fn(&Job, Option<&Record>) -> Inputs,
     /// Does the work.
     run: fn(&Job, &StageCx) -> Result<Outcome, Error>,
-    /// What sets it apart.
-    exceptions: Exceptions,
-}
-
-/// What [`advance`] does otherwise for some stages than for the others.
-struct Exceptions {
-    /// Whether this output may differ from what the stage wrote, because people have changed it with another verb.
-    may_be_changed: fn(&Job, &Path) -> bool,
-    /// Whether all is well with outputs in ways that the stage's record does not tell. Of frames it has too many files to have their
-    /// contents: layers are there in full length, under a record that is about this frame. A scene package is one that is read here.
+    /// Whether all is well with outputs in ways that the stage's record does not tell. Frames have too many files to have their contents in
+    /// it: records of their own vouch for them. A scene package is one that is read here.
     is_whole: fn(&Job) -> bool,
     /// A row that the stage writes into a table which scenes share.
     shared_row: Option<SharedRow>,
-    /// Whether what it makes takes the place of finished frames: then inputs are refused that an earlier stage did not write so.
-    replaces_frames: bool,
-    /// Whether its outputs are among what `verify` looks at: then the report card goes before they change.
-    is_verified: bool,
 }
 
 /// A scene's row in a table of the dataset. The table changes with every scene, so its length and content do not tell whether the row
@@ -92,109 +80,68 @@ struct SharedRow {
     hash: fn(&Job) -> Option<Hash>,
 }
 
-impl Exceptions {
-    /// Of a stage that follows the rule.
-    const NONE: Self =
-        Self { may_be_changed: |_, _| false, is_whole: |_| true, shared_row: None, replaces_frames: false, is_verified: true };
-    /// Of one that comes before frames are finished.
-    const BEFORE_FRAMES: Self = Self { replaces_frames: true, ..Self::NONE };
+impl StageSpec {
+    /// What most stages have in the columns that few fill.
+    const fn plain(
+        stage: Stage,
+        about: &'static str,
+        settings: fn(&Job) -> Hash,
+        inputs: fn(&Job, Option<&Record>) -> Inputs,
+        run: fn(&Job, &StageCx) -> Result<Outcome, Error>,
+    ) -> Self {
+        Self { stage, name: stage.name(), about, settings, inputs, run, is_whole: |_| true, shared_row: None }
+    }
+
+    /// Whether what the stage makes takes the place of finished frames: then inputs are refused that an earlier stage did not write so.
+    fn replaces_frames(&self) -> bool {
+        self.stage <= Stage::Render
+    }
+
+    /// Whether its outputs are among what `verify` looks at: then the report card goes before they change.
+    fn is_verified(&self) -> bool {
+        self.stage < Stage::Preview
+    }
 }
 
 /// All stages in the order in which they run.
 pub const STAGES: [StageSpec; 10] = [
     StageSpec {
-        stage: Stage::Import,
-        name: Stage::Import.name(),
-        about: "scene file -> scene package",
-        settings: import::settings,
-        inputs: import::inputs,
-        run: import::run,
-        exceptions: Exceptions { may_be_changed: import::is_annotated, is_whole: import::package_is_current, ..Exceptions::BEFORE_FRAMES },
+        is_whole: import::package_is_current,
+        ..StageSpec::plain(Stage::Import, "scene file -> scene package", import::settings, import::inputs, import::run)
+    },
+    StageSpec::plain(Stage::Carve, "scene -> free space (octomap.bt)", carve::settings, carve::inputs, carve::run),
+    StageSpec {
+        shared_row: Some(SharedRow { table: plan::camera_table, hash: plan::camera_row }),
+        ..StageSpec::plain(Stage::Plan, "scene, free space -> camera trajectories", plan::settings, plan::inputs, plan::run)
+    },
+    StageSpec::plain(Stage::Gate, "scene, trajectories -> which views are worth rendering", gate::settings, gate::inputs, gate::run),
+    StageSpec {
+        is_whole: render::frames_are_whole,
+        ..StageSpec::plain(Stage::Render, "scene, trajectories -> frames", render::settings, render::inputs, render::run)
     },
     StageSpec {
-        stage: Stage::Carve,
-        name: Stage::Carve.name(),
-        about: "scene -> free space (octomap.bt)",
-        settings: carve::settings,
-        inputs: carve::inputs,
-        run: carve::run,
-        exceptions: Exceptions::BEFORE_FRAMES,
+        is_whole: denoise::frames_are_chosen,
+        ..StageSpec::plain(
+            Stage::Denoise,
+            "frames -> colour without noise, unless what was rendered is asked for",
+            denoise::settings,
+            denoise::inputs,
+            denoise::run,
+        )
     },
     StageSpec {
-        stage: Stage::Plan,
-        name: Stage::Plan.name(),
-        about: "scene, free space -> camera trajectories",
-        settings: plan::settings,
-        inputs: plan::inputs,
-        run: plan::run,
-        exceptions: Exceptions {
-            shared_row: Some(SharedRow { table: plan::camera_table, hash: plan::camera_row }),
-            ..Exceptions::BEFORE_FRAMES
-        },
+        is_whole: label::frames_are_whole,
+        ..StageSpec::plain(Stage::Label, "frames, label table -> semantic layers", label::settings, label::inputs, label::run)
     },
-    StageSpec {
-        stage: Stage::Gate,
-        name: Stage::Gate.name(),
-        about: "scene, trajectories -> which views are worth rendering",
-        settings: gate::settings,
-        inputs: gate::inputs,
-        run: gate::run,
-        exceptions: Exceptions::BEFORE_FRAMES,
-    },
-    StageSpec {
-        stage: Stage::Render,
-        name: Stage::Render.name(),
-        about: "scene, trajectories -> frames",
-        settings: render::settings,
-        inputs: render::inputs,
-        run: render::run,
-        exceptions: Exceptions { is_whole: render::frames_are_whole, may_be_changed: render::is_chosen_later, ..Exceptions::BEFORE_FRAMES },
-    },
-    StageSpec {
-        stage: Stage::Denoise,
-        name: Stage::Denoise.name(),
-        about: "frames -> colour without noise, unless what was rendered is asked for",
-        settings: denoise::settings,
-        inputs: denoise::inputs,
-        run: denoise::run,
-        exceptions: Exceptions { is_whole: denoise::frames_are_chosen, ..Exceptions::NONE },
-    },
-    StageSpec {
-        stage: Stage::Label,
-        name: Stage::Label.name(),
-        about: "frames, label table -> semantic layers",
-        settings: label::settings,
-        inputs: label::inputs,
-        run: label::run,
-        exceptions: Exceptions { is_whole: label::frames_are_whole, ..Exceptions::NONE },
-    },
-    StageSpec {
-        stage: Stage::Boxes,
-        name: Stage::Boxes.name(),
-        about: "scene, labels -> bounding boxes, and what each frame shows of each instance",
-        settings: boxes::settings,
-        inputs: boxes::inputs,
-        run: boxes::run,
-        exceptions: Exceptions::NONE,
-    },
-    StageSpec {
-        stage: Stage::Preview,
-        name: Stage::Preview.name(),
-        about: "frames -> pictures and contact sheets",
-        settings: preview::settings,
-        inputs: preview::inputs,
-        run: preview::run,
-        exceptions: Exceptions { is_verified: false, ..Exceptions::NONE },
-    },
-    StageSpec {
-        stage: Stage::Verify,
-        name: Stage::Verify.name(),
-        about: "dataset -> report card",
-        settings: verify::settings,
-        inputs: verify::inputs,
-        run: verify::run,
-        exceptions: Exceptions { is_verified: false, ..Exceptions::NONE },
-    },
+    StageSpec::plain(
+        Stage::Boxes,
+        "scene, labels -> bounding boxes, and what each frame shows of each instance",
+        boxes::settings,
+        boxes::inputs,
+        boxes::run,
+    ),
+    StageSpec::plain(Stage::Preview, "frames -> pictures and contact sheets", preview::settings, preview::inputs, preview::run),
+    StageSpec::plain(Stage::Verify, "dataset -> report card", verify::settings, verify::inputs, verify::run),
 ];
 
 impl Stage {

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::forecast::{ProbeCost, ScenePilot};
 use crate::report::{Event, Silent, StageCx, Stopwatch, machine_is_busy, peak_memory_bytes, thread_cpu_s};
 use crate::workdir::{PACKAGE, Workdir};
-use enfilade_dataset::{Dataset, FrameInfo, remove_folder};
+use enfilade_dataset::{ColorKind, Dataset, FrameInfo, remove_folder};
 use enfilade_frame::Frame;
 use enfilade_label::boxes::scene_boxes;
 use enfilade_label::instances::solids;
@@ -172,7 +172,7 @@ fn try_frame_in(
         sampling: None,
         recipe: None,
     };
-    dataset.write_frame(name, &trajectory.name, &frame, &info, time.of_frame()).map_err(Error::stage)?;
+    dataset.write_rendered(name, &trajectory.name, &frame, &info, time.of_frame()).map_err(Error::stage)?;
     found.frame_cpu_s = time.cpu_s();
     found.layers_bytes = layers_bytes(&frame);
     drop((rendering, frame));
@@ -185,7 +185,10 @@ fn try_frame_in(
     let before_bytes = bytes_below(&folder, &|file| !is_of_frame(file));
     later_stages(job, &dataset, &scratch, products, found)?;
     let layout = dataset.layout();
-    found.frame_bytes = bytes_below(&folder, &is_of_frame) + folder_bytes(&layout.sensors_dir()) + folder_bytes(&layout.relit_dir());
+    // Where colour is as it was rendered, its files have two names.
+    let is_second_name = |file: &str| job.scene.color == ColorKind::Rendered && file.ends_with("_rendered.hdf5");
+    found.frame_bytes = bytes_below(&folder, &|file| is_of_frame(file) && !is_second_name(file));
+    found.frame_bytes += folder_bytes(&layout.sensors_dir()) + folder_bytes(&layout.relit_dir());
     // Tables and contact sheets: another frame adds only a row or a small picture.
     found.scene_bytes = bytes_below(&folder, &|file| !is_of_frame(file)).saturating_sub(before_bytes);
     // The parts of `boxes` that do not depend on frames.

@@ -53,6 +53,13 @@ impl Output {
         Ok(Self { content, ..Self::by_length(out, path)? })
     }
 
+    /// True for layers of frames and the records that vouch for them: their stages look at these records, and later stages add to them.
+    pub fn is_committed(&self) -> bool {
+        let is_of_frame = self.path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."));
+        let is_record = self.path.parent().is_some_and(|folder| folder.ends_with("frames"));
+        is_of_frame && (is_record || self.path.extension().is_some_and(|extension| extension == "hdf5"))
+    }
+
     /// Its file is there in full length.
     pub fn has_its_length(&self, out: &Path) -> bool {
         std::fs::metadata(out.join(&self.path)).is_ok_and(|data| data.len() == self.bytes)

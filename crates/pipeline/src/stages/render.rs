@@ -5,12 +5,12 @@ use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, 
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
-use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, Recipe, StoppedBy, counted, remove_folder};
-use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
+use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, FrameRecord, Recipe, StoppedBy, counted, remove_folder};
+use enfilade_frame::{Frame, Pass};
 use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub(super) fn settings(job: &Job) -> Hash {
     Hash::of(&(&job.scene.render, job.scene.time_limit_s, job.scene.seed_for("render")))
@@ -31,8 +31,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     for ((_, trajectory), wanted) in filmed.iter().zip(&wanted) {
         job.dataset.remove_temporaries(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         remove_unwanted_frames(job, trajectory, wanted)?;
-        let mut there = wanted.iter().filter(|_| job.shift.is_none());
-        there.try_for_each(|&frame| job.dataset.settle_color([&job.scene.name, &trajectory.name], frame).map_err(Error::stage))?;
     }
 
     // Find the frames that are missing. Of others nothing needs to be kept to go on from.
@@ -135,23 +133,14 @@ struct Missing<'a> {
 }
 
 fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
-    let (name, of) = (&job.scene.name, &trajectory.name);
-    has_what_is_asked_for(job, of, info.pose.frame)
-        && job.dataset.frame_is_complete(name, of, info.pose.frame, &info.config_hash)
-        && job.dataset.frame_is_taken(name, of, &info.camera, &info.pose)
+    rendered_record(job, trajectory, &info.camera, &info.pose).is_some_and(|record| record.config_hash == info.config_hash)
 }
 
-/// False where what was rendered is asked for, and is gone.
-fn has_what_is_asked_for(job: &Job, camera: &str, frame: u32) -> bool {
-    job.scene.color == ColorKind::Denoised
-        || job.dataset.frame_record(&job.scene.name, camera, frame).ok().flatten().is_none_or(|record| record.has_rendered())
-}
-
-/// Whether this file of a frame is another since it was denoised; whether it is as its record says, [`frames_are_whole`] tells.
-pub(super) fn is_chosen_later(_job: &Job, path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let is_layer = |layer: Layer| name.ends_with(&format!(".{}.hdf5", layer.spec().name));
-    name.starts_with("frame.") && (name.ends_with(".json") || DENOISED.into_iter().any(|(plain, _)| is_layer(plain)))
+/// The record of a frame that was taken as its trajectory says, of which all that was rendered is there; where that is asked for, colour too.
+fn rendered_record(job: &Job, trajectory: &Trajectory, camera: &Camera, pose: &Pose) -> Option<FrameRecord> {
+    let record = job.dataset.rendered_record(&job.scene.name, &trajectory.name, pose.frame)?;
+    let has_what_is_asked_for = job.scene.color == ColorKind::Denoised || record.has_rendered();
+    (has_what_is_asked_for && record.is_taken(camera, pose)).then_some(record)
 }
 
 /// Whether every frame is there, and was taken as its trajectory says.
@@ -160,14 +149,10 @@ pub(super) fn frames_are_whole(job: &Job) -> bool {
 }
 
 fn frames_are_taken(job: &Job) -> Result<bool, Error> {
-    let name = &job.scene.name;
     for (camera, trajectory) in job.filmed()?.iter() {
         let wanted = job.frames_of(trajectory)?;
         let mut poses = trajectory.poses.iter().filter(|pose| wanted.contains(&pose.frame));
-        let is_there = |pose: &Pose| {
-            has_what_is_asked_for(job, &trajectory.name, pose.frame) && job.dataset.frame_is_taken(name, &trajectory.name, camera, pose)
-        };
-        if !poses.all(is_there) {
+        if !poses.all(|pose| rendered_record(job, trajectory, camera, pose).is_some()) {
             return Ok(false);
         }
     }
@@ -195,7 +180,7 @@ fn render(job: &Job, scene: &RenderScene, missing: &[Missing], [kept, total]: [u
             // Write it with its record, tell whoever waits for it, and only then drop what was kept of it.
             let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
-            job.dataset.write_frame(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
+            job.dataset.write_rendered(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
             if let Some(shift) = job.shift {
                 (shift.rendered)(&trajectory.name, info.pose.frame)?;
             }
@@ -256,31 +241,10 @@ pub(crate) fn program() -> String {
     format!("enfilade {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Every file that rendering writes.
+/// Every file that rendering writes for the scene as a whole; records vouch for those of frames.
 fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
-    let (layout, name) = (job.dataset.layout(), &job.scene.name);
-    let fixtures = job.dataset.read_fixtures(name).map_err(Error::stage)?;
-    let mut files = Vec::new();
-    if !fixtures.is_empty() {
-        files.push(layout.metadata_fixtures(name));
-    }
-    for (camera, frame) in job.frames()? {
-        files.push(layout.frame_record(name, &camera, frame));
-        let config = &job.scene.render;
-        let is_rendered = |pass: Pass| match pass {
-            Pass::Final | Pass::Geometry => true,
-            Pass::LightParts => config.light_parts,
-            Pass::Extra => config.extra,
-            Pass::Label | Pass::Rendered => false,
-        };
-        let rendered = LAYERS.iter().filter(|spec| is_rendered(spec.pass));
-        files.extend(rendered.map(|spec| layout.layer(name, &camera, frame, spec.layer)));
-        let of_fixture = |fixture: &Fixture| {
-            [Layer::DiffuseIllumination, Layer::Residual].map(|layer| layout.fixture_layer(name, &camera, frame, fixture.id, layer))
-        };
-        files.extend(fixtures.iter().flat_map(of_fixture));
-    }
-    Ok(files)
+    let has_fixtures = !job.dataset.read_fixtures(&job.scene.name).map_err(Error::stage)?.is_empty();
+    Ok(has_fixtures.then(|| job.dataset.layout().metadata_fixtures(&job.scene.name)).into_iter().collect())
 }
 
 /// Removes frames of an earlier, longer trajectory and of views that gates reject now.

@@ -136,8 +136,8 @@ fn a_change_of_color_that_was_killed_is_ended_without_rendering() {
         fs::write(layer(Layer::Color), "half").unwrap();
         config.scenes[0].color = color;
         assert!(run(&config, &out, None, &Silent).unwrap().ok());
-        let kept = if color == ColorKind::Rendered { Layer::Color } else { Layer::ColorRendered };
-        assert!(fs::read(layer(kept)).unwrap() == whole && layer(Layer::ColorRendered).exists() == (kept != Layer::Color));
+        let is_rendered = fs::read(layer(Layer::Color)).unwrap() == whole;
+        assert!(fs::read(layer(Layer::ColorRendered)).unwrap() == whole && is_rendered == (color == ColorKind::Rendered));
         assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
     }
     assert_eq!(depth(), rendered_at);

@@ -81,7 +81,7 @@ fn derived_files_that_were_removed_are_made_again_alone() {
     fs::remove_file(layout.mesh_file("a", "metadata_objects.csv")).unwrap();
     let summary = run(&config, &out, None, &Silent).unwrap();
     let made: Vec<Stage> = summary.scenes[0].stages.iter().filter(|stage| !stage.up_to_date).map(|stage| stage.stage).collect();
-    assert_eq!(made, [Stage::Import, Stage::Verify]);
+    assert_eq!(made, [Stage::Label, Stage::Verify]);
     let after = files(&out);
     let differ: Vec<_> = before.keys().filter(|path| before.get(*path) != after.get(*path)).collect();
     assert!(differ.iter().all(|path| path.starts_with(".enfilade/a")), "{differ:?}");
@@ -100,15 +100,18 @@ fn statistics_with_costs_stay_as_they_were_asked_for() {
 }
 
 #[test]
-fn an_annotation_changes_tables_of_objects_and_nothing_is_imported_again() {
+fn tables_of_objects_are_made_by_labelling_and_nothing_is_imported_again() {
     let (folder, out) = place();
     let (_, dataset, _) = dataset_of_one(folder.path(), &out);
     let mesh = dataset.mesh_files("a");
+    let label = || run_stage(&out, Stage::Label, None, false, &Silent).unwrap();
+    let before = files(&dataset.layout().mesh_dir("a"));
     fs::write(mesh.file("metadata_objects.csv"), "object_name\nfloor\n").unwrap();
-    fs::write(mesh.file(ANNOTATION_LOG), "").unwrap();
     assert!(run_stage(&out, Stage::Import, None, false, &Silent).unwrap().nothing_done());
-    fs::remove_file(mesh.file(ANNOTATION_LOG)).unwrap();
-    assert!(!run_stage(&out, Stage::Import, None, false, &Silent).unwrap().nothing_done());
+    assert!(!label().nothing_done() && files(&dataset.layout().mesh_dir("a")) == before);
+    // A log without an edit changes nothing.
+    fs::write(mesh.file(ANNOTATION_LOG), "").unwrap();
+    assert!(label().nothing_done());
 }
 
 #[test]

@@ -48,6 +48,44 @@ impl Edit {
     }
 }
 
+/// What an edit is checked against: the annotation before it.
+pub struct Before<'a> {
+    /// How many pieces there are.
+    pub pieces: usize,
+    /// The piece of every face.
+    pub piece_of_face: &'a [u32],
+    /// How many edits can be undone, and how many be done again.
+    pub steps: [usize; 2],
+}
+
+impl Edit {
+    /// Checks that an edit of the log can be done.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self, before: &Before<'_>) -> Result<(), String> {
+        let [undoable, redoable] = before.steps;
+        match self {
+            Self::Undo if undoable == 0 => Err("there is nothing to undo".into()),
+            Self::Redo if redoable == 0 => Err("there is nothing to do again".into()),
+            Self::Undo | Self::Redo => Ok(()),
+            Self::Label { pieces, semantic, instance, .. } => {
+                let fits = semantic.len() == pieces.len() && instance.len() == pieces.len();
+                let known = pieces.iter().all(|&piece| (piece as usize) < before.pieces);
+                if fits && known { Ok(()) } else { Err("the labels do not fit the pieces".into()) }
+            }
+            Self::Split { piece, names, faces, .. } => {
+                let known = (*piece as usize) < before.pieces && names.len() == faces.len();
+                let of_face = before.piece_of_face;
+                let its_own = |runs: &Vec<[u32; 2]>| {
+                    numbers(runs, of_face.len()).is_some_and(|faces| faces.iter().all(|&face| of_face[face as usize] == *piece))
+                };
+                if known && faces.iter().all(its_own) { Ok(()) } else { Err("the faces are not of the piece that is split".into()) }
+            }
+        }
+    }
+}
+
 /// Ascending numbers as runs of first number and count.
 pub fn runs(numbers: &[u32]) -> Vec<[u32; 2]> {
     number_runs(numbers.iter().copied()).iter().map(|run| [*run.start(), run.end() - run.start() + 1]).collect()

@@ -1,46 +1,7 @@
-//! The lines of the log of edits: which scene it is about and which labels it began with, then one edit each.
+//! A mesh folder's objects as they were before any was split.
 
-use super::edit::{Edit, numbers};
 use enfilade_dataset::{ANNOTATION_LOG, MeshFiles};
-use serde::{Deserialize, Serialize};
-
-/// The first line names its own format.
-pub const FORMAT: &str = "enfilade annotation log 1";
-
-/// What the first lines of logs of every form have.
-#[derive(Deserialize)]
-pub struct Form {
-    pub format: String,
-}
-
-/// The first line: which scene the log is about, and the labels of its parts before the first edit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Header {
-    pub format: String,
-    pub scene: String,
-    /// The hash of the scene, by [`enfilade_dataset::scene_hash`].
-    pub scene_hash: String,
-    pub parts: usize,
-    pub faces: usize,
-    pub initial_semantic: Vec<i16>,
-    pub initial_instance: Vec<i16>,
-}
-
-/// A line after the first: one edit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// From 1, one more with each line.
-    pub revision: u64,
-    /// When, in UTC.
-    pub time: String,
-    /// Who asked for it.
-    pub client: String,
-    /// The client's name for it, by which a repeated request is recognised. Edits that came without one have none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// What was done.
-    pub edit: Edit,
-}
+use enfilade_label::annotation::{Edit, Entry, Header, numbers};
 
 /// How many objects a mesh folder had before any was split, and the object of every face then. `None` if none was split, or if the
 /// folder's log cannot be read.

@@ -1,0 +1,116 @@
+//! What people labelled in `enfilade annotate`, by the log of their edits.
+//!
+//! The log is all that an annotation is: a first line about the scene ([`Header`]), then a line for every edit ([`Entry`]), each decided so
+//! that doing it again gives the same labels. [`Annotation::read`] does them again. What is labelled is called a piece: a part of the scene,
+//! or a piece of a part that was split.
+
+mod edit;
+mod log_lines;
+mod replay;
+
+pub use edit::{Before, Edit, numbers, runs};
+pub use log_lines::{Entry, FORMAT, Header, LogProblem, parse};
+
+use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, scene_hash};
+use enfilade_scene::{Labels, PartId, Scene};
+use replay::Replay;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// What every piece of a scene is called, and which faces it has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Annotation {
+    /// The label of every piece: those of parts first, in the order of the scene.
+    pub labels: Labels,
+    /// Pieces that were split off, in order: the name of each, and the part that it is of.
+    pub pieces: Vec<(String, PartId)>,
+    /// The piece of every face.
+    pub piece_of_face: Vec<u32>,
+    /// How many instance numbers were given out, whether or not they are in use.
+    pub instances: usize,
+}
+
+/// Why an annotation cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum AnnotationError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] DatasetError),
+    /// It is of another form.
+    #[error("{}:1: found the format {found:?}, expected {FORMAT:?}; use the enfilade that wrote it, or a newer one", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it calls itself.
+        found: String,
+    },
+    /// A line is not valid.
+    #[error("{}:{line}: {problem}; remove this line and those after it to go on from there, or bring back a copy", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Its labels would go to parts that nobody labelled so.
+    #[error(
+        "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
+        path.display()
+    )]
+    OtherScene {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl Annotation {
+    /// Reads what people labelled in `scene` from the log beside its mesh; `None` where they did nothing yet, though they may have looked.
+    ///
+    /// # Errors
+    /// When the log cannot be read, has an edit that cannot be done, or is about another scene.
+    pub fn read(files: &MeshFiles, scene: &Scene) -> Result<Option<Self>, AnnotationError> {
+        let path = files.file(ANNOTATION_LOG);
+        let bytes = match std::fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            bytes => bytes.map_err(|source| DatasetError::Io { action: "read", path: path.clone(), source })?,
+        };
+        let Some((header, entries)) = parse(&bytes).map_err(|problem| located(&path, problem))? else { return Ok(None) };
+        if entries.is_empty() {
+            return Ok(None);
+        }
+        let faces = faces_of_parts(scene);
+        let parts = scene.parts.iter().map(|part| part.name.trim()).zip(faces.iter().copied());
+        if scene_hash(parts) != header.scene_hash || header.parts != scene.parts.len() {
+            return Err(AnnotationError::OtherScene { path });
+        }
+        let mut replay = Replay::new(&header, part_of_face(&faces));
+        for entry in entries {
+            replay.perform(entry.edit).map_err(|problem| located(&path, LogProblem::of_edit(entry.revision, problem)))?;
+        }
+        Ok(Some(replay.into_annotation()))
+    }
+
+    /// The pieces of a scene of which nothing was split: its parts, with these labels.
+    pub fn of_whole_parts(scene: &Scene, labels: Labels) -> Self {
+        let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
+        Self { labels, pieces: Vec::new(), piece_of_face: part_of_face(&faces_of_parts(scene)), instances }
+    }
+}
+
+fn located(path: &Path, problem: LogProblem) -> AnnotationError {
+    let path = path.to_path_buf();
+    match problem {
+        LogProblem::Format { found } => AnnotationError::Format { path, found },
+        LogProblem::Line { line, problem } => AnnotationError::Line { path, line, problem },
+    }
+}
+
+fn faces_of_parts(scene: &Scene) -> Vec<usize> {
+    scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].triangles.len()).collect()
+}
+
+fn part_of_face(faces: &[usize]) -> Vec<PartId> {
+    (0..).zip(faces).flat_map(|(part, &count)| std::iter::repeat_n(part, count)).collect()
+}
