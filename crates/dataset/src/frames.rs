@@ -511,11 +511,11 @@ fn write_file_aside(
 
 /// What is wrong with a file, as far as its length tells.
 pub(crate) enum Problem {
-    /// It is not there.
+    /// The file is missing.
     Missing,
-    /// It has another length, this one.
+    /// The file has another length, this one.
     Length(u64),
-    /// It cannot be looked at.
+    /// The file cannot be accessed.
     Unreadable(io::Error),
 }
 

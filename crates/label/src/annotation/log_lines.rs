@@ -50,7 +50,7 @@ pub struct Entry {
 /// Why a log cannot be read.
 #[derive(Debug)]
 pub enum LogProblem {
-    /// It is of another form, which a newer program may have written.
+    /// The log is of another form, which a newer program may have written.
     Format {
         /// What it calls itself.
         found: String,

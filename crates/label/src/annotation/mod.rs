@@ -36,7 +36,7 @@ pub enum AnnotationError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] DatasetError),
-    /// It is of another form.
+    /// The log is of another form.
     #[error("{}:1: found the format {found:?}, expected {FORMAT:?}; use the enfilade that wrote it, or a newer one", path.display())]
     Format {
         /// The file.
@@ -45,7 +45,7 @@ pub enum AnnotationError {
         found: String,
     },
     /// A line is not valid.
-    #[error("{}:{line}: {problem}; remove this line and those after it to go on from there, or bring back a copy", path.display())]
+    #[error("{}:{line}: {problem}; remove this line and those after it to continue from there, or restore a copy", path.display())]
     Line {
         /// The file.
         path: PathBuf,
@@ -54,7 +54,7 @@ pub enum AnnotationError {
         /// What is wrong with it.
         problem: String,
     },
-    /// Its labels would go to parts that nobody labelled so.
+    /// The log belongs to another scene: its labels would go to parts that nobody labelled so.
     #[error(
         "{} is about another scene: its parts have other names, another order or other numbers of faces than those of the scene package",
         path.display()

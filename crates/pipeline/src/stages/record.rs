@@ -21,7 +21,7 @@ impl Input {
         Ok(Self { path: path.into(), content: Hash::of_file(path)? })
     }
 
-    /// The same of a file that need not be there.
+    /// An input that need not be there.
     pub fn of_any(path: &Path) -> Result<Self, Error> {
         if path.exists() { Self::of(path) } else { Ok(Self { path: path.into(), content: Hash::of(&None::<u8>) }) }
     }
@@ -46,7 +46,7 @@ impl Output {
         Ok(Self { path: path.strip_prefix(out).unwrap_or(path).into(), bytes, content: None })
     }
 
-    /// The same with its content, unless it is a file of a frame.
+    /// An output with its content, unless it is a file of a frame.
     pub fn of(out: &Path, path: &Path) -> Result<Self, Error> {
         let is_of_frame = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame."));
         let content = if is_of_frame { None } else { Some(Hash::of_file(path)?) };
@@ -60,12 +60,12 @@ impl Output {
         is_of_frame && (is_record || self.path.extension().is_some_and(|extension| extension == "hdf5"))
     }
 
-    /// Its file is there in full length.
+    /// True where the file is there in full length.
     pub fn has_its_length(&self, out: &Path) -> bool {
         std::fs::metadata(out.join(&self.path)).is_ok_and(|data| data.len() == self.bytes)
     }
 
-    /// Its file is there in full length and, where that was noted, with the same content.
+    /// True where the file is there in full length and, where that was noted, with the same content.
     pub fn is_there(&self, out: &Path) -> bool {
         let is_same = |content: &Hash| Hash::of_file(&out.join(&self.path)).is_ok_and(|found| found == *content);
         self.has_its_length(out) && self.content.as_ref().is_none_or(is_same)
