@@ -45,7 +45,6 @@ const GROUPS: [Group; 19] = [
         without: &SECTIONS,
         file: "§\n",
         at: &["scenes/0/plan/§", "scenes/0/§"],
-        ..NOTHING
     },
     Group {
         heading: "`[[scene]]`",
