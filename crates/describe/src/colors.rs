@@ -66,7 +66,7 @@ fn oklab([r, g, b]: [f32; 3]) -> [f32; 3] {
 mod tests {
     use super::*;
 
-    /// Of CSS's named colours, whose names people gave.
+    /// Names agree with CSS's named colours, which people named.
     #[test]
     fn names_are_those_that_people_gave() {
         let named = [

@@ -25,8 +25,8 @@ pub enum Assignment {
 const INDEX_VARIABLES: [&str; 2] = ["JOB_COMPLETION_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX"];
 
 impl Assignment {
-    /// The one of `tasks` at the place that Kubernetes or AWS Batch say in `environment`; the first where neither does, as for a job of AWS
-    /// Batch with a single task.
+    /// Assignment of the task at the place in `tasks` that Kubernetes or AWS Batch give in `environment`; of the first task where neither
+    /// does, as for a job of AWS Batch with a single task.
     ///
     /// # Errors
     /// When that is no number, or there are fewer tasks.

@@ -19,7 +19,7 @@ pub enum Form {
     Text,
     /// A file or a folder.
     Path,
-    /// One of these words.
+    /// A word of this list.
     Word(&'static [Word]),
     /// Width and height in pixels.
     Size,

@@ -1,4 +1,4 @@
-//! The one place where threads write to the same memory.
+//! Memory that several threads write to; there is no other.
 
 use super::block::{Block, Shape, Tensor};
 use super::simd::Simd;
