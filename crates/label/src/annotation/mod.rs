@@ -5,10 +5,12 @@
 //! or a piece of a part that was split.
 
 mod edit;
+mod labelled;
 mod log_lines;
 mod replay;
 
 pub use edit::{Before, Edit, numbers, runs};
+pub use labelled::Annotation;
 pub use log_lines::{Entry, FORMAT, Header, LogProblem, parse};
 
 use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, scene_hash};
@@ -16,19 +18,6 @@ use enfilade_scene::{Labels, PartId, Scene};
 use replay::Replay;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-
-/// What every piece of a scene is called, and which faces it has.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Annotation {
-    /// The label of every piece: those of parts first, in the order of the scene.
-    pub labels: Labels,
-    /// Pieces that were split off, in order: the name of each, and the part that it is of.
-    pub pieces: Vec<(String, PartId)>,
-    /// The piece of every face.
-    pub piece_of_face: Vec<u32>,
-    /// How many instance numbers were given out, whether or not they are in use.
-    pub instances: usize,
-}
 
 /// Why an annotation cannot be read.
 #[derive(Debug, thiserror::Error)]

@@ -1,7 +1,8 @@
 //! Doing the edits of a log again, without the geometry that the page shows with them.
 
 use super::edit::{Before, Edit, numbers};
-use super::{Annotation, Header};
+use super::labelled::Annotation;
+use super::log_lines::Header;
 use enfilade_scene::{Labels, PartId, PartLabel};
 
 /// An annotation on its way through its edits.
