@@ -57,7 +57,7 @@ fn flow_leads_from_frame_to_frame_and_holds_its_laws() {
     assert!(detail.join("frame.0002.cam_00.frame.0000.optical_flow.hdf5").is_file());
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
     fail(d, &["make", "out", "flow", "--between", "cam_00/2", "cam_00/9"], 2, &["no finished frame cam_00/9"]);
-    fail(d, &["make", "out", "flow", "--step", "7"], 1, &["no pair of frames"]);
+    fail(d, &["make", "out", "flow", "--step", "7"], 1, &["no pair of existing frames"]);
     fs::remove_file(d.join("out/pairs.csv")).unwrap();
     fail(d, &["make", "out", "flow"], 2, &["pairs.csv does not exist", "enfilade make out pairs", "--step"]);
     fs::rename(d.join("out/.enfilade"), d.join("elsewhere")).unwrap();
@@ -79,5 +79,5 @@ fn tracks_follow_points_and_hold_their_laws() {
     assert_eq!(fs::read(&file).unwrap(), bytes);
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
     assert!(succeed(d, &["make", "out", "tracks", "--frames", "1.."]).contains("256 points through 2 frames"));
-    fail(d, &["make", "out", "tracks", "--frames", "7.."], 1, &["no frame"]);
+    fail(d, &["make", "out", "tracks", "--frames", "7.."], 1, &["no existing frame"]);
 }

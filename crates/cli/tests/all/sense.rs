@@ -89,5 +89,5 @@ fn wrong_sensors_are_named_with_the_place() {
     fail(d, &["make", "out", "sensors", "--sensors", "none.toml"], 2, &["none.toml", "docs/sensors.md"]);
     fs::write(d.join("sensors.toml"), "[[time_of_flight]]\nname = \"a\"\nglass = \"nothing\"\n").unwrap();
     fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml"], 1, &["\"a\"", "surface_traits", "--extra"]);
-    fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml", "--frames", "7.."], 1, &["no frame"]);
+    fail(d, &["make", "out", "sensors", "--sensors", "sensors.toml", "--frames", "7.."], 1, &["no existing frame"]);
 }

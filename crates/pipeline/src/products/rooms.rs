@@ -37,9 +37,15 @@ pub(super) fn make(subject: &Subject, asked: &[Asked], cx: &dyn Cx) -> Result<Ve
     } else {
         dataset.read_structure(scene).map_err(Error::stage)?
     };
-    let Some(structure) = structure else { return Ok(vec![format!("{scene}: no labelled walls and floors that enclose a room")]) };
-    dataset.write_plane_table(scene, &structure.planes()).map_err(Error::stage)?;
     let frames: Vec<&(String, u32)> = asked.iter().flat_map(|asked| &asked.part.frames).collect();
+    let Some(structure) = structure else {
+        // Planes of rooms that are gone are no planes.
+        for (camera, number) in &frames {
+            remove_if_there(&dataset.layout().plane_ids(scene, camera, *number))?;
+        }
+        return Ok(vec![format!("{scene}: no labelled walls and floors that enclose a room")]);
+    };
+    dataset.write_plane_table(scene, &structure.planes()).map_err(Error::stage)?;
     for of_camera in frames.chunk_by(|a, b| a.0 == b.0) {
         let numbers: Vec<u32> = of_camera.iter().map(|(_, number)| *number).collect();
         write_planes(dataset, [scene, &of_camera[0].0], &structure, &numbers, cx).map_err(Error::stage)?;
