@@ -101,7 +101,7 @@ def derived(program: Program, work: Path) -> list[dict]:
     ]
     rows = []
     for noun, arguments, patterns in nouns:
-        cost = program.run("make", program.out, noun, *arguments)
+        cost = program.run("make", program.out, noun, *arguments, "--force")
         size = sum(program.bytes_of(pattern) for pattern in patterns)
         rows.append(dict(name=noun, cpu_s=cost.cpu_s / FRAMES, bytes=size / FRAMES, peak_bytes=cost.peak_bytes))
     return rows
