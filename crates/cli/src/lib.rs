@@ -88,7 +88,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
         Verb::Export(args) => export::export(args, cli.quiet),
         Verb::Animate(args) => animate::animate(args, cli.quiet),
         Verb::Stats(args) => stats::stats(args, cli.quiet),
-        Verb::Side(args) => verbs::partition(args),
+        Verb::Partition(args) => verbs::partition(args),
         Verb::Replay(args) => verbs::replay(args, cli.quiet),
         Verb::Farm(args) => farm::farm(args, cli.program.as_deref(), cli.quiet),
         Verb::Vray(args) => vray::vray(args, cli.quiet),

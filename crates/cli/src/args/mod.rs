@@ -98,7 +98,7 @@ pub enum Verb {
     /// What the images show and what they cost: numbers, charts, outliers
     Stats(StatsArgs),
     /// Divide the dataset by scene into train, val and test, from now on in this way
-    Side(PartitionArgs),
+    Partition(PartitionArgs),
     /// Render one frame again from its record, and compare the bytes
     Replay(ReplayArgs),
     /// One dataset on many machines: plan, work, status, collect, submit
