@@ -110,7 +110,7 @@ mod tests {
             ("enfilade denoise out", "enfilade run OUT --only denoise"),
             ("enfilade layout out", "enfilade make OUT rooms"),
             ("enfilade sense out sensors.toml", "enfilade make OUT sensors --sensors"),
-            ("enfilade partition out", "enfilade partition OUT"),
+            ("enfilade split out", "enfilade partition OUT"),
             ("enfilade coco out", "enfilade export OUT --format coco"),
             ("enfilade make out layout", "enfilade make OUT rooms"),
             ("enfilade make out preview", "enfilade run OUT --only preview"),
