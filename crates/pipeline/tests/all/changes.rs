@@ -131,7 +131,8 @@ fn a_change_of_color_that_was_killed_is_ended_without_rendering() {
     let depth = || fs::metadata(layer(Layer::DepthMeters)).unwrap().modified().unwrap();
     let rendered_at = depth();
     for color in [ColorKind::Rendered, ColorKind::Denoised] {
-        // What was rendered has made way, and something else came half into its place.
+        // As an earlier version leaves it: what was rendered has made way, and something else came half into its place.
+        fs::remove_file(layer(Layer::ColorRendered)).unwrap();
         fs::rename(layer(Layer::Color), layer(Layer::ColorRendered)).unwrap();
         fs::write(layer(Layer::Color), "half").unwrap();
         config.scenes[0].color = color;
