@@ -42,7 +42,11 @@ fn stale(args: &MakeArgs, dataset: &Dataset, scenes: &[String], quiet: bool) -> 
         let cx = progress.begin(&args.dataset.display().to_string(), "make");
         make_stale(dataset, scenes, &only, &cx)?
     };
-    print(&made, "what was made");
+    if made.is_empty() {
+        say("nothing is out of date");
+    } else {
+        print(&made, "dataset");
+    }
     Ok(Verdict::Done)
 }
 
