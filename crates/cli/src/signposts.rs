@@ -80,10 +80,7 @@ fn leads_to_data(word: &str) -> Option<String> {
         return Some(format!("enfilade export OUT --format {word} -o FOLDER"));
     }
     let is_layer = Layer::from_name(word).is_some() || ["depth", "normal", "normals", "albedo", "rgb", "image", "images"].contains(&word);
-    is_layer.then(|| {
-        "enfilade export OUT --format exr -o FOLDER` of a dataset, in which `enfilade run` renders every layer; or `enfilade view OUT"
-            .into()
-    })
+    is_layer.then(|| "enfilade view OUT`, or `enfilade export OUT --format exr -o FOLDER".into())
 }
 
 #[cfg(test)]
