@@ -51,7 +51,7 @@ pub fn of(error: &clap::Error) -> Option<Problem> {
     let (word, place) = match error.kind() {
         ErrorKind::InvalidSubcommand => (text(ContextKind::InvalidSubcommand)?, "a verb"),
         ErrorKind::InvalidValue => match text(ContextKind::InvalidArg)? {
-            arg if arg.contains("<WHAT>") => (text(ContextKind::InvalidValue)?, "something that `make` makes"),
+            arg if arg.contains("WHAT") => (text(ContextKind::InvalidValue)?, "something that `make` makes"),
             arg if arg.starts_with("--only") => (text(ContextKind::InvalidValue)?, "a stage"),
             _ => return None,
         },

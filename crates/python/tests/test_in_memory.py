@@ -92,7 +92,7 @@ class Rendered(unittest.TestCase):
         cases = [
             ({"layers": "colour"}, "there is no layer"),
             ({"layers": []}, "no layers were asked for"),
-            ({"layers": "color_rendered", "denoise": False}, "without that color is what was rendered"),
+            ({"layers": "color_rendered", "denoise": False}, "without denoising, color is the rendered layer"),
             ({"samples": 0}, "samples must be at least 1, found 0"),
             ({"noise": 2.0}, "noise must lie between 0 and 1"),
             ({"quality": "best"}, "expected one of draft"),

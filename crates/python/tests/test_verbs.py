@@ -118,8 +118,8 @@ class Verbs(unittest.TestCase):
             enfilade.repack(root, out, layers=layer)
         self.assertFalse(list(out.rglob(f"frame.*.{layer}.hdf5")))
 
-    def test_the_split_covers_the_dataset(self):
-        report = enfilade.split(datasets.made(), seed=1, shares=(1, 0, 0))
+    def test_the_partition_covers_the_dataset(self):
+        report = enfilade.partition(datasets.made(), seed=1, shares=(1, 0, 0))
         self.assertEqual(report["images"]["train"], 3)
         self.assertEqual(len(enfilade.Dataset(datasets.made(), layers="color", split="train")), 3)
 

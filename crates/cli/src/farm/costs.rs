@@ -113,6 +113,6 @@ mod tests {
         assert!(
             text.contains("No machine of the table") && text.contains("1 attempts fit none") && text.contains("1 attempts did not record")
         );
-        assert!(machines(&found, 1)[0].contains("not known"));
+        assert!(machines(&found, 1)[0].contains("unknown"));
     }
 }
