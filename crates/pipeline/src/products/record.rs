@@ -73,9 +73,9 @@ pub(crate) struct MadePart {
 }
 
 impl MadePart {
-    /// True when it was made from what `key` names, and its files are there in full length.
-    pub fn is_fresh(&self, key: &Hash, root: &Path) -> bool {
-        self.from.as_ref() == Some(key) && self.files.iter().all(|file| file.has_its_length(root))
+    /// True when its files are there in full length.
+    pub fn is_whole(&self, root: &Path) -> bool {
+        self.files.iter().all(|file| file.has_its_length(root))
     }
 }
 

@@ -36,6 +36,9 @@ pub(super) struct Wanted {
     /// Place of the request among those of the record.
     pub request: usize,
     pub key: Hash,
+    /// False where what it is made from has changed, and where it was never made.
+    pub is_of_inputs: bool,
+    /// True when its files are there, too, in full length.
     pub is_fresh: bool,
 }
 
@@ -69,7 +72,8 @@ pub(crate) fn told_out_of_date(dataset: &Dataset, scenes: &[String]) -> Result<O
     Ok(Some(format!("{} {are} out of date: {}; `enfilade make {out} --stale` makes them again", names.len(), names.join(", "))))
 }
 
-/// The files of a scene's products that are out of date: no law is about them until they are made again.
+/// The files of a scene's products whose inputs have changed: no law is about them until they are made again. Those that were damaged are
+/// judged.
 pub(crate) fn not_judged(dataset: &Dataset, scene: &str) -> Result<NotJudged, Error> {
     let place = Place::Scene(scene);
     let mut states = States::new(dataset, place);
@@ -77,8 +81,8 @@ pub(crate) fn not_judged(dataset: &Dataset, scene: &str) -> Result<NotJudged, Er
     for spec in specs_in(place) {
         let Some(record) = Record::read(dataset, place, spec.product).filter(|_| states.is_any) else { continue };
         let wanted = states.wanted(spec.product)?;
-        let fresh: BTreeSet<&str> = wanted.iter().filter(|part| part.is_fresh).map(|part| part.part.name.as_str()).collect();
-        let stale = record.parts.iter().filter(|(name, _)| !fresh.contains(name.as_str()));
+        let judged: BTreeSet<&str> = wanted.iter().filter(|part| part.is_of_inputs).map(|part| part.part.name.as_str()).collect();
+        let stale = record.parts.iter().filter(|(name, _)| !judged.contains(name.as_str()));
         let files: Vec<PathBuf> = stale.flat_map(|(_, part)| &part.files).map(|file| dataset.root().join(&file.path)).collect();
         not_judged.leave_out(spec.name, files);
     }
@@ -132,8 +136,9 @@ impl<'a> States<'a> {
         let wanted = |name: String| {
             let (request, part) = parts.remove(&name).expect("each name is in the order once");
             let key = key(&self.subject, spec, &record.requests[request], &part)?;
-            let is_fresh = inputs_are_fresh && record.parts.get(&name).is_some_and(|made| made.is_fresh(&key, &root));
-            Ok(Wanted { part, request, key, is_fresh })
+            let made = record.parts.get(&name).filter(|made| inputs_are_fresh && made.from.as_ref() == Some(&key));
+            let is_fresh = made.is_some_and(|made| made.is_whole(&root));
+            Ok(Wanted { part, request, key, is_of_inputs: made.is_some(), is_fresh })
         };
         order.into_iter().map(wanted).collect()
     }
