@@ -6,23 +6,27 @@ import inspect
 from . import _native
 
 
-def explained(function, *declarations):
-    """The function with the options of declarations in its signature and in its doc string."""
+def explained(*declarations):
+    """A decorator that puts the options of declarations into a function's signature and doc string."""
     rows = [row for declaration in declarations for row in _native.declared(declaration)]
     options = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default) for name, default, _ in rows]
-    signature = inspect.signature(function)
-    own = [parameter for parameter in signature.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
-    places = [parameter for parameter in own if parameter.kind is not parameter.KEYWORD_ONLY]
-    keywords = [parameter for parameter in own if parameter.kind is parameter.KEYWORD_ONLY]
 
-    @functools.wraps(function)
-    def call(*places, **keywords):
-        return function(*places, **keywords)
+    def decorated(function):
+        signature = inspect.signature(function)
+        own = [parameter for parameter in signature.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
+        places = [parameter for parameter in own if parameter.kind is not parameter.KEYWORD_ONLY]
+        keywords = [parameter for parameter in own if parameter.kind is parameter.KEYWORD_ONLY]
 
-    call.__module__ = "enfilade"
-    call.__signature__ = signature.replace(parameters=[*places, *options, *keywords])
-    call.__doc__ = _described(function, rows)
-    return call
+        @functools.wraps(function)
+        def call(*places, **keywords):
+            return function(*places, **keywords)
+
+        call.__module__ = "enfilade"
+        call.__signature__ = signature.replace(parameters=[*places, *options, *keywords])
+        call.__doc__ = _described(function, rows)
+        return call
+
+    return decorated
 
 
 def _described(documented, rows):
@@ -30,10 +34,10 @@ def _described(documented, rows):
     return documented.__doc__.replace("{options}", "\n".join(f"{name}: {sentence}" for name, _, sentence in rows))
 
 
-home = explained(_native.home, "HomeConfig")
-import_scene = explained(_native.import_scene, "FileSource")
-_native.Config.demo = staticmethod(explained(_native.Config.demo, "Overrides", "RenderChoices"))
-_native.Config.read = staticmethod(explained(_native.Config.read, "Overrides", "RenderChoices"))
+home = explained("HomeConfig")(_native.home)
+import_scene = explained("FileSource")(_native.import_scene)
+_native.Config.demo = staticmethod(explained("Overrides", "RenderChoices")(_native.Config.demo))
+_native.Config.read = staticmethod(explained("Overrides", "RenderChoices")(_native.Config.read))
 _native.Dataset.__doc__ = _described(_native.Dataset, _native.declared("DatasetOptions"))
-_native.Scene.home = staticmethod(explained(_native.Scene.home, "HomeConfig"))
-_native.Scene.read = staticmethod(explained(_native.Scene.read, "FileSource"))
+_native.Scene.home = staticmethod(explained("HomeConfig")(_native.Scene.home))
+_native.Scene.read = staticmethod(explained("FileSource")(_native.Scene.read))

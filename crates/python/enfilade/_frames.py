@@ -27,6 +27,7 @@ class Frame(dict):
         return frame_html(self)
 
 
+@explained("RenderOptions")
 def render(scene, camera, *, progress=None, **options):
     """Renders a picture of a scene in memory, with every layer; nothing is written to disk.
 
@@ -48,4 +49,3 @@ def render(scene, camera, *, progress=None, **options):
 
 
 Frame.__module__ = "enfilade"
-render = explained(render, "RenderOptions")
