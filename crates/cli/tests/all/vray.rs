@@ -22,7 +22,7 @@ fn a_scene_goes_through_the_toolkits_steps() {
     step("normalize", &["--policy", "v1"]);
     assert!(step("replace-paths", &["--old", "c:/assets", "--new", "/mnt/a"]).contains("1 paths"));
     let text = step("entities", &["--objects", "objects.csv", "--nodes", "nodes.csv", "--strings", "strings.csv"]);
-    assert!(text.contains("2 nodes, of which 1 are no object"), "{text}");
+    assert!(text.contains("2 nodes, of which 1 are not objects"), "{text}");
     assert_eq!(
         fs::read_to_string(d.join("nodes.csv")).unwrap(),
         "node_id,node_name,object_id,object_name\n1,chair@node_1,1,chair\n2,gone@node_2,-1,_NULL_OBJECT\n"
