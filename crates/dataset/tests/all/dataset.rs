@@ -208,7 +208,7 @@ fn what_is_no_copy_is_not_replaced_by_one() {
     let refused = |out: &Path| dataset.repack(out, None, &Quiet).unwrap_err().to_string();
     let message = refused(other.root());
     assert!(message.contains("other") && message.contains("not made by `repack`"), "{message}");
-    assert!(refused(&dataset.root().join("scenes")).contains("in the dataset itself"));
+    assert!(refused(&dataset.root().join("scenes")).contains("inside the dataset"));
     assert!(refused(folder.path()).contains("the dataset is inside that folder"));
     assert_eq!(files(folder.path()), before);
 }
