@@ -26,7 +26,7 @@ impl<'a> Gates<'a> {
             if share > *limit {
                 let (found, allowed) = (100.0 * share, 100.0 * *limit);
                 let message = format!(
-                    "stands in the open: {found:.0} % of the {what} directions around it meet no surface, max_open_share allows {allowed:.0} %; \
+                    "is in the open: {found:.0} % of the {what} directions around it meet no surface, max_open_share allows {allowed:.0} %; \
                      its trajectory may stand as open as that"
                 );
                 cx.warn(Warning { place: format!("camera {:?}", start.name), message });
