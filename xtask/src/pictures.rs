@@ -60,7 +60,7 @@ fn demo(house: &House, arguments: &[&str]) -> Result<PathBuf, String> {
     if out.exists() {
         std::fs::remove_dir_all(&out).map_err(|error| format!("cannot remove the pictures made before: {error}"))?;
     }
-    let mut run = house.cargo(&["run", "--release", "--locked", "--", "run", "--demo"]);
+    let mut run = house.cargo(&["run", "--locked", "--", "run", "--demo"]);
     run.arg(&out).args(arguments);
     finish(run)?;
     Ok(out)
