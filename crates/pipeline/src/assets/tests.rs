@@ -189,7 +189,7 @@ fn a_model_that_is_wanted_and_broken_is_an_error_unless_the_user_allows_it() {
     let heard = Heard::default();
     let home = home(&HomeConfig { allow_broken_assets: true, ..config }, &located, &heard).unwrap();
     assert_eq!(home.scene.validate(), Ok(()));
-    assert!(heard.lines().iter().any(|line| line.contains("l/l.obj") && line.contains("ours stands in")));
+    assert!(heard.lines().iter().any(|line| line.contains("l/l.obj") && line.contains("our own piece is used instead")));
 }
 
 #[test]
