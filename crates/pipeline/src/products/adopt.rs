@@ -18,7 +18,8 @@ use enfilade_sensors::Sensor;
 /// When a file that says what is there cannot be read, or a record cannot be written.
 pub(crate) fn adopt(dataset: &Dataset, scene: &str) -> Result<(), Error> {
     let place = Place::Scene(scene);
-    if !dataset.root().join(WORKDIR).is_dir() || !dataset.layout().metadata_cameras(scene).is_file() {
+    // A damaged table of cameras is told, and made again, by planning.
+    if !dataset.root().join(WORKDIR).is_dir() || !dataset.layout().metadata_cameras(scene).is_file() || dataset.cameras(scene).is_err() {
         return Ok(());
     }
     for spec in PRODUCTS.iter().filter(|spec| spec.scope != Scope::Dataset) {

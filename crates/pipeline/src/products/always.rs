@@ -3,11 +3,11 @@
 use super::record::{MadePart, Place, Record};
 use super::sources::Subject;
 use super::stale::{States, key};
-use super::update::{MakeOptions, update};
+use super::update::{MakeOptions, described, update};
 use super::whole::{files, parts};
 use crate::error::Error;
 use crate::request::Request;
-use crate::stages::{Output, Stage, record_key};
+use crate::stages::{Stage, record_key};
 use crate::workdir::{Hash, Workdir};
 use enfilade_dataset::{Dataset, WORKDIR};
 use enfilade_scene::{Cx, Quiet};
@@ -75,7 +75,7 @@ fn vouch(dataset: &Dataset, request: Request, files: &[PathBuf]) -> Result<(), E
     let mut record = Record { requests: vec![request], ..Record::default() };
     for part in parts(&subject, &record.requests[0])? {
         let key = key(&subject, product.spec(), &record.requests[0], &part)?;
-        let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
+        let files = files.iter().map(|path| described(product, dataset, path)).collect::<Result<_, _>>()?;
         record.parts.insert(part.name, MadePart { from: Some(key), files });
     }
     record.write(dataset, Place::Dataset, product)

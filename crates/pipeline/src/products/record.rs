@@ -73,9 +73,9 @@ pub(crate) struct MadePart {
 }
 
 impl MadePart {
-    /// True when its files are there in full length.
+    /// True when its files are there in full length and, where that was noted, with the same content.
     pub fn is_whole(&self, root: &Path) -> bool {
-        self.files.iter().all(|file| file.has_its_length(root))
+        self.files.iter().all(|file| file.is_there(root))
     }
 }
 

@@ -110,7 +110,7 @@ const CHANGES: [Change; 10] = [
         sources: &[Source::Fixtures],
         layers: &[],
         files: |dataset| vec![dataset.layout().metadata_fixtures(SCENE)],
-        make: append,
+        make: |path| write_bytes(path, [std::fs::read(path).unwrap_or_default(), b"\n".to_vec()].concat()).unwrap(),
     },
     Change {
         name: "rooms as they were built",

@@ -110,10 +110,15 @@ fn make_parts(
     subject.forget_contents();
     for part in todo {
         let files = (product.spec().files)(subject, &part.part)?;
-        let files = files.iter().map(|path| Output::by_length(dataset.root(), path)).collect::<Result<_, _>>()?;
+        let files = files.iter().map(|path| described(product, dataset, path)).collect::<Result<_, _>>()?;
         record.parts.insert(part.part.name.clone(), MadePart { from: Some(part.key.clone()), files });
     }
     made
+}
+
+/// A file of a product: of the dataset as a whole with its content, of scenes by its length, since those are many.
+pub(super) fn described(product: Product, dataset: &Dataset, path: &Path) -> Result<Output, Error> {
+    if product.scope() == Scope::Dataset { Output::of(dataset.root(), path) } else { Output::by_length(dataset.root(), path) }
 }
 
 /// Removes a file, and its folder where that is empty then.
