@@ -32,7 +32,7 @@ impl Exposure {
         Self { per_kcd, balance: Rgb::WHITE }
     }
 
-    /// The exposure that shows white walls at [`WALL_RADIANCE`].
+    /// The exposure that shows white walls at a radiance of one half.
     ///
     /// `sky_klx` and `sun_klx` are the illuminances outside, of level ground and of what faces the sun, in kilo-lux; `lamps` is the share of
     /// the lamps that are lit, 0 to 1.

@@ -1,7 +1,7 @@
 //! Floor plans: from a list of rooms and a seed to rooms with walls, doors and windows.
 //!
-//! A home is a rectangle cut into cells ([`slicing`]); a search looks for cuts whose rooms have the widths, proportions, daylight and
-//! ways that building practice asks for ([`kind`], `search`). Doors, passages and windows follow (`openings`).
+//! A home is a rectangle cut into cells (`slicing`); a search looks for cuts whose rooms have the widths, proportions, daylight and
+//! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`).
 
 mod openings;
 mod search;
