@@ -60,16 +60,16 @@ export function dataset(t, more = []) {
     const folder = mkdtempSync(join(tmpdir(), "dataset-"));
     t.after(() => rmSync(folder, { recursive: true, force: true }));
     const path = join(folder, "demo");
-    execFileSync(program(), ["run", "--demo", path, "--quiet", "--frames", "3", "--size", "160x120", "--samples", "2", "--extra", "--splits", ...more], { stdio: ["ignore", "ignore", "inherit"] });
+    execFileSync(program(), ["run", "--demo", path, "--quiet", "--frames", "3", "--size", "160x120", "--samples", "2", "--extra", "--light-parts", ...more], { stdio: ["ignore", "ignore", "inherit"] });
     return path;
 }
 
-/** Adds to a dataset what verbs derive from its frames. @param {string} path */
+/** Adds to a dataset what is made of its frames on request. @param {string} path */
 export function derive(path) {
     const sensors = join(path, "sensors.toml");
     writeFileSync(sensors, '[[camera]]\nname = "phone"\nformat = "png"\n\n[[lidar]]\nname = "spin"\nelevations_deg = [-5, 0, 5]\nazimuth_deg = [-20, 20]\ncolumns = 30\n');
-    const verbs = [["pairs", path], ["flow", path, "--step", "1"], ["tracks", path, "--points", "40"], ["surfaces", path, "--layers", "2"], ["describe", path], ["sense", path, sensors]];
-    for (const verb of verbs) execFileSync(program(), [...verb, "--scene", "home", "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
+    const products = [["pairs"], ["flow", "--step", "1"], ["tracks", "--points", "40"], ["surfaces", "--layers", "2"], ["words"], ["sensors", "--sensors", sensors]];
+    for (const product of products) execFileSync(program(), ["make", path, ...product, "--scene", "home", "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
 }
 
 /** Adds to a dataset the camera `cam_01`, which is `cam_00` but for the seed of its records, and the scene `unmeshed`, which has no mesh folder. @param {string} path */
