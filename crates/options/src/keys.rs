@@ -18,14 +18,14 @@ pub trait Keys: Default {
     /// Reads the value of the key `name` from `map`; false, and nothing is read, where it is none of these.
     ///
     /// # Errors
-    /// Those of the value.
+    /// When the value cannot be read.
     fn take<'de, M: MapAccess<'de>>(&mut self, name: &str, map: &mut M) -> Result<bool, M::Error>;
 }
 
 /// Reads a table; unknown keys are errors as serde's `deny_unknown_fields` words them.
 ///
 /// # Errors
-/// Those of `deserializer` and of the values.
+/// When `deserializer` or a value fails.
 pub fn read_keys<'de, D: Deserializer<'de>, K: Keys>(deserializer: D) -> Result<K, D::Error> {
     deserializer.deserialize_map(Table(PhantomData))
 }

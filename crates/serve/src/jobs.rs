@@ -11,7 +11,7 @@ static JOBS: LazyLock<Semaphore> = LazyLock::new(|| Semaphore::new(2 * std::thre
 /// Runs `job` on a thread for blocking work.
 ///
 /// # Errors
-/// Those of the job, and a failure where it panics.
+/// When the job fails or panics.
 pub async fn beside<T: Send + 'static>(job: impl FnOnce() -> Result<T, ApiProblem> + Send + 'static) -> Result<T, ApiProblem> {
     // A request that its browser gives up waits no longer and begins no work.
     let _turn = JOBS.acquire().await;
