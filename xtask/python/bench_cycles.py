@@ -51,18 +51,20 @@ def page(rows, seconds):
     ours, version = rows[0]["ours"]["version"], rows[0]["peer"]["version"]
     yield "# Rendering, against Cycles"
     yield ""
-    yield f"`cargo xtask bench cycles` on {processor()}: enfilade and Cycles of Blender {version}, the renderer of BlenderProc, Infinigen and Kubric, render"
-    yield "the same glTF files of homes that `enfilade home` makes, with their cameras; two at night, lit by lamps alone, each a surface that emits light, and"
-    yield f"two by day. Both: box filter of one pixel, {BOUNCES} bounces, float32. Of Cycles, all that makes pictures as rendered biased is off: clamping of"
-    yield "direct and indirect light, filtered caustics, the threshold below which lamps are left out, adaptive sampling; the light tree is on, and lamps that"
-    yield "shine to one side are sampled from that side, which lowers its noise. Ours writes every layer with its default settings, Cycles color alone."
+    yield f"`cargo xtask bench cycles` on {processor()}: enfilade and Cycles of Blender {version}, the renderer of BlenderProc, Infinigen and"
+    yield "Kubric, render the same glTF files of homes that `enfilade home` makes, with their cameras: two at night, lit only by lamps, each of which"
+    yield f"is an emissive surface, and two by day. Both use a box filter of one pixel, {BOUNCES} bounces and float32. In Cycles everything that biases"
+    yield "rendered pictures is off: clamping of direct and indirect light, filtered caustics, the threshold below which lamps are left out, and"
+    yield "adaptive sampling. The light tree is on, and lamps that shine to one side are sampled from that side, which lowers its noise. Ours writes"
+    yield "every layer with its default settings, Cycles only color."
     yield ""
-    yield f"*Delivered* is denoised: ours as a dataset's frames are ({ours}), Cycles' by its own Open Image Denoise at high quality, guided by albedo and"
-    yield "normals that it filters first (`ACCURATE`). Processor seconds, user and system, of all threads; start-up, load and a first picture of one sample"
-    yield "are not counted, learning, all layers, denoising, and what Cycles prepares for every picture anew, are."
+    yield f"*Delivered* pictures are denoised: ours as the frames of a dataset are ({ours}), Cycles'"
+    yield "by its own Open Image Denoise at high quality, guided by albedo and normals that it filters first (`ACCURATE`). Times are processor seconds,"
+    yield "user and system, of all threads. Start-up, loading and a first picture of one sample are not counted; learning, all layers, denoising, and"
+    yield "what Cycles prepares anew for every picture are."
     yield ""
-    yield "What the renderers mean different things by is changed in the files: at night window panes, sheets without thickness, are black and keep their"
-    yield "reflection, by day they are left out; so is the colour of thick glass and water. Sheen is that of each: Cycles has another model than glTF's."
+    yield "What the two renderers interpret differently is changed in the files. At night, window panes, which are sheets without thickness, are black"
+    yield "and keep their reflection; by day they are left out. So is the colour of thick glass and water. Each renders its own sheen: the model of Cycles differs from glTF's."
     yield ""
     yield from tables.sections("cycles", rows, "Cycles")
     yield from ["## Do they render the same?", "", *same(rows), ""]
@@ -71,8 +73,8 @@ def page(rows, seconds):
 
 
 def same(rows):
-    yield "The mean of our references over that of Cycles', less one: the whole image and blocks of 16×16 pixels; and for the share of noise in that, one of"
-    yield "Cycles' references over the other."
+    yield "The mean of our references divided by that of Cycles', minus one, for the whole image and for blocks of 16×16 pixels. To show the share of"
+    yield "noise, the same is given for one of Cycles' references and the other."
     yield ""
     yield "| view | what | whole | median of blocks | blocks within 5 % | within 10 % |"
     yield "|---|---|---|---|---|---|"

@@ -184,37 +184,37 @@ def main():
     (docs / "loader.json").write_text(json.dumps(rows, indent=2) + "\n")
 
 
-PAGE = """# Loader: layers as arrays, by enfilade's Python module and by h5py
+PAGE = """# Loader: reading layers as arrays with enfilade's Python module and with h5py
 
 Made by `cargo xtask bench loader` on {processor}: {frames} rendered frames of 1024x768 pixels in Hypersim's layout (float16 and int16, gzip 9,
-chunks of 96x128 pixels of one channel, written by h5py), and the one file of Apple's own release that lies beside the repository.
-Milliseconds of processor time of one core for a frame, all of its layers, the least of {rounds} rounds in which both readers took turns on the same
-files, which lie in memory. h5py is {h5py}. The values are the same bit by bit; the run fails otherwise.
+chunks of 96x128 pixels of one channel, written by h5py), and the one file of Apple's release that is available beside the repository.
+Times are milliseconds of processor time of one core for a frame with all of its layers: the least of {rounds} rounds, in which both readers took
+turns on the same files, which are in memory. h5py is {h5py}. The values are bit-identical; otherwise the run fails.
 
 | case | enfilade, ms | h5py, ms | h5py / enfilade |
 |---|---|---|---|
 {table}
 
-## What each can be
+## The limits of each case
 
-- **Full frames.** All of the file must be inflated. libdeflate takes less than half of zlib's time for that, and putting the channels
-  together, which h5py does value by value, costs next to nothing here; more is not in gzip. Images that hardly compress, or that
-  compress to almost nothing, leave the most.
+- **Full frames.** The whole file must be inflated. libdeflate takes less than half of zlib's time for that, and interleaving the channels,
+  which h5py does value by value, costs next to nothing here; gzip allows no more. Images that hardly compress, or that
+  compress to almost nothing, gain the most.
 - **Crops.** A 512x512 crop of 1024x768 touches 24 to 35 of 64 chunks of 96x128 pixels, so about half of a file must be inflated; that is
-  the limit. "crop" compares with reading all and cutting, which is what Hypersim's loaders do; "part" with h5py's slices,
-  which leave out chunks as well.
-- **Native storage.** `enfilade.repack` stores the same values as they are where LZ4 would save less than a quarter, as of colours, and always
-  those of depth and other images of one floating-point channel: reading is a copy. The rest is under LZ4, in chunks of 128x128 pixels with all
-  channels. h5py is measured on Hypersim's files, as everywhere; to read these under LZ4 it needs the package hdf5plugin. Depth pays for its speed in
-  bytes: gzip shrinks it sixfold and LZ4 fourfold, but LZ4 puts it together from many short runs, which takes a millisecond, and left the ratio at
-  4.3. Where the disk is slower than about 1 GB/s and files do not stay in memory, gzip is the faster storage for depth. What is left is the kernel's
-  copy of the pages, and the memory that Python gets. Sizes, MB per frame:
+  the limit. "crop" compares with reading all and cropping, as Hypersim's loaders do; "part" compares with h5py's slices,
+  which also skip chunks.
+- **Native storage.** `enfilade.repack` stores values uncompressed where LZ4 would save less than a quarter, as with colours, and always
+  for depth and other images of one floating-point channel; reading these is a copy. The rest is compressed by LZ4, in chunks of 128x128
+  pixels with all channels. h5py is measured on Hypersim's files, as elsewhere; to read LZ4 it needs the package hdf5plugin. Depth trades
+  bytes for speed: gzip shrinks it sixfold and LZ4 fourfold, but LZ4 assembles it from many short runs, which takes a millisecond and left
+  the ratio at 4.3. If the disk is slower than about 1 GB/s and files do not stay in memory, gzip is faster for depth. What remains is the
+  kernel's copy of the pages, and the allocation of memory by Python. Sizes, in MB per frame:
 
 | layers | Hypersim's gzip | native |
 |---|---|---|
 {sizes}
 
-Times are of one core; several threads decode several samples at once without holding the interpreter, which h5py's lock does not allow.
+Times are of one core. Several threads decode several samples at once without holding the interpreter's lock, which h5py's lock prevents.
 """
 
 if __name__ == "__main__":

@@ -111,17 +111,17 @@ def page(told: dict):
     """The page about the costs."""
     number = lambda value: f"{value:.2f}" if value < 10 else f"{value:.0f}"
     mb = lambda value: number(value / 1e6)
-    yield "# What each kind of ground truth costs"
+    yield "# The cost of each kind of ground truth"
     yield ""
     yield f"Made by `cargo xtask bench products`: frames of the demo's room, {SIZE} at {told['samples']} samples per pixel, on {told['processor']}."
-    yield "Seconds are those of one core, per frame; memory is the largest resident set. [Ground truth](../ground-truth.md) says what each is."
+    yield "Seconds are core-seconds per frame; memory is the largest resident set. [Ground truth](../ground-truth.md) describes each."
     yield ""
     yield "## Rendered with the picture"
     yield ""
-    yield f"The whole stage for one frame, scene preparation and writing included, the least of {ROUNDS} runs, of which one of each kind follows"
+    yield f"The whole stage for one frame, including scene preparation and writing: the least of {ROUNDS} rounds, in which one run of each kind follows"
     yield f"the other. There are {told['fixtures']} fixtures."
     yield ""
-    yield "| asked for | core-s | of plain | more MB | memory, GB |"
+    yield "| layers | core-s | relative to plain | additional MB | memory, GB |"
     yield "|---|---|---|---|---|"
     for row in told["rendered"]:
         more = "" if row["name"] == "plain" else mb(row["more_bytes"])

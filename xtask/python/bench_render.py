@@ -59,11 +59,12 @@ def page(rows, costs, peer, seconds):
     yield ""
     yield f"`cargo xtask bench render` on {processor()}: enfilade and Mitsuba {version} (`llvm_ad_rgb`, LLVM {peer.llvm}, independent samples) render the"
     yield f"same XML with the same camera, box filter and path depth (Mitsuba's `max_depth` {BOUNCES + 2}, our `max_bounces` {BOUNCES}). Ours writes every layer,"
-    yield "Mitsuba color alone. Homes are made by `enfilade home` and exported to XML; at night their panes are black, by day their windows stand open."
+    yield "Mitsuba only color. Homes are made by `enfilade home` and exported to XML; at night their panes are black, by day their windows are open."
     yield ""
-    yield f"*Delivered* is denoised: ours as a dataset's frames are ({ours}), Mitsuba's by Open Image Denoise {peer.denoiser} at high quality, guided by its"
-    yield "albedo and normals of 64 samples, taken as clean, whose time is not counted. Processor seconds, user and system, of all threads; start-up, load"
-    yield "and compilation are not counted, learning, all layers and denoising are."
+    yield f"*Delivered* pictures are denoised: ours as the frames of a dataset are ({ours}),"
+    yield f"Mitsuba's by Open Image Denoise {peer.denoiser} at high quality, guided by its albedo and normals of 64 samples, taken as noise-free, whose"
+    yield "time is not counted. Times are processor seconds, user and system, of all threads. Start-up, loading and compilation are not counted;"
+    yield "learning, all layers and denoising are."
     yield ""
     yield from tables.sections("render", rows, "Mitsuba")
     if costs:

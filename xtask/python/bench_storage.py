@@ -104,31 +104,32 @@ def main():
     print("\n".join(cells(row) for row in table))
 
 
-PAGE = """# Storage: the files of layers, ours beside Hypersim's
+PAGE = """# Storage: the files of layers, ours against Hypersim's
 
-Made by `cargo xtask bench storage` on {processor}, with a frame of each of: {frames}; means over them. Hypersim's
-files are float16 or int16, gzip 9, in chunks of 96x128 pixels of one channel, written by h5py. All are read by plain h5py, without plug-ins,
-from memory; times are processor time of one thread, the least of several.
+Made by `cargo xtask bench storage` on {processor}, with one frame of each of {frames}; values
+are means over them. Hypersim's files are float16 or int16, gzip 9, in chunks of 96x128 pixels of one channel, written by h5py. All are read
+by plain h5py, without plug-ins, from memory; times are processor time of one thread, the least of several.
 
 | layer | ours | Hypersim's | Hypersim's / ours |
 |---|---|---|---|
 {table}
 
-## What was chosen, and why
+## Choices and reasons
 
-- **Chunks of 128x128 pixels.** Larger ones are a little smaller and faster to read whole, but a crop then reads much that it does not
-  need; smaller ones cost more to read whole than they save in crops.
-- **Colours and normals: all channels in one chunk.** Half the reading time, because h5py spends most of it on taking single channels apart
-  and together. Where channels vary smoothly and apart from each other (positions, flow, texture coordinates) they
-  stay in chunks of their own: together they take half as much space again.
-- **Shuffled**, but not numbers of parts, classes and reasons: those are runs of equal values, which shuffling makes slower to read.
-- **libdeflate at level 6**, and 9 for those numbers: what more costs in writing it does not bring in size. The result is plain gzip.
-- **Depth and position are float32**, which is what they cost more than Hypersim's: float16 has steps of 8 mm at 10 m. All other layers
+- **Chunks of 128x128 pixels.** Files with larger ones are a little smaller and faster to read whole, but crops then read much that they do
+  not need; smaller ones cost more in whole reads than they save in crops.
+- **Colours and normals: all channels in one chunk.** This halves the reading time, most of which h5py otherwise spends on separating and
+  joining channels. Where channels vary smoothly and independently of each other (positions, flow, texture coordinates), they
+  have their own chunks: together they take half as much space again.
+- **Shuffled**, except the numbers of parts, classes and reasons: these are runs of equal values, which shuffling makes slower to read.
+- **libdeflate at level 6**, and 9 for those numbers: higher levels cost more in writing than they save in size. The result is plain gzip.
+- **Depth and position are float32**, which explains their extra cost over Hypersim's: float16 has steps of 8 mm at 10 m. All other layers
   have Hypersim's types.
 
-## The ways that were compared
+## Alternatives that were compared
 
-Each differs from ours in what it says. "h5py's own chunks" are those of Hypersim's files, 96x128 of one channel, and for float32 48x128.
+Each differs from ours only as its name says. "h5py's own chunks" are those of Hypersim's files: 96x128 of one channel, and 48x128 for
+float32.
 
 {candidates}
 """

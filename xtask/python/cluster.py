@@ -128,23 +128,23 @@ def page(facts, rows):
     text = [
         "# A farm and its faults",
         "",
-        "Made by `cargo xtask cluster`: a Slurm controller and three nodes of one processor each, moto's S3 server, and the files and examples",
-        "for other engines, all as ordinary processes of one machine; no systemd, nothing of the machine is changed but that packages are installed.",
-        f"The program is {facts['program']}. Every test has a fresh store and, with Slurm, a fresh cluster. Faults come from outside: from the",
-        "script that stands for the program on the nodes, from signals, from file systems without space, from a proxy before the store, from",
-        "a clock that is set wrong (libfaketime).",
+        "Made by `cargo xtask cluster`, which runs a Slurm controller, three nodes of one processor each, moto's S3 server, and the files and",
+        "examples for other engines, all as ordinary processes on one machine, without systemd. It changes nothing on the machine except",
+        f"installing packages. The program is {facts['program']}. Every test has a fresh store and, with Slurm, a fresh cluster. Faults",
+        "come from outside: from a script that takes the program's place on the nodes, from signals, from full file systems, from a proxy in",
+        "front of the store, and from a wrong clock (libfaketime).",
         "",
-        f"{facts['slurm']}, {facts['cores']} processors, on which other programs made a load of {facts['load']:g} at the beginning.",
-        f"The whole command took {facts['seconds'] + facts['before']} s: {facts['before']} s to install and to build, {facts['seconds']} s for the tests.{there(facts)}",
+        f"{facts['slurm']}, {facts['cores']} processors; other programs caused a load of {facts['load']:g} at the beginning.",
+        f"The whole command took {facts['seconds'] + facts['before']} s: {facts['before']} s to install and build, {facts['seconds']} s for the tests.{there(facts)}",
         f"One machine alone makes the dataset in {facts['alone_s']} s.",
-        f"After each test every frame has exactly one marker, and all {facts['files']} files of the collected dataset have the bytes of the",
-        "one that a single machine makes, and of what the program must add that nodes run after every frame. Exempt are `.enfilade/` and",
-        "`manifest_times.csv`, which hold the times that were measured.",
+        f"After each test, every frame has exactly one marker, and all {facts['files']} files of the collected dataset have the same bytes as when a",
+        "single machine makes them, including what the program that nodes run after every frame must add. Exempt are `.enfilade/` and",
+        "`manifest_times.csv`, which contain measured times.",
         "",
         *table("Slurm", rows),
         "",
-        "Attempts are open that were killed, and so had no word to say. Restarts are Slurm's own count; a controller that has lost what",
-        "happened since it last saved its state starts a task again without counting. Made in vain are frames that an attempt finished",
+        "Attempts that were killed could not report their end and stay *open*. Restarts are Slurm's own count; a controller that has lost what",
+        "happened since it last saved its state starts a task again without counting it. *Wasted* are frames that an attempt finished",
         "after another had committed them.",
         "",
         *costs(rows),
@@ -156,21 +156,21 @@ def page(facts, rows):
 
 
 def there(facts):
-    return f" There already: {facts['there']}." if facts["there"] else ""
+    return f" Already there: {facts['there']}." if facts["there"] else ""
 
 
 HEADS = {"Slurm": "fault", "store": "store", "engine": "engine"}
 
 
 def table(kind, rows):
-    yield f"| {HEADS[kind]} | what is done | outcome | attempts | restarts | made in vain | seconds |"
+    yield f"| {HEADS[kind]} | what is done | outcome | attempts | restarts | wasted | seconds |"
     yield "|---|---|---|---|---|---|---|"
     for row in (row for row in rows if row["kind"] == kind):
         if "frames" in row:
             outcome = f"{row['markers']} of {row['frames']} frames once, bytes equal"
             yield f"| {row['name']} | {row['done']} | {outcome} | {ended(row)} | {row.get('restarts', '')} | {row['lost']} | {row['seconds']} |"
         else:
-            outcome = f"**failed**: {row['failed']}" if "failed" in row else row.get("left_out") or "refused, as it must be"
+            outcome = f"**failed**: {row['failed']}" if "failed" in row else row.get("left_out") or "refused, as required"
             yield f"| {row['name']} | {row['done']} | {outcome} | | | | {row.get('seconds', '')} |"
 
 

@@ -68,12 +68,14 @@ def section(costs, bounces):
     few, more = map(str, COUNTS)
     yield "## What a delivered frame costs"
     yield ""
-    yield f"{LARGE}, every layer, tent filter, {bounces} bounces, at the noise of a delivered image: the root mean square over the pixels of the standard"
-    yield f"error of the tone-mapped value (90th percentile of brightness to 0.8, gamma 1/2.2, at most 1) is {TARGET:.0%} of its mean. The samples this needs are measured"
-    yield f"between two seeds at {SMALL} ({few} and {more} samples, the power law between them carried on), the seconds per sample at {LARGE} ({TIMED[0]} and {TIMED[1]} samples)."
-    yield "*Geometry*: the geometry layers and whatever else does not grow with the samples, by carrying the frame's time on to no samples."
+    yield f"{LARGE}, every layer, tent filter and {bounces} bounces, at the noise of a delivered image: the root mean square, over the pixels, of the standard"
+    yield f"error of the tone-mapped value (90th percentile of brightness to 0.8, gamma 1/2.2, at most 1) is {TARGET:.0%} of its mean. The samples needed are"
+    yield f"measured between two seeds at {SMALL} ({few} and {more} samples, extrapolated by the power law between them), the seconds per sample at {LARGE}"
+    yield f"({TIMED[0]} and {TIMED[1]} samples)."
+    yield "*Geometry* is the time of the geometry layers and of all else that does not grow with the samples: the frame's time, extrapolated to no"
+    yield "samples."
     yield ""
-    yield f"| room | noise at {few} | at {more} samples | samples needed | **core-minutes** | of them load | learning | geometry | per sample | peak MB |"
+    yield f"| room | noise at {few} | at {more} samples | samples needed | **core-minutes** | of which loading | learning | geometry | per sample | peak MB |"
     yield "|---|---|---|---|---|---|---|---|---|---|"
     for c in costs:
         yield (
@@ -84,10 +86,10 @@ def section(costs, bounces):
     yield ""
     yield f"Median as rendered: {np.median([c['core_min'] for c in costs]):.2f} core-minutes."
     yield ""
-    yield f"The same frame denoised: its noise is that between two seeds at {LARGE}. What the denoiser changes in the same way for every seed is not in this number,"
-    yield "but in the tables above."
+    yield f"The same frame denoised: the noise is that between two seeds at {LARGE}. What the denoiser changes in the same way for every seed is not"
+    yield "part of this number, but of the tables above."
     yield ""
-    yield f"| room | noise at {few} | at {more} samples | samples needed | **core-minutes** | of them denoising |"
+    yield f"| room | noise at {few} | at {more} samples | samples needed | **core-minutes** | of which denoising |"
     yield "|---|---|---|---|---|---|"
     for c in costs:
         d = c["denoised"]

@@ -146,15 +146,16 @@ def write(results, docs, seconds):
         "# Against Mitsuba 3",
         "",
         f"`cargo xtask oracle`: enfilade and Mitsuba {results[0]['version']} (`llvm_ad_rgb`) render the same scenes from the same XML.",
-        f"{SEEDS} independent seeds each, box filter, paths of the same depth (Mitsuba's `max_depth` is ours plus two), nothing clamped or hidden.",
+        f"{SEEDS} independent seeds each, with a box filter and paths of the same depth (Mitsuba's `max_depth` is ours plus two); nothing is clamped or",
+        "hidden.",
         "",
-        "- *ratio*: mean luminance of our image over Mitsuba's, and the difference in standard errors (z).",
-        "- *|z| > 3*: share of pixels whose means differ by more than three standard errors; 0.27 % is what chance alone gives.",
-        f"- *blocks*: the image cut into {BLOCKS} × {BLOCKS}; relative difference of the means, root mean square and worst.",
+        "- *ratio*: mean luminance of our image divided by Mitsuba's, and the difference in standard errors (z).",
+        "- *|z| > 3*: share of pixels whose means differ by more than three standard errors; chance alone gives 0.27 %.",
+        f"- *blocks*: the image divided into {BLOCKS} × {BLOCKS}; relative difference of the means: root mean square and worst.",
         f"- *> 1 %*: blocks that differ by more, and how many of those by more than {SIGNIFICANT:g} standard errors; the rest is noise.",
         "",
-        "Color is stored as float16, whose rounding (0.02 %) counts as noise. The rooms that come as glTF were exported by",
-        "`crates/bench/src/to_mitsuba.rs`, whose page says what became of their materials; both renderers loaded the export.",
+        "Color is stored as float16, whose rounding (0.02 %) counts as noise. Rooms that are glTF files were exported by",
+        "`crates/bench/src/to_mitsuba.rs`, which documents the conversion of their materials; both renderers loaded the export.",
         "",
         "| scene | depth | samples | ours | Mitsuba | ratio | z | \\|z\\| > 3 | blocks rms | worst | > 1 % | remark |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
@@ -164,13 +165,13 @@ def write(results, docs, seconds):
             f"| {r['case']} | {r['depth']} | {r['samples']} | {r['ours']:.5f} | {r['peer']:.5f} | {r['ratio']:.5f} | {r['z_image']:+.1f} | "
             f"{r['share_over_3']:.2%} | {r['block_rms']:.2%} | {r['block_worst']:+.2%} | {len(r['blocks_over'])} ({r['significant']}) | {r['explanation']} |"
         )
-    lines += ["", "## Every block that differs by more than 1 %", "", "Row and column count from the upper left, from 0.", ""]
+    lines += ["", "## Every block that differs by more than 1 %", "", "Rows and columns are counted from the upper left, starting at 0.", ""]
     lines += ["| scene | row, column | difference | z | why |", "|---|---|---|---|---|"]
     for r in results:
         for block in r["blocks_over"]:
             why = r["explanation"] if abs(block["z"]) > SIGNIFICANT else "within the noise of both"
             lines.append(f"| {r['case']} | {block['row']}, {block['column']} | {block['difference']:+.2%} | {block['z']:+.1f} | {why} |")
-    lines += ["", "## Pictures", "", "Ours, Mitsuba's, and the difference (red: ours is brighter, blue: darker; full colour at 10 % of the image's mean).", ""]
+    lines += ["", "## Pictures", "", "Ours, Mitsuba's, and their difference (red where ours is brighter, blue where darker; full colour at 10 % of the image's mean).", ""]
     lines += [f"![{name}](oracle/{name}.jpg)" for name in ["scenes", "rooms"] if (figure_folder / f"{name}.jpg").is_file()]
     lines += ["", f"The run took {seconds / 60:.0f} minutes.", ""]
     (docs / "oracle.md").write_text("\n".join(lines))

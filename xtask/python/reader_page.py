@@ -171,17 +171,18 @@ def difference(row: dict, name: str) -> str:
 
 
 INTRODUCTION = """
-Every file is imported by `enfilade import` in a process of its own, and read by each peer that knows its format; each has ten minutes for a
-file. Triangles are counted, and bounds are compared in metres with z up: those of the corners of triangles, the same if they are within
-0.0001 of the diagonal (and a millionth of the distance from the origin, where single precision ends). Every difference has a cause, which
-was verified on one file at least, as the table says; the program fails where one has none. `target/readers/readers.json` has the numbers of every file.
+Every file is imported by `enfilade import` in its own process, and read by each peer that knows its format; each has ten minutes per
+file. Triangles are counted. Bounds of the corners of triangles are compared in metres with z up; they count as the same if they agree to
+within 0.0001 of the diagonal (and a millionth of the distance from the origin, the limit of single precision). Every difference has a
+cause, which was verified on at least one file, as the table says; the program fails if a difference has none. `target/readers/readers.json`
+has the numbers of every file.
 
-- *Read* means that at least one triangle was found. *Read by neither* are files without triangles (layers of materials or cameras, clouds
-  of points), and broken ones that both refuse: tests of validators and what fuzzers found.
-- Polygons of n corners are n − 2 triangles, so counts do not depend on how polygons are cut.
-- **Our FBX reader is ufbx**, behind code of ours for units, axes, instances, materials and visibility. assimp has a reader of its own.
+- *Read* means that at least one triangle was found. *Read by neither* counts files without triangles (layers of materials or cameras,
+  clouds of points), and broken ones that both refuse: tests of validators and findings of fuzzers.
+- Polygons of n corners count as n − 2 triangles, so counts do not depend on how polygons are triangulated.
+- **Our FBX reader is ufbx**, with our own code for units, axes, instances, materials and visibility. assimp has its own reader.
 - USD: usd-core has stages but no triangles. The comparison walks the stage at the first moment and counts the meshes, shapes, instances and
-  lights with a surface that are visible and of the purpose default or render. Shapes without triangles, such as spheres, get as many as
-  our importer gives them, so that their number and bounds can be compared; the same for Mitsuba's.
-- The files are those of the commits below, without those of 4 MiB and more and what is in Git LFS. Pictures of more than 6 kB were replaced
-  by pictures of 4x4 pixels of the same format, but for Mitsuba's repositories, because triangles do not depend on them."""
+  lights with a surface that are visible and have the purpose default or render. Shapes without triangles, such as spheres, get as many as
+  our importer gives them, so that their number and bounds can be compared; the same applies to Mitsuba's shapes.
+- The files are those of the commits below, without files of 4 MiB or more and files in Git LFS. Pictures of more than 6 kB were replaced
+  by pictures of 4x4 pixels of the same format, except in Mitsuba's repositories, since triangles do not depend on them."""

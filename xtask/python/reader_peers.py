@@ -196,7 +196,7 @@ def usd_shape(prim) -> np.ndarray | None:
         case "DiskLight":
             return shapes.disk(light("radius"))
         case "SphereLight" if not read("treatAsPoint") and (light("shaping:cone:angle") or 90) >= 90 and not light("shaping:ies:file"):
-            return shapes.sphere(light("radius"))
+            return shapes.lamp(light("radius"))
         case "CylinderLight":
             return shapes.along("X", shapes.tube(light("radius"), -light("length") / 2, light("length") / 2))
     return None

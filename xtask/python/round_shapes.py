@@ -1,21 +1,23 @@
 """Corners of the triangles that stand for shapes which USD and Mitsuba describe by numbers, three after three.
 
-Such shapes have no triangles of their own. They are given as many here as `crates/import` makes of them (96 sides, a sphere of 48 rows), so that
-their number, places and sizes can be compared; how well a shape is approached is the business of the tests there.
+Such shapes have no triangles of their own. They are given as many here as `crates/import` makes of them (96 sides, a sphere of 48 rows; 24
+sides and the area of the true one for spheres that are lights), so that their number, places and sizes can be compared. Tests there check how
+close they are to the shapes.
 """
 
 import numpy as np
 
 SIDES, ROWS = 96, 48
+LAMP_SIDES = 24
 
 Outline = list[tuple[float, float]]
 """Distances from the axis and heights."""
 
 
-def revolution(*outlines: Outline) -> np.ndarray:
-    """Outlines turned about the z axis; where a side lies on the axis there is one triangle, not two."""
-    turn = np.arange(SIDES + 1) % SIDES * 2 * np.pi / SIDES
-    rings = [[np.stack([r * np.cos(turn), r * np.sin(turn), np.full(SIDES + 1, z)], -1) for r, z in outline] for outline in outlines]
+def revolution(*outlines: Outline, sides: int = SIDES) -> np.ndarray:
+    """Outlines turned about the z axis; where a side is on the axis there is one triangle, not two."""
+    turn = np.arange(sides + 1) % sides * 2 * np.pi / sides
+    rings = [[np.stack([r * np.cos(turn), r * np.sin(turn), np.full(sides + 1, z)], -1) for r, z in outline] for outline in outlines]
     triangles = []
     for rows, outline in zip(rings, outlines):
         for k in range(len(rows) - 1):
@@ -33,6 +35,14 @@ def arc(start: float, end: float, radius: float, height: float, rows: int) -> Ou
 
 def sphere(radius: float = 1.0) -> np.ndarray:
     return revolution(arc(-1, 1, radius, 0, ROWS))
+
+
+def lamp(radius: float) -> np.ndarray:
+    """A sphere of few triangles, with the area of the true one."""
+    corners = revolution(arc(-1, 1, 1, 0, LAMP_SIDES // 2), sides=LAMP_SIDES)
+    a, b, c = corners.reshape(-1, 3, 3).swapaxes(0, 1)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=-1).sum() / 2
+    return corners * radius * np.sqrt(4 * np.pi / area)
 
 
 def disk(radius: float = 1.0) -> np.ndarray:

@@ -248,41 +248,43 @@ def page(rows, ours, rooms):
 PAGE = """\
 # A farm of thousands of nodes, simulated
 
-Made by `cargo xtask simulate`: 77,400 frames in 456 scenes, means of two seeds to two digits. It is a simulation, no measurement.
+Made by `cargo xtask simulate`: 77,400 frames in 456 scenes, means of two seeds to two digits. It is a simulation, not a measurement.
 
-## The seed's run on 1 to 100 nodes, by our renderer and by Hypersim's times
+## Hypersim's run on 1 to 100 nodes, by our renderer and by Hypersim's times
 
 {forecast}
 
-*Ours*: each scene costs as one of the six rooms of [render.md](render.md), whose core-seconds at 1024 × 768 pixels were measured with every layer:
-`normal` is 32 samples and `high` 128, both denoised, `reference` a noise of 2 % without a denoiser, most of it the room with sun on rough metal.
-Frames of a scene differ as Hypersim's do, tasks are a quarter of an hour (`farm plan`), and 95 % of a node's threads are at work. A vCPU is taken
-for a core of that machine; where two share one, it takes up to twice as long. Hypersim's scenes have more triangles than these rooms.
-*V-Ray*: its final pass alone, {licence:g} dollars per vCPU-hour beside the machines'; Hypersim paid 45,000 dollars for it, and a sixth more for two other passes. Our renderer asks
-for no licence; who pays one names it, `--price {dollars_per_vcpu_hour},licence=RATE`. What one's own scenes take, `enfilade run --estimate` says.
+*Ours*: each scene costs as much as one of the six rooms of [render.md](render.md), whose core-seconds at 1024 × 768 pixels were measured
+with every layer: `normal` has 32 samples and `high` 128, both denoised; `reference` has 2 % of noise without a denoiser, and most of its
+time is the room with sun on rough metal. Frames of a scene differ as Hypersim's do, tasks take a quarter of an hour (`farm plan`), and 95 %
+of a node's threads are busy. A vCPU counts as a core of that machine; if two share a core, the time is up to twice as long. Hypersim's
+scenes have more triangles than these rooms. *V-Ray*: only its final pass, at {licence:g} dollars per vCPU-hour in addition to the machines;
+Hypersim paid 45,000 dollars for it, and a sixth more for two other passes. Our renderer needs no licence; if you pay for one,
+state it: `--price {dollars_per_vcpu_hour},licence=RATE`. `enfilade run --estimate` forecasts your own scenes.
 
-## What breaks first on up to 10,000 nodes, by Hypersim's times, a task per frame
+## What limits up to 10,000 nodes, by Hypersim's times, with one task per frame
 
 | what | value | from |
 |---|---|---|
 | time of a frame | 7.7, 23, 75 minutes at 10, 50, 90 %, log-normal, 300 at most; frames of a scene share 80 % of the variance | Hypersim's published costs and settings; the share is assumed |
 | node | {vcpus} threads at {dollars_per_vcpu_hour} dollars per vCPU-hour | Hypersim's published costs |
 | starts of the engine | {starts_per_s:g} a second, one after the other; {requeue_s:g} s until a task starts again | Slurm 22.05, measured |
-| loading a scene | {load_s:g} s, and 300 MB over the store's bandwidth where the node has not had it | assumed; loading and learning take real rooms 0.5 to 2.6 processor seconds ([render.md](render.md)) |
+| loading a scene | {load_s:g} s, and 300 MB over the store's bandwidth if the node does not have it | assumed; loading and learning take 0.5 to 2.6 processor seconds for real rooms ([render.md](render.md)) |
 | store | 1 GB/s for all nodes; a frame has 20 MB | assumed |
 | nodes | 2 % run at half speed; each is lost every 20 hours, one time in ten without notice, and replaced after {replace_s:g} s | assumed |
 
 {table}
 
-Each case has what the ones above it have. Nodes are paid while they wait.
+Each case includes the changes of those above it. Nodes are paid for while they wait.
 
-- Up to 1,000 nodes nothing shared limits: a frame waits a second for the engine and less for the store. What is lost is the end, when
-  the last long frames are made on few nodes; longest frames first saves a tenth of the time.
-- At 10,000 nodes the store breaks first: nearly every frame fetches its scene anew, 23 TB through 1 GB/s, and half again as much
-  is paid as for 1,000 nodes. A store of 10 GB/s, as buckets are, mends that; so do longer tasks (`--minutes`), which fetch less often.
-- Then the end: the longest frame, on the slowest node, perhaps twice. A limit on a frame's time (`--time-limit`) or a noise target,
-  and doing what is missing once more elsewhere (`farm submit` again), which harms nothing, bound it.
-- The engine's starts cost minutes a frame at 10,000 nodes, and nothing at 1,000. Lost nodes cost next to nothing.
+- Up to 1,000 nodes, nothing shared is a limit: a frame waits a second for the engine and less for the store. Time is lost at the end, when
+  the last long frames run on few nodes; starting with the longest frames saves a tenth of the time.
+- At 10,000 nodes, the store is the first limit: nearly every frame fetches its scene anew, 23 TB at 1 GB/s, and the cost is half as much
+  again as for 1,000 nodes. A store with 10 GB/s, as buckets have, removes that limit; so do longer tasks (`--minutes`), which fetch less
+  often.
+- The next limit is the end: the longest frame, on the slowest node, perhaps twice. A limit on a frame's time (`--time-limit`) or a noise
+  target, and repeating what is missing elsewhere (`farm submit` again), which is harmless, bound it.
+- The engine's starts cost minutes per frame at 10,000 nodes, and nothing at 1,000. Lost nodes cost next to nothing.
 
 ![hours by nodes, and nodes at work over time](simulation.svg)
 """

@@ -31,12 +31,12 @@ def sections(name, rows, peer):
     yield from [f"![error against time]({name}.svg)", "", f"![both pictures, as rendered and as delivered]({name}.jpg)", ""]
     yield from ["## The denoisers' bias", "", *bias_words(), "", *bias_table(rows, peer), ""]
     yield from ["## Samples per core-second", "", *speed_table(rows, peer), ""]
-    yield from ["## Noise that pixels have in common", "", *correlation_words(), "", *correlation_table(rows), ""]
+    yield from ["## Correlated noise of pixels", "", *correlation_words(), "", *correlation_table(rows), ""]
 
 
 def ending(rows, peer, seconds):
     yield from ["## The curves", "", *curve_table(rows, peer), ""]
-    yield f"The run took {seconds / 60:.0f} minutes, without pictures that were there before."
+    yield f"The run took {seconds / 60:.0f} minutes, not counting pictures that existed before."
 
 
 def comparisons(rows):
@@ -61,24 +61,25 @@ def data(rows):
 
 def measures():
     seeds = len(comparison.SEEDS)
-    yield "relMSE: mean of (x − a)(x − b) / (truth² + 0.01) over pixels and channels, where a and b are two independent references by the same renderer, whose"
-    yield "own noise so drops out, and the truth to divide by is the denoised picture of most samples, which is nearly free of noise; pictures are scaled to a"
-    yield f"mean of 0.5, the worst 0.1 % of pixels left out; {f'the mean of {seeds} seeds' if seeds > 1 else 'one seed'}. *Of blocks*: the same of means of {SIDES['_blocks']}×{SIDES['_blocks']} pixels, which"
-    yield "tell what a look from farther away, a smaller picture or a denoiser sees."
-    yield "*ratio*: the peer's core-seconds over ours at the least error that both reach, between measured points on straight lines in log-log; above 1 where"
-    yield "ours is better. Nothing is carried on beyond a curve: where one begins with less error than the other ends with, the ratio is that of these two"
-    yield "pictures and stands as a bound (≥ or ≤)."
+    yield "relMSE is the mean of (x − a)(x − b) / (truth² + 0.01) over pixels and channels, where a and b are two independent references by the same"
+    yield "renderer, so that their own noise cancels, and the truth in the divisor is the denoised picture with the most samples, which is nearly"
+    yield f"noise-free. Pictures are scaled to a mean of 0.5, and the worst 0.1 % of the pixels are left out; {f'the mean of {seeds} seeds' if seeds > 1 else 'one seed'}. *Of blocks* is the same for"
+    yield f"means of {SIDES['_blocks']}×{SIDES['_blocks']} pixels, which show what one sees from farther away, in a smaller picture or after denoising."
+    yield "*Ratio* is the peer's core-seconds divided by ours at the least error that both reach, interpolated linearly in log-log between measured"
+    yield "points; above 1 ours is better. Nothing is extrapolated: where one curve begins with less error than the other ends with, the ratio is that"
+    yield "of these two pictures and is a bound (≥ or ≤)."
 
 
 def bias_words():
-    yield "What is left of a delivered picture's error however many samples it gets: at the most samples measured, and of a reference that was denoised, held"
-    yield "against the other reference and a measured picture. *mean moves by*: the mean of the delivered picture over that of the same as rendered, less one."
+    yield "What remains of a delivered picture's error however many samples it gets: at the most samples measured, and for a denoised reference,"
+    yield "compared with the other reference and a measured picture. *Mean moves by* is the mean of the delivered picture divided by that of the"
+    yield "rendered one, minus one."
 
 
 def correlation_words():
-    yield f"Correlation of the noise of our pixels, as rendered, with that of pixels 1 to {errors.OFFSETS} across and down: luminance less the references', over its"
-    yield f"root mean square in squares of {errors.ALIKE}×{errors.ALIKE} pixels, at most 3. Independent pixels have 0, to ±0.005 at {comparison.SIZE}. Last, the largest at"
-    yield f"any other offset of up to {errors.OFFSETS}."
+    yield f"This is the correlation of the noise of our pixels, as rendered, with that of pixels 1 to {errors.OFFSETS} across and down. Noise is the luminance minus"
+    yield f"that of the references, divided by its root mean square in squares of {errors.ALIKE}×{errors.ALIKE} pixels, and at most 3. Independent pixels have 0, within ±0.005"
+    yield f"at {comparison.SIZE}. The last column is the largest at any other offset of up to {errors.OFFSETS}."
 
 
 def summary(values):
@@ -115,7 +116,7 @@ def curve_table(rows, peer):
 
 def bias_table(rows, peer):
     """Markdown: what a denoiser leaves however many samples it gets."""
-    yield "| case | renderer | delivered at samples | relMSE | of blocks | mean moves by | denoised reference of samples | relMSE | of blocks |"
+    yield "| case | renderer | delivered at samples | relMSE | of blocks | mean moves by | denoised reference with samples | relMSE | of blocks |"
     yield "|---|---|---|---|---|---|---|---|---|"
     for case, title, who in both(rows, peer):
         p = Point(**who["points"][-1])

@@ -9,7 +9,7 @@ use std::process::Command;
 struct Bench {
     /// The instrument.
     name: &'static str,
-    /// What it measures.
+    /// The quantity that it measures.
     about: &'static str,
 }
 

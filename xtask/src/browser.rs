@@ -8,14 +8,14 @@ use std::process::{Command, Stdio};
 
 /// Names the browser; the tests read it too.
 const BROWSER_VARIABLE: &str = "ENFILADE_CHROMIUM";
-/// Tells the tests which program to serve with.
+/// Variable with the program that the tests serve with.
 const PROGRAM_VARIABLE: &str = "ENFILADE_BINARY";
-/// Where the tests and their packages live, from the root.
+/// Folder of the tests and their packages, from the root.
 const ROOM: &str = "crates/serve/browser";
-/// What browsers of the tests are called.
+/// Names of the browsers for the tests.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// All steps, in the order in which a failure tells most.
+/// All steps, in the order in which a failure is most informative.
 const STEPS: [Step; 5] = [
     Step {
         name: "packages",
@@ -44,8 +44,7 @@ const STEPS: [Step; 5] = [
     },
 ];
 
-/// Takes the steps with these names, or all; ends with the first that fails. Where node or a browser is missing it says so, and
-/// fails.
+/// Takes the steps with these names, or all; ends with the first that fails. A missing node or browser is reported as a failure.
 ///
 /// # Errors
 /// With the step that failed.
@@ -95,8 +94,8 @@ fn tests(house: &House) -> Result<Vec<PathBuf>, String> {
     Ok(tests)
 }
 
-/// The browser that [`BROWSER_VARIABLE`] names, or one that is installed. An unattended machine, where that may be done, installs
-/// Debian's; nobody else's machine is touched.
+/// The browser that [`BROWSER_VARIABLE`] names, or one that is installed. On an unattended machine, Debian's is installed if there is none;
+/// people's own machines are not changed.
 fn browser(house: &House) -> Result<PathBuf, String> {
     if let Some(named) = std::env::var_os(BROWSER_VARIABLE) {
         return Ok(named.into());

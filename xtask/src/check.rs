@@ -88,7 +88,7 @@ const STEPS: [Step; 11] = [
     },
 ];
 
-/// Takes the steps named in `words`, or all; goes on after a failure, so that one run shows everything there is to fix.
+/// Takes the steps named in `words`, or all; continues after a failure, so that one run shows everything there is to fix.
 ///
 /// # Errors
 /// With every step that failed.

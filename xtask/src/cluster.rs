@@ -1,7 +1,8 @@
 //! `cargo xtask cluster`: a job of a farm on a real Slurm cluster, an S3 server and other engines' files, with faults.
 //!
-//! From a bare Debian machine: what is missing of Slurm is installed (as root), Python packages go below the target folder. The tests
-//! are Python programs in `xtask/python`, because moto, `openjd` and botocore are Python packages; `xtask/cluster` holds the scenes.
+//! It runs on a bare Debian machine: missing parts of Slurm are installed (as root), Python packages are installed below the target folder.
+//! The tests are Python programs in `xtask/python`, because moto, `openjd` and botocore are Python packages; `xtask/cluster` has the
+//! scenes.
 
 use crate::house::House;
 use crate::python;
@@ -20,7 +21,7 @@ const PROGRAMS: [(&str, &str); 7] = [
     ("mmdebstrap", "mmdebstrap"),
 ];
 
-/// What is installed from the Python package index: an S3 server, what judges the files for engines, and engines.
+/// Packages from the Python package index: an S3 server, the validator of the files for engines, and engines.
 const PACKAGES: [&str; 6] =
     ["moto[server]==5.2.5", "openjd-cli==0.8.0", "kubernetes-validate==1.37.0", "boto3", "ray==2.60.0", "hyperqueue==0.27.0"];
 const IMPORTS: &str = "import moto.server, flask, openjd.cli, botocore, kubernetes_validate, ray, hyperqueue";

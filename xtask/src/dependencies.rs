@@ -1,7 +1,7 @@
-//! The dependency policy: what a build may contain.
+//! The dependency policy: the crates that a build may contain.
 //!
-//! Counted is whatever ends in a program or runs while it is built, on every platform; what only tests use is not. The
-//! allowed licences are those of `deny.toml`, so that `cargo deny` and this check agree.
+//! It covers everything that ends up in a program or runs while it is built, on every platform, but not crates that only tests use. The
+//! allowed licences are read from `deny.toml`, so that `cargo deny` and this check agree.
 
 use crate::house::House;
 use crate::step::finish;
@@ -9,7 +9,7 @@ use crate::{floors, spdx};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the metadata calls the one registry that crates may come from.
+/// Name in the metadata of the one registry that crates may come from.
 const CRATES_IO: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
 /// Checks licences, sources and the place of versions; runs `cargo deny` too where it is installed.
@@ -88,7 +88,7 @@ fn id(value: &Value) -> String {
     value.as_str().unwrap_or_default().to_string()
 }
 
-/// What is wrong with a package.
+/// The problem of a package, if any.
 fn wrong(package: &Value, policy: &Policy) -> Option<String> {
     let text = |key: &str| package[key].as_str();
     let name = format!("{} {}", text("name").unwrap_or("?"), text("version").unwrap_or("?"));

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Names the library's file; the measurement reads it too.
 pub const VARIABLE: &str = "ENFILADE_EMBREE";
 
-/// What carries the library, in the version that was measured.
+/// Package that contains the library, in the version that was measured.
 const PACKAGE: &str = "embreex==4.4.0.post1";
 /// Prints the library's file within that package.
 const FIND: &str = "import importlib.metadata as m; print(next(f.locate() for f in m.files('embreex') if 'libembree' in f.name))";

@@ -1,13 +1,12 @@
 //! Import directions: a crate depends only on crates of strictly lower floors.
 //!
-//! [`FLOORS`] is the law; the table in `ARCHITECTURE.md` must say the same. Development dependencies are free, because a
-//! test may use whatever it needs.
+//! [`FLOORS`] is the law; the table in `ARCHITECTURE.md` must agree. Development dependencies are free, because a test may use any crate.
 
 use crate::house::House;
 use std::collections::BTreeMap;
 use toml::Table;
 
-/// How high a crate stands.
+/// The floor of a crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Floor {
     /// A floor of the house.
@@ -59,7 +58,7 @@ const FLOORS: [(&str, Floor); 39] = [
     ("xtask", Floor::Dev),
 ];
 
-/// What package names start with, but for the program's and this one's.
+/// Prefix of package names, except the program's and this one's.
 const PREFIX: &str = "enfilade-";
 
 /// The folder of a package of ours; packages of several words have hyphens where folders have underscores.
@@ -111,7 +110,7 @@ pub fn listed<'a>(manifest: &'a Table, kinds: &'a [&str]) -> impl Iterator<Item 
     sections.flat_map(|section| kinds.iter().filter_map(|kind| section.get(*kind)?.as_table())).flatten()
 }
 
-/// What is wrong with the imports of one crate.
+/// The problems with the imports of one crate.
 fn wrong_imports(name: &str, manifest: &Table) -> Vec<String> {
     let Some(own) = floor(name) else {
         return vec![format!("crate `{name}` has no floor: give it a row in xtask/src/floors.rs and in ARCHITECTURE.md")];
@@ -136,7 +135,7 @@ fn floor(name: &str) -> Option<Floor> {
     FLOORS.iter().find(|(known, _)| *known == name).map(|&(_, floor)| floor)
 }
 
-/// Where the architecture page's table of rooms (``| floor | `crate` | …``) differs from [`FLOORS`].
+/// Differences between the architecture page's table of crates (``| floor | `crate` | …``) and [`FLOORS`].
 fn wrong_rows(page: &str) -> Vec<String> {
     let rows: BTreeMap<&str, &str> = page.lines().filter_map(row).collect();
     let mut found = Vec::new();
@@ -146,7 +145,7 @@ fn wrong_rows(page: &str) -> Vec<String> {
             Floor::Dev => "dev".into(),
         };
         match rows.get(name) {
-            None => found.push(format!("the table of rooms in ARCHITECTURE.md lacks `{name}` (floor {expected})")),
+            None => found.push(format!("the table of crates in ARCHITECTURE.md lacks `{name}` (floor {expected})")),
             Some(written) if *written != expected => {
                 found.push(format!("ARCHITECTURE.md puts `{name}` on floor {written}, xtask/src/floors.rs on {expected}"));
             }
@@ -154,7 +153,7 @@ fn wrong_rows(page: &str) -> Vec<String> {
         }
     }
     let strange = rows.keys().filter(|name| floor(name).is_none());
-    found.extend(strange.map(|name| format!("ARCHITECTURE.md has a room `{name}` that xtask/src/floors.rs does not know")));
+    found.extend(strange.map(|name| format!("ARCHITECTURE.md has a crate `{name}` that xtask/src/floors.rs does not know")));
     found
 }
 

@@ -6,7 +6,7 @@ use crate::bench::instrument;
 use crate::house::House;
 use crate::step::finish;
 
-/// Measures homes: `[COUNT] [FIRST SEED]`, 200 from seed 0 where nothing is said.
+/// Measures homes: `[COUNT] [FIRST SEED]`, by default 200 from seed 0.
 ///
 /// # Errors
 /// When something cannot be built, or a home cannot be made.

@@ -1,4 +1,4 @@
-//! Where the repository is, and how programs are run in it.
+//! The repository's folder, and running programs in it.
 
 use serde_json::Value;
 use std::ffi::OsStr;
@@ -47,7 +47,7 @@ impl House {
         std::fs::read_to_string(self.root.join(path)).map_err(|error| format!("cannot read {}: {error}", path.display()))
     }
 
-    /// What `cargo metadata` says with these further arguments.
+    /// The output of `cargo metadata` with these further arguments.
     ///
     /// # Errors
     /// When cargo fails.
@@ -60,7 +60,7 @@ impl House {
         serde_json::from_slice(&output.stdout).map_err(|error| format!("cannot read what cargo metadata says: {error}"))
     }
 
-    /// Where cargo builds.
+    /// The target folder of cargo.
     ///
     /// # Errors
     /// When cargo fails.

@@ -28,11 +28,16 @@ fn assemble(house: &House, folder: &Path) -> Result<(), String> {
     std::fs::create_dir_all(&package).map_err(|error| format!("cannot make {}: {error}", package.display()))?;
     let library = format!("{}enfilade_python{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let own = if cfg!(windows) { "_native.pyd" } else { "_native.abi3.so" };
-    let copies = [
-        (house.root.join("crates/python/enfilade/__init__.py"), package.join("__init__.py")),
-        (house.target()?.join("release").join(library), package.join(own)),
-    ];
-    copies.iter().try_for_each(|(from, to)| {
+    let copy = |from: &Path, to: &Path| {
         std::fs::copy(from, to).map(|_| ()).map_err(|error| format!("cannot copy {} to {}: {error}", from.display(), to.display()))
-    })
+    };
+    let sources = house.root.join("crates/python/enfilade");
+    let unreadable = |error| format!("cannot list {}: {error}", sources.display());
+    for entry in std::fs::read_dir(&sources).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        if entry.path().extension().is_some_and(|extension| extension == "py") {
+            copy(&entry.path(), &package.join(entry.file_name()))?;
+        }
+    }
+    copy(&house.target()?.join("release").join(library), &package.join(own))
 }

@@ -1,10 +1,10 @@
 //! The checks of the house, as `cargo xtask check`, `test`, `python`, `browser`, `docs`, `fuzz`, `pictures`, `bench`, `oracle`, `readers`
 //! and `cluster`.
 //!
-//! [`check`] holds what is quick and says nothing about numbers; [`test`](mod@test) holds everything else; [`wheel`] tests the
-//! Python module as it is installed; [`browser`] tests the pages; [`docs`](mod@docs) makes the documentation site; [`fuzz`] searches for
-//! bytes that break what reads them; [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s that says what it does, how
-//! long it took and, on failure, what to do.
+//! [`check`] has the quick checks, which do not run the tests; [`test`](mod@test) has everything else; [`wheel`] tests the Python module as
+//! installed; [`browser`] tests the pages; [`docs`](mod@docs) makes the documentation site; [`fuzz`] searches for bytes that break their
+//! readers; [`bench`](mod@bench) measures. Most are a table of [`Step`](step::Step)s; each step prints what it does, how long it took and,
+//! on failure, what to do.
 
 mod acceptance;
 mod bench;
@@ -97,7 +97,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// True where nothing but the usage is asked for; the programs of `oracle`, `bench render` and `bench cycles` tell about themselves.
+/// True if only the usage is requested; the programs of `oracle`, `bench render` and `bench cycles` have their own usage.
 fn asks_for_usage(words: &[&str]) -> bool {
     match words {
         [] | ["help"] => true,

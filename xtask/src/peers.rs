@@ -10,7 +10,7 @@ use crate::{bench, python};
 /// Names the folder of real rooms.
 const SCENES: &str = "ENFILADE_SCENES";
 
-/// Runs `xtask/python/<program>.py`; `words` go on to it (`--help` lists them).
+/// Runs `xtask/python/<program>.py`; `words` are passed to it (`--help` lists them).
 ///
 /// # Errors
 /// When something cannot be built or installed, or the program finds a difference that nothing explains.

@@ -1,8 +1,8 @@
-//! `cargo xtask pictures`: the pictures of README and of the pages about the demo and about layers, made by the demo that README tells to
-//! run; `check` tells when they are old.
+//! `cargo xtask pictures`: the pictures of README and of the pages about the demo and about layers, made by the demo that README describes;
+//! `check` reports when they are out of date.
 //!
-//! Beside them `docs/pictures.txt` says what they were made from: the demo's choices and the version of every stage, which rises whenever
-//! the same inputs give other bytes. They are old when either has changed since.
+//! Beside them `docs/pictures.txt` records their inputs: the demo's choices and the version of every stage, which rises whenever the same
+//! inputs give other bytes. They are out of date if either has changed since.
 
 use crate::docs::layers;
 use crate::house::House;
@@ -12,12 +12,12 @@ use std::path::PathBuf;
 
 /// The demo's choices, and the versions of stages.
 const MAKERS: [&str; 2] = ["crates/pipeline/src/config/demo.rs", "crates/pipeline/src/stage.rs"];
-/// What the pictures were made from, as text.
+/// The record of the pictures' inputs, as text.
 const STAMP: &str = "docs/pictures.txt";
 
-/// A run of the demo, and a picture that is taken from it as it is.
+/// A run of the demo, and a picture that is copied from it unchanged.
 struct Shot {
-    /// Arguments beside those of every run.
+    /// Arguments in addition to those of every run.
     arguments: &'static [&'static str],
     picture: &'static str,
     /// In the demo's dataset.
@@ -34,7 +34,7 @@ const SHOTS: [Shot; 2] = [
     },
 ];
 
-/// The run with every layer: two frames, since flow leads from one to the next, as small as they are shown.
+/// The run with every layer: two frames, since flow leads from one to the next, at the size at which they are shown.
 const LAYERS: [&str; 8] = ["--frames", "2", "--size", "192x144", "--quality", "high", "--extra", "--light-parts"];
 
 /// Makes the demo as users do, and takes its pictures to `docs`.
@@ -85,7 +85,7 @@ pub fn check(house: &House) -> Result<String, String> {
     }
 }
 
-/// The constants of the demo and the arms of the table of versions, as they stand in the code.
+/// The constants of the demo and the arms of the table of versions, as written in the code.
 fn stamp(house: &House) -> Result<String, String> {
     let mut lines = vec!["Made by `cargo xtask pictures`: what the pictures in this folder were made from.".to_string()];
     for maker in MAKERS.map(PathBuf::from) {

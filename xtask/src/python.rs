@@ -12,13 +12,13 @@ pub const VARIABLE: &str = "ENFILADE_PYTHON";
 /// Names a Python with Mitsuba 3, Open Image Denoise, numpy and Pillow.
 const PEERS_VARIABLE: &str = "ENFILADE_PEERS_PYTHON";
 
-/// What carries the library of Open Image Denoise, in the version that was measured.
+/// Package that contains the library of Open Image Denoise, in the version that was measured.
 const DENOISER: &str = "pyoidn==2.5.1.0";
 
 /// Names a Python with Blender's module, numpy and Pillow.
 const BLENDER_VARIABLE: &str = "ENFILADE_BLENDER_PYTHON";
 
-/// What interpreters are called; the names with a version are for machines whose `python3` is too old for our module.
+/// Names of interpreters; names with a version are for machines whose `python3` is too old for our module.
 const PYTHONS: [&str; 6] = ["python3", "python", "python3.14", "python3.13", "python3.12", "python3.11"];
 
 /// Succeeds in a Python for which our module is built, and that can make an environment.
@@ -27,11 +27,11 @@ const NEW_ENOUGH: &str = "import sys, venv, ensurepip; assert sys.version_info >
 /// Succeeds in the one Python for which Blender's module is built, if it can make an environment.
 const BLENDERS: &str = "import sys, venv, ensurepip; assert sys.version_info[:2] == (3, 11)";
 
-/// What the tests of exports read them with, beside numpy and h5py, as far as it is small; a test whose library is missing says so.
+/// Small packages that the tests of exports read files with, beside numpy and h5py; a test whose library is missing reports it.
 const READERS: [&str; 4] = ["pillow", "pycocotools", "OpenEXR", "webdataset"];
 
 /// The Python that [`VARIABLE`] names, else one made below the target folder with h5py and [`READERS`]; where these cannot be had, the
-/// system's if it has h5py, else one made with h5py alone.
+/// system's if it has h5py, else one made with only h5py.
 ///
 /// # Errors
 /// On an unattended machine, when none can be had; elsewhere that is reported, and `None`.
@@ -113,7 +113,7 @@ pub fn made(house: &House, name: &str, imports: &str, packages: &[&str]) -> Resu
     fill(house, python, &folder, &own, packages)
 }
 
-/// Where the virtual environment of that name is, and the Python in it.
+/// Path of the virtual environment of that name, and of the Python in it.
 fn place(house: &House, name: &str) -> Result<(PathBuf, PathBuf), String> {
     let folder = house.target()?.join(name);
     let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });

@@ -7,7 +7,7 @@ use crate::house::House;
 use crate::python;
 use crate::step::finish;
 
-/// What reads beside us, at the versions that the explanations were verified with; then what these need to read all that they can.
+/// Other readers, at the versions that the explanations were verified with; then their optional dependencies.
 const PACKAGES: [&str; 12] = [
     "usd-core==26.11",
     "trimesh==5.2.0",
@@ -23,7 +23,7 @@ const PACKAGES: [&str; 12] = [
     "scipy",
 ];
 
-/// Reads and compares the files below the folder that is named first; the other words go on to the program (`--help` lists them).
+/// Reads and compares the files below the folder that is named first; the other words are passed to the program (`--help` lists them).
 ///
 /// # Errors
 /// When something cannot be built or installed, or readers differ where nothing explains it.

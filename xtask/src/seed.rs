@@ -1,7 +1,7 @@
-//! `docs/seed.md`: every file, symbol, test and law that its tables name is there.
+//! `docs/seed.md`: checks that every file, symbol, test and law named in its tables exists.
 //!
 //! A row is `| statement | where | test | departure |`. *Where* has files, each followed by the symbols it declares; `explore/carve/mod.rs`
-//! is `crates/explore/src/carve/mod.rs`, `training/…` lies below `training/enfilade_training`. *Test* has names, followed by the crate or
+//! is `crates/explore/src/carve/mod.rs`, `training/…` is below `training/enfilade_training`. *Test* has names, followed by the crate or
 //! folder of them in parentheses. A departure may name laws and tests.
 
 use crate::house::House;
@@ -15,7 +15,7 @@ const KEYWORDS: [&str; 10] = ["fn", "struct", "enum", "trait", "const", "static"
 /// Fails with every name that leads nowhere.
 ///
 /// # Errors
-/// When a row names what is not there, or something cannot be read.
+/// If a row names something that does not exist, or something cannot be read.
 pub fn check(house: &House) -> Result<String, String> {
     let page = house.read(PAGE)?;
     let rows: Vec<(usize, &str)> = (1..).zip(page.lines()).filter(|(_, line)| line.starts_with("| (")).collect();
@@ -26,7 +26,7 @@ pub fn check(house: &House) -> Result<String, String> {
     if problems.is_empty() { Ok(format!("{} statements", rows.len())) } else { Err(problems.join("\n")) }
 }
 
-/// What is wrong with a row.
+/// The problems of a row.
 fn problems(house: &House, row: &str) -> Vec<String> {
     let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
     let [statement, places, tests, departure] = cells[..] else {
@@ -44,7 +44,7 @@ fn problems(house: &House, row: &str) -> Vec<String> {
     found
 }
 
-/// Files that are not there, and symbols that their files do not declare.
+/// Files that do not exist, and symbols that their files do not declare.
 fn missing_places(house: &House, cell: &str) -> Vec<String> {
     let (mut found, mut last): (Vec<String>, Option<(&str, String)>) = (Vec::new(), None);
     for (name, _) in quoted(cell) {
@@ -86,7 +86,7 @@ fn missing_tests(house: &House, cell: &str, from: usize) -> Vec<String> {
     found
 }
 
-/// Laws that `verify` does not have: names in CamelCase of cells that speak of laws.
+/// Laws that `verify` does not have: names in CamelCase in cells that mention laws.
 fn missing_laws(house: &House, cell: &str) -> Vec<String> {
     let Some((_, laws)) = cell.split_once("Law") else { return Vec::new() };
     let text = house.read(LAWS).unwrap_or_default();
@@ -95,7 +95,7 @@ fn missing_laws(house: &House, cell: &str) -> Vec<String> {
     quoted(laws).map(|(name, _)| name).filter(is_law).filter(missing).map(|name| format!("{LAWS} has no law {name}")).collect()
 }
 
-/// What stands in backticks, each with the text behind it.
+/// The texts in backticks, each with the text after it.
 fn quoted(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     let mut rest = cell;
     std::iter::from_fn(move || {
@@ -106,7 +106,7 @@ fn quoted(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     })
 }
 
-/// Where a file or folder lies that the page names in short.
+/// Path of a file or folder that the page abbreviates.
 fn place(root: &Path, name: &str) -> PathBuf {
     let in_root = ["docs/", "examples/", "xtask/"].iter().any(|folder| name.starts_with(folder));
     match name.split_once('/') {

@@ -23,7 +23,7 @@ fn tokens(expression: &str) -> Vec<String> {
     spaced.split_whitespace().map(str::to_string).collect()
 }
 
-/// Reads tokens from left to right; each method gives `None` where it cannot go on.
+/// Reads tokens from left to right; each method returns `None` if it cannot continue.
 struct Parser<'a> {
     tokens: Peekable<IntoIter<String>>,
     allowed: &'a [String],

@@ -1,4 +1,4 @@
-//! A step: something to do, told before, timed after.
+//! A step: a task that is announced before it runs and timed.
 
 use crate::house::House;
 use std::process::Command;
@@ -6,21 +6,21 @@ use std::time::Instant;
 
 /// One thing to do.
 pub struct Step {
-    /// What to call it on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// What it makes sure of.
+    /// What it ensures.
     pub about: &'static str,
-    /// What to do when it fails.
+    /// What to do if it fails.
     pub remedy: &'static str,
-    /// Does it. Gives a remark, or nothing; an error says what was found.
+    /// Runs the step. Returns a remark, or an empty text; an error is the problem found.
     pub run: fn(&House) -> Result<String, String>,
 }
 
 impl Step {
-    /// Does it, and says so.
+    /// Runs the step and prints its progress.
     ///
     /// # Errors
-    /// With the step's name, what was found and what to do.
+    /// With the step's name, the problem found and what to do.
     pub fn take(&self, house: &House) -> Result<(), String> {
         println!("\n== {}: {}", self.name, self.about);
         let start = Instant::now();
@@ -50,7 +50,7 @@ pub fn choose<'a>(steps: &'a [Step], names: &[&str]) -> Result<Vec<&'a Step>, St
     Ok(steps.iter().filter(|step| names.is_empty() || names.contains(&step.name)).collect())
 }
 
-/// Runs a program to its end, its output going where ours goes. Gives no remark.
+/// Runs a program to its end, its output going where ours goes. Returns an empty remark.
 ///
 /// # Errors
 /// When it cannot be started or does not end well.

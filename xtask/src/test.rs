@@ -8,7 +8,7 @@ use std::process::Command;
 /// Asks the tests for their long searches too; `enfilade-testkit` reads it.
 const ALL: &str = "ENFILADE_ALL_TESTS";
 
-/// All steps, in the order in which a failure tells most.
+/// All steps, in the order in which a failure is most informative.
 const STEPS: [Step; 5] = [
     Step { name: "build", about: "the tests and the programs that they run build", remedy: "fix what the messages above show", run: build },
     Step {
@@ -37,8 +37,8 @@ const STEPS: [Step; 5] = [
     },
 ];
 
-/// What is tested, and with which features: the same for every step, so that everything is built once. On unattended machines the program
-/// that `cargo xtask fuzz --as-tested` searches with is built among the tests.
+/// The cargo command with the packages and features to test: the same for every step, so that everything is built once. On unattended
+/// machines the program of `cargo xtask fuzz --as-tested` is built with the tests.
 fn cargo(house: &House, arguments: &[&str]) -> Command {
     let mut command = house.cargo(arguments);
     command.args(["--workspace", "--locked"]);
@@ -48,7 +48,7 @@ fn cargo(house: &House, arguments: &[&str]) -> Command {
     command
 }
 
-/// What runs tests: nextest where it is installed. Examples, which `check` looks at, are not linked for it.
+/// The test runner: nextest if it is installed. Examples, which `check` covers, are not linked for it.
 fn runner(house: &House) -> &'static [&'static str] {
     match house.has_cargo_command("nextest") {
         true => &["nextest", "run", "--tests"],

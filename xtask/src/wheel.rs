@@ -1,7 +1,7 @@
-//! `cargo xtask python`: the module as users get it, by `pip install .`, beside the libraries that they have.
+//! `cargo xtask python`: the module as users install it, by `pip install .`, with the libraries that they use.
 //!
 //! The tests that need torch run here: its DataLoader, the notebooks, and those of `training/`. Everything is installed below the target
-//! folder, which takes about 6 GB. Where that is impossible, it is a failure on unattended machines and told elsewhere.
+//! folder, which takes about 6 GB. If that is impossible, it is a failure on unattended machines and a remark elsewhere.
 
 use crate::house::House;
 use crate::python;
@@ -9,7 +9,7 @@ use crate::step::{Step, choose, finish};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What is installed beside the module.
+/// Packages installed beside the module.
 const PACKAGES: [(&str, &str); 9] = [
     ("numpy", "2.4.6"),
     ("h5py", "3.16.0"),
@@ -122,7 +122,7 @@ fn unittest(house: &House, folder: &str, modules: &[&str]) -> Result<String, Str
 fn types(house: &House) -> Result<String, String> {
     let tests = house.root.join("crates/python/tests");
     let mut command = interpreter(house, "types", &tests)?;
-    // Stubs of the sources would be those of another module than the installed one.
+    // The stubs in the sources would belong to another module than the installed one.
     command.env_remove("PYTHONPATH").arg(tests.join("check_types.py"));
     finish(command)
 }

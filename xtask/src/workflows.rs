@@ -8,10 +8,10 @@ use std::process::{Command, Stdio};
 /// The scripts that workflows call.
 const SCRIPTS: &str = "packaging";
 
-/// Runs both where they are installed.
+/// Runs both if they are installed.
 ///
 /// # Errors
-/// When one of them finds something, or the scripts cannot be listed.
+/// If one of them finds something, or the scripts cannot be listed.
 pub fn check(house: &House) -> Result<String, String> {
     let mut remarks = Vec::new();
     match is_installed("actionlint") {

@@ -22,7 +22,7 @@ impl Animation {
     /// Begins an animation of pictures of `size` (width, height), `fps` of them per second.
     ///
     /// # Errors
-    /// When the rate is no rate, or the format cannot hold pictures of that size.
+    /// When the rate is out of range, or the format cannot store pictures of that size.
     pub fn begin(format: AnimationFormat, size: (u32, u32), fps: f64) -> Result<Self, AnimationError> {
         if !(fps > 0.01 && fps <= 100.0) {
             return Err(AnimationError::Rate(fps));
@@ -38,7 +38,7 @@ impl Animation {
         Ok(Self { size, encoder })
     }
 
-    /// Adds a picture that stands for `times` times the duration of one; at least once.
+    /// Adds a picture that is shown for `times` frame durations, at least one.
     ///
     /// # Errors
     /// When it has another size than the animation, or the encoder refuses.

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 const STILLS_PER_SECOND: f64 = 5.0;
 /// Frames that are made ready while their predecessors are encoded, which bounds the memory.
 const BATCH: usize = 8;
-/// Values that a range is measured from, at most: enough for percentiles that no eye can tell from the exact ones.
+/// Values that a range is measured from, at most: enough for percentiles that look the same as the exact ones.
 const RANGE_SAMPLES: usize = 4_000_000;
 
 /// Something of frames that can be animated: a layer, or a preview made of several.
@@ -52,7 +52,7 @@ fn stem(name: &str) -> &str {
     name.split_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// How an animation is made.
+/// The settings of an animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnimateConfig {
     /// The form of the files.
@@ -87,12 +87,12 @@ pub enum AnimateError {
         scene: String,
         /// Name of the camera.
         camera: String,
-        /// What is wrong.
+        /// The fault.
         source: AnimationError,
     },
 }
 
-/// No frame of a camera has what a film shows.
+/// No frame of a camera has the layers of a film.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{scene}/{camera} has no frame with {}", layers.join(", "))]
 pub struct NoFrames {
@@ -115,9 +115,9 @@ struct Shot<'a> {
 /// Writes `<scene>_<camera>_<name>.<format>` to `folder` for each film of which any frame has the layers, and returns what came of each in
 /// that order.
 ///
-/// Every film has one exposure and one range for all frames, but `tonemap`, which is Hypersim's and has that of each frame. All begin with
-/// the first frame of the camera, or of either camera of a rig. A frame that is missing leaves its time to the one before, and at the
-/// beginning to the one after.
+/// Every film has one exposure and one range for all frames, except `tonemap`, Hypersim's tone mapping, which has its own for each frame.
+/// All begin with the first frame of the camera, or of either camera of a rig. The time of a missing frame is given to the one before, or
+/// at the beginning to the one after.
 ///
 /// # Errors
 /// When something cannot be read, encoded or written.
@@ -160,11 +160,11 @@ impl Shot<'_> {
         Ok(numbers.iter().chain(&beside).copied().min().unwrap_or(0))
     }
 
-    /// A video keeps the time that it was planned for. Where no plan says what a trajectory is, less than a second between frames makes it
-    /// a video: Hypersim's have one.
+    /// A video keeps its planned timing. A trajectory without a plan counts as a video if its frames are less than a second apart;
+    /// Hypersim's are one second apart.
     fn pictures_per_second(&self) -> Result<f64, DatasetError> {
         let stereo = self.dataset.read_stereo(self.scene, self.camera)?;
-        // The plan of a rig is that of its left camera.
+        // A rig's plan is its left camera's.
         let right = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
         let planned = right.map_or(self.camera, |stereo| stereo.partner.as_str());
         let plan = Report::read(&self.dataset.layout().plan_report(self.scene, planned)).filter(|plan| !plan.mode.is_empty());

@@ -1,4 +1,4 @@
-//! The forms of an animation: what each holds, and why one cannot be made.
+//! The formats of an animation: what each stores, and why one cannot be made.
 
 /// The form of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ pub enum AnimationError {
     Encoder {
         /// Name of the format.
         format: &'static str,
-        /// What the library says.
+        /// The library's message.
         message: String,
     },
 }

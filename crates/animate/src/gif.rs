@@ -34,7 +34,7 @@ impl Gif {
             }
             None => reduce(rgb, self.size).map_err(refused(AnimationFormat::Gif))?,
         };
-        // Hundredths of a second are whole numbers: what one picture lasts too long, a later one lasts less.
+        // Hundredths of a second are whole numbers: if one picture lasts too long, a later one is shorter.
         let at = |time: u32| (f64::from(time) * self.hundredths).round();
         let delay = at(self.written + times) - at(self.written);
         let frame = Frame {

@@ -11,13 +11,13 @@ use openh264::formats::{RgbSliceU8, YUVBuffer};
 
 /// The shortest side that H.264 is encoded with here: one block.
 const SHORTEST_SIDE: usize = 16;
-/// Pictures from one that stands alone to the next, so that players can jump.
+/// Interval of key frames (decoded without others), in pictures, so that players can seek.
 const PICTURES_PER_KEY: u32 = 30;
 
 /// H.264 in MP4, with the library's constant quantisation of 26, which is good to the eye.
 ///
-/// Pictures of odd sizes are continued by one more row or column of the same, because colour is stored for 2 × 2 pixels, and those
-/// smaller than a block are filled up to one. What stands for several pictures is repeated, so that the rate is constant.
+/// Pictures of odd sizes are padded by repeating the last row or column, because colour is stored for 2 × 2 pixels, and those smaller than
+/// a block are padded to one. A picture that lasts for several is repeated, so that the rate is constant.
 pub(crate) struct Mp4 {
     /// Size of the pictures that are added.
     size: [usize; 2],
@@ -34,7 +34,7 @@ impl Mp4 {
     pub fn begin((width, height): (u32, u32), fps: f64) -> Result<Self, AnimationError> {
         let size = [width as usize, height as usize];
         let coded = size.map(|n| n.next_multiple_of(2).max(SHORTEST_SIDE));
-        // The conversion is that of BT.601, whatever the size; the rest is sRGB as it was.
+        // The conversion follows BT.601, whatever the size; the rest is sRGB as before.
         let color = VuiConfig::new()
             .color_primaries(ColorPrimaries::Bt709)
             .transfer_characteristics(TransferCharacteristics::Srgb)

@@ -43,7 +43,7 @@ fn decode_gif(bytes: &[u8]) -> Decoded {
     (pictures, times)
 }
 
-/// The content of the first box of that name, wherever it stands.
+/// The content of the first box of that name, anywhere in the file.
 fn find_box<'a>(bytes: &'a [u8], name: &[u8; 4]) -> &'a [u8] {
     let at = bytes.windows(4).position(|w| w == name).unwrap();
     let length = u32::from_be_bytes(bytes[at - 4..at].try_into().unwrap()) as usize;

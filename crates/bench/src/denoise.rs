@@ -1,4 +1,4 @@
-//! What denoising gains: error with and without it, for several ways of guiding the filter.
+//! Measures the error with and without denoising, for several ways of guiding the filter.
 //!
 //! `denoise [SCENE | home]… [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per pixel, and
 //! twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two

@@ -1,5 +1,5 @@
-//! `faults [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and says what had to be moved, what had to be
-//! removed and why, what is wrong, how much processor time they took and how large they are. With `--random-rooms` each has one to
+//! `faults [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and reports what had to be moved, what had to
+//! be removed and why, which faults remain, how much processor time they took and how large they are. With `--random-rooms` each has one to
 //! twelve rooms of any kinds, which its seed decides.
 
 use enfilade_furniture::family_of;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Shifts by more than this are shown, metres.
 const FAR: f32 = 0.03;
 
-/// How often each of some things was seen.
+/// Number of occurrences by name.
 type Counts = BTreeMap<String, usize>;
 
 /// Runs the instrument.

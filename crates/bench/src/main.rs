@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p enfilade-bench -- NAME [ARGUMENTS]
 //!
-//! runs one of [`INSTRUMENTS`]; its module says what its arguments are. `cargo xtask bench` runs those that measure, and fetches what they
+//! runs one of [`INSTRUMENTS`]; its module documents its arguments. `cargo xtask bench` runs those that measure, and fetches what they
 //! compare with.
 
 mod against_reference;
@@ -30,14 +30,14 @@ mod vray_oracle;
 use std::error::Error;
 use std::process::ExitCode;
 
-/// What an instrument may end with.
+/// The result of an instrument.
 type Outcome = Result<(), Box<dyn Error>>;
 
 /// An instrument.
 struct Instrument {
     /// The word that runs it.
     name: &'static str,
-    /// What it measures or makes.
+    /// Description of what it measures or makes.
     about: &'static str,
     /// Runs it with [`arguments::arguments`].
     run: fn() -> Outcome,

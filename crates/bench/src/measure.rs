@@ -1,11 +1,11 @@
 //! Renders a scene through its own camera and writes the colour as a NumPy array: our side of `cargo xtask oracle`, `bench render` and
 //! `bench cycles`.
 //!
-//! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]` renders N pictures (default 1), whose
-//! seeds count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of
-//! `RenderConfig`; what it leaves out has its default. The array is float32, N × height × width × 3, linear; with `--denoise` there
-//! follow as many denoised pictures, made as a dataset's are. One line of JSON tells the denoiser, and the processor seconds (user and
-//! system, all threads) of loading, the denoiser's included, of learning where light comes from, of rendering, and of denoising.
+//! `measure SCENE --size WIDTHxHEIGHT [--config JSON] [--seeds N] [--denoise] [--out FILE.npy]` renders N pictures (default 1), whose seeds
+//! count upward from the configuration's, with every layer, as a dataset's frames are. `--config` holds fields of `RenderConfig`; what it
+//! leaves out has its default. The array is float32, N × height × width × 3, linear; with `--denoise` as many denoised pictures follow,
+//! made as a dataset's are. One line of JSON reports the denoiser and the processor seconds (user and system, all threads) of loading (with
+//! the denoiser), of learning where light comes from, of rendering, and of denoising.
 
 use anyhow::{Context, Result, bail};
 use enfilade_denoise::{Denoiser, denoise};
@@ -16,7 +16,7 @@ use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, StartCamera};
 use std::path::PathBuf;
 
-/// What to render.
+/// The rendering job.
 struct Job {
     scene: PathBuf,
     size: (u32, u32),
@@ -96,7 +96,7 @@ fn arguments() -> Result<Job> {
     Ok(job)
 }
 
-/// What denoises the pictures that users get.
+/// The denoiser of the pictures that users get.
 fn denoiser() -> Denoiser {
     Denoiser::built_in()
 }

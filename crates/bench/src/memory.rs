@@ -1,10 +1,10 @@
-//! What a large scene takes: a million triangles under eight textures of 4096×4096, from the OBJ file to a finished dataset.
+//! The memory that a large scene takes: a million triangles under eight textures of 4096×4096, from the OBJ file to a finished dataset.
 //!
 //! `memory [--triangles N] [--textures N] [--side N]` writes a rolling floor and a lamp above it to a scratch folder, runs every stage
-//! on it with one frame of 640×480 at 4 samples, and prints the most memory that the process has held after each step.
+//! on it with one frame of 640×480 at 4 samples, and prints the peak memory of the process after each step.
 //!
-//! `memory --copies N [--triangles N] [--apart]` renders such a frame of a ball that stands in N places under the sky, each with a mesh
-//! of its own where they are `--apart`.
+//! `memory --copies N [--triangles N] [--apart]` renders such a frame of N copies of a ball under the sky. With `--apart` each copy has its
+//! own mesh.
 
 use anyhow::{Context, Result, bail};
 use enfilade_geometry::Mesh;
@@ -75,7 +75,7 @@ pub fn run() -> Result<()> {
     Ok(())
 }
 
-/// One frame of a ball of about `triangles` triangles that stands in `copies` places.
+/// Renders one frame of `copies` copies of a ball of about `triangles` triangles.
 fn render_copies(triangles: u32, copies: u32, apart: bool) -> Result<()> {
     let rows = f64::from(triangles / 4).sqrt().ceil() as u32;
     let ball = ball(rows);
@@ -150,7 +150,7 @@ fn write_scene(folder: &Path, rows: u32, textures: u32) -> Result<()> {
     Ok(std::fs::write(folder.join("scene.obj"), obj)?)
 }
 
-/// The most memory that this process has held so far, in megabytes (10⁶ bytes).
+/// The peak memory of this process so far, in megabytes (10⁶ bytes).
 fn most_memory_mb() -> Result<u64> {
     let status = std::fs::read_to_string("/proc/self/status").context("only Linux tells a process's memory here")?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:")).context("no VmHWM in /proc/self/status")?;

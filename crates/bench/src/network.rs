@@ -1,10 +1,11 @@
-//! What the network in the binary costs.
+//! Time that the network in the binary takes, and the differences between sets of instructions.
 //!
-//! `network [--quick] [--keep FOLDER] [COLOR.pfm NORMAL.pfm]…` filters each picture, or one that it makes up, with every set of instructions
-//! of this processor (`--quick`: without the portable ones): three times each in turn, or once what takes longer than five seconds. It prints
-//! the least seconds of user and system time, a hash of the bytes, and the difference to the first row: the mean of |a − b| over the mean of
-//! |b|, and the greatest |a − b| over |b| and a hundredth of that mean. With `--keep` the last picture, its normals and what the first set
-//! made of it are left as `color.pfm`, `normal.pfm` and `ours.pfm`, for `xtask/python/library.py`, which compares them with the library.
+//! `network [--quick] [--keep FOLDER] [COLOR.pfm NORMAL.pfm]…` filters each picture, or one that it makes up, with every set of
+//! instructions of this processor (`--quick`: without the portable ones): three times each, in turn, or once if one run takes longer than
+//! five seconds. It prints the least user and system time in seconds, a hash of the bytes, and the difference from the first row: the mean
+//! of |a − b| over the mean of |b|, and the greatest |a − b| over |b| plus a hundredth of that mean. With `--keep` the last picture, its
+//! normals and the first set's output are left as `color.pfm`, `normal.pfm` and `ours.pfm`, for `xtask/python/library.py`, which compares
+//! them with the library.
 
 use enfilade_denoise::{Denoiser, Instructions, Noisy};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -58,7 +59,7 @@ pub fn run() -> Result<()> {
     Ok(())
 }
 
-/// Gives what the first of the denoisers made.
+/// Returns the output of the first of the denoisers.
 fn measure(color: &Picture, normal: &Picture, denoisers: &[(&str, Denoiser)]) -> Vec<f32> {
     let white = vec![1.0; color.values.len()];
     let noisy = Noisy { width: color.width, height: color.height, color: &color.values, albedo: &white, normal: &normal.values };
@@ -142,7 +143,7 @@ fn read(path: &str) -> Result<Picture> {
     Ok(Picture { width, height, values: values.chunks_exact(3 * width as usize).rev().flatten().copied().collect() })
 }
 
-/// Writes what [`read`] reads.
+/// Writes a file that [`read`] can read.
 fn write(path: &Path, picture: &Picture) -> Result<()> {
     let mut bytes = format!("PF\n{} {}\n-1\n", picture.width, picture.height).into_bytes();
     let rows = picture.values.chunks_exact(3 * picture.width as usize).rev();

@@ -1,4 +1,4 @@
-//! `plans [FIRST] [COUNT] -o FILE.svg [--rooms a,b,c]` draws floor plans of consecutive seeds from above, with what stands in them.
+//! `plans [FIRST] [COUNT] -o FILE.svg [--rooms a,b,c]` draws floor plans of consecutive seeds from above, with the furniture in them.
 
 use enfilade_home::room::{Filling, Room, Wall};
 use enfilade_home::{FloorPlan, Home, HomeConfig, RoomKind, home};

@@ -11,7 +11,7 @@ use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::ops::Range;
 
-/// Horizontal field of view, radians: that of a long lens, which keeps proportions (32 degrees).
+/// Horizontal field of view of a long lens, which keeps proportions: 32 degrees, in radians.
 const FOV_X_RAD: f32 = 0.56;
 /// Width of a picture over its height.
 const ASPECT: f32 = 4.0 / 3.0;

@@ -69,7 +69,7 @@ fn frames(folder: &Path) -> Result<Vec<Dataset>> {
     Ok(datasets)
 }
 
-/// The ways of storing that are compared: ours, what it was, and what is different in each of the others.
+/// The compared ways of storing: ours, the former one, and others that differ in one respect each.
 fn ways(layer: Layer) -> Vec<(&'static str, Storage)> {
     let ours = Packing::of_layer(layer);
     let mut ways = vec![

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// What stands in the archive for the folder that it was made in; the tests put theirs in its place.
+/// Placeholder in the archive for the folder that it was made in; the tests replace it by their own folder.
 const FOLDER: &str = "{FOLDER}";
 
 /// Runs the instrument.

@@ -11,7 +11,7 @@ use enfilade_math::{DMat3, DVec3, Rgb, Rng, Vec2, Vec3};
 use enfilade_scene::{Environment, Light, Material, Scene, StartCamera, to_bytes};
 use std::path::Path;
 
-/// What stands before the panels.
+/// The body in front of the panels.
 #[derive(Clone, Copy, PartialEq)]
 enum Body {
     Ball,
@@ -19,7 +19,7 @@ enum Body {
     Leaf,
 }
 
-/// A sheet: its name, its last finish, the side of its panels in metres, what stands before them.
+/// A sheet: its name, its last finish, the side of its panels in metres, the body in front of them.
 const SHEETS: [(&str, Finish, f32, Body); 7] = [
     ("floors_and_walls", Finish::Coir, 1.7, Body::Ball),
     ("wood_and_stone", Finish::Terracotta, 0.7, Body::Ball),

@@ -13,9 +13,9 @@
 //! | masked | thresholded into `mask`; blended: `mask` |
 //! | normal map, bump map | the same |
 //!
-//! Textured roughness, metalness and transmission become their means; clear-coat, sheen, absorption and the sun's disk are
-//! dropped; emitters shine on their front. Spots fall off along a line in the angle, and the rows of environment maps move by up to
-//! half of one, for there the first and the last lie on the poles.
+//! Textured roughness, metalness and transmission become their means; clear-coat, sheen, absorption and the sun's disk are dropped;
+//! emitters shine on their front. Spots fall off along a line in the angle, and the rows of environment maps move by up to half a row,
+//! because Mitsuba's first and last rows are on the poles.
 
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, place, srgb_from_linear};
@@ -322,7 +322,7 @@ impl Writer<'_> {
     }
 }
 
-/// What a picture is used for, which says how it is stored.
+/// The use of a picture, which determines how it is stored.
 enum Store {
     Reflectance,
     Radiance,

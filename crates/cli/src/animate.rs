@@ -1,4 +1,4 @@
-//! `animate`: from arguments to calls of the crate `animate`, and what came of them.
+//! `animate`: from arguments to calls of the crate `animate`, and their output.
 
 use crate::args::AnimateArgs;
 use crate::outcome::{Problem, Verdict, say};

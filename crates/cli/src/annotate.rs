@@ -35,7 +35,7 @@ pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
 }
 
 impl ListenArgs {
-    /// Where to listen, and what to do then.
+    /// The address to listen on, and what to do once the server listens.
     pub fn listen(&self) -> Listen {
         Listen { address: self.host, port: self.port, token: self.token, open: !self.no_open }
     }

@@ -7,7 +7,7 @@ use enfilade_dataset::Price;
 use enfilade_pipeline::{Config, Expected, Forecast};
 use std::path::Path;
 
-/// Forecasts the run, and says it.
+/// Forecasts the run and prints the forecast.
 pub fn estimate(config: &Config, out: &Path, pattern: Option<&str>, price: Option<&str>, quiet: bool) -> Result<Verdict, Problem> {
     let prices = prices(price)?;
     let (result, scenes) = {
@@ -50,7 +50,7 @@ fn paid(forecast: &Forecast, price: &Price) -> String {
     format!("{vcpu_hours} vCPU-hours, {}", told_price(price, &sum, hours.mean))
 }
 
-/// What is expected, and the interval.
+/// The expected value and its interval, in words.
 pub fn told(expected: &Expected, words: impl Fn(f64) -> String) -> String {
     let [low, high] = expected.interval();
     format!("{} ({} to {})", words(expected.mean), words(low), words(high))

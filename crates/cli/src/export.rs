@@ -1,10 +1,10 @@
-//! `export`: from arguments to a call of the crate `export`, and what came of it.
+//! `export`: from arguments to a call of the crate `export`, and its output.
 
 use crate::args::ExportArgs;
 use crate::make::cameras;
 use crate::outcome::{Problem, Verdict, say};
 use crate::progress::Progress;
-use enfilade_export::{CloudSource, Existing, ExportConfig, Format, Selection, export as export_dataset};
+use enfilade_export::{Existing, Format, Selection, export as export_dataset};
 
 /// `export`: the dataset in another layout.
 pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
@@ -12,12 +12,9 @@ pub fn export(args: &ExportArgs, quiet: bool) -> Result<Verdict, Problem> {
     let scenes = enfilade_pipeline::select("scene", &dataset.scenes()?, args.chosen.scene.as_deref())?;
     let cameras = cameras(&dataset, &scenes, args.chosen.camera.as_deref())?;
     let unknown = || Problem::new(format!("no format is named {:?}", args.format), "see `enfilade export --help`");
-    let config = ExportConfig {
-        format: Format::from_name(&args.format).ok_or_else(unknown)?,
-        selection: Selection { scenes, cameras, frames: args.chosen.frames.clone(), layers: args.layers.clone() },
-        shard_bytes: args.shard_mb * 1_000_000,
-        cloud: if args.cloud == "mesh" { CloudSource::Mesh } else { CloudSource::Frames },
-    };
+    let format = Format::from_name(&args.format).ok_or_else(unknown)?;
+    let frames = Selection { scenes, cameras, frames: args.chosen.frames.clone(), layers: None };
+    let config = args.options.options()?.config(format, frames)?;
     let existing = if args.force { Existing::SetAside } else { Existing::Refuse };
     let exported = {
         let progress = Progress::new(quiet);

@@ -36,7 +36,7 @@ pub fn pix3d(args: &ImportArgs) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// The file to write. There is no usual one: it lies among the images, or anywhere else.
+/// The file to write. It has no default: it may be among the images or anywhere else.
 fn pix3d_output(args: &ImportArgs) -> Result<&Path, Problem> {
     let root = args.input.display();
     if let Some(flag) = args.choices.first().or_else(|| args.check.then(|| "--check".into())) {

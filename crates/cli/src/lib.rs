@@ -1,8 +1,8 @@
 //! The command line `enfilade`: `run` makes datasets, `make` more of their frames, and the other verbs read them. It is a library since the Python package has it as well;
 //! `main.rs` is the program.
 //!
-//! Results go to standard output, progress and errors to standard error. Exit codes: 0 done, 1 something failed or a law does
-//! not hold, 2 the command or the configuration is wrong; of `farm work` also 65 and 75, see there.
+//! Results go to standard output, progress and errors to standard error. Exit codes: 0 done, 1 something failed or a law is violated, 2 the
+//! command or the configuration is wrong; `farm work` also has 65 and 75, see there.
 
 mod animate;
 mod annotate;
@@ -34,8 +34,8 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Does what the words of a command line say, of which the first is the program's name, and gives the exit code. `program` is the file to start
-/// again as this program, for jobs of Slurm; `None` takes `enfilade` from the PATH of the nodes.
+/// Runs a command line, whose first word is the program's name, and returns the exit code. `program` is the executable that jobs of Slurm
+/// start; with `None` it is `enfilade` from the PATH of the nodes.
 pub fn main(words: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     words.iter().take(1).for_each(|word| summary::called(word));
@@ -96,7 +96,7 @@ fn start(cli: &Cli) -> Result<Verdict, Problem> {
     }
 }
 
-/// Starts the threads that work is shared among, one per processor unless told otherwise. Begun later, their failure would be a panic.
+/// Starts the threads that share the work, by default one per processor. Later, a failure to start them would be a panic.
 fn start_threads(count: Option<usize>) -> Result<(), Problem> {
     let built = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0)).build_global();
     built.map_err(|error| {

@@ -1,4 +1,4 @@
-//! How a verb ends, and how it speaks.
+//! The outcomes of a verb, and its output and messages.
 
 use enfilade_pipeline::{Failure, ProductOutcome};
 use std::io::{ErrorKind, Write};
@@ -7,12 +7,12 @@ use std::sync::OnceLock;
 /// Why standard output could not be written to, the first time that it could not.
 static UNSAID: OnceLock<String> = OnceLock::new();
 
-/// How a verb that could do its work ends.
+/// The outcome of a verb that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// All is well.
     Done,
-    /// A scene failed, or a law does not hold; what it was has been said.
+    /// A scene failed, or a law is violated; the reason has been printed.
     Failed,
     /// A worker of a farm could not do its tasks, and no other could (EX_DATAERR).
     Permanent,
@@ -75,13 +75,13 @@ impl Problem {
         Some(Self { message, hint: hint.clone(), usage: false })
     }
 
-    /// Says it on standard error.
+    /// Prints it on standard error.
     pub fn print(&self) {
         let mut text = format!("error: {}\n", self.message);
         if let Some(hint) = &self.hint {
             text.push_str(&format!("help: {hint}\n"));
         }
-        let _ = std::io::stderr().write_all(text.as_bytes()); // nobody left to tell
+        let _ = std::io::stderr().write_all(text.as_bytes()); // nowhere left to report it
     }
 }
 
@@ -126,17 +126,17 @@ impl From<enfilade_serve::ServeError> for Problem {
     }
 }
 
-/// Writes lines to standard output; [`unsaid`] tells whether that was possible.
+/// Writes lines to standard output; [`unsaid`] reports whether that was possible.
 pub fn say(text: &str) {
     note(writeln!(std::io::stdout(), "{text}"));
 }
 
-/// Keeps in mind that something could not be written to standard output. A reader that has gone away is no error.
+/// Records that something could not be written to standard output. A reader that has gone away is no error.
 pub fn note(written: std::io::Result<()>) {
     if let Err(error) = written
         && error.kind() != ErrorKind::BrokenPipe
     {
-        let _ = UNSAID.set(error.to_string()); // the first one tells why
+        let _ = UNSAID.set(error.to_string()); // the first error is the cause
     }
 }
 
@@ -146,7 +146,7 @@ pub fn unsaid() -> Option<Problem> {
     Some(Problem::of_data(format!("cannot write the output: {error}"), "free some space, or send standard output elsewhere"))
 }
 
-/// Says on standard error what is wrong but stops nothing.
+/// Prints a warning on standard error.
 pub fn warn(text: &str) {
-    let _ = writeln!(std::io::stderr(), "warning: {text}"); // nobody left to tell
+    let _ = writeln!(std::io::stderr(), "warning: {text}"); // nowhere left to report it
 }

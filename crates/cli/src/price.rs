@@ -9,19 +9,19 @@ pub fn prices(given: Option<&str>) -> Result<Vec<Price>, Problem> {
     given.map_or_else(|| Ok(vec![Price::default()]), read)
 }
 
-/// What processor time costs at a price.
+/// The cost of processor time at a price, in words.
 pub fn paid(price: &Price, vcpu_hours: f64) -> String {
     told_price(price, &dollars(price.dollars(vcpu_hours)), vcpu_hours)
 }
 
-/// A `sum` of dollars with the price that it is at, and what of it goes to each rate where there are several.
+/// A `sum` of dollars with its price, and the share of each rate if there are several.
 pub fn told_price(price: &Price, sum: &str, vcpu_hours: f64) -> String {
     let parts: Vec<String> = price.parts(vcpu_hours).iter().map(|(rate, part)| format!("{} for {rate}", dollars(*part))).collect();
     let parts = if parts.is_empty() { String::new() } else { format!(": {}", parts.join(", ")) };
     format!("{sum} dollars at {} ({}){parts}", price.rates(), price.name)
 }
 
-/// Dollars, small sums to two digits that say something.
+/// Dollars, small sums to two significant digits.
 pub fn dollars(sum: f64) -> String {
     match sum {
         d if d >= 0.1 || d <= 0.0 => format!("{d:.2}"),

@@ -1,4 +1,4 @@
-//! What a run says while it goes on: a live line on a terminal, plain lines at intervals anywhere else.
+//! Progress of a run: a live line on a terminal, plain lines at intervals anywhere else.
 
 use enfilade_pipeline::{Event, Product, Reporter, Stage};
 use enfilade_scene::{Cx, Warning};
@@ -184,7 +184,7 @@ impl State {
         }
     }
 
-    /// Says how many warnings were not shown.
+    /// Prints how many warnings were not shown.
     fn count_the_rest(&mut self) {
         let more = self.warnings.saturating_sub(WARNINGS_SHOWN);
         if more > 0 {
@@ -205,7 +205,7 @@ impl State {
         match &self.bar {
             Some(bar) => bar.println(text),
             None => {
-                let _ = writeln!(std::io::stderr(), "{text}"); // nobody left to tell
+                let _ = writeln!(std::io::stderr(), "{text}"); // nowhere left to report it
             }
         }
     }
@@ -220,7 +220,7 @@ fn new_bar() -> ProgressBar {
     bar
 }
 
-/// Says where the work is whenever nothing was said for a while.
+/// Prints the state of the work whenever nothing was printed for a while.
 fn beat(state: &Mutex<State>, stopped: &Receiver<()>) {
     while stopped.recv_timeout(Duration::from_millis(500)) == Err(RecvTimeoutError::Timeout) {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);

@@ -5,9 +5,9 @@ use enfilade_dataset::{Dataset, WORKDIR};
 use enfilade_pipeline::Stage;
 use std::path::Path;
 
-/// Refuses `stage`, or a whole run, of datasets that others made: what it would write is there already, or needs what is not there.
+/// Refuses `stage`, or a whole run, of datasets that others made: its output exists already, or its inputs do not.
 pub fn refuse_released(folder: &Path, stage: Option<Stage>) -> Result<(), Problem> {
-    // Where the folder is no dataset, the stage says so.
+    // If the folder is no dataset, the stage reports that.
     let Ok(dataset) = Dataset::open(folder) else { return Ok(()) };
     let scenes = dataset.scenes()?;
     if scenes.is_empty() || !scenes.iter().all(|scene| dataset.is_released(scene)) || folder.join(WORKDIR).exists() {

@@ -63,7 +63,7 @@ fn folder_of_pictures(args: &RunArgs) -> Result<Option<&Path>, Problem> {
     }
 }
 
-/// What is to be made, and where.
+/// The configuration to run, and the output folder.
 fn asked_for(args: &RunArgs) -> Result<(Config, PathBuf), Problem> {
     if let Some(folder) = args.from.as_deref().filter(|from| from.is_dir()) {
         return Ok((made_before(args, folder)?, folder.to_path_buf()));
@@ -73,7 +73,7 @@ fn asked_for(args: &RunArgs) -> Result<(Config, PathBuf), Problem> {
     Ok((config, out))
 }
 
-/// The settings of the dataset in `folder`, with what the command line says otherwise.
+/// The settings of the dataset in `folder`, with the overrides of the command line.
 fn made_before(args: &RunArgs, folder: &Path) -> Result<Config, Problem> {
     refuse_released(folder, args.only.first().map(|&StageArg(stage)| stage))?;
     if args.output.is_some() {
@@ -91,7 +91,7 @@ fn made_before(args: &RunArgs, folder: &Path) -> Result<Config, Problem> {
     Ok(enfilade_pipeline::stored_config(folder, &overrides, args.scenes.as_deref())?)
 }
 
-/// The configuration of a file, or the demo's, with what the command line says otherwise.
+/// The configuration of a file, or the demo's, with the overrides of the command line.
 pub fn configuration(file: Option<&Path>, flags: &SettingFlags) -> Result<Config, Problem> {
     let overrides = flags.overrides()?;
     Ok(file.map_or_else(|| Config::demo(&overrides), |file| Config::read(file, &overrides))?)

@@ -19,7 +19,7 @@ pub fn completions(args: &CompletionsArgs) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// Writes a page for the program and one for each of its verbs, and says where.
+/// Writes a page for the program and one for each of its verbs, and prints their folder.
 fn manual(folder: &Path) -> Result<Verdict, Problem> {
     let written = std::fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(Cli::command(), folder));
     written

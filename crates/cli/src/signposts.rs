@@ -1,11 +1,12 @@
-//! Where a word leads that is no verb, noun or stage: what newcomers type, and names from elsewhere in the program.
+//! Suggestions for words that are no verb, noun or stage: what newcomers type, and names from elsewhere in the program.
 
-use crate::args::{StageArg, What};
+use crate::args::{StageArg, example};
 use crate::outcome::Problem;
 use clap::ValueEnum;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use enfilade_export::Format;
 use enfilade_frame::Layer;
+use enfilade_pipeline::Product;
 
 /// Words of people, and what they should have typed. Names of stages, nouns, layers and formats are known without being listed here.
 const WORDS: [(&[&str], &str); 28] = [
@@ -42,7 +43,7 @@ const WORDS: [(&[&str], &str); 28] = [
     (&["photo", "picture", "snapshot"], "enfilade look SCENE"),
 ];
 
-/// The problem to tell instead of clap's, where the word at fault is known.
+/// The problem to report instead of clap's, if the unknown word is in the table.
 pub fn of(error: &clap::Error) -> Option<Problem> {
     let text = |kind: ContextKind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),
@@ -66,8 +67,8 @@ fn leads_to(word: &str) -> Option<String> {
     if let Ok(StageArg(stage)) = StageArg::from_str(word, true) {
         return Some(format!("enfilade run OUT --only {}", stage.name()));
     }
-    if let Ok(what) = What::from_str(word, true) {
-        return Some(what.example());
+    if let Some(product) = Product::ON_REQUEST.into_iter().find(|product| product.name().eq_ignore_ascii_case(word)) {
+        return Some(example(product));
     }
     let lower = word.to_lowercase();
     let known = WORDS.iter().find(|(words, _)| words.contains(&lower.as_str())).map(|(_, command)| (*command).to_string());

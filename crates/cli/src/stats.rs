@@ -1,4 +1,4 @@
-//! `stats`: from arguments to a call of `show`'s statistics, and what came of it.
+//! `stats`: from arguments to a call of `show`'s statistics, and its output.
 
 use crate::args::StatsArgs;
 use crate::outcome::{Problem, Verdict, say};
@@ -32,7 +32,7 @@ pub fn stats(args: &StatsArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// What a dataset that cannot be read, or compared with, is told as.
+/// The problem to report when a dataset cannot be read, or compared with.
 fn problem(error: Error) -> Problem {
     match error {
         Error::Stage(inner) => match inner.downcast::<DatasetError>() {

@@ -1,4 +1,4 @@
-//! `suggest`: a label table from the names in a scene file, and what it leaves to people.
+//! `suggest`: a label table from the names in a scene file, and the parts that are left to people.
 
 use crate::args::SuggestArgs;
 use crate::outcome::{Problem, Verdict, say};

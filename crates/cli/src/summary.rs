@@ -42,7 +42,7 @@ pub fn print_failures(summary: &Summary) {
     }
 }
 
-/// What concerns the dataset as a whole, a line each.
+/// Prints the warnings about the dataset as a whole, one per line.
 pub fn print_warnings(summary: &Summary) {
     summary.warnings.iter().for_each(|warning| say(&format!("warning: {warning}")));
 }
@@ -64,7 +64,7 @@ fn result_of(scene: &SceneOutcome) -> String {
     format!("ok: {last}{warned} ({time})")
 }
 
-/// What is in the dataset at `out`, and where to look first.
+/// Prints what is in the dataset at `out`, and where to look first.
 ///
 /// # Errors
 /// When the dataset cannot be read.
@@ -110,7 +110,7 @@ pub fn print_where_to_look(out: &Path, summary: &Summary) -> Result<(), DatasetE
     Ok(())
 }
 
-/// What the program was called by.
+/// The name by which the program was called.
 static CALLED: OnceLock<String> = OnceLock::new();
 
 /// Keeps the first word of the command line, which advice begins with. Of an interpreter's process it is not the first.
@@ -123,7 +123,7 @@ fn program() -> String {
     quoted(CALLED.get().map_or("enfilade", String::as_str))
 }
 
-/// What to try after the demo.
+/// Prints what to try after the demo.
 pub fn print_after_demo() {
     let program = program();
     say(&format!("another room     {program} run --demo out2 --seed 7 --frames 8 --quality high"));

@@ -1,4 +1,4 @@
-//! What the verbs do that judge a dataset, divide it and ask it: arguments to calls of the pipeline and back to words.
+//! The verbs that verify, partition, inspect and replay a dataset: from arguments to calls of the pipeline and back to words.
 
 use crate::args::{InspectArgs, PartitionArgs, ReplayArgs, VerifyArgs};
 use crate::outcome::{Problem, Verdict, say};
@@ -23,14 +23,14 @@ pub fn verify(args: &VerifyArgs, quiet: bool) -> Result<Verdict, Problem> {
     if args.scene.is_none() {
         match write_report(&dataset, &report) {
             Ok(()) => say(&format!("see  {}", dataset.layout().verify_page().display())),
-            // Data of others may lie where nothing can be written.
+            // Other people's data may be in a folder where nothing can be written.
             Err(error) => say(&format!("warning: the card is not stored: {error}")),
         }
     }
     Ok(Verdict::of(if args.strict { report.accepted } else { report.passed }))
 }
 
-/// `partition`: who learns from what.
+/// `partition`: which frames are for learning, validation and testing.
 pub fn partition(args: &PartitionArgs) -> Result<Verdict, Problem> {
     let report = enfilade_pipeline::partition(&args.dataset, |config| {
         config.seed = args.seed.unwrap_or(config.seed);

@@ -1,6 +1,6 @@
-//! What a user's program makes of a frame on a node of a farm: a folder per frame, `_detail/<camera>/after_frame/frame.IIII/`.
+//! Output of a user's program for a frame on a node of a farm: a folder per frame, `_detail/<camera>/after_frame/frame.IIII/`.
 //!
-//! What is in it is the program's affair; here is only which files belong to it. It ceases to exist with its frame.
+//! The program decides the contents; this module only lists the files. The folder is removed with its frame.
 
 use crate::atomic::remove_folder;
 use crate::{Dataset, DatasetError, check_name};
@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 impl Dataset {
-    /// Makes the folder for what a program leaves of a frame, and empties it.
+    /// Makes the folder for a program's files of a frame, and empties it.
     ///
     /// # Errors
     /// When a name cannot be a folder's, or the folder cannot be made or emptied.
@@ -32,7 +32,7 @@ impl Dataset {
         Ok(files)
     }
 
-    /// Removes what a program has left of a frame, if there is anything.
+    /// Removes a program's files of a frame, if there are any.
     ///
     /// # Errors
     /// When it cannot be removed.

@@ -8,13 +8,13 @@ use std::io::{BufRead, BufReader, ErrorKind};
 /// Name of the log in the folder of labels: a first line about the scene, then a line per edit.
 pub const ANNOTATION_LOG: &str = "annotation_log.jsonl";
 
-/// What is read of the first line.
+/// The fields of the first line that are read.
 #[derive(Deserialize)]
 struct Header {
     scene_hash: String,
 }
 
-/// What tells a scene from others: the names of its parts, in order, and how many faces each has.
+/// Hash that identifies a scene: of the names of its parts, in order, and the number of faces of each.
 ///
 /// A BLAKE3 hash as hexadecimal text. Blanks at the ends of names do not count, since tables lose them.
 pub fn scene_hash<'a>(parts: impl IntoIterator<Item = (&'a str, usize)>) -> String {

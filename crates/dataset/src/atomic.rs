@@ -4,10 +4,10 @@ use crate::DatasetError;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// How temporary names end. They also begin with a dot, so that no loader's pattern matches them.
+/// Suffix of temporary names. They also begin with a dot, so that no loader's pattern matches them.
 const SUFFIX: &str = ".partial";
 
-/// Where the content of `path` lies until it is complete.
+/// The temporary path of the content of `path` until it is complete.
 pub(crate) fn temporary(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}{SUFFIX}"))
@@ -18,7 +18,7 @@ pub(crate) fn is_temporary(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(SUFFIX)
 }
 
-/// Makes the folder that `path` lies in.
+/// Creates the parent folder of `path`.
 pub(crate) fn create_parent(path: &Path) -> Result<(), DatasetError> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent).map_err(DatasetError::at("create the folder", parent))

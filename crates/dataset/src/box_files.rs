@@ -1,9 +1,8 @@
 //! The bounding boxes of semantic instances: three arrays per kind in the mesh folder, as Hypersim's toolkit writes them.
 //!
-//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in asset units (metres in our
-//! datasets), and `orientations` (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides.
-//! Everything is float64. Row 0, and the row of every number that no object has, holds +∞, as in Hypersim's files (its maintainer speaks
-//! of NaN).
+//! Row i is instance i: `positions` (n,3) are the centres, `extents` (n,3) the side lengths, both in asset units (metres in our datasets),
+//! and `orientations` (n,3,3) take box coordinates to the world, so that their columns are the directions of the sides. Everything is
+//! float64. Row 0, and the row of every number that no object has, contains +∞, as in Hypersim's files (its maintainer speaks of NaN).
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::{Dataset, DatasetError, check_name, replace_file};
@@ -67,10 +66,10 @@ impl Dataset {
             .try_for_each(|(path, array)| replace_file(path, |aside| write_array(aside, array, Storage::Contiguous, &[])))
     }
 
-    /// The boxes of a kind in metres; entry i is instance i. Where nothing says the unit, files of ours are taken to be in metres.
+    /// The boxes of a kind in metres; entry i is instance i. If the unit is not recorded, our own files are taken to be in metres.
     ///
     /// # Errors
-    /// When a file is missing or damaged, or the three do not belong together, and when nothing says the unit of a release.
+    /// When a file is missing or damaged, the three do not belong together, or the unit of a release is not recorded.
     pub fn read_boxes(&self, scene: &str, kind: BoxKind) -> Result<Vec<Option<OrientedBox>>, DatasetError> {
         let files = self.box_files(scene, kind);
         let read = |index: usize, width: usize| {

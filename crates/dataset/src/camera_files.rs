@@ -14,7 +14,7 @@ const FRAME_TIME_S: f64 = 1.0;
 const ORTHONORMAL: f64 = 1e-9;
 
 impl Dataset {
-    /// How a camera moves through its frames; `None` where these are no video: a second or more apart, or none.
+    /// The motion of a camera through its frames; `None` if these are no video: a second or more apart, or none.
     ///
     /// # Errors
     /// When the trajectory or the time between frames cannot be read.
@@ -32,7 +32,7 @@ impl Dataset {
     }
 
     /// Writes a trajectory: the four keyframe arrays, `metadata_camera.csv`, `cameras_opencv.json`, the camera's row in
-    /// `metadata_cameras.csv` and, where K does not say it all, `camera.json` with its arrays.
+    /// `metadata_cameras.csv` and, if K alone does not describe the camera, `camera.json` with its arrays.
     ///
     /// # Errors
     /// When a file cannot be written, or the camera's name cannot be part of a path.
@@ -83,14 +83,14 @@ impl Dataset {
         table.map_or(Ok(FRAME_TIME_S), |table| table.parameter("frame_time_seconds"))
     }
 
-    /// A camera's trajectory in metres; where nothing says the unit, files of ours are taken to be in metres. Without look-at positions
-    /// the point one metre ahead stands for each, and without frame numbers they count from 0.
+    /// A camera's trajectory in metres; if the unit is not recorded, our own files are taken to be in metres. Without look-at positions the
+    /// point one metre ahead is used, and without frame numbers frames count from 0.
     ///
     /// Orientations that are off a rotation become the nearest one: Hypersim's frame 0 has the artist's matrix, which may be stretched.
     /// Those that mirror stay as they are.
     ///
     /// # Errors
-    /// When an array is missing, damaged, or of another shape or length than the others, and when nothing says the unit of a release.
+    /// When an array is missing, damaged, or of another shape or length than the others, and when the unit of a release is not recorded.
     pub fn read_trajectory(&self, scene: &str, camera: &str) -> Result<Trajectory, DatasetError> {
         let mut trajectory = self.read_stored_trajectory(scene, camera)?;
         for pose in trajectory.poses.iter_mut().filter(|pose| pose.orthonormality_error() > ORTHONORMAL) {
@@ -258,7 +258,7 @@ pub struct OpencvCalibration {
     pub intrinsics: Option<Intrinsics>,
     /// Turns the pinhole into the camera: a tilted image plane is a turned camera with a straight one. The identity for all others.
     turned: DMat3,
-    /// What is more than a pinhole: `opencv`, `opencv_fisheye`, `equirectangular` or `ray_grid`.
+    /// The model, if it is more than a pinhole: `opencv`, `opencv_fisheye`, `equirectangular` or `ray_grid`.
     pub model: Option<&'static str>,
     /// Coefficients in OpenCV's order.
     pub distortion: Vec<f64>,

@@ -1,9 +1,8 @@
-//! What a camera's folder holds when the camera is more than a pinhole in focus and at rest: the model, its rays, its motion.
+//! Files of a camera that is more than a pinhole in focus and at rest: the model, its rays, its motion.
 //!
-//! `camera.json` has the model in full. `camera_rays.hdf5` has the ray of every pixel's centre in camera space, so that
-//! position = camera centre + depth_meters × (world_from_camera × ray) for every model. `camera_lens_distortion.hdf5` is a grid of
-//! rays as Hypersim's toolkit takes it. `camera_row_{positions,orientations}.hdf5` say where the camera was for each row of a
-//! rolling shutter.
+//! `camera.json` has the model in full. `camera_rays.hdf5` has the ray of every pixel's centre in camera space, so that position = camera
+//! centre + depth_meters × (world_from_camera × ray) for every model. `camera_lens_distortion.hdf5` is a grid of rays as Hypersim's toolkit
+//! takes it. `camera_row_{positions,orientations}.hdf5` have the camera's pose for each row of a rolling shutter.
 
 use crate::atomic::remove_if_there;
 use crate::camera_record::{CameraRecord, ProjectionRecord, grid_checksum};
@@ -15,7 +14,7 @@ use enfilade_scene::{Camera, CameraView, Projection, RayGrid, Trajectory};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Which camera of a stereo rig this is, and the other one.
+/// The side of a camera in a stereo rig, and its partner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StereoRecord {
     /// `left` or `right`.
@@ -24,7 +23,7 @@ pub struct StereoRecord {
     pub partner: String,
     /// Distance between the two, metres.
     pub baseline_m: f64,
-    /// Where the other camera stands in this one's space (x right, y up, z backward), metres. Both look the same way.
+    /// Position of the other camera in this one's space (x right, y up, z backward), metres. Both look the same way.
     pub partner_position_m: [f64; 3],
 }
 
@@ -119,7 +118,7 @@ impl Dataset {
         file.camera.to_camera(grid, |error| DatasetError::text(&path, error.to_string()))
     }
 
-    /// Which side of a stereo rig a camera is; `None` when it is alone.
+    /// The side of a camera in a stereo rig; `None` if it is in none.
     ///
     /// # Errors
     /// When `camera.json` cannot be read or understood.
@@ -127,8 +126,8 @@ impl Dataset {
         Ok(self.camera_file(scene, name)?.and_then(|file| file.stereo))
     }
 
-    /// The stored rays of all pixel centres, row by row, in camera space; NaN where the picture shows nothing. `None` where the
-    /// camera's matrix says it all.
+    /// The stored rays of all pixel centres, row by row, in camera space; NaN where the picture shows nothing. `None` if the camera's
+    /// matrix alone describes them.
     ///
     /// # Errors
     /// When the file is damaged or has another shape than the image.

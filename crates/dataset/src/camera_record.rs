@@ -1,13 +1,13 @@
-//! A camera as it stands in JSON: in `camera.json` and in the commit records of frames.
+//! A camera as it is written in JSON: in `camera.json` and in the commit records of frames.
 
 use enfilade_math::DMat3;
 use enfilade_scene::{Camera, CameraError, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, ThinLens, TiltedPinhole};
 use serde::{Deserialize, Serialize};
 
-/// A [`Camera`] in words and numbers. A grid of rays is named by its checksum; the rays lie in a file of their own.
+/// A [`Camera`] in words and numbers. A grid of rays is named by its checksum; the rays are in a file of their own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraRecord {
-    /// Which direction belongs to which image point.
+    /// The projection: the direction of each image point.
     pub projection: ProjectionRecord,
     /// Absent: everything is in focus.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! What the rows of `metadata_camera_parameters.csv` say: ours, and those of all scenes of Hypersim's own table.
+//! The rows of `metadata_camera_parameters.csv`: ours, and those of all scenes of Hypersim's own table.
 
 use crate::DatasetError;
 use crate::tables::Table;
@@ -36,7 +36,7 @@ impl CameraTable {
         self.table.rows.iter().map(|row| row[self.names].as_str())
     }
 
-    /// The scene's row: names of columns and what stands there.
+    /// The scene's row: names of columns and their values.
     ///
     /// # Errors
     /// When the scene has none.
@@ -79,7 +79,7 @@ impl CameraTable {
     /// Metres per asset unit of the scene.
     ///
     /// # Errors
-    /// When the scene has no row, or it does not say so.
+    /// When the scene has no row, or the row lacks the value.
     pub fn meters_per_asset_unit(&self, scene: &str) -> Result<f64, DatasetError> {
         self.number(self.row(scene)?, "settings_units_info_meters_scale")
     }

@@ -80,8 +80,8 @@ const SETTINGS_CAMERA: [&str; 12] = [
 ];
 
 impl Dataset {
-    /// Sets the scene's row of `metadata_camera_parameters.csv`; the rows of other scenes stay as they are. A table that is damaged is begun
-    /// anew: then the result says what was wrong, and the rows of other scenes are gone.
+    /// Sets the scene's row of `metadata_camera_parameters.csv`; the rows of other scenes stay as they are. A damaged table is replaced by
+    /// a new one: then the result is the error, and the rows of other scenes are lost.
     ///
     /// # Errors
     /// When the file cannot be read or written.
@@ -134,7 +134,7 @@ impl Dataset {
         self.read_camera_table()?.projection_matrix(scene)
     }
 
-    /// The table; an empty one with Hypersim's columns where there is none or it is damaged, which is then told.
+    /// The table; an empty one with Hypersim's columns if there is none or it is damaged. In the latter case the error is returned too.
     fn read_camera_parameters(&self) -> Result<(Table, Option<DatasetError>), DatasetError> {
         let path = self.layout().camera_parameters();
         let header = header();

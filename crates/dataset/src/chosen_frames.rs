@@ -1,4 +1,4 @@
-//! Which finished frames something is made of.
+//! The finished frames that something is made of.
 
 use crate::{Dataset, DatasetError};
 use enfilade_scene::Cx;

@@ -30,7 +30,7 @@ pub struct Classes {
 }
 
 impl MeshFiles {
-    /// The user's own list as it lies there, whether or not the labels were made with it; `None` where there is none.
+    /// The user's own list as it is stored, whether or not the labels were made with it; `None` where there is none.
     ///
     /// # Errors
     /// As [`Classes::read`].

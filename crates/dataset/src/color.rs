@@ -1,9 +1,9 @@
-//! What the colour layers of a frame hold, and how they are made from what was rendered.
+//! The contents of a frame's colour layers, and how they are made from the rendered ones.
 //!
 //! Rendering writes `*_rendered`. From these come `color`, `diffuse_illumination` and `residual`: denoised, or the same files under a
-//! second name (a hard link; a copy where the file system has none). The record of a frame says which, and lists every content once:
-//! where colour is as it was rendered it lists the plain names alone. While colour is made it lists only what was rendered, so a change
-//! that is killed anywhere leaves a frame without colour, and the next run makes it.
+//! second name (a hard link; a copy where the file system has none). The record of a frame states which, and lists every content once: if
+//! colour is as it was rendered, it lists the plain names alone. While colour is being made it lists only the rendered layers, so a change
+//! that is killed at any point leaves a frame without colour, and the next run makes it.
 
 use crate::atomic::{link, remove_if_there};
 use crate::frames::Problem;
@@ -45,8 +45,8 @@ impl Dataset {
         Ok(frame)
     }
 
-    /// Makes `diffuse_illumination`, `residual` and `color` of a frame the denoised `layers`. What was rendered stays under names that end
-    /// with `_rendered` where `keep_rendered` says so, and is removed otherwise.
+    /// Replaces `diffuse_illumination`, `residual` and `color` of a frame by the denoised `layers`. The rendered layers stay under names
+    /// that end with `_rendered` if `keep_rendered` is set, and are removed otherwise.
     ///
     /// # Errors
     /// When the frame has no record, or what was rendered is gone, or a file cannot be written. Then the frame has the colour that it had,
@@ -64,7 +64,7 @@ impl Dataset {
         let mut record = self.take_color_off([scene, camera], frame, &stored)?;
         self.put_in_place(scene, camera, frame, layers).inspect_err(|_| self.remove_aside(scene, camera, frame, layers))?;
 
-        // The record says that it is done; only then is anything dropped.
+        // Layers are removed only after the record states that denoising is done.
         let is_dropped = |path: &String, _: &mut FileRecord| !keep_rendered && plain_name(path).is_some();
         let dropped = record.files.extract_if(.., is_dropped).collect();
         record.files.extend(written);
@@ -77,7 +77,7 @@ impl Dataset {
         Ok(record)
     }
 
-    /// Makes the colour of a frame what was rendered, by a second name of the same files. A frame that is so already stays as it is.
+    /// Makes the rendered layers the colour of a frame, by a second name of the same files. A frame with rendered colour stays as it is.
     ///
     /// # Errors
     /// When the frame has no record, or what was rendered was not kept, or a file cannot be written.
@@ -91,7 +91,7 @@ impl Dataset {
         if stored == shown { Ok(()) } else { write_json(&self.layout().frame_record(scene, camera, frame), &shown) }
     }
 
-    /// Removes the layers that were rendered of a denoised frame; what its record says was dropped goes if it is still there.
+    /// Removes the rendered layers of a denoised frame, including those that its record lists as dropped if they are still there.
     ///
     /// # Errors
     /// When the record cannot be read or written, or a file cannot be removed.
@@ -105,8 +105,8 @@ impl Dataset {
         self.remove_rendered([scene, camera], frame)
     }
 
-    /// The record of a frame of which all that rendering has left is there in full length; `None` where it is not, or the record cannot be
-    /// read. Its colour may be missing, and is made from the rest.
+    /// The record of a frame whose rendered files all exist in full length; `None` if they do not, or the record cannot be read. Its colour
+    /// may be missing, and is made from the rest.
     pub fn rendered_record(&self, scene: &str, camera: &str, frame: u32) -> Option<FrameRecord> {
         let record = self.frame_record(scene, camera, frame).ok().flatten()?;
         let files = if record.has_rendered() { record.as_rendered().files } else { record.files.clone() };
@@ -114,7 +114,7 @@ impl Dataset {
         let is_there = |(name, file): (&String, &FileRecord)| {
             let kept = kept_name(name).filter(|_| record.has_rendered()).map(|kept| Problem::of(&folder.join(kept), file));
             match kept {
-                // What earlier versions rendered, and what comes from another machine, has its plain name alone.
+                // Layers that earlier versions rendered, or that come from another machine, have the plain name alone.
                 Some(Some(Problem::Missing)) if record.denoised.is_none() => Problem::of(&folder.join(name), file).is_none(),
                 Some(problem) => problem.is_none(),
                 None => Problem::of(&folder.join(name), file).is_none(),
@@ -123,7 +123,7 @@ impl Dataset {
         files.iter().all(is_there).then_some(record)
     }
 
-    /// True when a frame of the scene has the colour that `record`, its own, tells, in full length.
+    /// True when a frame of the scene has the colour files that its `record` lists, in full length.
     pub fn color_is_whole(&self, scene: &str, record: &FrameRecord) -> bool {
         let folder = self.layout().scene_dir(scene);
         let mut colors = record.files.iter().filter(|(name, _)| kept_name(name).is_some());
@@ -136,8 +136,8 @@ impl Dataset {
         self.frame_record(scene, camera, frame)?.ok_or_else(missing)
     }
 
-    /// The record of a frame whose rendered layers lie under names of their own. Earlier versions wrote them under the plain names: they get
-    /// the others here.
+    /// The record of a frame whose rendered layers have names of their own. Earlier versions wrote them under the plain names: here they
+    /// get the others as well.
     fn with_rendered_apart(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<FrameRecord, DatasetError> {
         let record = self.recorded(scene, camera, frame)?;
         let not_kept = || self.not_kept(&self.layout().frame_record(scene, camera, frame));
@@ -163,7 +163,8 @@ impl Dataset {
         Ok(record)
     }
 
-    /// The plain and the other name of each colour layer that was rendered, `color` last: who looks for it finds all or nothing.
+    /// The plain and the other name of each colour layer that was rendered, `color` last: a reader that looks for it finds all layers or
+    /// none.
     fn rendered_files(&self, [scene, camera]: [&str; 2], frame: u32, record: &FrameRecord) -> impl Iterator<Item = [PathBuf; 2]> + use<> {
         let files = record.as_rendered().files;
         let paths = DENOISED.map(|names| <[Layer; 2]>::from(names).map(|layer| self.layout().layer(scene, camera, frame, layer)));
@@ -183,7 +184,7 @@ impl Dataset {
     }
 }
 
-/// The plain path of a layer that `path` holds as it was rendered; `None` of every other path.
+/// The plain path of a layer of which `path` is the rendered version; `None` for every other path.
 fn plain_name(path: &str) -> Option<String> {
     renamed(path, |(plain, kept)| [kept, plain])
 }
@@ -201,7 +202,8 @@ fn renamed(path: &str, names: impl Fn((Layer, Layer)) -> [Layer; 2]) -> Option<S
 }
 
 impl FrameRecord {
-    /// The record as it was when the frame was rendered, with plain names: what is told by geometry, labels and light, whatever colour holds.
+    /// The record as it was when the frame was rendered, with plain names. It depends on geometry, labels and light, not on what was made
+    /// of the colour.
     #[must_use]
     pub fn as_rendered(&self) -> Self {
         let mut record = Self { color: ColorKind::Rendered, ..self.clone() };
@@ -224,7 +226,7 @@ impl FrameRecord {
         record
     }
 
-    /// True where what was rendered is there, under one name or the other.
+    /// True if the rendered layers exist, under one name or the other.
     pub fn has_rendered(&self) -> bool {
         self.denoised.as_ref().is_none_or(|denoised| denoised.dropped.is_empty())
     }

@@ -1,7 +1,8 @@
 //! `covisibility.hdf5`, what share of each frame's surfaces each other frame of a scene sees, and `covisibility_frames.csv`, which frames
 //! its rows and columns are.
 //!
-//! Shares are counted on a grid of pixels: every so many columns and rows, in the middle of their cells, as [`CovisibleFrame::grid`] says.
+//! Shares are counted on a grid of pixels, at regular distances in columns and rows, in the middle of their cells: see
+//! [`CovisibleFrame::grid`].
 
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
 use crate::tables::Table;
@@ -9,12 +10,12 @@ use crate::{Dataset, DatasetError, check_name, replace_file};
 
 const HEADER: [&str; 6] = ["frame_index", "camera_name", "frame_id", "grid_step_px", "surface_pixels", "hidden_by"];
 
-/// What share of each frame's surfaces each other frame of a scene sees.
+/// Share of each frame's surfaces that each other frame of a scene sees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covisibility {
     /// The frames of the rows and columns, by camera and number.
     pub frames: Vec<CovisibleFrame>,
-    /// What told whether a point is hidden.
+    /// How hidden points were determined.
     pub hidden_by: HiddenBy,
     /// Shares of shape (frames, frames): row i, column j is the share of frame i's grid pixels with a surface whose surface frame j sees, 0
     /// to 1. NaN in the rows of frames that show no surface.
@@ -34,7 +35,7 @@ pub struct CovisibleFrame {
     pub surface_pixels: u32,
 }
 
-/// What told whether something hides a surface point from a frame.
+/// The test whether a surface point is hidden from a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HiddenBy {
     /// The frame's stored distances, and where they leave it open a ray through the scene.
@@ -44,7 +45,7 @@ pub enum HiddenBy {
 }
 
 impl HiddenBy {
-    /// All ways to tell what is hidden.
+    /// All tests.
     const ALL: [Self; 2] = [Self::Scene, Self::Distances];
 
     /// Name in the table.

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 /// A dataset on disk.
 ///
-/// It holds nothing but its paths, so it is cheap to clone and can be shared by threads. What is read is read at the moment of
-/// the call. Different frames may be written at the same time; the tables of one scene, and the tables at the root, are
-/// written by one thread at a time.
+/// It contains nothing but its paths, so it is cheap to clone and can be shared by threads. Files are read at the moment of the call.
+/// Different frames may be written at the same time; the tables of one scene, and the tables at the root, are written by one thread at a
+/// time.
 ///
 /// ```
 /// use enfilade_dataset::{Dataset, Side, PartitionRow};
@@ -29,7 +29,7 @@ impl Dataset {
     /// The dataset at `root`, which is made if it does not exist. What is already there is kept.
     ///
     /// # Errors
-    /// When the folder cannot be made, or holds a dataset of a newer layout.
+    /// When the folder cannot be made, or contains a dataset of a newer layout.
     pub fn create(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
         refuse_newer_layout(root.as_ref())?;
@@ -37,11 +37,11 @@ impl Dataset {
         Ok(Self { layout, camera_table: None })
     }
 
-    /// The dataset at `root`: ours, the Hypersim toolkit's, or a folder of unpacked Hypersim archives, whose scenes lie directly
-    /// under the root. Hypersim's table of cameras, which comes apart from the archives, may also lie in the folder above.
+    /// The dataset at `root`: ours, the Hypersim toolkit's, or a folder of unpacked Hypersim archives, whose scenes are directly under the
+    /// root. Hypersim's table of cameras, which is distributed apart from the archives, may also be in the folder above.
     ///
     /// # Errors
-    /// When the folder cannot be read, is no dataset, or holds one of a newer layout.
+    /// When the folder cannot be read, is no dataset, or contains one of a newer layout.
     pub fn open(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let layout = Layout::new(root.as_ref());
         refuse_newer_layout(root.as_ref())?;
@@ -84,7 +84,7 @@ impl Dataset {
         self.camera_table.clone().unwrap_or_else(|| self.layout.camera_parameters())
     }
 
-    /// Where everything lies.
+    /// The paths of all files.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }

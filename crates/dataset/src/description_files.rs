@@ -1,4 +1,4 @@
-//! What the instances of a scene are, how they stand to each other, and what is said and asked about its frames:
+//! Descriptions of the instances of a scene, relations between them, and captions and questions about its frames:
 //! `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/<camera>/captions.jsonl` and `questions.jsonl`.
 
 use crate::tables::Table;
@@ -27,7 +27,7 @@ const INSTANCES: [&str; 16] = [
 ];
 const RELATIONS: [&str; 5] = ["subject_instance_id", "relation", "object_instance_id", "object_semantic_id", "distance_m"];
 
-/// What an instance is.
+/// The description of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DescribedInstance {
     /// Number of the instance, as in the images.
@@ -36,9 +36,9 @@ pub struct DescribedInstance {
     pub semantic: i16,
     /// Name of the class.
     pub semantic_name: String,
-    /// Name of the instance: of generated homes' that of the object, else that of its largest part.
+    /// Name of the instance: in generated homes the object's name, else the name of its largest part.
     pub name: String,
-    /// What people call it; empty where no word is known.
+    /// The word for it in plain English; empty if none is known.
     pub noun: String,
     /// Name of the room that its middle is in; empty where rooms are not known.
     pub room: String,
@@ -54,7 +54,7 @@ pub struct DescribedInstance {
     pub front: Option<DVec2>,
 }
 
-/// How one instance stands to another.
+/// A kind of spatial relation between two instances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "RelationKind::ALL says what each is called; docs/words.md what it means")]
 pub enum RelationKind {
@@ -85,22 +85,22 @@ impl RelationKind {
     }
 }
 
-/// One thing and how it stands to another: subject, relation, object.
+/// A spatial relation between two things: subject, relation, object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InstanceRelation {
-    /// Number of the instance that the relation is said of.
+    /// Number of the instance that is the subject.
     pub subject: i16,
-    /// How it stands.
+    /// Kind of relation.
     pub kind: RelationKind,
     /// Number of the other instance; −1 for walls, floors and ceilings.
     pub object: i16,
     /// The class of the other.
     pub object_semantic: i16,
-    /// How far they are apart, metres: the gap where they touch or stand beside each other, between their middles if one faces the other.
+    /// Distance between them, metres: the gap if they touch or are beside each other, the distance of their middles if one faces the other.
     pub distance_m: f64,
 }
 
-/// What is said of a frame: a line of `captions.jsonl`.
+/// The caption of a frame: a line of `captions.jsonl`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Caption {
     /// Scene, camera and frame: `home/cam_00/0007`.
@@ -117,7 +117,7 @@ pub struct Caption {
     pub instances: Vec<i16>,
 }
 
-/// What is asked of a frame or of all frames of a camera: a line of `questions.jsonl`, with the columns of VSI-Bench and ours.
+/// A question about a frame or about all frames of a camera: a line of `questions.jsonl`, with the columns of VSI-Bench and ours.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Question {
     /// Scene, camera and number of the question: `home/cam_00/12`.
@@ -130,7 +130,7 @@ pub struct Question {
     pub camera: String,
     /// Number of the frame; `None`: all frames of the camera, as a video.
     pub frame: Option<u32>,
-    /// What kind of question it is.
+    /// Kind of question.
     pub question_type: String,
     /// The question.
     pub question: String,
@@ -143,7 +143,7 @@ pub struct Question {
 }
 
 impl Dataset {
-    /// Writes what the instances of a scene are.
+    /// Writes the descriptions of the instances of a scene.
     ///
     /// # Errors
     /// When the name cannot be part of a path, or the file cannot be written.
@@ -161,7 +161,7 @@ impl Dataset {
         table.write()
     }
 
-    /// What the instances of a scene are.
+    /// Reads the descriptions of the instances of a scene.
     ///
     /// # Errors
     /// When the table is missing or damaged.
@@ -189,7 +189,7 @@ impl Dataset {
         (0..table.rows.len()).map(instance).collect()
     }
 
-    /// Writes how the instances of a scene stand to each other.
+    /// Writes the relations between the instances of a scene.
     ///
     /// # Errors
     /// When the name cannot be part of a path, or the file cannot be written.
@@ -204,7 +204,7 @@ impl Dataset {
         table.write()
     }
 
-    /// How the instances of a scene stand to each other.
+    /// Reads the relations between the instances of a scene.
     ///
     /// # Errors
     /// When the table is missing or damaged, or has a relation that this version does not know.
@@ -232,7 +232,7 @@ impl Dataset {
         (0..table.rows.len()).map(row).collect()
     }
 
-    /// Writes what is said of the frames of a camera, and what is asked.
+    /// Writes the captions and questions of a camera's frames.
     ///
     /// # Errors
     /// When a name cannot be part of a path, or a file cannot be written.

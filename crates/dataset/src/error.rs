@@ -1,4 +1,4 @@
-//! What can be wrong with a dataset on disk, told with the file and what to do about it.
+//! Errors of a dataset on disk, with the file and what to do about it.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ pub enum DatasetError {
         action: &'static str,
         /// Which file or folder.
         path: PathBuf,
-        /// What the operating system said.
+        /// The operating system's error.
         source: io::Error,
     },
-    /// An HDF5 file that cannot be read, or does not hold what its name promises.
+    /// An HDF5 file that cannot be read, or does not contain what its name promises.
     #[error("{}: {problem}", path.display())]
     Hdf5 {
         /// Which file.
@@ -45,10 +45,10 @@ pub enum DatasetError {
     Busy {
         /// The dataset.
         root: PathBuf,
-        /// What the other process calls itself.
+        /// Name of the other process.
         holder: String,
     },
-    /// No table says what the cameras are.
+    /// There is no table of cameras.
     #[error(
         "there is no table of cameras at {}; Hypersim's comes apart from its archives: put metadata_camera_parameters.csv of \
         github.com/apple/ml-hypersim (contrib/mikeroberts3000) into the dataset's folder or the one above, or name it with --cameras-csv; \
@@ -56,7 +56,7 @@ pub enum DatasetError {
         path.display()
     )]
     NoCameraTable {
-        /// Where it was looked for.
+        /// The path where it was expected.
         path: PathBuf,
     },
     /// A name that cannot be part of a path.
@@ -72,14 +72,14 @@ pub enum DatasetError {
     /// Data that cannot be stored in Hypersim's format.
     #[error("{what} cannot be stored: {problem}")]
     Unstorable {
-        /// What was to be written.
+        /// The thing to be written.
         what: String,
-        /// Which limit is in the way, and what to do.
+        /// The limit that prevents it, and what to do.
         problem: String,
     },
 }
 
-/// What a user can do about a refusal of the operating system.
+/// Advice about a refusal of the operating system.
 fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -107,7 +107,7 @@ impl DatasetError {
         move |source| Self::io(action, path, source)
     }
 
-    /// A CSV or JSON file that says something else than expected.
+    /// A CSV or JSON file with unexpected content.
     pub(crate) fn text(path: &Path, problem: impl Into<String>) -> Self {
         Self::Text { path: path.to_path_buf(), problem: problem.into() }
     }

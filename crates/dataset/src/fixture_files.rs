@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::PathBuf;
 
-/// How the rules of a mix are kept.
+/// Name of the file with the rules of a mix.
 const RULES: &str = "mix.json";
 
 /// Something that lights a scene: the sky, the sun, a window, or a lamp with all its bulbs.
@@ -206,7 +206,7 @@ impl Dataset {
         })
     }
 
-    /// Removes what a frame has of fixtures.
+    /// Removes the fixture layers of a frame.
     pub(crate) fn remove_fixture_layers(&self, scene: &str, camera: &str, frame: u32) -> Result<(), DatasetError> {
         (1..=MAX_FIXTURES as u32)
             .flat_map(|fixture| FIXTURE_PARTS.map(|part| self.layout().fixture_layer(scene, camera, frame, fixture, part)))

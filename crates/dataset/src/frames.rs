@@ -16,7 +16,7 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What a frame was made from.
+/// The inputs of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameInfo {
     /// Seed of the random numbers.
@@ -25,13 +25,13 @@ pub struct FrameInfo {
     pub samples: u32,
     /// Hash of everything that the frame's values depend on; a frame with another hash is not complete.
     pub config_hash: String,
-    /// Where the camera stood; its frame number is the frame's.
+    /// Pose of the camera; its frame number is the frame's.
     pub pose: Pose,
-    /// What it was taken with.
+    /// The camera.
     pub camera: Camera,
-    /// How its samples were spent, where that is known.
+    /// Use of its samples, if that is known.
     pub sampling: Option<Sampling>,
-    /// What rendered it, where that is known.
+    /// The program and settings that rendered it, if they are known.
     pub recipe: Option<Recipe>,
 }
 
@@ -49,8 +49,8 @@ impl<'f> From<&'f Frame> for Placed<'f> {
 }
 
 impl Dataset {
-    /// Writes a frame as somebody else rendered it, with colour under its plain names: all its layers, then the commit record. The frame's
-    /// number is that of the pose.
+    /// Writes a frame that was rendered elsewhere, with colour under its plain names: all its layers, then the commit record. The frame's
+    /// number is the pose's.
     ///
     /// An older frame of that number, and its labels, cease to exist before the new files take their places, so that what is
     /// there is never a mixture. Frames may be written from several threads at once.
@@ -220,9 +220,9 @@ impl Dataset {
         Ok(incomplete)
     }
 
-    /// Warns of what a reader of the `complete` frames of a camera leaves out of `range`; `None`: of all frames. One warning names the
-    /// first of [`Dataset::incomplete_frames`] and says how many more there are; another does so for frames whose labels have a
-    /// record, but are not whole.
+    /// Warns of frames in `range` (`None`: all frames) that a reader of the `complete` frames of a camera leaves out. One warning names the
+    /// first of [`Dataset::incomplete_frames`] and counts the others; another does so for frames whose labels have a record but are
+    /// incomplete.
     ///
     /// # Errors
     /// As there.
@@ -340,7 +340,7 @@ impl Dataset {
         self.wrong_file(scene, files, Pass::Final).is_none()
     }
 
-    /// What is wrong with the layers of `pass` that a frame has a record of, if anything.
+    /// The fault of the layers of `pass` that a frame has a record of, if any.
     fn wrong_layers(&self, scene: &str, camera: &str, frame: u32, pass: Pass) -> Option<DatasetError> {
         match self.recorded_files(scene, camera, frame, pass) {
             Ok(files) => self.wrong_file(scene, &files?, pass),
@@ -348,7 +348,7 @@ impl Dataset {
         }
     }
 
-    /// What is wrong with the first file of a frame's record, which is that of its layers of `pass`, that is missing or has another length.
+    /// The fault of the first file in a frame's record of its layers of `pass` that is missing or has another length.
     fn wrong_file(&self, scene: &str, files: &BTreeMap<String, FileRecord>, pass: Pass) -> Option<DatasetError> {
         let folder = self.layout().scene_dir(scene);
         let remedy = match pass {
@@ -368,13 +368,13 @@ impl Dataset {
         })
     }
 
-    /// Makes the folder of a camera's records; that it exists says that only recorded frames count.
+    /// Makes the folder of a camera's records; if it exists, only recorded frames count.
     pub(crate) fn make_records_dir(&self, scene: &str, camera: &str) -> Result<(), DatasetError> {
         let folder = self.layout().records_dir(scene, camera);
         fs::create_dir_all(&folder).map_err(DatasetError::at("create the folder", &folder))
     }
 
-    /// Writes every layer under its temporary name and says what will lie where. On an error no temporary file stays.
+    /// Writes every layer under its temporary name, and returns the records of the final files. On an error no temporary file is left.
     pub(crate) fn write_aside<'f>(
         &self,
         scene: &str,
@@ -509,7 +509,7 @@ fn write_file_aside(
     FileRecord::of(&aside)
 }
 
-/// What is wrong with a file, as far as its length tells.
+/// A fault of a file that its length shows.
 pub(crate) enum Problem {
     /// The file is missing.
     Missing,

@@ -1,5 +1,5 @@
-//! `metadata_view_gates.csv`: which views of a camera were found worth rendering, and why the others were not. It stands beside the
-//! trajectory; the rejected views keep their places in it, and have no images.
+//! `metadata_view_gates.csv`: which views of a camera were found worth rendering, and why the others were not. It is beside the trajectory;
+//! the rejected views keep their places in the trajectory, and have no images.
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 const HEADER: [&str; 5] = ["frame_id", "verdict", "gate", "value", "limit"];
 
-/// What became of a view.
+/// The verdict on a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum ViewVerdict {
@@ -30,9 +30,9 @@ impl ViewVerdict {
 pub struct ViewFault {
     /// Name of the gate.
     pub gate: String,
-    /// What was measured.
+    /// The measured value.
     pub value: f64,
-    /// What is allowed.
+    /// The limit of the gate.
     pub limit: f64,
 }
 
@@ -47,7 +47,7 @@ impl std::fmt::Display for ViewFault {
 pub struct JudgedView {
     /// Frame number.
     pub frame: u32,
-    /// What became of it.
+    /// The verdict on the view.
     pub verdict: ViewVerdict,
     /// Worst fault of the view, unless it passed.
     pub fault: Option<ViewFault>,

@@ -1,4 +1,4 @@
-//! What each frame shows of each instance: `metadata_frame_instances.csv` and the amodal masks beside it.
+//! Visibility of each instance in each frame: `metadata_frame_instances.csv` and the amodal masks beside it.
 //!
 //! A box is in image coordinates: `x_min`, `y_min` are the left and upper border of its first pixel, `x_max`, `y_max` the right and
 //! lower border of its last, so that a box of one pixel is 1 wide. Boxes of whole objects may reach beyond the image.
@@ -35,7 +35,7 @@ const HEADER: [&str; 17] = [
 /// A set of pixels: how many, and the box around them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PixelArea {
-    /// How many.
+    /// Number of pixels.
     pub pixels: u64,
     /// Left, upper, right and lower border; all 0 when there are none.
     pub bounds: [i32; 4],
@@ -60,7 +60,7 @@ impl PixelArea {
     }
 }
 
-/// What a frame shows of an instance.
+/// The visibility of an instance in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InstanceView {
     /// Frame number.
@@ -73,7 +73,7 @@ pub struct InstanceView {
     pub visible: PixelArea,
     /// The pixels that the whole object covers in an image three times as wide and high, as if nothing else were there.
     pub full: PixelArea,
-    /// How many of those lie in the image.
+    /// Number of those pixels that are inside the image.
     pub inside_pixels: u64,
 }
 
@@ -83,7 +83,7 @@ impl InstanceView {
         self.visible.pixels as f64 / self.full.pixels.max(1) as f64
     }
 
-    /// Share of the whole object that lies outside of the image, 0 to 1.
+    /// Share of the whole object that is outside of the image, 0 to 1.
     pub fn truncation(&self) -> f64 {
         1.0 - self.inside_pixels as f64 / self.full.pixels.max(1) as f64
     }

@@ -7,12 +7,12 @@ use enfilade_math::Rng;
 use enfilade_scene::{Labels, NYU40, PartLabel};
 use std::path::{Path, PathBuf};
 
-/// What labels look like on a screen.
+/// Display colours of labels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LabelColors {
     /// sRGB by class: row `i` is class `i`; row 0 and numbers without a class are −1.
     pub semantic: Vec<[i64; 3]>,
-    /// How many instance numbers were given out, whether or not they are in use: one colour each.
+    /// Number of instance numbers that were given out, whether or not they are in use: one colour each.
     pub instances: usize,
 }
 

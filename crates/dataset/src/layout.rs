@@ -6,8 +6,8 @@
 //! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
 //! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`,
 //! `questions.jsonl`, `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users'
-//! programs have made on a farm and, for cameras that are more than a pinhole, `camera.json` and its arrays. Beside the layers of
-//! `scene_<camera>_final_hdf5` lie those of fixtures.
+//! programs have made on a farm and, for cameras that are more than a pinhole, `camera.json` and its arrays. The layers of fixtures are
+//! beside those of `scene_<camera>_final_hdf5`.
 
 use crate::{DatasetError, FramePair};
 use enfilade_frame::{Layer, Pass};
@@ -38,7 +38,7 @@ pub const SCENE_PACKAGE: &str = "scene.scene";
 pub struct Layout {
     root: PathBuf,
     scenes: PathBuf,
-    /// Where pictures go, if not into the dataset.
+    /// Layout for pictures, if they do not go into the dataset.
     pictures: Option<Box<Layout>>,
 }
 
@@ -66,13 +66,13 @@ pub fn check_name(what: &'static str, name: &str) -> Result<(), DatasetError> {
 }
 
 impl Layout {
-    /// The toolkit's tree: scenes lie under `<root>/scenes`. An empty root gives paths relative to the dataset.
+    /// The toolkit's tree: scenes are under `<root>/scenes`. An empty root gives paths relative to the dataset.
     pub fn new(root: impl Into<PathBuf>) -> Self {
         let root = root.into();
         Self { scenes: root.join("scenes"), root, pictures: None }
     }
 
-    /// The tree of Hypersim's unpacked archives: scenes lie directly under the root.
+    /// The tree of Hypersim's unpacked archives: scenes are directly under the root.
     pub fn flat(root: impl Into<PathBuf>) -> Self {
         let root = root.into();
         Self { scenes: root.clone(), root, pictures: None }
@@ -100,7 +100,7 @@ impl Layout {
         self.root.join("manifest.json")
     }
 
-    /// How long each frame took: the only file that differs between two runs.
+    /// The times of all frames: the only file that differs between two runs.
     pub fn manifest_times(&self) -> PathBuf {
         self.root.join("manifest_times.csv")
     }
@@ -125,17 +125,17 @@ impl Layout {
         self.root.join("verify.html")
     }
 
-    /// Which image is for learning, for validation and for testing.
+    /// The partition of images into learning, validation and testing.
     pub fn partition(&self) -> PathBuf {
         self.root.join("metadata_images_split_scene_v1.csv")
     }
 
-    /// What kind of room each camera goes through.
+    /// The kind of room that each camera goes through.
     pub fn scene_types(&self) -> PathBuf {
         self.root.join("metadata_camera_trajectories.csv")
     }
 
-    /// How the partition came about, and which assets lie on several sides of it, as JSON.
+    /// The report of the partition, with the assets that are on several sides of it, as JSON.
     pub fn partition_report(&self) -> PathBuf {
         self.root.join("split.json")
     }
@@ -150,22 +150,22 @@ impl Layout {
         self.statistics_dir().join("statistics.json")
     }
 
-    /// Which frames see the same surfaces: pairs that were chosen among all, with the share that each sees of the other.
+    /// Pairs of frames that see the same surfaces, chosen among all, with the share that each sees of the other.
     pub fn pairs(&self) -> PathBuf {
         self.root.join("pairs.csv")
     }
 
-    /// What mixes of fixtures have made of frames.
+    /// Frames relit by mixes of fixtures.
     pub fn relit_dir(&self) -> PathBuf {
         self.root.join("relit")
     }
 
-    /// What a mix has made of a frame (scene, camera, number): `frame.IIII.<what>`.
+    /// A file of a frame relit by a mix (scene, camera, number): `frame.IIII.<what>`.
     pub fn relit(&self, mix: &str, (scene, camera, frame): (&str, &str, u32), what: &str) -> PathBuf {
         self.relit_dir().join(mix).join(scene).join(camera).join(format!("frame.{frame:04}.{what}"))
     }
 
-    /// What sensors have made of frames.
+    /// Output of sensors.
     pub fn sensors_dir(&self) -> PathBuf {
         self.root.join("sensors")
     }
@@ -175,17 +175,17 @@ impl Layout {
         self.sensors_dir().join(sensor)
     }
 
-    /// What the sensor is.
+    /// The settings of a sensor.
     pub fn sensor_settings(&self, sensor: &str) -> PathBuf {
         self.sensor_dir(sensor).join("sensor.json")
     }
 
-    /// What was drawn for the frames of a camera.
+    /// Random values drawn for the frames of a camera.
     pub fn sensed_frames(&self, sensor: &str, scene: &str, camera: &str) -> PathBuf {
         self.sensor_dir(sensor).join(scene).join(camera).join("metadata_sensed_frames.csv")
     }
 
-    /// What the sensor has made of a frame (scene, camera, number): `frame.IIII.<what>`.
+    /// Output of a sensor for a frame (scene, camera, number): `frame.IIII.<what>`.
     pub fn sensed(&self, sensor: &str, (scene, camera, frame): (&str, &str, u32), what: &str) -> PathBuf {
         self.sensor_dir(sensor).join(scene).join(camera).join(format!("frame.{frame:04}.{what}"))
     }
@@ -195,7 +195,7 @@ impl Layout {
         self.root.join(WORKDIR).join(scene).join(SCENE_PACKAGE)
     }
 
-    /// Where the scenes lie.
+    /// The folder of the scenes.
     pub fn scenes_dir(&self) -> &Path {
         &self.scenes
     }
@@ -230,7 +230,7 @@ impl Layout {
         self.detail_dir(scene).join("metadata_materials.csv")
     }
 
-    /// What lights the scene, where frames have the light of each thing apart.
+    /// The fixtures that light the scene, if frames have the light of each apart.
     pub fn metadata_fixtures(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_fixtures.csv")
     }
@@ -245,22 +245,22 @@ impl Layout {
         self.detail_dir(scene).join("covisibility_frames.csv")
     }
 
-    /// What the scene's instances are.
+    /// Descriptions of the scene's instances.
     pub fn described_instances(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_instances.csv")
     }
 
-    /// How they stand to each other.
+    /// Relations between the scene's instances.
     pub fn instance_relations(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_instance_relations.csv")
     }
 
-    /// What is said of a camera's frames.
+    /// Captions of a camera's frames.
     pub fn captions(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("captions.jsonl")
     }
 
-    /// What is asked about them.
+    /// Questions about a camera's frames.
     pub fn questions(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("questions.jsonl")
     }
@@ -285,8 +285,8 @@ impl Layout {
         self.camera_dir(scene, camera).join("cameras_opencv.json")
     }
 
-    /// How the trajectory came out: values per frame, what was rejected, coverage. Only where it was planned here; of a stereo rig at the
-    /// left camera.
+    /// Report of the trajectory: values per frame, rejected candidates, coverage. Only if it was planned here; for a stereo rig at the left
+    /// camera.
     pub fn plan_report(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("plan_report.json")
     }
@@ -296,7 +296,7 @@ impl Layout {
         self.camera_dir(scene, camera).join("camera.json")
     }
 
-    /// The ray of every pixel, where no matrix says it.
+    /// The ray of every pixel, for cameras that no matrix describes.
     pub fn camera_rays(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("camera_rays.hdf5")
     }
@@ -326,7 +326,7 @@ impl Layout {
         self.records_dir(scene, camera).join(format!("frame.{frame:04}.labels.json"))
     }
 
-    /// What a camera sees in each pose, coloured by part, as planned: small pictures for people.
+    /// Views of a planned camera in each pose, coloured by part: small pictures for people.
     pub fn plan_views_dir(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("preview")
     }
@@ -341,7 +341,7 @@ impl Layout {
         self.detail_dir(scene).join("plan_preview")
     }
 
-    /// Which views of a camera were found worth rendering.
+    /// The verdicts on which views of a camera are worth rendering.
     pub fn view_gates(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("metadata_view_gates.csv")
     }
@@ -361,17 +361,17 @@ impl Layout {
         self.detail_dir(scene).join("gates.html")
     }
 
-    /// How radiance became the 8-bit pictures of each frame of a camera.
+    /// Tone mapping from radiance to the 8-bit pictures of each frame of a camera.
     pub fn tone_maps(&self, scene: &str, camera: &str) -> PathBuf {
         self.of_pictures().camera_dir(scene, camera).join("metadata_tonemap.csv")
     }
 
-    /// Where the animations lie unless another folder is named.
+    /// The folder of the animations, unless another is named.
     pub fn animations_dir(&self) -> PathBuf {
         self.root.join("animations")
     }
 
-    /// What each frame of a camera shows of each instance.
+    /// Visibility of each instance in each frame of a camera.
     pub fn frame_instances(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("metadata_frame_instances.csv")
     }
@@ -403,17 +403,17 @@ impl Layout {
         self.camera_dir(scene, camera).join("surfaces")
     }
 
-    /// What is known of the surfaces along the rays of a frame: `frame.IIII.<what>.hdf5`.
+    /// Properties of the surfaces along the rays of a frame: `frame.IIII.<what>.hdf5`.
     pub fn surfaces(&self, scene: &str, camera: &str, frame: u32, what: &str) -> PathBuf {
         self.surfaces_dir(scene, camera).join(format!("frame.{frame:04}.{what}.hdf5"))
     }
 
-    /// Which planes of the scene's layout a camera's frames show.
+    /// The planes of the scene's rooms that a camera's frames show.
     pub fn planes_dir(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("planes")
     }
 
-    /// Which plane of the scene's layout each pixel of a frame shows.
+    /// The plane of the scene's rooms that each pixel of a frame shows.
     pub fn plane_ids(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.planes_dir(scene, camera).join(format!("frame.{frame:04}.plane_id.hdf5"))
     }
@@ -423,27 +423,27 @@ impl Layout {
         self.camera_dir(scene, camera).join("tracks.npz")
     }
 
-    /// What the user's program has made of a camera's frames on the nodes of a farm.
+    /// Output of the user's program for a camera's frames on the nodes of a farm.
     pub fn after_frame_dir(&self, scene: &str, camera: &str) -> PathBuf {
         self.camera_dir(scene, camera).join("after_frame")
     }
 
-    /// What it has made of a frame: a folder of whatever files it has left.
+    /// Output of the user's program for a frame: a folder with all files that it has left.
     pub fn after_frame(&self, scene: &str, camera: &str, frame: u32) -> PathBuf {
         self.after_frame_dir(scene, camera).join(format!("frame.{frame:04}"))
     }
 
     /// Rooms, walls, doors and windows of the scene, where they are known.
-    pub fn structure(&self, scene: &str) -> PathBuf {
+    pub fn rooms(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("layout.json")
     }
 
     /// The rooms of a scene as a drawing.
-    pub fn structure_plan(&self, scene: &str) -> PathBuf {
+    pub fn rooms_drawing(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("layout.svg")
     }
 
-    /// The planes of the rooms, which pixels are told to show.
+    /// The planes of the rooms, to which pixels are assigned.
     pub fn plane_table(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_planes.csv")
     }
@@ -483,7 +483,7 @@ impl Layout {
         self.scene_dir(scene).join("images")
     }
 
-    /// The arrays of one pass of a camera. Label layers lie with the geometry.
+    /// The arrays of one pass of a camera. Label layers are with the geometry.
     pub fn layer_dir(&self, scene: &str, camera: &str, pass: Pass) -> PathBuf {
         self.images_dir(scene).join(format!("scene_{camera}_{}_hdf5", pass_name(pass)))
     }
@@ -528,7 +528,7 @@ fn pass_name(pass: Pass) -> &'static str {
     }
 }
 
-/// The camera whose layers lie in a folder of this name; `None` for other folders, such as those of previews.
+/// The camera whose layers are in a folder of this name; `None` for other folders, such as those of previews.
 pub(crate) fn camera_of_layer_dir(name: &str) -> Option<&str> {
     let rest = name.strip_prefix("scene_")?.strip_suffix("_hdf5")?;
     let camera = [Pass::Final, Pass::Geometry].iter().find_map(|&pass| rest.strip_suffix(pass_name(pass))?.strip_suffix('_'))?;

@@ -1,6 +1,6 @@
 //! The version of a dataset's layout. The manifest names it first, so that it is known before anything else is read or changed.
 //!
-//! docs/layout-versions.md promises what is read of other versions, and says when the number rises.
+//! docs/layout-versions.md states what is read of other versions, and when the number rises.
 
 use crate::{DatasetError, Layout};
 use std::fs::File;
@@ -10,18 +10,18 @@ use std::path::Path;
 /// The version of the layout that this program writes, and the newest that it reads.
 pub const LAYOUT_VERSION: u32 = 1;
 
-/// What a manifest calls itself, before the number.
+/// Format name in a manifest, before the number.
 const NAME: &str = "enfilade dataset ";
 /// More than a manifest has before the end of its first value.
 const HEAD_BYTES: u64 = 256;
 
-/// What the manifests of this version call themselves.
+/// The format in manifests of this version.
 pub(crate) fn format() -> String {
     format!("{NAME}{LAYOUT_VERSION}")
 }
 
-/// Refuses the dataset at `root` where its layout is newer than this program. Of its manifest no more than the head is read: whatever
-/// else is wrong with one, or that there is none, is found by those who need it.
+/// Refuses the dataset at `root` where its layout is newer than this program. Only the head of its manifest is read: other faults of a
+/// manifest, or a missing one, are found by those who need it.
 ///
 /// # Errors
 /// When the layout is newer.
@@ -77,7 +77,7 @@ mod tests {
                 enfilade than this one";
             assert!(error.contains(expected) && error.ends_with("use a newer enfilade"), "{error}");
         }
-        // Of others' files nothing is said.
+        // Files of other programs are not refused.
         std::fs::write(&manifest, "{\"name\": \"somebody's own\"}").unwrap();
         Dataset::open(folder.path()).unwrap();
     }

@@ -1,11 +1,11 @@
 //! The dataset on disk: Hypersim's tree, names, dtypes and CSV columns, and beside them what Hypersim lacks.
 //!
-//! [`Layout`] knows where everything lies, [`hdf5`] reads and writes one array per file, and [`Dataset`] puts them together:
+//! [`Layout`] has the paths of all files, [`hdf5`] reads and writes one array per file, and [`Dataset`] puts them together:
 //! scenes, cameras, frames and labels go in and come out as the types of `enfilade-scene` and `enfilade-frame`.
 //!
 //! Three rules apply to every file. A file is complete or absent: it is written under a temporary name and renamed into place. A
 //! frame is complete or absent: its commit record `_detail/<camera>/frames/frame.IIII.json` is written last, and only a frame
-//! with a record counts. Every byte is a function of what was given; times lie apart in `manifest_times.csv`.
+//! with a record counts. Every byte is a function of the inputs; times are separate, in `manifest_times.csv`.
 //!
 //! World coordinates are right-handed, z up, and one asset unit is one metre.
 

@@ -1,7 +1,7 @@
-//! The camera that loaders written for Hypersim take for granted, and what they make of other cameras.
+//! The camera that loaders written for Hypersim assume, and their errors for other cameras.
 //!
 //! Marigold's preprocessing, GeoWizard's and ZoeDepth's loaders compute planar depth from `depth_meters` with a pinhole of 1024 × 768 pixels
-//! and a focal length of 886.81 pixels, whatever the dataset's tables say.
+//! and a focal length of 886.81 pixels, whatever camera the dataset's tables describe.
 
 use enfilade_math::quantile;
 use enfilade_scene::Camera;
@@ -12,10 +12,10 @@ pub const LOADER_SIZE: [u32; 2] = [1024, 768];
 /// Focal length, pixels: 60 degrees across the width.
 pub const LOADER_FOCAL_PX: f64 = 886.81;
 
-/// Relative errors of planar depth up to this are that of a rounded focal length.
+/// Relative errors of planar depth up to this are due to a rounded focal length.
 const EXACT: f64 = 1e-3;
 
-/// Every this many pixels along both axes one is looked at.
+/// Distance of tested pixels along both axes, pixels.
 const STRIDE: usize = 8;
 
 /// Planar depth by a loader of Hypersim, from the distance of a pixel whose centre is at (x, y); both in the same unit.
@@ -32,7 +32,7 @@ pub fn loader_depth([x, y]: [f64; 2], distance: f64) -> f64 {
     distance * LOADER_FOCAL_PX / (x * x + y * y + LOADER_FOCAL_PX * LOADER_FOCAL_PX).sqrt()
 }
 
-/// What loaders of Hypersim make of a camera that is not the one they take for granted; `None` for that one.
+/// The error that loaders of Hypersim make with a camera, in words; `None` for the camera that they assume.
 pub fn loader_problem(camera: &Camera) -> Option<String> {
     let [width, height] = camera.size();
     let make = "preset = \"hypersim\" takes pictures with the camera that they expect";

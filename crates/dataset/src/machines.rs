@@ -1,4 +1,4 @@
-//! The smallest machine of a price table that could have done some work, as Hypersim's `min_feasible_instance_type` tells it.
+//! The smallest machine of a price table that could have done some work, like Hypersim's `min_feasible_instance_type`.
 //!
 //! A machine could have done it in the same time when it has a vCPU for every thread, and memory for what the process had at most and
 //! for the system beside it. The smallest has the fewest vCPUs, then the least memory, then the lowest price.
@@ -23,7 +23,7 @@ pub fn memory_gib(peak_bytes: u64) -> f64 {
     peak_bytes as f64 / GIB + SYSTEM_GIB
 }
 
-/// True when the table tells the size of any machine.
+/// True when the table includes the size of any machine.
 pub fn tells_sizes(prices: &[Price]) -> bool {
     prices.iter().any(|price| price.machine.is_some())
 }

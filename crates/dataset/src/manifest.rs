@@ -1,4 +1,4 @@
-//! `manifest.json`: what the dataset is, how to read it, and what has become of every frame.
+//! `manifest.json`: the description of the dataset, how to read it, and the state of every frame.
 
 use crate::camera_files::optional;
 use crate::frames::read_json;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// The manifest. The same dataset always gives the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// `enfilade dataset 1`, with the number of [`crate::LAYOUT_VERSION`]. It stands first in the manifests of all versions.
+    /// `enfilade dataset 1`, with the number of [`crate::LAYOUT_VERSION`]. It is the first value in the manifests of all versions.
     pub format: String,
     /// Version of the program that wrote it.
     pub enfilade_version: String,
@@ -66,7 +66,7 @@ pub struct CameraEntry {
     pub frames: Vec<FrameEntry>,
 }
 
-/// What has become of a frame.
+/// The state of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FrameStatus {
@@ -85,7 +85,7 @@ pub enum FrameStatus {
 pub struct FrameEntry {
     /// Frame number.
     pub frame: u32,
-    /// What has become of it.
+    /// State of the frame.
     pub status: FrameStatus,
     /// Why it failed, or was rejected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -96,7 +96,7 @@ pub struct FrameEntry {
     /// Hash of everything that the frame's values depend on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub config_hash: Option<String>,
-    /// What `color`, `diffuse_illumination` and `residual` hold; absent where there is no frame.
+    /// Kind of `color`, `diffuse_illumination` and `residual`; absent if there is no frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<ColorKind>,
     /// The program that denoised them, with its version; absent where they are as they were rendered.
@@ -107,7 +107,7 @@ pub struct FrameEntry {
     pub files: BTreeMap<String, FileRecord>,
 }
 
-/// What the pipeline knows and the files do not.
+/// Information that only the pipeline has, not the files.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManifestInfo {
     /// The resolved configuration of the run, without anything that differs between two runs.
@@ -243,7 +243,7 @@ impl Dataset {
         })
     }
 
-    /// What has become of one frame.
+    /// The entry of one frame.
     fn frame_entry(
         &self,
         scene: &str,
@@ -319,7 +319,7 @@ impl Dataset {
         Ok(problems.into_iter().flatten().collect())
     }
 
-    /// What is wrong with one file, if anything.
+    /// The fault of one file, if any.
     fn check_file(
         &self,
         [scene, camera]: [&str; 2],

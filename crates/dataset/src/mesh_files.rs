@@ -1,8 +1,8 @@
 //! The mesh folder's geometry and names, for those who want points, boxes and meshes beside the images.
 //!
-//! All parts' vertices stand one after the other, in world space and metres. `mesh_faces_vti` holds indices into
+//! The vertices of all parts follow one after the other, in world space and metres. `mesh_faces_vti` has indices into
 //! `mesh_texcoords` and `mesh_faces_vni` into `mesh_normals`, as the names say; in Hypersim's own files the two are swapped.
-//! −1 stands for "none".
+//! −1 means "none".
 
 use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Storage, write_array};

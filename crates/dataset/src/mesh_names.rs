@@ -1,4 +1,5 @@
-//! The names of the files in a scene's mesh folder (`Layout::mesh_file`, `MeshFiles::file`), all of them Hypersim's but that of pieces.
+//! The names of the files in a scene's mesh folder (`Layout::mesh_file`, `MeshFiles::file`), all of them Hypersim's except the file of
+//! pieces.
 //!
 //! In `mesh_faces_Xi` each face has indices of X: vertices, normals, texture coordinates, groups, materials, objects. In
 //! `mesh_objects_Xi` each object has its class or its instance.
@@ -27,7 +28,7 @@ pub const OBJECTS: &str = "metadata_objects.csv";
 pub const GROUPS: &str = "metadata_groups.csv";
 /// The names of the materials.
 pub const MATERIALS: &str = "metadata_materials.csv";
-/// Which objects came from splitting others; without the file, none did.
+/// The objects that came from splitting others; without the file, none did.
 pub const OBJECT_PIECES: &str = "metadata_object_splits.csv";
 /// The class of every object, int64 (O,1).
 pub const OBJECTS_SEMANTIC: &str = "mesh_objects_si.hdf5";

@@ -23,7 +23,7 @@ pub struct NpyArray {
 }
 
 impl NpyArray {
-    /// An array of these bytes; without any, what is to be looked for in an archive.
+    /// An array of these bytes; with none, the description of an array to look for in an archive.
     pub fn new(name: &'static str, dtype: impl Into<Cow<'static, str>>, shape: &[usize], bytes: Vec<u8>) -> Self {
         Self { name, dtype: dtype.into(), shape: shape.to_vec(), bytes }
     }
@@ -34,8 +34,8 @@ impl NpyArray {
     }
 }
 
-/// What an array file begins with, up to its values, which follow in C order, little-endian. `dtype` is numpy's description of an element, as in
-/// `<f4`.
+/// The header of an array file, up to its values, which follow in C order, little-endian. `dtype` is numpy's description of an element, as
+/// in `<f4`.
 pub fn npy_head(dtype: &str, shape: &[usize]) -> Vec<u8> {
     let axes = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     // One axis needs the comma that makes it a tuple.

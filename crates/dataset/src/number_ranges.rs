@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-/// All numbers of a text lie below this, so that a few characters cannot ask for gigabytes.
+/// Upper limit of all numbers of a text, so that a few characters cannot ask for gigabytes.
 const END: u32 = 10_000_000;
 
 /// Ascending numbers, cut into runs without gaps.

@@ -1,7 +1,7 @@
 //! Reading the mesh folder for labelling: triangles, the objects that they belong to, and objects that were cut into pieces.
 //!
-//! An object that was cut keeps its number for what is left of it; the others are appended. `mesh_faces_oi.hdf5` then says
-//! which face belongs to which, and `metadata_object_splits.csv` which object each of the appended ones was a part of.
+//! An object that was cut keeps its number for the remaining piece; the other pieces are appended. `mesh_faces_oi.hdf5` then has the object
+//! of each face, and `metadata_object_splits.csv` the object that each appended piece was a part of.
 
 use crate::atomic::remove_if_there;
 use crate::hdf5::{Array, Elements, Storage, read_array, write_array};
@@ -66,8 +66,8 @@ impl MeshFiles {
         self.read_geometry(objects, object_of_face.into_iter().map(before).collect())
     }
 
-    /// Reads the mesh as [`MeshFiles::read`] does, where it is known from elsewhere that the first `whole` objects are those that did not
-    /// were cut from others, and what every face belonged to before. The tables that say so need not fit each other then.
+    /// Reads the mesh as [`MeshFiles::read`] does, if the caller knows how many objects were not cut from others (the first `whole`), and
+    /// the object of every face before that. The tables of these need not fit each other then.
     ///
     /// # Errors
     /// As [`MeshFiles::read`].
@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(written.len(), 3);
         assert_eq!((files.read().unwrap(), files.read_objects_of_faces().unwrap()), (mesh.clone(), vec![0, 1, 2]));
         assert_eq!(files.read_pieces().unwrap(), [1]);
-        // Without the table of pieces, the caller must say which objects are whole.
+        // Without the table of pieces, the caller must state which objects are whole.
         std::fs::remove_file(files.file(OBJECT_PIECES)).unwrap();
         assert_eq!(files.read().unwrap().objects.len(), 3);
         assert_eq!(files.read_whole(2, vec![0, 1, 1]).unwrap(), mesh);

@@ -22,7 +22,7 @@ pub struct FramePair {
 /// A pair with what its frames have in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRow {
-    /// Which frames.
+    /// The two frames.
     pub pair: FramePair,
     /// Share of the first one's surfaces that the second sees, 0 to 1.
     pub first_seen_by_second: f32,

@@ -1,28 +1,28 @@
-//! The planes of a scene's layout, `_detail/metadata_planes.csv`, and which of them each pixel shows:
+//! The planes of a scene's rooms, `_detail/metadata_planes.csv`, and which of them each pixel shows:
 //! `_detail/<camera>/planes/frame.IIII.plane_id.hdf5`.
 
 use crate::hdf5::{Array, Elements, Packing, Storage, read_array, write_array};
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name, replace_file};
 use enfilade_math::DVec3;
-use enfilade_scene::{LayoutPlane, PlaneKind};
+use enfilade_scene::{PlaneKind, RoomPlane};
 
 const HEADER: [&str; 8] = ["plane_id", "kind", "room", "wall", "normal_x", "normal_y", "normal_z", "offset_m"];
 const KINDS: [PlaneKind; 3] = [PlaneKind::Floor, PlaneKind::Ceiling, PlaneKind::Wall];
 
 impl Dataset {
-    /// Writes the planes of a scene's layout; the first is number 1.
+    /// Writes the planes of a scene's rooms; the first is number 1.
     ///
     /// # Errors
     /// When the file cannot be written, or there are more planes than an int16 counts.
-    pub fn write_plane_table(&self, scene: &str, planes: &[LayoutPlane]) -> Result<(), DatasetError> {
+    pub fn write_plane_table(&self, scene: &str, planes: &[RoomPlane]) -> Result<(), DatasetError> {
         check_name("scene name", scene)?;
         if planes.len() > i16::MAX as usize {
             let problem = format!("{} planes, but plane_id is int16 and holds {}", planes.len(), i16::MAX);
-            return Err(DatasetError::Unstorable { what: format!("the layout of scene {scene:?}"), problem });
+            return Err(DatasetError::Unstorable { what: format!("the planes of scene {scene:?}"), problem });
         }
         let mut table = Table::new(&self.layout().plane_table(scene), &HEADER);
-        let row = |(i, plane): (usize, &LayoutPlane)| {
+        let row = |(i, plane): (usize, &RoomPlane)| {
             let wall = plane.wall.map_or("-1".to_string(), |wall| wall.to_string());
             let mut row = vec![(i + 1).to_string(), plane.kind.name().into(), plane.room.to_string(), wall];
             row.extend(plane.normal.to_array().iter().chain([&plane.offset_m]).map(|v| v.to_string()));
@@ -32,11 +32,11 @@ impl Dataset {
         table.write()
     }
 
-    /// The planes of a scene's layout, in the order of their numbers; none where nobody asked for them.
+    /// The planes of a scene's rooms, in the order of their numbers; none if they were not requested.
     ///
     /// # Errors
     /// When the table is damaged.
-    pub fn read_plane_table(&self, scene: &str) -> Result<Vec<LayoutPlane>, DatasetError> {
+    pub fn read_plane_table(&self, scene: &str) -> Result<Vec<RoomPlane>, DatasetError> {
         let path = self.layout().plane_table(scene);
         if !path.is_file() {
             return Ok(Vec::new());
@@ -52,7 +52,7 @@ impl Dataset {
                 return Err(wrong(row, &format!("plane_id {}", row + 1), cell(id)));
             }
             let named = KINDS.into_iter().find(|known| known.name() == cell(kind));
-            Ok(LayoutPlane {
+            Ok(RoomPlane {
                 kind: named.ok_or_else(|| wrong(row, "floor, ceiling or wall", cell(kind)))?,
                 room: table.parse(row, room)?,
                 wall: usize::try_from(table.parse::<i64>(row, wall)?).ok(),
@@ -77,7 +77,7 @@ impl Dataset {
         replace_file(&self.layout().plane_ids(scene, camera, frame), |aside| write_array(aside, &array, storage, &attributes))
     }
 
-    /// Which plane each pixel of a frame shows, as an int16 array of height × width; `None` where nobody asked for that.
+    /// The plane that each pixel of a frame shows, as an int16 array of height × width; `None` if that was not requested.
     ///
     /// # Errors
     /// When the file is damaged, or no such image.
@@ -101,7 +101,7 @@ impl Dataset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::{Structure, StructureRoom};
+    use enfilade_scene::{RoomOutline, Rooms};
 
     #[test]
     fn planes_come_back_and_tables_that_were_changed_are_refused() {
@@ -110,10 +110,10 @@ mod tests {
         let names = ["room", "cam_00"];
         assert_eq!((dataset.read_plane_table("room").unwrap(), dataset.read_plane_ids(names, 3).unwrap()), (vec![], None));
         let polygon = vec![[0.0, 0.0], [4.0, 0.5], [4.0, 3.0]];
-        let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.1, ceiling_z_m: 2.5 };
-        let mut structure = Structure::default();
-        structure.push_room(room, &[(0.1, true); 3]);
-        let planes = structure.planes();
+        let room = RoomOutline { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.1, ceiling_z_m: 2.5 };
+        let mut rooms = Rooms::default();
+        rooms.push_room(room, &[(0.1, true); 3]);
+        let planes = rooms.planes();
         dataset.write_plane_table("room", &planes).unwrap();
         assert_eq!(dataset.read_plane_table("room").unwrap(), planes);
         dataset.write_plane_ids(names, 3, [1, 3], vec![-1, 1, 5]).unwrap();

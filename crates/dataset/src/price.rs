@@ -1,20 +1,20 @@
-//! What is paid for processor time: the machine, and whatever is licensed beside it.
+//! Prices of processor time: of the machine, and of everything licensed beside it.
 //!
 //! A price is one way to pay, such as spot machines; a table of prices has several, and every sum is given for each. A price has one rate
-//! or more: that of the machine, and those of licences. Hypersim paid 0.0161 to 0.0484 dollars per vCPU-hour for machines, half of them
-//! 0.0165 or less, and 0.009 for V-Ray on each, which is 0.00015 per core-minute.
+//! or more: the machine's, and those of licences. Hypersim paid 0.0161 to 0.0484 dollars per vCPU-hour for machines, half of them 0.0165 or
+//! less, and 0.009 for V-Ray on each, which is 0.00015 per core-minute.
 
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// What to give where a price cannot be read.
+/// Advice if a price cannot be read.
 const HELP: &str = "give dollars per vCPU-hour, as in --price 0.04; with what is paid beside the machine --price 0.0165,licence=0.00015/core-minute; \
                     or a table of lines like: on demand,0.048. With sizes of machines its first line is \
                     name,dollars_per_vcpu_hour,vcpus,memory_gib, and further columns may be such as licence_dollars_per_core_minute";
-/// What the first columns of a table are called that has more than two, and those of sizes.
+/// Names of the first columns of a table that has more than two, and of the columns of sizes.
 const FIRST: [&str; 2] = ["name", "dollars_per_vcpu_hour"];
 const SIZES: [&str; 2] = ["vcpus", "memory_gib"];
-/// What the rate of the machine is called where there are others.
+/// Name of the machine's rate if there are others.
 const MACHINE: &str = "machine";
 
 /// The size of a machine that can be had at a price.
@@ -26,7 +26,7 @@ pub struct Machine {
     pub memory_gib: f64,
 }
 
-/// What a rate is paid for. A core is a vCPU, a thread of the machine.
+/// The unit of a rate. A core is a vCPU, a thread of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Per {
@@ -58,7 +58,7 @@ pub struct Rate {
     pub name: String,
     /// 0 or more.
     pub dollars: f64,
-    /// For what.
+    /// Unit of the rate.
     pub per: Per,
 }
 
@@ -79,13 +79,13 @@ pub struct Price {
     /// The machine that is paid, where its size is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<Machine>,
-    /// What is paid beside it.
+    /// Rates that are paid in addition.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub licences: Vec<Rate>,
 }
 
 impl Default for Price {
-    /// What half of Hypersim's machines were paid at or below.
+    /// The median of Hypersim's machine prices.
     fn default() -> Self {
         Self::new("Hypersim's median", 0.0165)
     }
@@ -107,12 +107,12 @@ impl Price {
         vcpu_hours * self.dollars_per_vcpu_hour
     }
 
-    /// Dollars of what is paid beside it.
+    /// Dollars of everything besides the machine.
     pub fn licence_dollars(&self, vcpu_hours: f64) -> f64 {
         vcpu_hours * self.licences.iter().map(Rate::dollars_per_vcpu_hour).sum::<f64>()
     }
 
-    /// Dollars of the whole machine for some seconds, licences for all of it included; `None` where its size is not told.
+    /// Dollars of the whole machine for some seconds, licences for all of it included; `None` if its size is not given.
     pub fn whole_machine_dollars(&self, wall_s: f64) -> Option<f64> {
         Some(self.dollars(wall_s / 3600.0 * f64::from(self.machine?.vcpus)))
     }
@@ -141,7 +141,7 @@ impl Price {
     }
 }
 
-/// What is given as a price and is none.
+/// A text that is not a price.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct PriceError {
@@ -153,7 +153,7 @@ impl PriceError {
         Self { message: message.into() }
     }
 
-    /// What to give.
+    /// Advice on valid prices.
     pub fn help(&self) -> &'static str {
         HELP
     }
@@ -161,10 +161,10 @@ impl PriceError {
 
 /// Prices from a number, from rates, or from the file of a table.
 ///
-/// `0.0165` is the machine's rate per vCPU-hour; `0.0165,licence=0.00015/core-minute` adds others, each with a name, and `/vcpu-hour` or
-/// nothing behind those that are meant so. A line of a table is `name,dollars_per_vcpu_hour`, with or without a first line that says so.
-/// Under a first line of more columns these may be followed by `vcpus,memory_gib`, how many threads and gibibytes each machine has, and by
-/// columns such as `licence_dollars_per_core_minute` or `licence_dollars_per_vcpu_hour`; a cell of these may be empty.
+/// `0.0165` is the machine's rate per vCPU-hour; `0.0165,licence=0.00015/core-minute` adds others, each with a name, and `/vcpu-hour` or no
+/// unit for those per vCPU-hour. A line of a table is `name,dollars_per_vcpu_hour`, with or without a header line. With a header line of
+/// more columns, these may be followed by `vcpus,memory_gib`, the numbers of threads and gibibytes of each machine, and by columns such as
+/// `licence_dollars_per_core_minute` or `licence_dollars_per_vcpu_hour`; a cell of these may be empty.
 ///
 /// # Errors
 /// When it is neither, with the line of a table.
@@ -214,7 +214,7 @@ fn plain(line: &str) -> Option<Price> {
     Some(Price::new(name.trim(), dollars.trim().parse().ok()?))
 }
 
-/// What the columns of a table are, behind the first two.
+/// The meanings of a table's columns after the first two.
 struct Columns {
     has_sizes: bool,
     /// Names and units of rates.

@@ -1,4 +1,4 @@
-//! What a dataset holds, and its layers as values.
+//! Reading a dataset: its contents, and its layers as values.
 
 use crate::hdf5::{Element, Elements, Window, image_shape, read_array, read_window};
 use crate::layout::camera_of_layer_dir;
@@ -54,7 +54,7 @@ impl Dataset {
         Ok(names.into_iter().collect())
     }
 
-    /// The cameras that have poses or images, whatever `metadata_cameras.csv` says, sorted.
+    /// The cameras that have poses or images, whether or not `metadata_cameras.csv` lists them, sorted.
     ///
     /// # Errors
     /// As [`Dataset::cameras`].
@@ -115,8 +115,8 @@ impl Dataset {
         read_image(&self.layout().layer(scene, camera, frame, layer), layer, window)
     }
 
-    /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision where the table says
-    /// so, positions are in metres whatever the unit of the files, and planar depth that is not stored is computed from distances and
+    /// The given layers of a frame, as the table of layers describes them: half precision becomes single precision if the table specifies
+    /// that, positions are in metres whatever the unit of the files, and planar depth that is not stored is computed from distances and
     /// camera ([`planar_depth`](crate::planar_depth)).
     ///
     /// # Errors
@@ -140,8 +140,8 @@ impl Dataset {
         Ok(whole.expect("at least one layer"))
     }
 
-    /// One layer as in [`Dataset::read_frame`], in a rectangle of the image or whole, with its height and width. `projection` is that of the
-    /// camera; it is asked for where planar depth is computed.
+    /// One layer as in [`Dataset::read_frame`], in a rectangle of the image or whole, with its height and width. `projection` returns the
+    /// camera's projection; it is called if planar depth is computed.
     ///
     /// # Errors
     /// As there, and when the window leaves the image, or planar depth is computed of images of another size than the camera's.
@@ -173,7 +173,7 @@ impl Dataset {
     /// Height and width of the image that a layer is read from.
     ///
     /// # Errors
-    /// When the file is missing or damaged, or holds no image.
+    /// When the file is missing or damaged, or contains no image.
     pub fn image_size(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Result<[usize; 2], DatasetError> {
         let path = self.layer_source(scene, camera, frame, layer);
         match *image_shape(&path)? {
@@ -205,7 +205,7 @@ impl Dataset {
     }
 
     /// True when the frame has a file for `layer`. A `*_rendered` file that its record does not list is no layer of its own: it is another
-    /// name of what the plain name holds.
+    /// name of the same content as the plain name.
     pub fn has_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> bool {
         let path = self.layout().layer(scene, camera, frame, layer);
         path.is_file() && (layer.spec().pass != Pass::Rendered || self.is_listed(scene, camera, frame, &path))

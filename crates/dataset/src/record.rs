@@ -24,7 +24,7 @@ pub struct FileRecord {
     pub blake3: String,
 }
 
-/// A pose as it stands in a record: metres, camera axes x right, y up, z backward.
+/// A pose as it is written in a record: metres, camera axes x right, y up, z backward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PoseRecord {
     /// Camera centre in the world.
@@ -186,7 +186,7 @@ impl FrameRecord {
         }
     }
 
-    /// True when the frame was taken with `camera` from where `pose` stands.
+    /// True when the frame was taken with `camera` in the pose `pose`.
     pub fn is_taken(&self, camera: &Camera, pose: &Pose) -> bool {
         let then = self.pose.to_pose(pose.frame);
         let moved = (then.position - pose.position).abs().max_element();

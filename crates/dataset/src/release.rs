@@ -1,4 +1,4 @@
-//! What differs in Hypersim's own release, as Apple publishes it: no manifest and no records, float16 distances and positions,
+//! The differences of Hypersim's own release, as Apple publishes it: no manifest and no records, float16 distances and positions,
 //! positions in asset units, no planar depth, and cameras in the tables that have no files.
 
 use crate::{Dataset, DatasetError, Window};
@@ -43,19 +43,19 @@ impl Dataset {
                 && self.read_camera(scene, camera).is_ok_and(|camera| camera.projection.has_image_plane())
     }
 
-    /// The file that a layer is read from: its own, or that of the distances that planar depth is computed from.
+    /// The file that a layer is read from: its own, or the distances that planar depth is computed from.
     pub fn layer_source(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> PathBuf {
         self.layout().layer(scene, camera, frame, self.stored_layer(scene, camera, frame, layer))
     }
 
-    /// The layer whose file that is: another one than `layer` where planar depth is computed.
+    /// The layer of that file: another one than `layer` if planar depth is computed.
     pub fn stored_layer(&self, scene: &str, camera: &str, frame: u32, layer: Layer) -> Layer {
         let computed = layer == Layer::DepthZMeters && !self.has_layer(scene, camera, frame, layer);
         if computed { Layer::DepthMeters } else { layer }
     }
 
-    /// [`Dataset::meters_per_asset_unit`] of what is stored. Where nothing says it, it is 1 for a scene of ours, and an error for one of
-    /// the release, which is in asset units.
+    /// [`Dataset::meters_per_asset_unit`] of stored positions. If it is not recorded, it is 1 for our own scenes, and an error for a scene
+    /// of the release, which is in asset units.
     pub(crate) fn meters_per_stored_unit(&self, scene: &str) -> Result<f64, DatasetError> {
         match self.meters_per_asset_unit(scene) {
             Err(error) if error.is_not_found() && !self.is_released(scene) => Ok(1.0),

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// What a copy came to.
+/// Size of a copy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Repacked {
     /// Images.
@@ -28,20 +28,20 @@ pub struct Repacked {
 struct ImageCopy {
     from: PathBuf,
     to: PathBuf,
-    /// What the copy says of itself.
+    /// Attributes of the copy.
     attributes: Vec<(&'static str, &'static str)>,
 }
 
 /// The sign by which a copy is known: nothing else is replaced.
 const MARK: &str = "enfilade_repack.json";
 
-/// What [`MARK`] calls itself.
+/// Kind recorded in [`MARK`].
 const MARK_KIND: &str = "enfilade repack 1";
 
-/// Where a copy grows, within its folder: that may be a disk of its own.
+/// Folder of an unfinished copy, within the copy's folder, because that may be a disk of its own.
 const GROWING: &str = ".repack.partial";
 
-/// Where an earlier copy lies until it is removed.
+/// Folder of an earlier copy until it is removed.
 const OLD: &str = ".repack.old";
 
 /// Held while a copy is made.
@@ -56,19 +56,20 @@ struct Mark {
     enfilade_version: String,
 }
 
-/// What the manifest of a copy says about records.
+/// Note about records in the manifest of a copy.
 const RECORDS: &str = "This is a copy for fast reading: a frame counts when it has a file, and has no record; checksums are BLAKE3 of \
     whole files.";
 
 impl Dataset {
     /// Copies the frames, cameras and tables of this dataset to `out`, with images as [`Storage::Fast`] and otherwise the same values, types
     /// and names. `layers` restricts it to some. Frames have no commit records in the copy, as in Hypersim's release; the manifest, where
-    /// there is one, lists the files of the copy. Geometry and previews are left out. `cx` hears of every image.
+    /// there is one, lists the files of the copy. Geometry and previews are left out. `cx` gets the progress of every image.
     ///
     /// An earlier copy at `out` is replaced as a whole, when all of the new one is there; anything else there is refused.
     ///
     /// # Errors
-    /// When a file cannot be read or written, `out` holds something else than a copy, or it or the dataset lies in the other.
+    /// When a file cannot be read or written, `out` contains something else than a copy, or one of `out` and the dataset is inside the
+    /// other.
     pub fn repack(&self, out: &Path, layers: Option<&[Layer]>, cx: &dyn Cx) -> Result<Repacked, DatasetError> {
         let growing = Growing::prepare(out, self.root())?;
         let copy = &growing.copy;
@@ -214,7 +215,7 @@ fn lock(out: &Path) -> Result<Option<File>, DatasetError> {
     }
 }
 
-/// Moves what lies in a folder into another one.
+/// Moves the contents of a folder into another one.
 fn move_entries(from: &Path, to: &Path) -> Result<(), DatasetError> {
     for path in entries(from)? {
         let to = to.join(path.file_name().unwrap_or_default());
@@ -223,7 +224,7 @@ fn move_entries(from: &Path, to: &Path) -> Result<(), DatasetError> {
     Ok(())
 }
 
-/// What lies in a folder but for [`BESIDE`], sorted.
+/// The contents of a folder except for [`BESIDE`], sorted.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
     let found: std::io::Result<Vec<PathBuf>> = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect());
     let mut paths = found.map_err(DatasetError::at("read the folder", folder))?;

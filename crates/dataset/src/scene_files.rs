@@ -7,10 +7,10 @@ use crate::mesh_files::write_mesh;
 use crate::tables::{Table, write_parameters};
 use crate::{Dataset, DatasetError, check_name, replace_file, write_bytes, write_json};
 use enfilade_math::DVec3;
-use enfilade_scene::{Part, Scene, Structure};
+use enfilade_scene::{Part, Rooms, Scene};
 use std::path::Path;
 
-/// What Hypersim writes for a node that belongs to no object.
+/// Hypersim's name for the object of a node that belongs to none.
 const NULL_OBJECT: &str = "_NULL_OBJECT";
 const NODE_COLUMNS: [&str; 4] = ["node_id", "node_name", "object_id", "object_name"];
 /// Column of our own scenes alone: 1 where [`Node::is_partly_there`].
@@ -28,8 +28,8 @@ pub struct Node {
     pub object_id: Option<u32>,
     /// Name of the object.
     pub object_name: String,
-    /// Whether opacity or holes show what lies behind it, so that colours and reflectances of its pixels are partly of that. False where it
-    /// is not known.
+    /// Whether one sees things behind it through opacity or holes, so that colours and reflectances of its pixels are partly theirs. False
+    /// if that is not known.
     pub is_partly_there: bool,
 }
 
@@ -68,21 +68,21 @@ impl Dataset {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn write_structure(&self, scene: &str, structure: &Structure) -> Result<(), DatasetError> {
+    pub fn write_rooms(&self, scene: &str, rooms: &Rooms) -> Result<(), DatasetError> {
         check_name("scene name", scene)?;
-        write_json(&self.layout().structure(scene), structure)
+        write_json(&self.layout().rooms(scene), rooms)
     }
 
     /// The rooms, walls, doors and windows of a scene; `None` where they are not known.
     ///
     /// # Errors
-    /// When the file is not what it says, or of a newer version of the program.
-    pub fn read_structure(&self, scene: &str) -> Result<Option<Structure>, DatasetError> {
-        let path = self.layout().structure(scene);
+    /// When the file is damaged, or of a newer version of the program.
+    pub fn read_rooms(&self, scene: &str) -> Result<Option<Rooms>, DatasetError> {
+        let path = self.layout().rooms(scene);
         let remedy = "import the scene again, which rewrites it";
-        let Some(structure) = read_json::<Structure>(&path, remedy)? else { return Ok(None) };
-        structure.check().map_err(|problem| DatasetError::text(&path, format!("{problem}; {remedy}")))?;
-        Ok(Some(structure))
+        let Some(rooms) = read_json::<Rooms>(&path, remedy)? else { return Ok(None) };
+        rooms.check().map_err(|problem| DatasetError::text(&path, format!("{problem}; {remedy}")))?;
+        Ok(Some(rooms))
     }
 
     /// Adds to `metadata_scene.csv` what was subtracted from the coordinates of the scene's file, metres, z up: `offset_x_m` and so on.
@@ -106,7 +106,7 @@ impl Dataset {
         read_node_table(&self.layout().metadata_nodes(scene))
     }
 
-    /// Writes `metadata_nodes.csv`, and `metadata_scene.csv` of a scene in metres: what a scene needs that was rendered elsewhere. Of its
+    /// Writes `metadata_nodes.csv`, and `metadata_scene.csv` of a scene in metres: the files that a scene rendered elsewhere needs. Of its
     /// nodes it is not known which are partly there.
     ///
     /// # Errors
@@ -121,8 +121,8 @@ impl Dataset {
         if units.is_file() { Ok(()) } else { write_parameters(&units, &[(METERS, 1.0)]) }
     }
 
-    /// Metres per asset unit; 1 in every dataset of ours. Where Hypersim's `metadata_scene.csv` was not downloaded, the table of cameras
-    /// says it.
+    /// Metres per asset unit; 1 in every dataset of ours. If Hypersim's `metadata_scene.csv` was not downloaded, it is read from the table
+    /// of cameras.
     ///
     /// # Errors
     /// When both tables are missing or lack the scene, or one that is there is damaged or states no positive number.
@@ -166,7 +166,7 @@ impl Dataset {
     }
 }
 
-/// A table of render entities in the form of `metadata_nodes.csv`, wherever it lies.
+/// A table of render entities in the form of `metadata_nodes.csv`, in any folder.
 ///
 /// # Errors
 /// When it is missing or damaged, or the entities are not numbered 1, 2, 3, … in order.

@@ -1,6 +1,6 @@
-//! `metadata_camera_trajectories.csv`: what kind of room each camera goes through, in the words of Hypersim's file of that name, which lies
-//! in `evermotion_dataset/analysis` of its toolkit. Ours lies at the dataset's root, where NICR's `prepare_dataset` (EMSANet's way to
-//! Hypersim) looks for it before it downloads Hypersim's, and has of its columns those that tell about scenes.
+//! `metadata_camera_trajectories.csv`: what kind of room each camera goes through, in the words of Hypersim's file of that name, which is
+//! in `evermotion_dataset/analysis` of its toolkit. Ours is at the dataset's root, where NICR's `prepare_dataset` (which prepares Hypersim
+//! for EMSANet) looks for it before it downloads Hypersim's. It has only the columns about scenes.
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
@@ -38,7 +38,7 @@ pub fn scene_type(name: &str) -> Option<&'static str> {
     SCENE_TYPES.into_iter().find(|known| known.eq_ignore_ascii_case(name.trim()))
 }
 
-/// What a camera goes through.
+/// The kind of room that a camera goes through.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneTypeRow {
     /// Name of the scene.
@@ -75,7 +75,7 @@ mod tests {
         assert_eq!((scene_type("living room"), scene_type("Kitchen "), scene_type("pantry")), (Some("Living room"), Some("Kitchen"), None));
     }
 
-    /// How `prepare_dataset` finds the camera: `re.split("(_cam_[0-9][0-9])", animation)[:2]`.
+    /// `prepare_dataset` finds the camera by: `re.split("(_cam_[0-9][0-9])", animation)[:2]`.
     #[test]
     fn animations_are_scene_and_camera_as_hypersim_has_them() {
         let folder = tempfile::tempdir().unwrap();

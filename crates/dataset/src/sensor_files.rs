@@ -1,4 +1,4 @@
-//! What sensors make of frames: `sensors/<sensor>/<scene>/<camera>/frame.IIII.<what>`, and beside it what was drawn for every frame.
+//! Output of sensors: `sensors/<sensor>/<scene>/<camera>/frame.IIII.<what>`, and beside it the random values drawn for every frame.
 
 use crate::atomic::begin_folder;
 use crate::frames::{read_json, write_layer};
@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What was drawn for a frame.
+/// Random values drawn for a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensedFrame {
     /// Number of the frame.
@@ -21,14 +21,14 @@ pub struct SensedFrame {
     pub drawn: Vec<(&'static str, f64)>,
 }
 
-/// What a lidar has seen, beam by beam: rows of one elevation, from the first on, and columns of one azimuth.
+/// The scan of a lidar, beam by beam: rows of one elevation, from the first on, and columns of one azimuth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// Rows and columns.
     pub shape: [usize; 2],
     /// Distances, metres; NaN where nothing returned.
     pub distances_m: Vec<f32>,
-    /// Where the beams ended, camera axes (x right, y up, z backward), metres; NaN where nothing returned.
+    /// End points of the beams, camera axes (x right, y up, z backward), metres; NaN where nothing returned.
     pub points: Vec<[f32; 3]>,
     /// Diffuse reflectance times the cosine to the surface's normal, 0 to 1; 0 where nothing returned.
     pub intensities: Vec<f32>,
@@ -37,7 +37,7 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// One of which nothing has returned.
+    /// A scan in which nothing has returned.
     pub fn empty(shape: [usize; 2]) -> Self {
         let beams = shape[0] * shape[1];
         Self {

@@ -26,11 +26,11 @@ pub struct Surfaces {
     pub side: Vec<u8>,
     /// Unit normal of the flat triangle in the world, facing the camera, three values per surface; NaN beyond the last.
     pub normal_world: Vec<f16>,
-    /// By pixel: length of the bent way, metres; NaN where it meets nothing that lets no light through.
+    /// Length of the refracted path of each pixel, metres; NaN where it meets no opaque surface.
     pub bent_distance_m: Vec<f32>,
-    /// By pixel: where it ends, world, metres, three values per pixel; NaN as there.
+    /// End of the refracted path of each pixel, world space, metres, three values per pixel; NaN as there.
     pub bent_position: Vec<f32>,
-    /// By pixel: the part that it ends on; −1 where it meets none.
+    /// The part on which the refracted path of each pixel ends; −1 where it meets none.
     pub bent_entity: Vec<i16>,
 }
 
@@ -71,7 +71,7 @@ impl Dataset {
             Elements::F32(surfaces.bent_position),
             Elements::I16(surfaces.bent_entity),
         ];
-        // That the first file is there says that all are.
+        // The first file exists only if all do.
         remove_if_there(&self.layout().surfaces(scene, camera, frame, FIRST))?;
         for (((name, unit, description), shape), values) in FILES.iter().zip(shapes).zip(values).rev() {
             let array = Array::new(&shape, values);

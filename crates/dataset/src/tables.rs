@@ -16,7 +16,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// An empty table that will lie at `path`.
+    /// An empty table that will be written to `path`.
     pub fn new(path: &Path, header: &[&str]) -> Self {
         Self { path: path.to_path_buf(), header: header.iter().map(ToString::to_string).collect(), rows: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! `manifest_times.csv`: how long each frame took, and what else differs between two runs. Rows are appended as frames finish; of
+//! `manifest_times.csv`: the time of each frame, and other values that differ between two runs. Rows are appended as frames finish; of
 //! several rows for one frame the last counts. A table that an older version began keeps its five columns.
 
 use crate::{Dataset, DatasetError};
@@ -11,21 +11,21 @@ const HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu,p
 /// Header of tables of older versions.
 const OLD_HEADER: &str = "scene_name,camera_name,frame_id,seconds_wall,seconds_cpu\n";
 
-/// How long a frame took, and on how much of the machine.
+/// The time that a frame took, and the resources used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
     /// Elapsed seconds.
     pub wall_s: f64,
     /// Seconds of all threads together.
     pub cpu_s: f64,
-    /// Peak memory of the process until the frame was finished; `None` where the system does not tell.
+    /// Peak memory of the process until the frame was finished; `None` if the system does not report it.
     pub peak_memory_bytes: Option<u64>,
     /// Threads at work.
     pub threads: Option<u32>,
 }
 
 impl Dataset {
-    /// How long each frame took when it was last rendered, by scene, camera and frame number. Rows that a killed run left
+    /// The time that each frame took when it was last rendered, by scene, camera and frame number. Rows that a killed run left
     /// unfinished are passed over.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! `metadata_tonemap.csv`: how radiance became the 8-bit pictures of a camera's frames, and the way back.
 //!
-//! `tonemap.jpg` is min(1, (`scale` · max(0, radiance))^`gamma`): below white, radiance is displayed^(1 / `gamma`) / `scale`. Of
-//! `display.jpg`, whose curve docs/previews.md tells, exposure and white balance are here; all frames of the trajectory share them.
+//! `tonemap.jpg` is min(1, (`scale` · max(0, radiance))^`gamma`): below white, radiance is displayed^(1 / `gamma`) / `scale`. For
+//! `display.jpg`, whose curve is in docs/previews.md, the exposure and white balance are stored; all frames of the trajectory share them.
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
@@ -15,17 +15,17 @@ const WHITE: [&str; 3] = ["display_white_r", "display_white_g", "display_white_b
 pub struct ToneMapRow {
     /// Frame number.
     pub frame: u32,
-    /// Which percentile of brightness the exposures go by, of 100.
+    /// Percentile of brightness that determines the exposures, 0 to 100.
     pub percentile: f64,
     /// Brightness (0.3 R + 0.59 G + 0.11 B) at that percentile of the frame's valid pixels; `None` when it has none.
     pub brightness: Option<f64>,
-    /// What radiance is multiplied by in `tonemap.jpg`.
+    /// Factor of radiance in `tonemap.jpg`.
     pub scale: f64,
     /// The power that the product is raised to.
     pub gamma: f64,
-    /// What radiance is multiplied by in `display.jpg`.
+    /// Factor of radiance in `display.jpg`.
     pub display_scale: f64,
-    /// What red, green and blue are multiplied by besides in `display.jpg`; 1 in datasets of earlier versions.
+    /// Additional factors of red, green and blue in `display.jpg`; 1 in datasets of earlier versions.
     pub display_white: [f64; 3],
 }
 

@@ -1,6 +1,6 @@
 //! Pieces of messages: words of commands that people copy, and counted things.
 
-/// A word as a shell takes it, for commands that people copy: in quotes where it holds what a shell would read as something else.
+/// A word as a shell takes it, for commands that people copy: in quotes if it contains characters that a shell would interpret.
 pub fn quoted(word: impl std::fmt::Display) -> String {
     let word = word.to_string();
     let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c) || c == std::path::MAIN_SEPARATOR;

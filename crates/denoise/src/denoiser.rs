@@ -4,7 +4,7 @@ use crate::Noisy;
 use crate::network::{Instructions, NAME, Network};
 use std::sync::{Arc, LazyLock};
 
-/// What takes noise away from pictures.
+/// A filter that removes noise from pictures.
 pub struct Denoiser(Arc<Network>);
 
 impl Denoiser {
@@ -21,7 +21,7 @@ impl Denoiser {
         Self(Arc::new(Network::new(instructions)))
     }
 
-    /// Name of the network, as it stands in records: `built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)`.
+    /// Name of the network, as it is written in records: `built-in (rt_hdr_calb_cnrm_large of Open Image Denoise 2)`.
     pub fn name(&self) -> String {
         NAME.into()
     }

@@ -1,8 +1,8 @@
 //! From rendered layers to denoised ones.
 //!
-//! What guides which part was chosen by measurement, see `docs/benchmarks/denoise.md`. Diffuse light and residual hold no texture
-//! of the first surface's reflectance, so that a reflectance in their guides only leaves its traces in them: it is white there,
-//! and comes in afterwards, exact. Normals are point samples, but colours are filtered over the pixel; at edges the two would
+//! The guides of each part were chosen by measurement, see `docs/benchmarks/denoise.md`. Diffuse light and residual contain no texture of
+//! the first surface's reflectance, so a reflectance among their guides would only leave traces in them: there it is white, and the exact
+//! reflectance is multiplied in afterwards. Normals are point samples, but colours are filtered over the pixel; at edges the two would
 //! disagree, so normals get the same filter.
 
 use crate::DenoiseError;

@@ -1,12 +1,12 @@
-//! What denoising promises: the identity, what it reads, what it does to noise, and that the network in the binary makes of pictures
-//! what the library of Open Image Denoise makes of them.
+//! The promises of denoising: the identity, the layers it reads, the noise it removes, and that the network in the binary gives the results
+//! of the library of Open Image Denoise.
 
 use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, Noisy, denoise};
 use enfilade_frame::{Frame, Layer, Pass, Values, f16};
 
 const WIDTH: u32 = 96;
 const HEIGHT: u32 = 64;
-/// What is denoised.
+/// The denoised layers.
 const PARTS: [Layer; 2] = [Layer::DiffuseIllumination, Layer::Residual];
 
 /// A number on [0,1) for every pixel, channel and purpose.
@@ -99,7 +99,7 @@ fn the_network_in_the_binary_takes_noise_away() {
     }
 }
 
-/// What Open Image Denoise 2.5.1 makes of the pictures below: every eleventh value of each. `library/make.py` has made it.
+/// Output of Open Image Denoise 2.5.1 for the pictures below: every eleventh value of each. Made by `library/make.py`.
 const ANSWERS: &[u8] = include_bytes!("library/answers.f32");
 const STRIDE: usize = 11;
 

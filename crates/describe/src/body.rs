@@ -1,9 +1,9 @@
-//! The surface of a thing, as rays and distances are asked of it.
+//! The surface of a thing, for queries by rays and distances.
 
 use enfilade_geometry::{Bvh, NearestTriangle};
 use enfilade_math::{Bounds3, DVec3, OrientedBox, Ray, Rng, Vec3};
 
-/// Points that stand for a surface in questions of distance and direction, besides its corners.
+/// Number of sample points of a surface for queries of distance and direction, besides its corners.
 const POINTS: usize = 512;
 /// Corners of triangles that are looked at, at most, evenly among all.
 const CORNERS: usize = 2048;
@@ -14,7 +14,7 @@ pub struct Body {
     pub instance: i16,
     /// Class of the body.
     pub semantic: i16,
-    /// Class of the body if it is one of NYU40, else −1: what rules go by.
+    /// Class of the body if it is one of NYU40, else −1; the rules use this one.
     pub class: i16,
     /// The least box with a level base around it, its longer horizontal side first.
     pub upright: OrientedBox,
@@ -47,7 +47,7 @@ impl Body {
         self.instance >= 1
     }
 
-    /// Whether a point lies in its upright box, seen from above.
+    /// Whether a point is within its upright box, seen from above.
     pub fn holds_from_above(&self, p: DVec3) -> bool {
         let local = self.upright.world_from_box.transpose() * (p - self.upright.center);
         local.truncate().abs().cmple(0.5 * self.upright.extents.truncate()).all()
@@ -59,12 +59,12 @@ impl Body {
         a.min.truncate().cmple(b.max.truncate()).all() && b.min.truncate().cmple(a.max.truncate()).all()
     }
 
-    /// Where a ray meets it first, between these distances from its origin along a unit direction, metres.
+    /// First hit of a ray with it, between these distances from the origin along a unit direction, metres.
     pub fn hit(&self, origin: Vec3, direction: Vec3, [from, to]: [f32; 2]) -> Option<f32> {
         self.bvh.closest(&Ray { origin, direction, t_min: from, t_max: to }).map(|hit| hit.t)
     }
 
-    /// Whether anything of it lies between two points; their own surfaces are left out by a centimetre.
+    /// Whether any part of it is between two points; a centimetre at each end is left out, for the points' own surfaces.
     pub fn is_between(&self, [a, b]: [DVec3; 2]) -> bool {
         let way = (b - a).as_vec3();
         let length = way.length();

@@ -1,4 +1,4 @@
-//! What is said of a frame: what there is, how it stands, how far it is.
+//! Captions of frames: what is visible, how it is arranged, how far it is.
 
 use crate::seen::{SeenFrame, Sight};
 use crate::things::Things;
@@ -14,18 +14,18 @@ const SPOKEN: f64 = 3e-3;
 const NOTICED: f64 = 2e-4;
 /// The things that the first sentence lists, at most, things of one name being one.
 const LISTED: usize = 6;
-/// Sentences on how things stand, at most.
+/// Most sentences on how things are arranged.
 const SENTENCES: usize = 4;
-/// What one of them says of a thing, at most.
+/// Most clauses about a thing in one of them.
 const CLAUSES: usize = 2;
 
-/// What is known of a scene, and what a frame shows of it.
+/// The known facts about a scene, and the part of it that a frame shows.
 pub struct Scope<'a> {
     pub things: &'a Things,
     /// By subject.
     pub relations: &'a [InstanceRelation],
     pub seen: &'a SeenFrame,
-    /// What has a name and can be noticed, the largest first.
+    /// The things that have a name and can be noticed, the largest first.
     noticed: Vec<(&'a DescribedInstance, &'a Sight)>,
 }
 
@@ -43,7 +43,7 @@ impl<'a> Scope<'a> {
         self.noticed.iter().copied().filter(|(_, sight)| self.seen.covers(sight, share)).collect()
     }
 
-    /// The relations that are said of an instance.
+    /// The relations whose subject is an instance.
     pub fn relations_of(&self, instance: i16) -> &'a [InstanceRelation] {
         let [first, end] = [instance, instance.saturating_add(1)].map(|i| self.relations.partition_point(|r| r.subject < i));
         &self.relations[first..end]
@@ -62,7 +62,7 @@ impl<'a> Scope<'a> {
         (!thing.color.is_empty() && !mistaken(true)).then(|| format!("the {} {}", thing.color, thing.noun))
     }
 
-    /// What the other side of a relation is called: a wall, floor or ceiling, or a thing that the frame shows.
+    /// The name of a relation's object: a wall, floor or ceiling, or a thing that the frame shows.
     pub fn object(&self, relation: &InstanceRelation) -> Option<String> {
         if relation.object < 1 {
             let is_told = self.things.has_nyu40() && is_stuff(relation.object_semantic);
@@ -73,7 +73,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// What is said of a frame that was taken from `eye`.
+/// The caption of a frame that was taken from `eye`.
 pub fn caption(scope: &Scope<'_>, [scene, camera]: [&str; 2], eye: DVec3) -> Caption {
     let visible = scope.visible(SPOKEN);
     let mut instances = BTreeSet::new();
@@ -110,7 +110,7 @@ pub fn caption(scope: &Scope<'_>, [scene, camera]: [&str; 2], eye: DVec3) -> Cap
 
 /// "a bedroom with a white bed, two nightstands and some books".
 fn inventory(scope: &Scope<'_>, visible: &[(&DescribedInstance, &Sight)], eye: DVec3, instances: &mut BTreeSet<i16>) -> String {
-    let room = scope.things.structure.as_ref().and_then(|structure| structure.room_at(eye).map(|room| &structure.rooms[room].kind));
+    let room = scope.things.rooms.as_ref().and_then(|rooms| rooms.room_at(eye).map(|room| &rooms.outlines[room].kind));
     let room = room.map_or_else(|| "an interior".into(), |kind| words::a_room(kind));
     let mut groups: Vec<(&str, Vec<&DescribedInstance>)> = Vec::new();
     for (thing, _) in visible {
@@ -134,7 +134,7 @@ fn inventory(scope: &Scope<'_>, visible: &[(&DescribedInstance, &Sight)], eye: D
     if items.is_empty() { room } else { format!("{room} with {}", words::list(&items)) }
 }
 
-/// How a thing stands, as verbs with their objects. What is said of two things is said once.
+/// Clauses on how a thing is arranged, as verbs with their objects. A relation between two things is mentioned once.
 fn clauses(scope: &Scope<'_>, thing: &DescribedInstance, said: &mut BTreeSet<[i16; 2]>, instances: &mut BTreeSet<i16>) -> Vec<String> {
     let many = words::is_plural(&thing.noun);
     let mut found: BTreeMap<RelationKind, String> = BTreeMap::new();

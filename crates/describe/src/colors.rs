@@ -1,5 +1,5 @@
-//! The names of colours: the eleven basic terms of English (Berlin & Kay 1969, "Basic Color Terms") and beige, told by lightness, chroma and
-//! hue in Oklab (Ottosson 2020, "A perceptual color space for image processing").
+//! The names of colours: the eleven basic terms of English (Berlin & Kay 1969, "Basic Color Terms") and beige, recognised by lightness,
+//! chroma and hue in Oklab (Ottosson 2020, "A perceptual color space for image processing").
 
 /// Less chroma than this is none; between red and yellow people see it sooner.
 const GREY: f32 = 0.04;

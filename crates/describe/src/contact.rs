@@ -42,7 +42,7 @@ fn meet(b: &Body, rays: &[Ray], sink: f32, reach: f32) -> Option<Meeting> {
     Some(Meeting { share: gaps.len() as f64 / rays.len() as f64, gap_m: f64::from(gap.max(0.0)) })
 }
 
-/// How what carries a thing meets it.
+/// A way in which a thing may be supported, and the bodies that it meets.
 pub struct Attempt {
     /// Kind of support: on it, or hanging from it.
     pub kind: RelationKind,
@@ -50,8 +50,8 @@ pub struct Attempt {
     pub met: Vec<(usize, Meeting)>,
 }
 
-/// How a body meets those that may carry it, the most telling way first: under its lowest points, over its highest, sinking in, under anything
-/// of it that looks down as cloth lies on things, at its sides, and above or beside it by some centimetres.
+/// The ways in which a body meets those that may support it, the most conclusive first: under its lowest points, over its highest, sinking
+/// in, under any part of it that faces down (as with cloth over things), at its sides, and above or beside it by some centimetres.
 pub fn attempts(a: &Body, others: &[(usize, &Body)]) -> Vec<Attempt> {
     let along = |points: Vec<Vec3>, direction: Vec3| points.into_iter().map(|p| (p, direction)).collect::<Vec<_>>();
     let feet = along(a.ends(false, ENDS_M), Vec3::NEG_Z);
@@ -116,7 +116,7 @@ mod tests {
     use super::*;
     use crate::test_rooms::{body, box_corners, boxed};
 
-    /// What carries a body in the most telling way.
+    /// The most conclusive support of a body.
     fn carried(a: &Body, others: &[(usize, &Body)]) -> Option<(RelationKind, Vec<(usize, Meeting)>)> {
         attempts(a, others).into_iter().next().map(|attempt| (attempt.kind, attempt.met))
     }

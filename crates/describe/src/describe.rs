@@ -1,4 +1,4 @@
-//! From a scene's files to what is said of it.
+//! From a scene's files to its descriptions.
 
 use crate::captions::{Scope, caption};
 use crate::questions::{Asker, of_frame, of_video};
@@ -10,7 +10,7 @@ use enfilade_math::DVec3;
 use enfilade_scene::Cx;
 use std::collections::BTreeMap;
 
-/// How much was found and said.
+/// Numbers of what was found and written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Described {
     /// Instances.
@@ -23,7 +23,7 @@ pub struct Described {
     pub questions: usize,
 }
 
-/// Describes a scene and the finished frames of its cameras, all of them, and writes that into the dataset in the place of what was said before.
+/// Describes a scene and the finished frames of its cameras, all of them, and writes that into the dataset, replacing earlier descriptions.
 /// `None` where nothing is labelled as an instance.
 ///
 /// # Errors
@@ -68,7 +68,7 @@ pub fn describe(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Option<De
     Ok(Some(total))
 }
 
-/// Removes what was said before: of cameras that have no frames any more nothing takes its place.
+/// Removes earlier descriptions, since those of cameras that no longer have frames would not be overwritten.
 fn remove_words(dataset: &Dataset, scene: &str) -> Result<(), DatasetError> {
     let layout = dataset.layout();
     let mut files = vec![layout.described_instances(scene), layout.instance_relations(scene)];

@@ -1,10 +1,10 @@
-//! What the things of a scene are, how they stand to each other, and that in words.
+//! The things of a scene, the relations between them, and descriptions of both in words.
 //!
-//! From the bottom up: a `body` is the surface of a thing that rays and distances are asked of; `contact` says where bodies meet;
-//! `relations` makes of that what people say: on, in, under, against. `things` collects what each thing is, `seen` what the frames
-//! show of it, `colors` what its colour is called. `words` knows how to speak of things, `captions` and `questions` do so.
+//! From the bottom up: a `body` is the surface of a thing, for queries by rays and distances; `contact` finds where bodies meet;
+//! `relations` turns that into the relations that people name: on, in, under, against. `things` collects what each thing is, `seen` what
+//! the frames show of it, `colors` names its colour. `words` has the vocabulary, `captions` and `questions` use it.
 //!
-//! Everything is read from files of the dataset: the mesh folder with its labels, the layout of rooms where there is one, and the frames.
+//! Everything is read from files of the dataset: the mesh folder with its labels, the rooms where they are known, and the frames.
 //! The same files give the same words on any number of threads.
 
 mod body;

@@ -1,7 +1,7 @@
-//! How things stand to each other, in the words of people: on, in, hangs from, against, under, beside, facing.
+//! Spatial relations between things, as people name them: on, in, hangs from, against, under, beside, facing.
 //!
-//! What carries a thing is decided from the walls, floors and ceilings outward: a thing is on what its feet stand on and, if nothing is under
-//! it, hangs from what touches it above or beside. docs/words.md states each relation with its thresholds.
+//! Support is decided from the walls, floors and ceilings outward: a thing is on what its feet stand on and, if nothing is under it, hangs
+//! from what touches it above or beside. docs/words.md states each relation with its thresholds.
 
 use crate::body::Body;
 use crate::contact::{self, AGAINST_M, Attempt, Meeting};
@@ -16,7 +16,7 @@ const ALSO: f64 = 0.2;
 const IN_WAYS: usize = 5;
 /// Farthest that a thing in another may reach beyond its sides, seen from above, metres: what is draped over something is not in it.
 const WITHIN_M: f32 = 0.005;
-/// Another thing or a wall is met by this share of a side's rays if the thing stands against it.
+/// Least share of a side's rays that meet another thing or a wall if the thing stands against it.
 const AGAINST_SHARE: f64 = 0.4;
 /// Greatest gap to what a thing stands against, as a share of its longest side: a mug near a lamp does not stand against it.
 const AGAINST_LENGTHS: f64 = 0.15;
@@ -30,18 +30,18 @@ const BESIDE_M: f64 = 0.5;
 const BESIDE_LENGTHS: f64 = 1.5;
 /// Share of the lower thing's height in which the heights of things beside each other overlap.
 const BESIDE_OVERLAP: f64 = 0.3;
-/// What a thing faces is at most so far away, metres.
+/// Greatest distance to what a thing faces, metres.
 const FACING_M: f64 = 5.5;
 /// Greatest angle between a thing's front and what it faces, aside, above or below, degrees.
 const FACING_DEG: f64 = 20.0;
 /// Classes of things that people use from their front, and that so face others: bed, chair, sofa, desk, television, mirror.
 const FACING_CLASSES: [i16; 6] = [4, 5, 6, 14, 19, 25];
-/// Classes of what they face: furniture, doors, windows, mirrors, televisions and the like.
+/// Classes of things that are faced: furniture, doors, windows, mirrors, televisions and similar.
 const FACED_CLASSES: [i16; 18] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 15, 17, 19, 24, 25, 30, 32, 36];
 /// Classes of what is in a wall: door, window.
 const OPENINGS: [i16; 2] = [8, 9];
 
-/// What carries a thing, and how.
+/// The support of a thing.
 #[derive(Clone, Debug, Default)]
 struct Support {
     kind: Option<RelationKind>,
@@ -54,7 +54,7 @@ struct Scene<'b> {
     supports: Vec<Support>,
 }
 
-/// All relations of these bodies, by subject, then kind, then object. `front` says to where the front of an instance looks, where it has any.
+/// All relations of these bodies, by subject, then kind, then object. `front` returns the direction of an instance's front, if it has one.
 pub fn relations(bodies: &[Body], front: impl Fn(i16) -> Option<DVec2> + Sync) -> Vec<InstanceRelation> {
     let scene = Scene { bodies, supports: supports(bodies) };
     let of_thing = |&i: &usize| {
@@ -76,8 +76,8 @@ fn near(bodies: &[Body], i: usize, reach_m: f64) -> impl Iterator<Item = (usize,
     bodies.iter().enumerate().filter(move |(j, b)| *j != i && bodies[i].bounds_distance_m(b) <= reach_m)
 }
 
-/// What carries each thing. What is no thing carries itself; then, round by round, what that carries in the most telling way; where this leads
-/// no farther, those continue that have the most telling of the other ways.
+/// The support of each body. Walls, floors and ceilings support themselves. Then, round by round, of the bodies that meet a supported one,
+/// those are added that do so in the most conclusive way.
 fn supports(bodies: &[Body]) -> Vec<Support> {
     let attempts = |i: usize| {
         let others: Vec<(usize, &Body)> = near(bodies, i, 0.03).collect();
@@ -123,7 +123,7 @@ impl Scene<'_> {
         InstanceRelation { subject: self.bodies[subject].instance, kind, object: instance, object_semantic: semantic, distance_m }
     }
 
-    /// What carries a body.
+    /// The bodies that carry a body.
     fn carriers(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
         self.supports[i].by.iter().map(|(j, _)| *j)
     }
@@ -164,7 +164,7 @@ impl Scene<'_> {
         found
     }
 
-    /// What a thing that is on something stands against: walls and other things.
+    /// Walls and other things that a thing stands against, if it is on something.
     fn against(&self, i: usize) -> Vec<InstanceRelation> {
         if self.supports[i].kind != Some(RelationKind::On) {
             return Vec::new();
@@ -182,7 +182,7 @@ impl Scene<'_> {
         gaps.map(|(j, gap)| self.relation(i, RelationKind::Against, j, gap)).collect()
     }
 
-    /// What a thing is under: things, not those that hang from the ceiling, nor those that it carries or is in.
+    /// The things that a thing is under, except those that hang from the ceiling, that it carries, or that it is in.
     fn under(&self, i: usize) -> Vec<InstanceRelation> {
         let a = &self.bodies[i];
         let higher = near(self.bodies, i, f64::from(UNDER_M))
@@ -191,14 +191,14 @@ impl Scene<'_> {
         let is_under = |(j, _): &(usize, Meeting)| {
             let hangs_high =
                 self.supports[*j].kind == Some(RelationKind::HangsFrom) && self.carriers(*j).any(|k| self.bodies[k].class == CEILING);
-            // Books on a shelf are not said to be under those on the next.
+            // Books on a shelf do not count as under those on the next.
             let share_thing = self.carriers(i).any(|k| self.bodies[k].is_thing() && self.carriers(*j).any(|l| k == l));
             !hangs_high && !share_thing && !self.rests_on(*j, i) && !self.rests_on(i, *j) && !is_in(a, &self.bodies[*j])
         };
         met.filter(is_under).map(|(j, met)| self.relation(i, RelationKind::Under, j, met.gap_m)).collect()
     }
 
-    /// What stands beside a thing on the same ground, with nothing between; said once, of the lower number.
+    /// The things beside a thing on the same support, with nothing between; each pair is listed once, under the lower number.
     fn beside(&self, i: usize) -> Vec<InstanceRelation> {
         let a = &self.bodies[i];
         let is_on = |j: usize| self.supports[j].kind == Some(RelationKind::On);
@@ -208,7 +208,7 @@ impl Scene<'_> {
             let overlap = f64::from(a.bounds.max.z.min(b.bounds.max.z) - a.bounds.min.z.max(b.bounds.min.z));
             let is_level = overlap >= BESIDE_OVERLAP * a.upright.extents.z.min(b.upright.extents.z);
             let shares_ground = self.carriers(i).any(|k| self.carriers(j).any(|l| k == l));
-            // What runs around the room is beside everything.
+            // Things that run around the room are beside everything.
             let is_around = a.holds_from_above(b.center()) || b.holds_from_above(a.center());
             if a.bounds_distance_m(b) > reach || !is_level || !is_on(j) || !shares_ground || is_around {
                 return None;
@@ -222,7 +222,7 @@ impl Scene<'_> {
         others.filter_map(|(j, b)| Some(self.relation(i, RelationKind::Beside, j, stands_beside(j, b)?))).collect()
     }
 
-    /// What a thing with a front looks at: furniture and the like near the middle of its view, with nothing between.
+    /// The things that a thing with a front faces: furniture and similar near the middle of its view, with nothing between.
     fn facing(&self, i: usize, front: DVec2) -> Vec<InstanceRelation> {
         let a = &self.bodies[i];
         let looks = |(j, b): (usize, &Body)| {

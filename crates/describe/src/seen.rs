@@ -1,4 +1,4 @@
-//! What the frames of a camera show of each instance.
+//! The pixels of each instance in the frames of a camera.
 
 use crate::colors::{NAMES, color_name};
 use enfilade_dataset::{Dataset, DatasetError, counted};
@@ -11,21 +11,21 @@ const NO_DIFFUSE: f32 = 0.002;
 /// A colour prevails when this share of all pixels has it.
 const PREVAILS: f64 = 0.5;
 
-/// What a frame shows of an instance.
+/// The visible part of an instance in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sight {
-    /// How many pixels.
+    /// Number of pixels.
     pub pixels: u64,
     /// First and last column of them.
     pub columns: [u32; 2],
     /// Distances from the camera centre, metres: of the nearest pixel, and of the median one.
     pub nearest_m: f32,
     pub median_m: f32,
-    /// How many pixels have each of the colours of [`NAMES`].
+    /// Number of pixels of each of the colours of [`NAMES`].
     colors: [u64; NAMES.len()],
 }
 
-/// What a frame shows.
+/// The visible instances of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenFrame {
     /// Number of the frame.

@@ -6,11 +6,11 @@ use enfilade_dataset::{Dataset, DatasetError, DescribedInstance, MeshGeometry};
 use enfilade_label::boxes::upright_box;
 use enfilade_label::class_name;
 use enfilade_math::{DVec2, DVec3, Vec3};
-use enfilade_scene::{Labels, PartLabel, Structure, StructureThing};
+use enfilade_scene::{Labels, PartLabel, RoomThing, Rooms};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What stands in the opening of a wall belongs to a room as far away as this, metres.
+/// Greatest distance of a thing in a wall's opening from the room that it belongs to, metres.
 const IN_WALL_M: f64 = 0.5;
 
 /// The bodies of a scene and what its instances are.
@@ -20,13 +20,13 @@ pub struct Things {
     /// What the instances are, in the same order; their colours are not known yet.
     pub described: Vec<DescribedInstance>,
     /// Rooms, where they are known.
-    pub structure: Option<Structure>,
+    pub rooms: Option<Rooms>,
 }
 
 /// Area by number of object or material, m².
 type Areas = BTreeMap<u32, f64>;
 
-/// What the triangles of an instance tell.
+/// Data gathered from the triangles of an instance.
 #[derive(Default)]
 struct Gathered {
     semantic: i16,
@@ -37,7 +37,7 @@ struct Gathered {
 }
 
 impl Things {
-    /// Reads a scene's mesh, labels and layout; `None` where nothing is labelled.
+    /// Reads a scene's mesh, labels and rooms; `None` where nothing is labelled.
     ///
     /// # Errors
     /// When a file is missing or damaged.
@@ -50,7 +50,7 @@ impl Things {
         let own = files.read_classes()?.filter(|classes| !classes.are_nyu40());
         let (mut mesh, objects, metres) = (files.read()?, files.read_objects_of_faces()?, dataset.meters_per_asset_unit(scene)?);
         mesh.vertices.iter_mut().for_each(|v| *v *= metres);
-        let structure = dataset.read_structure(scene)?;
+        let rooms = dataset.read_rooms(scene)?;
         let [instances, stuff] = gathered(&mesh, &objects, &labels);
         if instances.is_empty() {
             return Ok(None);
@@ -69,15 +69,15 @@ impl Things {
         };
         let (things, shell) = (bodies(instances, |key| key), bodies(stuff, |_| -1));
         // By name: people may have given the instances other numbers since.
-        let named: BTreeMap<&str, &StructureThing> =
-            structure.iter().flat_map(|structure| &structure.things).map(|thing| (thing.name.as_str(), thing)).collect();
+        let named: BTreeMap<&str, &RoomThing> =
+            rooms.iter().flat_map(|rooms| &rooms.things).map(|thing| (thing.name.as_str(), thing)).collect();
         let describe = |(body, (key, objects, materials)): &(Body, (i16, Areas, Areas))| {
             let largest = |areas: &Areas| areas.iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(index, _)| *index as usize);
             let text = |names: &[String], index: Option<usize>| index.and_then(|i| names.get(i)).cloned().unwrap_or_default();
             let part = text(&mesh.objects, largest(objects));
             let named = named.get(part.split('/').next().unwrap_or_default()).copied();
             let class = own.as_ref().map_or_else(|| class_name(body.semantic).to_string(), |own| own.name(body.semantic));
-            let room = structure.as_ref().and_then(|s| s.room_near(body.center(), IN_WALL_M).map(|room| s.rooms[room].name.clone()));
+            let room = rooms.as_ref().and_then(|all| all.room_near(body.center(), IN_WALL_M).map(|room| all.outlines[room].name.clone()));
             DescribedInstance {
                 instance: *key,
                 semantic: body.semantic,
@@ -98,7 +98,7 @@ impl Things {
         };
         let described = things.iter().map(describe).collect();
         let bodies = things.into_iter().chain(shell).map(|(body, _)| body).collect();
-        Ok(Some(Self { bodies, described, structure }))
+        Ok(Some(Self { bodies, described, rooms }))
     }
 
     /// Whether the labels are of NYU40's classes.

@@ -1,14 +1,14 @@
-//! How to speak of things: nouns, articles, plurals, lists.
+//! Words for things: nouns, articles, plurals, lists.
 
 use enfilade_dataset::Classes;
 use enfilade_label::class_name;
 
-/// Families that are a part of the building or so small that nobody speaks of them.
+/// Families that are a part of the building or too small to be mentioned.
 const UNSPOKEN: [&str; 8] = ["socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
-/// Families that people call otherwise.
+/// Families for which people have another word.
 const OTHER_WORDS: [(&str, &str); 4] =
     [("tv bench", "TV bench"), ("built in microwave", "built-in microwave"), ("key board", "key rack"), ("player", "media player")];
-/// Words that are plural as they are.
+/// Words that are already plural.
 const PLURAL: [&str; 14] = [
     "logs",
     "books",
@@ -27,10 +27,10 @@ const PLURAL: [&str; 14] = [
 ];
 /// Words without a plural.
 const MASS: [&str; 6] = ["bread", "paper", "toilet paper", "crumpled paper", "sheet music", "kitchen roll"];
-/// Classes that say nothing of what a thing is: otherstructure, otherfurniture, otherprop.
+/// Classes that do not tell what a thing is: otherstructure, otherfurniture, otherprop.
 const VAGUE: [i16; 3] = [38, 39, 40];
 
-/// The word for a family of generated things; empty for what nobody speaks of.
+/// The word for a family of generated things; empty for families that are never mentioned.
 pub fn of_family(family: &str) -> String {
     let words = family.replace('_', " ");
     if UNSPOKEN.contains(&words.as_str()) || words.starts_with("skirting") {
@@ -39,7 +39,7 @@ pub fn of_family(family: &str) -> String {
     OTHER_WORDS.iter().find(|(family, _)| *family == words).map_or(words, |(_, word)| (*word).into())
 }
 
-/// The word for a class of NYU40; empty for those that say nothing.
+/// The word for a class of NYU40; empty for vague classes.
 pub fn of_class(semantic: i16) -> String {
     if semantic < 1 || VAGUE.contains(&semantic) {
         return String::new();
@@ -51,20 +51,20 @@ pub fn of_class(semantic: i16) -> String {
     }
 }
 
-/// The word for a class of somebody's own list; empty for what is in none.
+/// The word for a class of a user's own list; empty for things without a class.
 pub fn of_own_class(classes: &Classes, semantic: i16) -> String {
     let name = classes.name(semantic);
     let is_listed = semantic >= 1 && name != semantic.to_string();
     if is_listed { name.replace('_', " ") } else { String::new() }
 }
 
-/// Whether one word can be said of what the other means: a chair may be an office chair or an armchair.
+/// Whether two words can mean the same thing: a chair may be an office chair or an armchair.
 pub fn may_be(a: &str, b: &str) -> bool {
     let is_kind = |kind: &str, of: &str| kind.strip_suffix(of).is_some_and(|rest| rest.is_empty() || rest.ends_with(' ') || rest == "arm");
     is_kind(a, b) || is_kind(b, a)
 }
 
-/// Whether no other of these words can be said of what this one means, nor this one of what they mean.
+/// Whether none of these words can mean the same thing as this one.
 pub fn is_alone<'n>(noun: &str, mut nouns: impl Iterator<Item = &'n str>) -> bool {
     nouns.all(|other| other == noun || !may_be(other, noun))
 }

@@ -14,7 +14,7 @@ use std::path::Path;
 const SIZE: [u32; 2] = [160, 120];
 const NAMES: [&str; 2] = ["home", "cam_00"];
 
-/// What a frame shows, pixel by pixel: instance, and distance from the camera.
+/// A frame's pixels: instance, and distance from the camera.
 struct Shown {
     instances: Vec<i16>,
     distances: Vec<f64>,
@@ -36,7 +36,7 @@ impl Told {
         let dataset = Dataset::create(root).unwrap();
         dataset.write_scene("home", &home.scene).unwrap();
         dataset.write_label_tables("home", &home.labels).unwrap();
-        dataset.write_structure("home", &home.structure()).unwrap();
+        dataset.write_rooms("home", &home.rooms()).unwrap();
         enfilade_label::boxes::write_boxes(&dataset, "home", &home.scene, &home.labels).unwrap();
         let boxes = dataset.read_boxes("home", BoxKind::ObjectAligned2d).unwrap();
         let shown = film(&dataset, &home);
@@ -59,7 +59,7 @@ impl Told {
         &self.things[&instance].noun
     }
 
-    /// The option that is said to be right, without its letter; the answer itself where there are none.
+    /// The option that is marked as right, without its letter; the answer itself if there are no options.
     fn answer<'q>(&self, question: &'q Question) -> &'q str {
         let Some(options) = &question.options else { return &question.ground_truth };
         let option = options.iter().find(|option| option.starts_with(&format!("{}. ", question.ground_truth)));

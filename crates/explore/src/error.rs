@@ -1,4 +1,4 @@
-//! Errors of exploration. Each message says where, what was found, and which setting to change.
+//! Errors of exploration. Each message includes the place, what was found, and which setting to change.
 
 use enfilade_math::DVec3;
 
@@ -12,7 +12,7 @@ pub enum ExploreError {
         field: &'static str,
         /// Value of the setting, as it was found.
         found: String,
-        /// What is allowed.
+        /// The allowed values.
         expected: &'static str,
     },
     /// No start positions.
@@ -92,7 +92,7 @@ pub enum ExploreError {
         name: String,
         /// Position of the start camera, metres.
         position: DVec3,
-        /// How far was searched.
+        /// Radius of the search, metres.
         radius_m: f64,
         /// The configured clearance.
         clearance_m: f64,
@@ -161,21 +161,21 @@ pub enum ExploreError {
     Keyframes {
         /// The file.
         file: String,
-        /// Which pose, from 1.
+        /// Number of the pose, from 1.
         row: usize,
-        /// What stands there.
+        /// The text found there.
         found: String,
-        /// What should.
+        /// The expected text.
         expected: &'static str,
     },
 }
 
-/// What a height that is asked for demands of a position.
+/// The condition that a configured height adds, in words.
 fn at_height(height_m: &Option<[f64; 2]>) -> String {
     height_m.map_or_else(String::new, |[min, max]| format!(" and is {min} to {max} m above the floor, as camera_height_m asks"))
 }
 
-/// What to do about it.
+/// The advice for that condition, in words.
 fn change_height(height_m: &Option<[f64; 2]>) -> &'static str {
     if height_m.is_some() { "change camera_height_m, " } else { "" }
 }

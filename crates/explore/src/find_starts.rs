@@ -22,7 +22,7 @@ const OPEN_M: f32 = 3.0;
 /// Two places that see each other are only both taken when this far apart, metres.
 const APART_M: f32 = 6.0;
 
-/// How start cameras are found in a scene that has none.
+/// Settings of the search for start cameras in a scene that has none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StartsConfig {
@@ -157,7 +157,7 @@ fn floors(world: &WorldMesh, bvh: &Bvh, x: f32, y: f32, headroom: f32) -> Vec<f3
     found
 }
 
-/// How good a place is; `None` when it is cramped or not enclosed.
+/// Score of a place; `None` when it is cramped or not enclosed.
 fn judge(bvh: &Bvh, eye: Vec3, clearance: f32, directions: &[Vec3]) -> Option<f32> {
     let mut distances: Vec<f32> = directions.iter().map(|d| bvh.closest(&Ray::new(eye, *d)).map_or(f32::INFINITY, |hit| hit.t)).collect();
     distances.sort_by(f32::total_cmp);
@@ -169,8 +169,8 @@ fn judge(bvh: &Bvh, eye: Vec3, clearance: f32, directions: &[Vec3]) -> Option<f3
     Some(enclosed.powi(4) * openness)
 }
 
-/// Most of a storey's places stand on its floor, few on its tables: each score is weighted by the share of places whose floor is at
-/// the same height.
+/// Most of a storey's places are on its floor, few on its tables: each score is weighted by the share of places whose floor is at the same
+/// height.
 fn prefer_common_floors(places: &mut [Standpoint]) {
     let mut heights: Vec<f32> = places.iter().map(|p| p.floor_z).collect();
     heights.sort_by(f32::total_cmp);

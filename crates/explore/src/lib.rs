@@ -6,12 +6,12 @@
 //! 1. [`find_starts`] looks for places to stand in scenes that come without cameras.
 //! 2. [`carve`] marks every voxel that a surface touches as occupied, and every voxel that a ray from the start cameras reaches
 //!    before an occupied one as free. The result is an octree.
-//! 3. [`plan`] finds poses in the free space by one of several modes ([`Mode`]), [`follow`] those that were made by hand; both say in
-//!    a [`PlanReport`] how the trajectory came out. The default mode walks: every step draws poses near the last one and chooses
-//!    among them in proportion to how much a small test image of each shows ([`Saliency`]).
-//!    [`plan_accepted`] lets the caller have a last word on every view, and [`Surroundings`] tells what is around a point.
+//! 3. [`plan`] finds poses in the free space by one of several modes ([`Mode`]), [`follow`] those that were made by hand; both return a
+//!    [`PlanReport`] with measurements of the trajectory. The default mode walks: every step draws poses near the last one and chooses
+//!    among them in proportion to how much a small test image of each shows ([`Saliency`]). [`plan_accepted`] lets the caller accept or
+//!    reject every view, and [`Surroundings`] describes what is around a point.
 //!
-//! [`findings`] looks at what a scene's maker may not have meant, and [`ceilings`] finds where lamps can hang.
+//! [`findings`] looks for what a scene's maker may not have intended, and [`ceilings`] finds where lamps can hang.
 //!
 //! All results are functions of the inputs and the seed, whatever the number of threads.
 //!
@@ -23,7 +23,7 @@
 //! use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 //! use enfilade_scene::{Material, Part, Pose, Quiet, Scene, StartCamera, WorldMesh};
 //!
-//! // Corner i lies at the far end of axis k where bit k of i is set; faces look inward.
+//! // Corner i is at the far end of axis k where bit k of i is set; faces look inward.
 //! let corner = |i: u8| 2.0 * Vec3::from([i & 1, i >> 1 & 1, i >> 2 & 1].map(f32::from));
 //! let faces = [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
 //! let scene = Scene {
@@ -39,7 +39,7 @@
 //! let world = WorldMesh::new(&scene);
 //! let bvh = Bvh::new(&world.corners, &|_| false);
 //!
-//! // The walls lie on borders of voxels and occupy those on both sides, so 18 × 18 × 18 voxels are free.
+//! // The walls are on borders of voxels and occupy those on both sides, so 18 × 18 × 18 voxels are free.
 //! let config = CarveConfig { rays: 4096, iterations: 2, ..CarveConfig::default() };
 //! let space = carve(&world, &bvh, &[DVec3::splat(0.95)], &config, &Quiet).unwrap();
 //! assert_eq!(space.report.free_voxels, 18 * 18 * 18);

@@ -1,11 +1,11 @@
-//! What makes a view worth taking: scores by what a test image of it shows.
+//! Saliency of views: scores computed from a test image of each.
 
 use crate::ViewStats;
 use enfilade_options::{Form, Given, Value};
 use serde::{Deserialize, Serialize};
 
-/// How much a view is worth: n^`alpha` · (1 − e)^`beta`, with e the share of pixels that show no surface. What n is, says the kind.
-/// Poses are chosen in proportion to it.
+/// The score of a view: n^`alpha` · (1 − e)^`beta`, with e the share of pixels that show no surface. The kind defines n. Poses are chosen
+/// in proportion to their scores.
 ///
 /// All but the first depend on what things are and where, not on how finely they are tessellated.
 ///

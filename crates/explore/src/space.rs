@@ -5,7 +5,7 @@ use enfilade_geometry::{OccupancyTree, Voxel};
 use enfilade_math::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Where a camera can be: the result of carving.
+/// The free space in which a camera can be: the result of carving.
 #[derive(Clone, Debug)]
 pub struct FreeSpace {
     /// Free, occupied and unknown voxels.
@@ -14,7 +14,7 @@ pub struct FreeSpace {
     pub free_min: DVec3,
     /// Upper corner of the box around all free voxels, metres.
     pub free_max: DVec3,
-    /// What carving found.
+    /// Measurements of carving.
     pub report: CarveReport,
 }
 
@@ -31,7 +31,7 @@ impl FreeSpace {
     }
 }
 
-/// What carving found.
+/// Measurements of carving.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CarveReport {
     /// Free voxels.
@@ -45,26 +45,26 @@ pub struct CarveReport {
     /// Positions from which rays were cast, in order.
     pub positions: Vec<DVec3>,
     /// Share of all rays that left the domain without meeting an occupied voxel: 0 in a closed room; more where a window has no
-    /// pane, a wall or ceiling is missing, or a camera stands outside.
+    /// pane, a wall or ceiling is missing, or a camera is outside.
     pub escaped_share: f64,
     /// Voxels that rays reached and that are outside the building; unknown in the tree, unless they were to be kept.
     pub outside_voxels: u64,
-    /// Where free space leads out of the building, the largest first.
+    /// Places where free space leads out of the building, the largest first.
     pub leaks: Vec<Leak>,
     /// True where leaks were looked for, or no ray left the domain, so that there can be none. A preset that keeps what is outside does not
     /// look, and in an open place there is no outside.
     #[serde(default)]
     pub sought_leaks: bool,
-    /// What became of each start camera, in their order.
+    /// Result for each start camera, in their order.
     pub starts: Vec<StartReport>,
 }
 
-/// What became of one start camera.
+/// The result for one start camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartReport {
     /// The position asked for.
     pub asked: DVec3,
-    /// The position carved from: another one when the one asked for lies in an occupied voxel, `None` when the camera was skipped.
+    /// The position carved from: another one when the one asked for is in an occupied voxel, `None` when the camera was skipped.
     pub used: Option<DVec3>,
     /// Why it was skipped.
     pub problem: Option<String>,

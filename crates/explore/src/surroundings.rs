@@ -1,4 +1,4 @@
-//! What is around a point of a scene: how much of it leads out of the building, and how much is closed in.
+//! The surroundings of a point of a scene: how much of them leads out of the building, and how much is closed in.
 
 use enfilade_geometry::Bvh;
 use enfilade_math::{DVec3, Ray, warp};
@@ -22,18 +22,18 @@ const LEVEL: usize = 72;
 const UPWARD: usize = 128;
 const UPWARD_SINE: f64 = 0.4;
 
-/// Directions in which a closed-in point is looked for what closes it in.
+/// Number of directions around a closed-in point in which the surfaces that close it in are sought.
 const AROUND: usize = 256;
 
 /// A scene seen from points in it. Every surface is solid.
 pub struct Surroundings<'a> {
     world: &'a WorldMesh,
     bvh: &'a Bvh,
-    /// By part: seeing its back is a sign of standing on the wrong side of it.
+    /// By part: true if seeing its back is a sign of being on the wrong side of it.
     has_front: Vec<bool>,
 }
 
-/// Where a ray ended.
+/// The surface point at which a ray ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
     pub p_world: DVec3,
@@ -45,7 +45,7 @@ pub(crate) struct SurfacePoint {
     pub behind: bool,
 }
 
-/// Where the ray along a unit direction ends.
+/// The surface point at which the ray along a unit direction ends.
 pub(crate) fn meet(world: &WorldMesh, bvh: &Bvh, origin: DVec3, direction: DVec3) -> Option<SurfacePoint> {
     let hit = bvh.closest(&Ray::new(origin.as_vec3(), direction.as_vec3()))?;
     let [a, b, c] = world.corners[hit.triangle as usize].map(|p| p.as_dvec3());
@@ -65,7 +65,7 @@ impl<'a> Surroundings<'a> {
         Self { world, bvh, has_front: fronts(world, bvh, starts) }
     }
 
-    /// By part, whether its back is a sign of standing on the wrong side of it: the starts and the places around them see (nearly)
+    /// By part, whether seeing its back is a sign of being on the wrong side of it: the starts and the places around them see (nearly)
     /// nothing but its front.
     pub fn has_front(&self) -> &[bool] {
         &self.has_front
@@ -101,7 +101,7 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// By part, whether the starts and the places that they see around them see (nearly) nothing but its front.
+/// Whether, by part, the starts and the places that they see around them see (nearly) nothing but its front.
 fn fronts(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3]) -> Vec<bool> {
     let around = |start: &DVec3| {
         let places = (0..PLACES).map(|k| {

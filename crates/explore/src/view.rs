@@ -71,7 +71,7 @@ impl Sight {
         self.buffer.draw(bvh, &image.rays(pose));
     }
 
-    /// What a view is worth.
+    /// The measurements of a view that its score needs.
     pub(crate) fn judge(&mut self, world: &WorldMesh, saliency: &Saliency) -> ViewStats {
         self.stats(world, saliency.asks_for_parts())
     }

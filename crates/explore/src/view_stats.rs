@@ -1,6 +1,6 @@
-//! What a small test image of a view shows, in numbers: the input of every score and of the gates.
+//! Measurements of a small test image of a view: the input of every score and of the gates.
 
-/// What a test image of a view shows.
+/// Measurements of a test image of a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ViewStats {
     /// Pixels of the test image.

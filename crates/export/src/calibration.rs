@@ -6,7 +6,7 @@ use enfilade_math::{DMat3, DVec3};
 pub(crate) use enfilade_scene::OPENCV;
 use enfilade_scene::{Intrinsics, Pose, Projection};
 
-/// How straight lines are bent.
+/// The distortion of straight lines.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Distortion {
     None,
@@ -19,10 +19,10 @@ pub(crate) enum Distortion {
 /// A camera that K describes before distortion.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Calibration {
-    /// Image coordinates from the upper left corner of the image: pixel centres lie at halves.
+    /// Image coordinates from the upper left corner of the image: pixel centres are at half-integers.
     pub intrinsics: Intrinsics,
     pub distortion: Distortion,
-    /// From the camera's space to that of `intrinsics`; a tilted image plane is a turned camera with a straight one.
+    /// From the camera's space to the space of `intrinsics`; a tilted image plane is a turned camera with a straight one.
     turn: DMat3,
 }
 
@@ -88,7 +88,7 @@ impl Calibration {
         rows_of(pose.world_from_camera * OPENCV, pose.position)
     }
 
-    /// How far a unit of distance along `ray`, which is in the camera's space, goes along the viewing axis of K.
+    /// Component along the viewing axis of K of a unit of distance along `ray`, which is in the camera's space.
     pub fn forward(&self, ray: DVec3) -> f64 {
         -(self.turn * ray.normalize()).z
     }

@@ -18,7 +18,7 @@ pub enum ExportError {
         action: &'static str,
         /// Which file or folder.
         path: PathBuf,
-        /// What the operating system said.
+        /// The operating system's error.
         source: io::Error,
     },
     /// The output folder cannot be used.
@@ -26,13 +26,13 @@ pub enum ExportError {
     Place {
         /// The folder.
         path: PathBuf,
-        /// What is in the way, and what to do.
+        /// The obstacle, and what to do.
         problem: String,
     },
     /// Nothing is left of the dataset, or a name is unknown.
     #[error("{0}")]
     Selection(String),
-    /// The format cannot hold what the dataset has, or lacks what it needs.
+    /// The format cannot store what the dataset has, or the dataset lacks what the format needs.
     #[error("{place} cannot be exported as {}: {problem}", format.spec().name)]
     Unsuitable {
         /// Scene, camera and frame.

@@ -18,7 +18,7 @@ pub enum Existing {
     SetAside,
 }
 
-/// What was written.
+/// The result of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exported {
     /// Frames of the dataset that are in it.
@@ -32,7 +32,7 @@ pub struct Exported {
 /// Last file of an export, and the sign by which one is known.
 const RECORD: &str = "enfilade_export.json";
 
-/// What [`RECORD`] calls itself.
+/// Format recorded in [`RECORD`].
 const RECORD_FORMAT: &str = "enfilade export 1";
 
 #[derive(Serialize, Deserialize)]
@@ -53,7 +53,7 @@ pub(crate) struct ExportFolder {
     existing: Existing,
     files: AtomicUsize,
     bytes: AtomicU64,
-    /// What stands before the page for people.
+    /// Text in front of the page for people.
     front_matter: OnceLock<String>,
 }
 
@@ -93,7 +93,7 @@ impl ExportFolder {
         self.write(name, text.as_bytes())
     }
 
-    /// Where a file lies until the export is finished; its folder is made.
+    /// Path of a file until the export is finished; its folder is created.
     pub fn path(&self, name: &str) -> Result<PathBuf, ExportError> {
         let path = self.aside.join(name);
         let parent = path.parent().unwrap_or(&self.aside);
@@ -148,7 +148,7 @@ impl Drop for ExportFolder {
     }
 }
 
-/// True when something lies at `path` except for an empty folder.
+/// True when something other than an empty folder is at `path`.
 fn is_taken(path: &Path) -> bool {
     match fs::read_dir(path) {
         Ok(mut entries) => entries.next().is_some(),

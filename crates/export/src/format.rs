@@ -1,4 +1,4 @@
-//! The table of formats: names, what they hold, and which layers they need.
+//! The table of formats: names, contents, and the layers that they need.
 
 use enfilade_frame::Layer;
 
@@ -45,7 +45,7 @@ pub enum Format {
 pub struct FormatSpec {
     /// Which one.
     pub format: Format,
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// One sentence: what is in it.
     pub about: &'static str,
@@ -184,7 +184,7 @@ pub const FORMATS: [FormatSpec; 24] = [
     FormatSpec {
         format: Format::Structured3d,
         name: "structured3d",
-        about: "Structured3D: the structure of the building as junctions, lines and planes, boxes of its things, and points",
+        about: "Structured3D: rooms, walls and openings as junctions, lines and planes, boxes of things, and points",
         needs: &[],
         takes: None,
         readme: include_str!("readmes/structured3d.md"),

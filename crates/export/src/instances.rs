@@ -22,7 +22,7 @@ pub(crate) fn are_labelled(selected: &SelectedFrames<'_>) -> Result<bool, Export
     Ok(labels.iter().flat_map(|labels| &labels.parts).any(|label| label.instance >= 1))
 }
 
-/// Says so where an export of instances found none, and why. `found` tells whether there is one.
+/// Warns if an export of instances found none, and says why. `found` is true if there is one.
 pub(crate) fn warn_of_none(selected: &SelectedFrames<'_>, found: bool) -> Result<(), ExportError> {
     if found {
         return Ok(());

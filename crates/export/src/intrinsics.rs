@@ -13,7 +13,7 @@ pub(crate) struct Intrinsic {
     opencv_from_camera: DMat3,
     /// Angle of that turn, beyond the change of names of the axes, degrees.
     turn_deg: f64,
-    /// How far the image of a centred camera of 60 degrees is off in the worst corner, pixels.
+    /// Error of the image of a centred camera of 60 degrees in the worst corner, pixels.
     naive_error_px: f64,
 }
 

@@ -4,7 +4,7 @@
 //!
 //! Every export is a pure function of the dataset folder and an [`ExportConfig`]: nothing is rendered, the same input gives the
 //! same bytes, and no file carries a clock, a host or a path. [`Format`] has the table of formats, `formats/` one file for each,
-//! whose first lines say what it writes and in which units, axes and pixel coordinates, `readmes/` the page that goes with its files.
+//! whose first lines state what it writes and in which units, axes and pixel coordinates, `readmes/` the page that goes with its files.
 //! `docs/export.md` has all of them in one table.
 //!
 //! An export is complete or absent: it grows under another name beside its place and is renamed when all is written.
@@ -23,6 +23,7 @@ mod instances;
 mod intrinsics;
 mod mesh;
 mod numpy;
+mod options;
 mod picture;
 mod points;
 mod scene_file;
@@ -32,8 +33,8 @@ mod selected_frames;
 pub use error::ExportError;
 pub use export_folder::{Existing, Exported};
 pub use format::{FORMATS, Format, FormatSpec};
-pub use formats::room_cloud::CloudSource;
 pub use intrinsics::intrinsics_csv;
+pub use options::{CloudSource, ExportOptions};
 pub use scene_file::{SceneEncoder, scene_encoder};
 pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use selected_frames::Selection;
@@ -44,28 +45,31 @@ use export_folder::ExportFolder;
 use selected_frames::SelectedFrames;
 use std::path::Path;
 
-/// What to export and how.
+/// The settings of an export.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportConfig {
     /// The layout.
     pub format: Format,
-    /// Which scenes, cameras, frames and layers.
+    /// The scenes, cameras, frames and layers to export.
     pub selection: Selection,
-    /// Largest size of a WebDataset shard, or of a Parquet file, bytes; a sample that is larger has one of its own. One gigabyte unless said
-    /// otherwise.
+    /// Largest size of a WebDataset shard, or of a Parquet file, bytes; a sample that is larger has one of its own. One gigabyte by
+    /// default.
     pub shard_bytes: u64,
-    /// Where SpatialLM's point clouds come from.
+    /// Source of SpatialLM's point clouds.
     pub cloud: CloudSource,
 }
 
 impl ExportConfig {
-    /// Everything the format can hold of all scenes named.
+    /// Everything that the format can store of all scenes named.
     pub fn new(format: Format, scenes: Vec<String>) -> Self {
-        Self { format, selection: Selection { scenes, ..Selection::default() }, shard_bytes: 1_000_000_000, cloud: CloudSource::default() }
+        let usual = ExportOptions::default();
+        let selection = Selection { scenes, ..Selection::default() };
+        Self { format, selection, shard_bytes: usual.shard_bytes(), cloud: usual.cloud }
     }
 }
 
-/// Writes `dataset` to the folder `out` as `config` says. `existing` says what becomes of a folder that is there and no export.
+/// Writes `dataset` to the folder `out` with the settings `config`. `existing` decides what happens to an existing folder that is no
+/// export.
 ///
 /// # Errors
 /// When nothing is selected, a layer or camera is not what the format needs, or a file cannot be read or written. Then `out` is as

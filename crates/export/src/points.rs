@@ -34,7 +34,7 @@ pub(crate) struct Sighting {
     pub at: (f64, f64),
 }
 
-/// What a frame sees: the index of a point, and where it shows.
+/// A point in a frame: its index, and its position in the image.
 type Seen = (usize, (f64, f64));
 
 /// The cloud of some cameras' frames, in their order.
@@ -72,7 +72,7 @@ fn points_of(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Vec<CloudP
     Ok(points)
 }
 
-/// Which points a frame sees, and where.
+/// The points that a frame sees, and their image positions.
 fn sightings_of(selected: &SelectedFrames<'_>, view: View<'_>, points: &[CloudPoint]) -> Result<Vec<Seen>, ExportError> {
     let frame = selected.read(view, &[Layer::DepthMeters])?;
     let distance = distance_m(selected, view, &frame)?;

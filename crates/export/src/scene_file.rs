@@ -4,10 +4,11 @@ use crate::{ExportError, SceneGltf, scene_gltf};
 use enfilade_scene::{Labels, PictureFiles, Scene, to_bytes, to_bytes_with_labels};
 use std::path::Path;
 
-/// Gives the bytes of a scene with its labels, and what they cannot hold; pictures whose files are available may be passed on as they are.
+/// Returns the bytes of a scene with its labels, and notes on what the format cannot represent; pictures whose files are available may be
+/// passed on as they are.
 pub type SceneEncoder = fn(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>);
 
-/// How a scene is written to a file of this name: as a package (`.scene`), or as binary glTF (`.glb`).
+/// The encoder for a file of this name: as a package (`.scene`), or as binary glTF (`.glb`).
 ///
 /// # Errors
 /// When the name ends otherwise.

@@ -1,13 +1,13 @@
-//! What is exported: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
+//! The selection to export: the chosen frames of the dataset, with their cameras, and their layers when they are asked for.
 
 use crate::{ExportError, Format, FormatSpec};
 use enfilade_dataset::{Dataset, DatasetError, Side, Window, turn_planar_depth};
 use enfilade_frame::{Frame, LAYERS, Layer};
-use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Structure, Warning};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, Labels, Pose, Rooms, Warning};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Which part of a dataset to export.
+/// The part of a dataset to export.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
     /// Names of scenes of the dataset.
@@ -16,7 +16,7 @@ pub struct Selection {
     pub cameras: Option<Vec<String>>,
     /// Frame numbers, the upper bound excluded; `None`: all.
     pub frames: Option<Range<u32>>,
-    /// Layers to use; `None`: all that the format can hold.
+    /// Layers to use; `None`: all that the format can store.
     pub layers: Option<Vec<Layer>>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct SelectedFrames<'d> {
 }
 
 impl Track {
-    /// `<scene>/<camera>`: where the track's files lie in most formats.
+    /// `<scene>/<camera>`: folder of the track's files in most formats.
     pub fn folder(&self) -> String {
         format!("{}/{}", self.scene, self.name)
     }
@@ -62,7 +62,7 @@ impl Track {
 }
 
 impl<'s> View<'s> {
-    /// `<camera>_<IIII>`: its name where frames of all cameras of a scene stand side by side.
+    /// `<camera>_<IIII>`: its name if frames of all cameras of a scene are in one folder.
     pub fn file_stem(&self) -> String {
         format!("{}_{:04}", self.track.name, self.frame())
     }
@@ -72,7 +72,7 @@ impl<'s> View<'s> {
         self.pose().frame
     }
 
-    /// Where the camera stood.
+    /// Pose of the camera.
     pub fn pose(&self) -> &'s Pose {
         &self.track.poses[self.index]
     }
@@ -206,7 +206,7 @@ impl<'d> SelectedFrames<'d> {
     }
 
     /// Rooms, walls, doors and windows of a scene, for formats that are about these.
-    pub fn structure(&self, scene: &str) -> Result<Structure, ExportError> {
+    pub fn rooms(&self, scene: &str) -> Result<Rooms, ExportError> {
         let unknown = || {
             let problem = "it has no _detail/layout.json, which generated homes come with";
             let remedy = format!(
@@ -215,7 +215,7 @@ impl<'d> SelectedFrames<'d> {
             );
             self.unsuitable(scene, format!("{problem}; {remedy}"))
         };
-        self.dataset.read_structure(scene)?.ok_or_else(unknown)
+        self.dataset.read_rooms(scene)?.ok_or_else(unknown)
     }
 
     /// The side of the partition of every scene that is on one, by the first of its frames; none where the dataset has no partition.
@@ -262,7 +262,7 @@ impl<'d> SelectedFrames<'d> {
         enfilade_parallel::try_map(views, |&view| counted.unit(|| work(view)))
     }
 
-    /// Tells the caller of something that is left out.
+    /// Warns the caller of something that is left out.
     pub fn warn(&self, warning: Warning) {
         self.cx.warn(warning);
     }

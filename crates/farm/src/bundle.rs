@@ -39,7 +39,7 @@ pub fn unpack(bytes: &[u8], folder: &Path, place: &str) -> Result<(), FarmError>
     unpacked(bytes, place)?.iter().try_for_each(|(path, content)| Ok(write_bytes(&folder.join(path), content)?))
 }
 
-/// The files that an archive holds; `place` names it in errors.
+/// The files in an archive; `place` names it in errors.
 pub(crate) fn unpacked(bytes: &[u8], place: &str) -> Result<Vec<PackedFile>, FarmError> {
     let mut files = Vec::new();
     let damaged = |problem: String| FarmError::Damaged { place: place.into(), problem };

@@ -1,4 +1,4 @@
-//! From the store to a dataset: what one machine would have made.
+//! From the store to the dataset that one machine would have made.
 
 use crate::bundle::unpack;
 use crate::commit::read_marker;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// of this job is not fetched again.
 ///
 /// # Errors
-/// When frames are missing, `out` holds something else, or something in the store is not what its marker says.
+/// When frames are missing, `out` holds something else, or something in the store does not match its marker.
 pub fn collect(job: &Job, out: &Path, reporter: &dyn Reporter) -> Result<Summary, FarmError> {
     let tasks = &job.plan.tasks;
     let missing: Ranges = missing_by_task(job)?.into_keys().collect();

@@ -1,4 +1,4 @@
-//! How a frame becomes part of the result: by a marker that only one attempt can create.
+//! Commits of frames: a frame becomes part of the result by a marker that only one attempt can create.
 
 use crate::object_names::{DONE, FRAMES, KEPT};
 use crate::{Created, FarmError, Store};
@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// How often to look for a marker that is taken but cannot be read yet, and the pause before each further look.
+/// Number of reads of a marker that exists but cannot be read yet, and the pause before each further read.
 const READ_BACKS: u32 = 6;
 const READ_BACK_PAUSE: Duration = Duration::from_millis(200);
 
-/// Variables by which engines tell what they have started; they are copied into records, so that these can be joined to the engine's own.
+/// Environment variables in which engines identify what they have started. They are copied into records, so that these can be joined to the
+/// engine's own.
 const ENGINE_VARIABLES: [&str; 14] = [
     "SLURM_JOB_ID",
     "SLURM_ARRAY_JOB_ID",
@@ -49,17 +50,17 @@ impl FrameKey {
         format!("{}/{:04}.json", Self::done_folder(&self.scene, &self.camera), self.frame)
     }
 
-    /// Where another worker finds what was kept of the frame in the making.
+    /// Name of the object with the partly rendered frame that was kept for another worker.
     pub(crate) fn kept(&self) -> String {
         format!("{KEPT}/{}/{}/{:04}.partial", self.scene, self.camera, self.frame)
     }
 
-    /// Where it finds the frame that was finished, but for what the user's program was to add: a marker, and the files that it names.
+    /// Names of the objects with the kept frame that was finished except for the user's program: a marker, and the files that it names.
     pub(crate) fn kept_finished(&self) -> [String; 2] {
         ["json", "tar"].map(|end| format!("{KEPT}/{}/{}/{:04}.{end}", self.scene, self.camera, self.frame))
     }
 
-    /// What the names of its payloads begin with, whoever made them.
+    /// Prefix of the names of its payloads, whoever made them.
     pub(crate) fn payloads(&self) -> String {
         format!("{FRAMES}/{}/{}/{:04}.", self.scene, self.camera, self.frame)
     }
@@ -72,11 +73,11 @@ impl FrameKey {
 /// One worker at work on one assignment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
-    /// Different from that of every other attempt.
+    /// Unique identifier of the attempt.
     pub id: String,
     /// Name of the machine.
     pub host: String,
-    /// What the engine says, by variable.
+    /// The engine's environment variables, by name.
     pub engine: BTreeMap<String, String>,
 }
 
@@ -88,10 +89,10 @@ impl Attempt {
         Self::new(host.as_deref().map_or("node", str::trim), variable)
     }
 
-    /// The attempt of this process, on machine `host`, started by whatever `environment` tells.
+    /// The attempt of this process, on machine `host`, started by the engine that `environment` identifies.
     pub fn new(host: &str, environment: impl Fn(&str) -> Option<String>) -> Self {
         let mut unique = [0; 6];
-        // Without random numbers of the system the process and the clock's nanoseconds tell attempts apart.
+        // Without random numbers of the system, the process id and the clock's nanoseconds distinguish attempts.
         if getrandom::fill(&mut unique).is_err() {
             let nanoseconds = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |time| time.subsec_nanos());
             unique[..4].copy_from_slice(&nanoseconds.to_le_bytes());
@@ -103,10 +104,10 @@ impl Attempt {
     }
 }
 
-/// What says that a frame is done, and where it lies.
+/// The record that a frame is done, and where its files are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
-    /// Which frame.
+    /// The frame.
     #[serde(flatten)]
     pub key: FrameKey,
     /// Name of the object with its files.
@@ -135,7 +136,7 @@ pub struct Marker {
     pub after_frame_wall_s: Option<f64>,
 }
 
-/// How a commit ended.
+/// The result of a commit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Commit {
     /// The frame is this attempt's.
@@ -162,7 +163,7 @@ pub(crate) fn read_marker_at(store: &Store, name: &str) -> Result<Option<Marker>
     })
 }
 
-/// Whether what a marker names is there and as long as it says. A marker that cannot be read names nothing.
+/// Whether the object that a frame's marker names exists and has the recorded length. A marker that cannot be read names nothing.
 pub(crate) fn is_whole(store: &Store, key: &FrameKey) -> Result<bool, FarmError> {
     match read_marker(store, key) {
         Ok(Some(marker)) => Ok(store.size(&marker.payload)? == Some(marker.bytes)),

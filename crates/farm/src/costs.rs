@@ -1,4 +1,4 @@
-//! What a job has cost, attempt by attempt: processor time that was paid, used, and spent on what came to nothing.
+//! The cost of a job, attempt by attempt: processor time that was paid for, used, and wasted.
 //!
 //! A vCPU-second is what a cloud bills: a second of one thread of a machine, busy or idle. What an attempt paid beyond its own committed
 //! frames went into loading scenes, into frames that are kept for the next attempt, and into frames that another committed first.
@@ -17,8 +17,8 @@ use std::fmt::Write;
 const HOUR_S: f64 = 3600.0;
 const GIB: f64 = 1_073_741_824.0;
 
-/// The columns of [`Costs::table`]: those of Hypersim's tasks where there are any, and what says where an attempt ran. What Hypersim paid for
-/// V-Ray is what is paid beside the machine.
+/// The columns of [`Costs::table`]: the names of Hypersim's table of tasks where it has a column, and columns that tell where an attempt
+/// ran. Hypersim's cost of V-Ray is here the cost of everything besides the machine.
 const HEADER: &str = "job_name,task_id,attempt,host,engine_ids,ended,vcpu_per_instance,time_instance_seconds,time_vcpu_seconds,\
     time_vcpu_seconds_in_frames,cost_cloud_dollars,cost_vray_dollars,used_clock,total_clock,cpu_utilization,peak_memory_usage_gib,min_feasible_instance_type,\
     frames_committed,frames_lost\n";
@@ -70,23 +70,23 @@ pub struct Costs {
     pub unreadable: Vec<String>,
 }
 
-/// What a job has cost at some prices, as one value.
+/// The cost of a job at some prices, as one value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Statement<'a> {
     /// Attempts, and sums of vCPU-seconds and processor seconds.
     #[serde(flatten)]
     pub costs: &'a Costs,
-    /// What is paid.
+    /// vCPU-hours that are paid for.
     pub vcpu_hours: f64,
     /// Share of it that was used, 0 to 1.
     pub utilization: f64,
     /// In the order of the prices.
     pub prices: Vec<Priced>,
-    /// Where the attempts could have run, where the prices tell sizes of machines.
+    /// Machines on which the attempts could have run, if the prices include sizes of machines.
     pub machines: Option<Feasible>,
 }
 
-/// What all attempts cost at a price.
+/// The cost of all attempts at a price.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Priced {
     /// Name and rates of the price.
@@ -98,7 +98,7 @@ pub struct Priced {
     pub dollars_by_rate: BTreeMap<String, f64>,
 }
 
-/// What the job has cost until now. Every marker and every record of an attempt is read.
+/// The cost of a job until now. Every marker and every record of an attempt is read.
 ///
 /// # Errors
 /// When the store does not answer, or something in it cannot be read.
@@ -113,7 +113,7 @@ pub fn costs(job: &Job) -> Result<Costs, FarmError> {
     Ok(Costs { expected_cpu_s: markers.iter().map(expected).sum(), unreadable, ..sum(&markers, records) })
 }
 
-/// What went into the frames that an attempt has committed.
+/// Time spent on the frames that an attempt has committed.
 #[derive(Clone, Copy, Default)]
 struct InFrames {
     wall_s: f64,
@@ -190,17 +190,17 @@ impl Costs {
         }
     }
 
-    /// What is paid: vCPU-hours of all attempts.
+    /// vCPU-hours of all attempts, which are paid for.
     pub fn vcpu_hours(&self) -> f64 {
         self.vcpu_s / HOUR_S
     }
 
-    /// Where the attempts could have run, of the machines of a price table.
+    /// The machines of a price table on which the attempts could have run.
     pub fn feasible(&self, prices: &[Price]) -> Feasible {
         feasible(self.attempts.iter().map(|attempt| &attempt.record), prices)
     }
 
-    /// A row of CSV per attempt, at the first price; the smallest machine is that of all of them.
+    /// A row of CSV per attempt, at the first price; the smallest machine is chosen from all prices.
     pub fn table(&self, job: &Job, prices: &[Price]) -> String {
         let name = |task: u32| {
             job.plan.tasks.get(task as usize).map_or(String::new(), |t| format!("{}@scene_{}_final", t.part.scene, t.part.camera))

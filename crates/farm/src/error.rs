@@ -1,4 +1,4 @@
-//! What can go wrong on a farm, and whether another attempt may help.
+//! Errors of a farm, and whether another attempt may help.
 
 use enfilade_dataset::DatasetError;
 use std::error::Error as StdError;
@@ -16,7 +16,7 @@ pub enum FarmError {
     Place {
         /// Place as it was given.
         place: String,
-        /// What is wrong with it.
+        /// The fault of the place.
         problem: String,
     },
     /// The store did not do what it was asked.
@@ -32,13 +32,13 @@ pub enum FarmError {
     Unreliable {
         /// The store.
         place: String,
-        /// What it did.
+        /// The fault of the store.
         problem: String,
     },
     /// A file of this machine.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// The attempted action.
         action: &'static str,
         /// Which one.
         path: PathBuf,
@@ -54,20 +54,20 @@ pub enum FarmError {
         program: String,
         /// The frame.
         place: String,
-        /// How it failed, with its last words.
+        /// The failure, with the program's last output.
         problem: String,
         /// True when another try may help.
         is_transient: bool,
     },
-    /// What is asked for cannot be done as asked.
+    /// A request that cannot be carried out as asked.
     #[error("{0}")]
     Request(String),
-    /// The job holds something that cannot be.
+    /// The job contains an invalid object.
     #[error("{place}: {problem}")]
     Damaged {
         /// The object.
         place: String,
-        /// What was found, and what to do.
+        /// The fault that was found, and what to do.
         problem: String,
     },
     /// A file of a dataset.
@@ -88,7 +88,7 @@ impl FarmError {
         Self::Io { action, path: path.into(), source }
     }
 
-    /// What to do about it, where the message does not say it.
+    /// Advice on what to do, if the message has none.
     pub fn hint(&self) -> Option<&'static str> {
         if matches!(self, Self::Io { action: START_THREADS, .. }) {
             return Some(
@@ -121,7 +121,7 @@ fn is_of_the_system(error: &(dyn StdError + 'static)) -> bool {
     of_the_system(error).is_some()
 }
 
-/// What the system said, at the bottom of `error`.
+/// The system's error at the bottom of `error`.
 fn of_the_system<'e>(error: &'e (dyn StdError + 'static)) -> Option<&'e std::io::Error> {
     std::iter::successors(Some(error), |&error| error.source()).find_map(|error| error.downcast_ref())
 }

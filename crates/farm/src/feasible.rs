@@ -1,8 +1,8 @@
 //! On which machines of a price table a job's attempts could have run, and what they would have cost there.
 //!
 //! An attempt fits a machine by the memory that it was measured to take and by its threads, so that it would have taken the same time
-//! there; the whole machine is paid for that time. What an attempt took counts, also of one that was asked to end; one that was killed
-//! has not told its memory, and is left out.
+//! there; the whole machine is paid for that time. The memory that an attempt took counts, also if it was asked to end. An attempt that was
+//! killed has not recorded its memory, and is left out.
 
 use crate::AttemptRecord;
 use enfilade_dataset::{Price, smallest_feasible};
@@ -30,12 +30,12 @@ pub struct Feasible {
     pub unknown: u32,
 }
 
-/// The smallest machine that could have run an attempt; `None` when it has not told its memory, or none has room.
+/// The smallest machine that could have run an attempt; `None` when the attempt has not recorded its memory, or no machine has enough.
 pub(crate) fn machine_of<'a>(record: &AttemptRecord, prices: &'a [Price]) -> Option<&'a Price> {
     smallest_feasible(prices, record.threads, record.peak_memory_bytes?)
 }
 
-/// For the attempts of a job and a price table that tells sizes.
+/// The feasible machines for the attempts of a job, from a price table with sizes.
 pub(crate) fn feasible<'a>(records: impl Iterator<Item = &'a AttemptRecord> + Clone, prices: &[Price]) -> Feasible {
     let told = records.clone().filter_map(|record| Some((record, record.peak_memory_bytes?)));
     let mut found = Feasible { unknown: records.filter(|record| record.peak_memory_bytes.is_none()).count() as u32, ..Feasible::default() };

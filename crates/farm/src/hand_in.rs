@@ -1,4 +1,5 @@
-//! A finished frame on its way into the store: what the user's program adds to it, its commit, and what is kept where the program fails.
+//! A finished frame on its way into the store: the files that the user's program adds, its commit, and the files that are kept if the
+//! program fails.
 
 use crate::bundle::{PackedFile, pack, read, unpacked};
 use crate::commit::{Commit, commit, read_marker, read_marker_at};
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long a finished frame is held for a store that does not take it: a server that is started again is back by then.
+/// Longest time for which a finished frame is kept while the store does not accept it: a server that is restarted is back by then.
 const PATIENCE: Duration = Duration::from_secs(600);
 /// Between two tries to hand it in.
 const PAUSE: Duration = Duration::from_secs(5);
@@ -27,14 +28,14 @@ pub(crate) struct Finished {
 }
 
 impl Finished {
-    /// A frame that lies in the worker's folder `out`. It is read now, so that no program can change it afterwards.
+    /// A frame in the worker's folder `out`. It is read now, so that no program can change it afterwards.
     pub fn read(out: &Path, key: FrameKey, frame: &FinishedFrame) -> Result<Self, FarmError> {
         let broken = frame.broken.iter().map(ToString::to_string).collect();
         Ok(Self { key, files: read(out, &frame.files)?, broken, time: frame.time })
     }
 
-    /// What an earlier attempt has kept of a frame whose program failed, put into the worker's folder `out`. `None` when there is nothing, or
-    /// something else than was kept: then the frame is rendered.
+    /// The frame that an earlier attempt has kept because the user's program failed, put into the worker's folder `out`. `None` when there
+    /// is none, or its files are not those that were kept: then the frame is rendered.
     pub fn kept(job: &Job, out: &Path, key: &FrameKey) -> Result<Option<Self>, FarmError> {
         let [marker, archive] = key.kept_finished();
         let marker = match read_marker_at(&job.store, &marker) {
@@ -83,7 +84,7 @@ impl Finished {
 }
 
 impl Marker {
-    /// What the frame took to be rendered.
+    /// The rendering time of the frame.
     pub(crate) fn time(&self) -> FrameTime {
         FrameTime { wall_s: self.wall_s, cpu_s: self.cpu_s, peak_memory_bytes: self.peak_memory_bytes, threads: self.threads }
     }
@@ -96,7 +97,7 @@ pub(crate) fn hand_in(job: &Job, out: &Path, task: u32, frame: &Finished, attemp
     let (dataset, farm, key) = (Dataset::create(out)?, &job.plan.farm, &frame.key);
     let begun = Instant::now();
     let added = run_program(farm, &dataset, key, stop).inspect_err(|_| {
-        // The program's failure is what must be told; without what is kept the frame is rendered again.
+        // The program's failure is the error to report; if the frame cannot be kept, it is rendered again.
         let _ = frame.keep(job, task, attempt);
     })?;
     let after_frame_wall_s = (!farm.after_frame.is_empty()).then(|| begun.elapsed().as_secs_f64());
@@ -104,7 +105,7 @@ pub(crate) fn hand_in(job: &Job, out: &Path, task: u32, frame: &Finished, attemp
     // The record of the frame comes last: a frame that has one is whole.
     let payload = pack(&[added.as_slice(), &frame.files].concat())?;
     let done = patiently(stop, PAUSE, || {
-        // Somebody else may have been first while this frame was in the making: then nothing has to travel.
+        // Another worker may have been first while this frame was being made: then nothing has to be transferred.
         let done = match read_marker(&job.store, key)? {
             Some(there) if there.attempt == marker.attempt => Commit::Won,
             Some(there) => Commit::Lost { same: there.blake3 == blake3::hash(&payload).to_hex().to_string() },

@@ -41,5 +41,5 @@ pub use ranges::{Ranges, parse_ranges, print_ranges};
 pub use signals::stop_on_signals;
 pub use status::{Status, status};
 pub use store::{Created, Store, environment};
-pub use submit::{Engine, SubmitOptions, Submitted, how_to_submit, submit};
+pub use submit::{Engine, EngineName, SubmitOptions, Submitted, how_to_submit, submit};
 pub use work::{Assignment, AttemptRecord, Ended, Work, default_scratch, work};

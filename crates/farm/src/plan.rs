@@ -1,9 +1,10 @@
-//! What there is to do: made once, on one machine, from the configuration of a dataset.
+//! The plan of a job: made once, on one machine, from the configuration of a dataset.
 
 use crate::object_names::{PLAN, object_name};
 use crate::program::is_here;
 use crate::{Attempt, Created, FarmError, Store};
 use enfilade_dataset::{Price, WORKDIR, quoted};
+use enfilade_options::{named, options};
 use enfilade_pipeline::{Config, Expected, FarmConfig, Part, Prepared, PreparedScene, Reporter, Summary, prepare};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,19 +13,16 @@ use std::path::{Path, PathBuf};
 /// Version of the plan's form.
 const FORMAT: u32 = 1;
 
-/// How work is divided.
-#[derive(Clone, Copy, Debug)]
-pub struct PlanOptions {
-    /// How long a task is to take, minutes. Shorter ones spend much of their time on loading the scene, longer ones lose more when a
-    /// node dies.
-    pub minutes: f64,
-    /// Threads of a worker.
-    pub cpus: u32,
-}
-
-impl Default for PlanOptions {
-    fn default() -> Self {
-        Self { minutes: 15.0, cpus: 8 }
+options! {
+    /// Options for dividing the work.
+    #[derive(Clone, Copy, Debug)]
+    pub struct PlanOptions {
+        /// How long a task is to take, minutes.
+        ///
+        /// Shorter tasks spend much of their time on loading the scene, longer ones lose more when a node dies.
+        pub minutes: f64 = 15.0 => named("MINUTES"),
+        /// Threads of a worker.
+        pub cpus: u32 = 8,
     }
 }
 
@@ -45,7 +43,7 @@ impl PlanOptions {
     }
 }
 
-/// Everything that there is to do, and what it is made from.
+/// All tasks of a job, and their inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Version of this form.
@@ -66,18 +64,18 @@ pub struct Plan {
     pub cpus: u32,
     /// Minutes that tasks were sized for; `None` in plans of before this was kept.
     pub minutes: Option<f64>,
-    /// What workers do besides.
+    /// Other settings of the workers.
     #[serde(default, skip_serializing_if = "FarmConfig::is_default")]
     pub farm: FarmConfig,
 }
 
-/// What is read of a plan first.
+/// The part of a plan that is read first.
 #[derive(Deserialize)]
 struct Planner {
     program: String,
 }
 
-/// What a plan comes to, as one value.
+/// The size and cost of a plan, as one value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanStatement {
     /// Number of tasks.
@@ -92,7 +90,7 @@ pub struct PlanStatement {
     pub prices: Vec<PricedPlan>,
 }
 
-/// What all frames will cost at a price.
+/// The expected cost of all frames at a price.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PricedPlan {
     /// Name and rates of the price.
@@ -103,7 +101,7 @@ pub struct PricedPlan {
 }
 
 impl Plan {
-    /// What it comes to, at some prices.
+    /// The size of the plan, and its cost at some prices.
     pub fn statement(&self, prices: &[Price]) -> PlanStatement {
         let cpu_s = self.scenes.iter().fold(Expected::default(), |sum, scene| sum + scene.cpu_s);
         let per_cpu_s = |factor: &dyn Fn(f64) -> f64| Expected { mean: factor(cpu_s.mean), deviation: factor(cpu_s.deviation) };
@@ -118,7 +116,7 @@ impl Plan {
     }
 }
 
-/// A file that workers need, which lies in the store under the name of its content.
+/// A file that workers need, which is in the store under the hash of its content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StoredFile {
     /// BLAKE3 of the content.
@@ -157,9 +155,9 @@ pub struct Task {
 /// A plan in its store.
 #[derive(Debug)]
 pub struct Job {
-    /// Where everything lies.
+    /// The store with all its objects.
     pub store: Store,
-    /// What there is to do.
+    /// The plan of the job.
     pub plan: Plan,
 }
 
@@ -208,11 +206,12 @@ fn program() -> String {
     format!("enfilade {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Plans the dataset `config` into `store`, in a temporary folder. The same plan a second time changes nothing. Gives no job where a scene
-/// fails before rendering, which the summary tells.
+/// Plans the dataset `config` into `store`, in a temporary folder. The same plan a second time changes nothing. Returns no job if a scene
+/// fails before rendering; the summary reports that.
 ///
 /// # Errors
-/// When an option cannot be, the store does not do what commits rest on, or it holds another job or one otherwise divided.
+/// When an option is out of range, the store lacks the guarantees that commits rely on, or it contains another job or one divided
+/// differently.
 pub fn plan(config: &Config, store: Store, options: &PlanOptions, reporter: &dyn Reporter) -> Result<(Summary, Option<Job>), FarmError> {
     options.check()?;
     let scratch = tempfile::tempdir().map_err(|source| FarmError::io("make a temporary folder in", &std::env::temp_dir(), source))?;
@@ -224,7 +223,7 @@ pub fn plan(config: &Config, store: Store, options: &PlanOptions, reporter: &dyn
     }
     store.probe(&Attempt::new("plan", |_| None).id)?;
     let there = store.get(PLAN)?;
-    // Contents are named by their hashes, so that they may lie in the store before the plan that names them.
+    // Contents are named by their hashes, so they may be in the store before the plan that names them.
     let to = if there.is_none() { Some(&store) } else { None };
     let scenes = prepared.scenes.iter().map(|scene| planned(scene, &out, to)).collect::<Result<Vec<_>, _>>()?;
     let mut plan = Plan {
@@ -321,8 +320,8 @@ fn tasks(scene: &PreparedScene, options: &PlanOptions) -> Vec<Task> {
     scene.trajectories.iter().flat_map(divide).collect()
 }
 
-/// Names what the frames depend on: scenes, their labels, and all that is in the dataset by then, such as trajectories. The records of
-/// stages hold the times that these took, and do not count.
+/// Identifies the inputs of the frames: scenes, their labels, and all that is in the dataset by then, such as trajectories. The records of
+/// stages contain the times that these took, and are ignored.
 fn identity(config: &Config, prepared: &Prepared, plan: &Plan) -> String {
     let decides =
         |path: &str| !path.starts_with(WORKDIR) || [".scene", "label_table.csv", "labels.json"].iter().any(|end| path.ends_with(end));
@@ -378,7 +377,7 @@ mod tests {
         let error = again(15.0, 4).unwrap_err().to_string();
         assert!(error.starts_with("/shared/job holds this job, divided by --minutes 15 --cpus 8; --minutes 15 --cpus 4 would"), "{error}");
         assert!(matches!(again(30.0, 8), Err(FarmError::Request(_))));
-        // What an older plan does not tell is not held against it.
+        // A value that an older plan lacks counts as equal.
         refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 8 }, "/shared/job").unwrap();
         assert!(refuse_other_division(&old(None), &PlanOptions { minutes: 30.0, cpus: 4 }, "/shared/job").is_err());
     }

@@ -1,4 +1,4 @@
-//! A plan as it is read: what stands in it becomes paths on the worker's machine, so each is looked at before.
+//! Reading a plan: names in it become paths on the worker's machine, so each is checked first.
 
 use crate::Plan;
 use crate::plan::StoredFile;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path};
 
 impl Plan {
-    /// The plan that `bytes` hold.
+    /// Parses a plan from `bytes`.
     ///
     /// # Errors
     /// When they are no plan, or a plan that would write outside of a dataset's folder, with what is wrong.

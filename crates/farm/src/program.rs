@@ -13,15 +13,15 @@ use std::time::{Duration, Instant};
 const TAIL_BYTES: usize = 2000;
 /// Between two looks whether it has ended: the first, doubled up to the last.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(100)];
-/// What it has for tidying up when it is asked to end, and its messages for coming through when it has.
+/// Time that the program has to tidy up when it is asked to end, and that its last messages have to arrive after it has ended.
 const GRACE: Duration = Duration::from_secs(2);
 /// The exit code by which a program asks for another try (EX_TEMPFAIL), as our workers do.
 const TRY_AGAIN: i32 = 75;
 
-/// Why a program did not come through.
+/// The reason why a program failed.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
-    /// In words, with what it has said last.
+    /// Description, with the program's last output.
     pub problem: String,
     /// True when another try may help.
     pub is_transient: bool,
@@ -33,7 +33,7 @@ impl Failure {
     }
 }
 
-/// Runs `program` in `folder`, without a shell. What it says goes where this process's words go.
+/// Runs `program` in `folder`, without a shell. Its output goes where this process's output goes.
 ///
 /// # Errors
 /// When it cannot be started, ends with another code than 0, is killed, takes longer than `limit`, or `stop` rises.
@@ -64,7 +64,7 @@ fn not_started(error: &std::io::Error) -> Failure {
     Failure::new(format!("cannot be started: {error}{advice}"), !is_lasting)
 }
 
-/// How a process has ended.
+/// The end of a process.
 enum Ended {
     ByItself(ExitStatus),
     TooLate,
@@ -87,7 +87,7 @@ fn wait(child: &mut Child, limit: Duration, stop: &AtomicBool) -> std::io::Resul
     }
 }
 
-/// What is wrong with an end, and whether another try may help; `None` when nothing is.
+/// The problem with how a process ended, and whether another attempt may help; `None` when it ended well.
 fn told(ended: &Ended, limit: Duration) -> Option<(String, bool)> {
     let status = match ended {
         Ended::Stopped => return Some(("was ended, since the worker was asked to end".into(), true)),
@@ -109,7 +109,7 @@ fn end(child: &mut Child) {
     {
         use rustix::process::{Pid, Signal, kill_process_group};
         let group = Pid::from_child(child);
-        // Failures say that it is gone already.
+        // A failure means that it has already ended.
         let _ = kill_process_group(group, Signal::TERM);
         let asked = Instant::now();
         while asked.elapsed() < GRACE {
@@ -124,13 +124,13 @@ fn end(child: &mut Child) {
     let _ = child.wait();
 }
 
-/// What a process says on standard error.
+/// The output of a process on standard error.
 struct Heard {
     tail: Arc<Mutex<Vec<u8>>>,
     end: Receiver<()>,
 }
 
-/// Passes on what `from` says, and keeps the last of it.
+/// Passes on the output of `from`, and keeps the end of it.
 fn listen(mut from: impl Read + Send + 'static) -> std::io::Result<Heard> {
     let tail = Arc::new(Mutex::new(Vec::new()));
     let (kept, (at_work, end)) = (tail.clone(), channel());
@@ -144,7 +144,7 @@ fn listen(mut from: impl Read + Send + 'static) -> std::io::Result<Heard> {
                 Err(error) if error.kind() == ErrorKind::Interrupted => continue,
                 Err(_) => return,
             };
-            let _ = std::io::stderr().write_all(read); // nobody left to tell
+            let _ = std::io::stderr().write_all(read); // nowhere left to report it
             let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
             kept.extend_from_slice(read);
             let surplus = kept.len().saturating_sub(TAIL_BYTES);
@@ -155,8 +155,8 @@ fn listen(mut from: impl Read + Send + 'static) -> std::io::Result<Heard> {
 }
 
 impl Heard {
-    /// The last that was said, on lines of its own; empty when nothing was. What the process has left running may still hold the pipe,
-    /// and is not waited for.
+    /// The last output, on lines of its own; a note when there was none. Processes that it has left running may still hold the pipe, and
+    /// are not waited for.
     fn last_words(&self) -> String {
         let _ = self.end.recv_timeout(GRACE);
         let tail = self.tail.lock().unwrap_or_else(PoisonError::into_inner);

@@ -10,13 +10,13 @@ pub fn stop_on_signals() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
     let (ready, is_ready) = channel();
-    // Without a thread nobody waits for them either.
+    // Without a thread there is nothing to wait for.
     let _ = std::thread::Builder::new().spawn(move || {
         let Ok(runtime) = tokio::runtime::Builder::new_current_thread().enable_all().build() else { return };
         runtime.block_on(asked_to_end(ready));
         flag.store(true, Ordering::Relaxed);
     });
-    // An error says that there is nothing to wait for.
+    // An error means that there is nothing to wait for.
     let _ = is_ready.recv();
     stop
 }

@@ -1,4 +1,4 @@
-//! How far a job has come: what the store says, whatever an engine believes.
+//! The progress of a job, by the contents of the store, whatever an engine reports.
 
 use crate::object_names::ATTEMPTS;
 use crate::work::{AttemptRecord, Ended, missing_by_task};
@@ -6,7 +6,7 @@ use crate::{FarmError, Job, Ranges};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// How far a job has come.
+/// The progress of a job.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
     /// All frames.

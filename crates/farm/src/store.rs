@@ -16,14 +16,15 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::runtime::Runtime;
 
-/// How often a request is tried that fails for a reason which may pass.
+/// Most attempts at a request that fails for a transient reason.
 const ATTEMPTS: u32 = 5;
 /// Before the second attempt; doubled before each further one.
 const FIRST_PAUSE: Duration = Duration::from_millis(100);
 /// Prefixes of the variables that are settings of a store. The library also takes bare names such as `TOKEN` or `ENDPOINT`, but these
 /// may belong to any program.
 const PREFIXES: [&str; 3] = ["aws_", "azure_", "google_"];
-/// How long one request to a bucket may take, its whole body included, unless `AWS_TIMEOUT` or the like says otherwise: scenes are large.
+/// Longest duration of one request to a bucket, its whole body included, unless `AWS_TIMEOUT` or a similar variable sets another: scenes
+/// are large.
 const REQUEST_TIMEOUT: &str = "900s";
 /// Writers at once, and rounds, when a store is probed.
 const PROBE_WRITERS: usize = 16;
@@ -38,7 +39,7 @@ pub struct Store {
     runtime: Runtime,
 }
 
-/// What became of an object that only one may write.
+/// The result of creating an object that only one attempt may write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Created {
     /// The object is there now, as given.
@@ -58,7 +59,7 @@ fn runtime() -> std::io::Result<Runtime> {
     tokio::runtime::Builder::new_multi_thread().worker_threads(WORKERS).thread_stack_size(STACK).enable_all().build()
 }
 
-/// Finds out whether the system gives so many threads at once, by starting and ending them.
+/// Tests whether the system can start `count` threads at once, by starting and ending them.
 fn ask_for_threads(count: usize, stack: usize) -> std::io::Result<()> {
     // All of them wait until this is dropped, so that none makes room for another.
     let (hold, held) = std::sync::mpsc::channel::<()>();
@@ -107,10 +108,10 @@ fn refuse_foreign_folder(folder: &Path) -> Result<(), FarmError> {
 }
 
 impl Store {
-    /// The store at `place` for a new job: a folder is made if need be, and must not hold anything else.
+    /// The store at `place` for a new job: a folder is made if need be, and must not contain anything else.
     ///
     /// # Errors
-    /// As [`Store::open`], and when the folder holds something else or cannot be made.
+    /// As [`Store::open`], and when the folder contains something else or cannot be made.
     pub fn begin(place: &str, settings: impl Iterator<Item = (String, String)>) -> Result<Self, FarmError> {
         if let Some(folder) = local(place) {
             refuse_foreign_folder(folder)?;
@@ -365,7 +366,7 @@ mod tests {
         std::fs::write(dir.path().join("job/new/room.obj"), "v 0 0 0").unwrap();
         let error = begin("job/new").unwrap_err().to_string();
         assert!(error.contains("room.obj") && error.contains("an empty folder"), "{error}");
-        // Scripts of an engine may lie beside a job.
+        // Scripts of an engine may be in the folder of a job.
         Store::open(&place("job/new"), std::iter::empty()).unwrap().put(PLAN, vec![1]).unwrap();
         begin("job/new").unwrap();
     }

@@ -2,12 +2,13 @@
 
 use crate::engines::{Submission, aws_batch_job, kubernetes_job, openjd_template, slurm_collect_script, slurm_scripts};
 use crate::{FarmError, Job, status};
+use enfilade_options::{MEBIBYTES, Whole, named, options, words};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What starts the workers, and what it must be told.
+/// The engine that starts the workers, with its settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// Job arrays of Slurm.
@@ -19,7 +20,7 @@ pub enum Engine {
     },
     /// An Indexed Job of Kubernetes.
     Kubernetes {
-        /// The image that holds the program.
+        /// The image that contains the program.
         image: String,
     },
     /// Array jobs of AWS Batch.
@@ -33,30 +34,81 @@ pub enum Engine {
     Openjd,
 }
 
-/// What else may be chosen; `None` is the forecast's, or the engine's own.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SubmitOptions {
-    /// The program on the nodes; otherwise `enfilade`, which they find by PATH.
-    pub program: Option<String>,
-    /// Workers at once.
-    pub at_once: Option<u32>,
-    /// Memory of a worker, MiB.
-    pub memory_mib: Option<u64>,
-    /// After how many minutes an engine may end a worker.
-    pub minutes: Option<u64>,
-    /// Tasks of one array at most.
-    pub array_limit: Option<u32>,
+words! {
+    /// An engine by its name.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum EngineName {
+        /// Slurm: job arrays.
+        Slurm = "slurm",
+        /// Kubernetes: an Indexed Job.
+        Kubernetes = "kubernetes",
+        /// AWS Batch: array jobs.
+        AwsBatch = "aws-batch",
+        /// Open Job Description, for AWS Deadline Cloud.
+        Openjd = "openjd",
+    }
+}
+
+options! {
+    /// Options of a submission; `None` uses the forecast's value, or the engine's own.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub struct SubmitOptions {
+        /// Only write the files.
+        pub dry_run: bool = false,
+        /// The program on the nodes; `enfilade`, which they find by PATH, unless given.
+        pub program: Option<String> = None => named("PATH"),
+        /// Workers at once.
+        pub at_once: Option<u32> = None,
+        /// Memory of a worker, MiB; by the forecast unless given.
+        pub memory_mib: Option<u64> = None => MEBIBYTES,
+        /// Minutes after which a worker may be ended; by the forecast unless given.
+        pub minutes: Option<u64> = None,
+        /// Tasks of one array at most (Slurm: MaxArraySize - 1).
+        pub array_limit: Whole<1> = Whole::new(1000),
+        /// Slurm: collect into this folder when the arrays have ended.
+        pub collect: Option<PathBuf> = None => named("OUT"),
+        /// Kubernetes: the image that holds the program.
+        pub image: Option<String> = None => named("IMAGE"),
+        /// AWS Batch: the queue.
+        pub queue: Option<String> = None => named("QUEUE"),
+        /// AWS Batch: the job definition.
+        pub definition: Option<String> = None => named("DEFINITION"),
+    }
+}
+
+impl Engine {
+    /// The engine of that name, with its settings.
+    ///
+    /// # Errors
+    /// When one that it needs is not given, or the folder to collect into has no name in UTF-8.
+    pub fn of(name: EngineName, options: &SubmitOptions) -> Result<Self, FarmError> {
+        let needed = |setting: &Option<String>, what: &str| {
+            setting.clone().ok_or_else(|| FarmError::Request(format!("{what} is not given, which {:?} needs", name.name())))
+        };
+        let text = |folder: &PathBuf| {
+            let wrong = || FarmError::Request(format!("{} is not UTF-8; name it otherwise", folder.display()));
+            folder.to_str().map(String::from).ok_or_else(wrong)
+        };
+        Ok(match name {
+            EngineName::Slurm => Self::Slurm { collect: options.collect.as_ref().map(text).transpose()?, dry_run: options.dry_run },
+            EngineName::Kubernetes => Self::Kubernetes { image: needed(&options.image, "image")? },
+            EngineName::AwsBatch => {
+                Self::AwsBatch { queue: needed(&options.queue, "queue")?, definition: needed(&options.definition, "definition")? }
+            }
+            EngineName::Openjd => Self::Openjd,
+        })
+    }
 }
 
 impl SubmitOptions {
-    /// What is chosen, over what the forecast says.
+    /// The forecast, with the chosen settings in place of its own.
     fn lay_over(&self, forecast: Submission) -> Submission {
         Submission {
             program: self.program.clone().unwrap_or(forecast.program),
             at_once: self.at_once,
             memory_mib: self.memory_mib.unwrap_or(forecast.memory_mib),
             minutes: self.minutes.unwrap_or(forecast.minutes),
-            array_limit: self.array_limit.unwrap_or(forecast.array_limit),
+            array_limit: self.array_limit.get(),
             ..forecast
         }
     }
@@ -72,7 +124,7 @@ pub enum Submitted {
     Job(String),
 }
 
-/// What to do with the files where nobody can submit them from here; `None` for Slurm.
+/// How to submit the files, if this program cannot; `None` for Slurm.
 pub fn how_to_submit(engine: &Engine) -> Option<&'static str> {
     match engine {
         Engine::Slurm { .. } => None,
@@ -159,4 +211,18 @@ fn sbatch(script: &Path, options: &[&str], before: &[String]) -> Result<String, 
         return Err(refuse(problem, "change the script and submit it by hand, or give other limits"));
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().split(';').next().unwrap_or_default().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_engine_has_the_settings_that_it_needs_or_names_the_one_that_is_missing() {
+        let options = SubmitOptions { image: Some("rooms:1".into()), collect: Some("out".into()), ..SubmitOptions::default() };
+        let of = |name| Engine::of(name, &options).map_err(|error| error.to_string());
+        assert_eq!(of(EngineName::Kubernetes), Ok(Engine::Kubernetes { image: "rooms:1".into() }));
+        assert_eq!(of(EngineName::Slurm), Ok(Engine::Slurm { collect: Some("out".into()), dry_run: false }));
+        assert_eq!(of(EngineName::AwsBatch), Err("queue is not given, which \"aws-batch\" needs".into()));
+    }
 }

@@ -1,4 +1,4 @@
-//! What a worker does: takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
+//! The worker: it takes its tasks one after the other, makes the frames that nobody has committed, and commits them.
 
 use crate::commit::{Commit, is_whole};
 use crate::hand_in::{Finished, hand_in};
@@ -21,7 +21,7 @@ pub enum Assignment {
     Shard(u32, u32),
 }
 
-/// Where engines say which of the indices of a job a worker has, counted from 0.
+/// Environment variables in which engines give a worker its index in a job, counted from 0.
 const INDEX_VARIABLES: [&str; 2] = ["JOB_COMPLETION_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX"];
 
 impl Assignment {
@@ -61,21 +61,21 @@ pub fn default_scratch() -> PathBuf {
     std::env::temp_dir().join("enfilade-farm")
 }
 
-/// How a worker works.
+/// The settings of a worker.
 #[derive(Debug)]
 pub struct Work<'a> {
     /// A folder of this machine: scenes are kept there for all workers of the machine, and frames until they are committed.
     pub scratch: &'a Path,
-    /// Which attempt this is.
+    /// The attempt of this worker.
     pub attempt: &'a Attempt,
     /// Ends the work; what was done of a frame is kept in the store.
     pub stop: &'a AtomicBool,
 }
 
-/// What an attempt has come to, as it is kept in the store.
+/// The record of an attempt, as it is kept in the store.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AttemptRecord {
-    /// Which attempt, where.
+    /// The attempt and its machine.
     #[serde(flatten)]
     pub attempt: Attempt,
     /// Number of the task.
@@ -86,7 +86,7 @@ pub struct AttemptRecord {
     pub cpu_s: f64,
     /// Threads at work.
     pub threads: u32,
-    /// Peak memory of the process until then; `None` where the system does not tell.
+    /// Peak memory of the process until then; `None` if the system does not report it.
     #[serde(default)]
     pub peak_memory_bytes: Option<u64>,
     /// Frames that are this attempt's.
@@ -98,13 +98,13 @@ pub struct AttemptRecord {
     /// Number of the committed frames that break a law of verification, by law: normally none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub broken: BTreeMap<String, u32>,
-    /// How it ended; `None` while it is at work, and for ever if it was killed.
+    /// The end of the attempt; `None` while it is at work, and for ever if it was killed.
     pub ended: Option<Ended>,
     /// Why, where it failed.
     pub error: Option<String>,
 }
 
-/// How an attempt ended.
+/// The end of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Ended {
@@ -195,8 +195,8 @@ fn missing_frames(job: &Job, task: &Task) -> Result<BTreeSet<u32>, FarmError> {
     Ok(missing)
 }
 
-/// By number, how many frames are missing of each task that is not done: those without a marker or without any payload. All of these
-/// are listed once, since a listing is what stores are slow at, and none is opened.
+/// Number of missing frames of each task that is not done, by the task's number: those without a marker or without any payload. All of
+/// these are listed once, since a listing is what stores are slow at, and none is opened.
 pub(crate) fn missing_by_task(job: &Job) -> Result<BTreeMap<u32, usize>, FarmError> {
     // In this order, since a frame that is committed meanwhile gets its payload first.
     let (markers, payloads) = (names(job, DONE, 1)?, names(job, FRAMES, 1)?);
@@ -206,7 +206,7 @@ pub(crate) fn missing_by_task(job: &Job) -> Result<BTreeMap<u32, usize>, FarmErr
     Ok((0..).zip(missing).filter(|&(_, count)| count > 0).collect())
 }
 
-/// The objects below `folder` that have at least so many bytes.
+/// The objects below `folder` that have at least `least_bytes` bytes.
 fn names(job: &Job, folder: &str, least_bytes: u64) -> Result<BTreeSet<String>, FarmError> {
     Ok(job.store.list(folder)?.into_iter().filter(|(_, bytes)| *bytes >= least_bytes).map(|(name, _)| name).collect())
 }
@@ -217,7 +217,7 @@ fn keys(task: &Task) -> impl Iterator<Item = FrameKey> {
     part.frames.iter().map(move |&frame| FrameKey { scene: part.scene.clone(), camera: part.camera.clone(), frame })
 }
 
-/// What came of the frames that an attempt has handed in.
+/// Counts of the frames that an attempt has committed or lost.
 #[derive(Default)]
 struct Tally {
     committed: u32,

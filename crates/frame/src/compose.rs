@@ -5,7 +5,7 @@ use crate::f16;
 /// The largest finite float16.
 pub const F16_LIMIT: f32 = 65504.0;
 
-/// What is below this rounds to a finite float16: halfway from the largest to what would be the next.
+/// Numbers below this are rounded to a finite float16: it is halfway from the largest float16 to what would be the next.
 const OVERFLOW: f32 = 65520.0;
 
 /// One channel of one pixel as it is stored.
@@ -17,7 +17,7 @@ pub struct Composed {
     pub illumination: f16,
     /// Rounded to float16, at most what keeps `color` finite.
     pub residual: f16,
-    /// True when a value is stored at the limit, or was cut because the colour would lie beyond it, or is no number. Then `color` is at the
+    /// True when a value is stored at the limit, or was reduced because the colour would exceed it, or is NaN. Then `color` is at the
     /// limit or, where rounding leaves nothing between, next below it; or `illumination` is at the limit.
     pub saturated: bool,
 }
@@ -59,7 +59,7 @@ mod tests {
         }
         for illumination in (0..0x7c00).map(|bits| f16::from_bits(bits).to_f32()) {
             let c = compose(f16::from_f32(0.5), illumination, 1e6);
-            // Where the sum lies halfway between the two largest, it is rounded to the even one, and one step more would be infinite.
+            // If the sum is halfway between the two largest, it is rounded to the even one, and one step more would be infinite.
             let is_halfway = (16.0 - 0.5 * illumination).rem_euclid(32.0) < 0.01;
             assert!(c.saturated && (c.color == f16::MAX || (is_halfway && c.color.to_f32() == 65_472.0)), "{illumination}: {c:?}");
         }

@@ -1,4 +1,4 @@
-//! What a finished picture is: named layers with unit, dtype, space and validity.
+//! Frames: finished pictures as named layers with unit, dtype, space and validity.
 //!
 //! [`LAYERS`] is the one table of layers. The renderer's outputs, file names, dtypes, documentation and verification all follow
 //! it. A [`Frame`] holds values exactly as they are stored.
@@ -46,7 +46,7 @@ impl Values {
         self.len() == 0
     }
 
-    /// How they are stored.
+    /// The type in which they are stored.
     pub fn dtype(&self) -> Dtype {
         match self {
             Self::F16(_) => Dtype::F16,

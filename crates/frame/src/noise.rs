@@ -1,4 +1,4 @@
-//! The noise of a whole picture as one number: what rendering is asked for by it, what a frame's record says and what `verify` measures.
+//! The noise of a whole picture as one number: the target of rendering, the value in a frame's record, and what `verify` measures.
 
 use crate::{Frame, Layer, f16};
 use enfilade_math::Rgb;

@@ -52,7 +52,7 @@ pub enum Layer {
     FlowVisibility,
 }
 
-/// How values are stored.
+/// The type in which values are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[allow(missing_docs, reason = "plain words")]
@@ -63,7 +63,7 @@ pub enum Dtype {
     U8,
 }
 
-/// Which of Hypersim's folders a layer lies in, and how it is sampled.
+/// Hypersim's folder that a layer is in, and how the layer is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Pass {
@@ -117,10 +117,10 @@ pub mod traits {
     pub const BACK: u8 = 16;
 }
 
-/// What a layer is, for machines and people.
+/// The specification of a layer, for machines and people.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerSpec {
-    /// Which one.
+    /// The layer.
     pub layer: Layer,
     /// Hypersim's name, as in `frame.0000.<name>.hdf5`.
     pub name: &'static str,
@@ -134,7 +134,7 @@ pub struct LayerSpec {
     pub unit: &'static str,
     /// Coordinate or colour space; empty where there is none.
     pub space: &'static str,
-    /// What stands where nothing was hit.
+    /// The value of pixels whose ray hits nothing.
     pub sentinel: &'static str,
     /// One sentence.
     pub description: &'static str,
@@ -239,6 +239,15 @@ impl Layer {
     /// The layer of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         LAYERS.iter().find(|spec| spec.name == name).map(|spec| spec.layer)
+    }
+
+    /// The layer of a name that somebody gives.
+    ///
+    /// # Errors
+    /// With the names of all layers, when it is none of them.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let known = || LAYERS.iter().map(|spec| spec.name).collect::<Vec<_>>().join(", ");
+        Self::from_name(name).ok_or_else(|| format!("there is no layer {name:?}; the layers are: {}", known()))
     }
 }
 

@@ -77,13 +77,13 @@ pub struct Builder {
     /// To where the fronts of objects look, by the objects' names.
     fronts: BTreeMap<String, DVec3>,
     instances: i16,
-    /// Where the models of the library that were used are in the scene, by their numbers.
+    /// Meshes and materials in the scene of the library models used so far, by their numbers.
     loaned: BTreeMap<usize, Arc<Loaned>>,
     /// The models behind objects, by the objects' names.
     models: BTreeMap<String, Arc<Model>>,
 }
 
-/// Where a model's meshes and materials are in the scene.
+/// Indices of a model's meshes and materials in the scene.
 #[derive(Debug)]
 pub(crate) struct Loaned {
     pub meshes: Vec<u32>,
@@ -191,7 +191,7 @@ impl Builder {
         self.part(object, name, mesh, material);
     }
 
-    /// How many parts there are.
+    /// Number of parts.
     pub fn part_count(&self) -> usize {
         self.scene.parts.len()
     }

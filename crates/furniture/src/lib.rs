@@ -1,8 +1,9 @@
-//! What furnishes a home: shapes and materials, and out of them one file per family of things.
+//! Furniture: shapes and materials, and one file per family of things made from them.
 //!
-//! From the bottom up: [`shape`] makes meshes; [`Materials`] and [`Palette`] say what things are made of, [`LampLight`] how bright what
-//! glows is; `pieces` has one file per family of things, which [`FAMILIES`] lists; [`Builder`] names, labels and collects their parts.
-//! [`models`] are things that others have made, of which [`assets`] takes those that may stand in for ours. [`meet`] and [`touch`] tell whether things run into each other.
+//! From the bottom up: [`shape`] makes meshes; [`Materials`] and [`Palette`] are what things are made of, [`LampLight`] is the brightness
+//! of lights; `pieces` has one file per family of things, which [`FAMILIES`] lists; [`Builder`] names, labels and collects their parts.
+//! [`models`] are things that others have made, from which [`assets`] takes those that may replace ours. [`meet`] and [`touch`] test
+//! whether things run into each other.
 //!
 //! ```
 //! use enfilade_furniture::{Builder, LampLight, Materials, Palette, family_named, pose};

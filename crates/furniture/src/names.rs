@@ -1,4 +1,4 @@
-//! What the names of parts tell: `sofa_2/cushion_1` is a part of the object `sofa_2`, which belongs to the family `sofa`.
+//! The meaning of the names of parts: `sofa_2/cushion_1` is a part of the object `sofa_2`, which belongs to the family `sofa`.
 //!
 //! [`Builder`](crate::Builder) makes such names.
 

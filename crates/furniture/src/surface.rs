@@ -1,4 +1,4 @@
-//! Where small things stand on larger ones: level rectangles, and the pose and distance of what stands on them.
+//! Surfaces of things on which smaller ones stand: level rectangles, and the pose and distance of things on them.
 
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
@@ -9,16 +9,16 @@ pub struct Surface {
     pub min: Vec2,
     /// The corner with the largest x and y.
     pub max: Vec2,
-    /// Where it lies.
+    /// Height of the rectangle.
     pub z: f32,
     /// Free height above it; infinite under the open sky of the room.
     pub headroom: f32,
 }
 
-/// The pose of something that stands at `at` in another thing's space, turned by `yaw`.
+/// The pose of something at `at` in another thing's space, turned by `yaw`.
 pub fn on(pose: DAffine3, at: Vec3, yaw: f32) -> DAffine3 {
     pose * DAffine3::from_translation(at.as_dvec3()) * DAffine3::from_rotation_z(f64::from(yaw))
 }
 
-/// How far things stand above what carries them: contact without faces in one plane.
+/// Distance between things and what carries them, metres: contact without faces in one plane.
 pub const CONTACT: f32 = 0.0005;

@@ -1,12 +1,12 @@
-//! How near things come that touch, and which of them give way.
+//! Contact of things: the distance at which they touch, and which of them are soft.
 
 use crate::names::family_of;
 
 /// Families of cloth that lies in folds over or in something: it follows what it lies on, so its depth is not checked.
 const DRAPED: [&str; 6] = ["throw", "blanket", "clothes", "towel", "napkin", "crumpled_paper"];
-/// What is nearer than this touches, metres.
+/// Things nearer than this touch, metres.
 const REACH: f32 = 0.0025;
-/// What is soft touches at a larger distance, metres: cloth hangs and lies in waves.
+/// Soft things touch at this larger distance, metres: cloth hangs and lies in waves.
 pub const SOFT_REACH: f32 = 0.02;
 /// Families of soft things.
 const SOFT: [&str; 14] = [

@@ -1,4 +1,4 @@
-//! What is read: bytes with a name, and the functions that read them.
+//! Inputs: bytes with a name, and the functions that read them.
 
 use std::path::{Path, PathBuf};
 
@@ -7,9 +7,9 @@ pub type Run = Box<dyn FnMut(&[u8])>;
 
 /// A file to begin with, or one that was found.
 pub struct Seed {
-    /// What it is.
+    /// Name of the file.
     pub name: String,
-    /// What is in it.
+    /// Content of the file.
     pub bytes: Vec<u8>,
 }
 

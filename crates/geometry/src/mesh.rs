@@ -45,17 +45,17 @@ pub enum MeshError {
     /// An index beyond the vertices.
     #[error("triangle {triangle} refers to vertex {index}, but there are {vertices} vertices, counted from 0")]
     IndexOutOfRange {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
         /// The index found.
         index: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
     /// A coordinate that is NaN or infinite.
     #[error("vertex {vertex} has a {attribute} that is not finite: {value}; clean the mesh in the program that made it")]
     NotFinite {
-        /// Which vertex.
+        /// Index of the vertex.
         vertex: usize,
         /// "position", "normal" or "texture coordinate".
         attribute: &'static str,

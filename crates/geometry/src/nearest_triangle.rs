@@ -116,7 +116,7 @@ impl NearestTriangle {
     }
 }
 
-/// Appends the tree over `numbers`, which stand from `first` on among all.
+/// Appends the tree over `numbers`, whose position among all numbers starts at `first`.
 fn build(corners: &[[Vec3; 3]], numbers: &mut [u32], first: usize, nodes: &mut Vec<Node>) {
     let of = |number: u32| corners[number as usize];
     let bounds = Bounds3::from_points(numbers.iter().flat_map(|&i| of(i)));

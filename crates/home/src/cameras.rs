@@ -1,8 +1,8 @@
-//! Where a photographer would stand to look at each room.
+//! Start cameras: the places from which a photographer would take each room.
 //!
-//! From every free place rays go around; what they meet says how much each view shows: the things that the room is for, whole and
-//! from their fronts, and nothing in the way. The best views are taken, one after another, each from another place or in another
-//! direction. All are level, so that verticals stay vertical (two-point perspective).
+//! From every free place, rays are cast all around. Their hits tell how much each view shows: the things that the room is for, whole and
+//! from their fronts, and nothing in the way. The best views are taken, one after another, each from another place or in another direction.
+//! All are level, so that verticals stay vertical (two-point perspective).
 
 use crate::plan::FloorPlan;
 use crate::room::Room;
@@ -17,28 +17,28 @@ use std::f32::consts::TAU;
 pub const CLEARANCES: [f32; 2] = [0.4, 0.25];
 /// Height of the eye, metres: photographers of interiors stand lower than people look, so that tables and beds are seen whole.
 const EYE: f32 = 1.25;
-/// Horizontal field of view, radians: that of a 24 mm lens (74°), and of a 21 mm lens (81°) in small rooms.
+/// Horizontal field of view of a 24 mm lens (74°), and of a 21 mm lens (81°) in small rooms, radians.
 const FOV_X_RAD: [f64; 2] = [1.29, 1.41];
 /// Rooms with less floor are small, m².
 const SMALL: f32 = 8.0;
-/// Candidates stand on a grid of this step, metres.
+/// Step of the grid of candidate positions, metres.
 const STEP: f32 = 0.3;
 /// Width of a view over its height.
 const ASPECT: f32 = 4.0 / 3.0;
 /// Directions around a place.
 const AROUND: usize = 60;
-/// Tangent of the lowest ray's elevation. Rays beyond the edges of a view say how much of a thing is cut off.
+/// Tangent of the lowest ray's elevation. Rays beyond the edges of a view measure how much of a thing is cut off.
 const LOWEST: f32 = -1.0;
 /// Rays above each other in one direction.
 const PITCHES: usize = 14;
 /// Step between the tangents of their elevations.
 const PITCH_STEP: f32 = 0.125;
-/// What is nearer than this is in the way, metres.
+/// Things nearer than this are in the way, metres.
 const NEAR: f32 = 1.05;
 /// Share of a view above which windows spoil it by day, since the brightest tenth of a picture decides how bright all of it is shown.
 /// It counts at any hour: the light must not move cameras.
 const GLARE: f32 = 0.1;
-/// Worth of a metre of depth, beside that of things.
+/// Score of a metre of depth, relative to the score of things.
 const SPACE: f32 = 0.35;
 /// Share of a view above which a thing counts for no more.
 const ENOUGH: f32 = 0.2;
@@ -91,7 +91,7 @@ fn camera(name: String, view: &View, fov_x_rad: f64) -> StartCamera {
     StartCamera { name, position: view.eye.as_dvec3(), world_from_camera: DMat3::from_cols(x, DVec3::Z, z), fov_x_rad, aspect }
 }
 
-/// How much people want to see a thing of this class in a room of this kind.
+/// Weight of a thing of this class in a view of a room of this kind.
 fn interest(class: i16, kind: RoomKind) -> f32 {
     const TABLE: [(Class, f32); 27] = [
         (Class::Bed, 3.0),
@@ -127,7 +127,7 @@ fn interest(class: i16, kind: RoomKind) -> f32 {
     if kitchen { 2.5 } else { named }
 }
 
-/// What rays can meet.
+/// The surfaces that rays can hit.
 struct Surroundings<'a> {
     scene: &'a Scene,
     labels: &'a Labels,
@@ -135,7 +135,7 @@ struct Surroundings<'a> {
     bvh: &'a Bvh,
 }
 
-/// What a ray meets.
+/// The hit of a ray.
 #[derive(Clone, Copy)]
 struct Sight {
     /// Metres.
@@ -198,7 +198,8 @@ fn direction(around: usize, pitch: usize) -> Vec3 {
     Vec2::from_angle(TAU * around as f32 / AROUND as f32).extend(LOWEST + PITCH_STEP * pitch as f32)
 }
 
-/// What one view holds of `sights`: many different things that are not cut off, at some distance, and nothing in the way.
+/// The view at `eye` in direction `k`, with its score: high for many different things that are not cut off, at some distance, and nothing
+/// in the way.
 fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing]) -> View {
     let (right, up) = ((0.5 * fov).tan(), (0.5 * fov).tan() / ASPECT);
     let mut rays = vec![0.0f32; things.len()];

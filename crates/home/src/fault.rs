@@ -1,4 +1,4 @@
-//! What can be wrong with a home, in words for people and in families to be counted.
+//! Faults of a home, in words for people and in families to be counted.
 
 use enfilade_furniture::family_of;
 use std::fmt;
@@ -14,7 +14,7 @@ pub enum Fault {
     Nameless(String),
     /// Nobody can walk into the room, by its number in the plan.
     Unreachable(usize),
-    /// A start camera stands too near to a part.
+    /// A start camera is too near to a part.
     Camera(String),
 }
 

@@ -1,8 +1,8 @@
-//! Moves what floats or runs into something a little, to where it rests and is free.
+//! Moves things that float or run into something a little, so that they rest and are free.
 //!
-//! What floats is lowered until it lies on what is below it, by the exact height between their triangles. What runs into something
-//! is moved by the shortest step, up or sideways, that sets it free, and lowered again. What rests on it goes with it. Both move a few
-//! centimetres at most; what would have to go further stays, for [`crate::settle`] to remove.
+//! A thing that floats is lowered until it lies on what is below it, by the exact height between their triangles. One that runs into
+//! something is moved by the shortest step, up or sideways, that sets it free, and lowered again. Things that rest on it move with it. Both
+//! move a few centimetres at most; things that would have to move further stay, for [`crate::settle`] to remove.
 
 use crate::check::contact::{Contacts, core, cores_meet, cuts, touches};
 use crate::shell::is_shell;
@@ -10,13 +10,13 @@ use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_math::{Bounds3, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest height that a thing falls, metres: what floats higher was not meant to lie there.
+/// Largest height that a thing falls, metres: a thing that floats higher was not meant to lie there.
 const FALL: f32 = 0.12;
 /// Steps by which things are moved out of each other, metres.
 const STEPS: [f32; 10] = [0.005, 0.01, 0.015, 0.02, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1];
 /// Distance that is left between what has fallen and what it lies on, metres: contact without faces in one plane.
 const REST: f32 = 0.0005;
-/// How often an object is moved before it is given up.
+/// Most moves of an object.
 const MOVES: usize = 4;
 
 /// Moves `bodies` into places where they neither float nor run into others, where there are such. Returns how far each was moved.
@@ -29,7 +29,7 @@ pub fn settle(bodies: &mut [Body], contacts: &mut Contacts) -> BTreeMap<usize, V
         let root = group[0];
         let tries = moves.entry(root).or_default();
         *tries += 1;
-        // Nothing is gained by no step at all: it means that the object runs into what it carries.
+        // A step of zero gains nothing: it means that the object runs into something that it carries.
         let step = if *tries > MOVES { None } else { pile.way_out(&group).filter(|by| *by != Vec3::ZERO) };
         match step {
             None => _ = given_up.insert(root),
@@ -66,7 +66,7 @@ impl Pile<'_> {
         }
         let root = either.into_iter().min_by(|a, b| low(a).total_cmp(&low(b)))?;
         let without = self.contacts.carried(self.bodies, |i| i != root);
-        // What lies on it goes along even where something else would hold it.
+        // Things that lie on it move with it, even if something else would support them.
         let middle = self.bodies[root].bounds.center().z;
         let lies_on = |i: usize| low(&i) > middle && self.contacts.touching.contains(&(i.min(root), i.max(root)));
         let goes_along = |&i: &usize| i != root && !is_shell(&self.bodies[i].name) && all[i] && (!without[i] || lies_on(i));

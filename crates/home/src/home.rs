@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::plan::FloorPlan;
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{DVec3, Vec3};
-use enfilade_scene::{Labels, Scene, Structure, StructureThing};
+use enfilade_scene::{Labels, RoomThing, Rooms, Scene};
 use std::collections::BTreeMap;
 
 /// The front of a thing that looks up or down more than this share of a unit vector is none.
@@ -17,9 +17,9 @@ pub struct Home {
     pub scene: Scene,
     /// Every part has a class; all but walls, floor and ceiling belong to an instance.
     pub labels: Labels,
-    /// Where its rooms are.
+    /// The floor plan of its rooms.
     pub plan: FloorPlan,
-    /// To where the fronts of objects look, by their names; also of objects that were removed.
+    /// Directions of objects' fronts, by the objects' names; also of objects that were removed.
     pub fronts: BTreeMap<String, DVec3>,
     /// Objects that could not stay where they had been put, and were removed.
     pub removed: Vec<Removal>,
@@ -31,16 +31,16 @@ pub struct Home {
 
 impl Home {
     /// The home's rooms, walls and openings, and what its instances are called.
-    pub fn structure(&self) -> Structure {
+    pub fn rooms(&self) -> Rooms {
         let parts = self.scene.parts.iter().zip(&self.labels.parts);
         let names: BTreeMap<i16, &str> =
             parts.filter(|(_, label)| label.instance >= 1).map(|(part, label)| (label.instance, object_of(&part.name))).collect();
         let thing = |(instance, name): (i16, &str)| {
             let front = self.fronts.get(name).map(|front| front.truncate()).filter(|front| front.length() > UPRIGHT);
             let front = front.map(|front| front.normalize().to_array());
-            StructureThing { instance, name: name.into(), family: family_of(name).into(), front }
+            RoomThing { instance, name: name.into(), family: family_of(name).into(), front }
         };
-        Structure { things: names.into_iter().map(thing).collect(), ..self.plan.structure() }
+        Rooms { things: names.into_iter().map(thing).collect(), ..self.plan.to_rooms() }
     }
 }
 
@@ -49,7 +49,7 @@ impl Home {
 pub struct Removal {
     /// Name of the object.
     pub object: String,
-    /// What was wrong with it.
+    /// The fault of the object.
     pub fault: Fault,
 }
 
@@ -58,6 +58,6 @@ pub struct Removal {
 pub struct Shift {
     /// Name of the object.
     pub object: String,
-    /// How far, metres.
+    /// The displacement, metres.
     pub by: Vec3,
 }

@@ -1,9 +1,9 @@
 //! Procedural furnished homes: the embedded default input, and labelled scenes without end.
 //!
 //! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: `plan` lays out rooms, [`room`] and `shell` are their walls;
-//! `place` decides what fits where, `rooms` says what each kind of room holds, out of the crate `enfilade-furniture`. What [`check`] would
-//! object to is moved until it rests on something and runs into nothing, and removed where that fails. [`light`] is the hour, the sky and
-//! what stands outside.
+//! `place` decides what fits where, `rooms` furnishes each kind of room with things of the crate `enfilade-furniture`. Objects with a fault
+//! that [`check`] would find are moved until they rest on something and run into nothing, or removed where that fails. [`light`] is the
+//! hour, the sky and the surroundings outside.
 //!
 //! ```
 //! use enfilade_home::check::faults;
@@ -50,7 +50,7 @@ pub fn home(config: &HomeConfig) -> Home {
     home_with(config, &Library::default())
 }
 
-/// A furnished home in which models of `library`, which the caller has read from [`HomeConfig::assets`], stand in for our furniture.
+/// A furnished home in which models of `library`, which the caller has read from [`HomeConfig::assets`], replace our furniture.
 ///
 /// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards.
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
@@ -81,7 +81,7 @@ fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> 
     lines.into_iter().collect()
 }
 
-/// The light of a home: by day its sun stands before the largest window of the first room that has one.
+/// The light of a home: by day its sun is in front of the largest window of the first room that has one.
 fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
     let cover = config.seed == 0 && config.light.is_none();
     let moment = config.moment.unwrap_or_else(|| if cover { Moment::Day } else { Moment::usual(&mut rng.fork(1)) });

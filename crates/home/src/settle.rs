@@ -1,7 +1,9 @@
-//! The last step of furnishing: what runs into others or floats is moved a little by [`crate::gravity`], and removed where that fails.
+//! The last step of furnishing: things that run into others or float are moved a little by [`crate::gravity`], and removed where that
+//! fails.
 //!
-//! Furniture is placed by its box; here its triangles count, which creases, tilts and clutter move a little. Of two objects that run
-//! into each other the smaller is removed, and with it what stood on it, which floats then. So is what blocks the only way into a room.
+//! Furniture is placed by its box; here its triangles count, which creases, tilts and clutter move a little. Of two objects that run into
+//! each other the smaller is removed, together with the things on it, which would float. Things that block the only way into a room are
+//! removed too.
 
 use crate::check::contact::Contacts;
 use crate::check::{Fault, bodies, walk};
@@ -39,7 +41,7 @@ pub fn settle(home: &mut Home) {
     drop_unused(home);
 }
 
-/// Which bodies to remove, and why, so that no other runs into anything or floats.
+/// The bodies to remove, and why, so that no other runs into anything or floats.
 fn condemned(bodies: &[Body], contacts: &Contacts) -> BTreeMap<usize, Fault> {
     let mut gone: BTreeMap<usize, Fault> = BTreeMap::new();
     for &(a, b) in &contacts.meeting {

@@ -10,25 +10,25 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use enfilade_textures::FLOOR_STRIPS;
 
-/// How far floor, walls and ceiling reach into each other, so that no light comes through the joints.
+/// Overlap of floor, walls and ceiling, metres, so that no light comes through the joints.
 const OVERLAP: f32 = 0.1;
 /// The overlap at walls between rooms, which are thin.
 const THIN_OVERLAP: f32 = 0.03;
 /// Half the air between the two halves of a wall.
 const AIR: f32 = 0.0005;
-/// How far floor coverings reach below walls.
+/// Overlap of floor coverings and walls, metres.
 const UNDER_WALLS: f32 = 0.04;
 /// Thickness and height of skirting boards, metres.
 const SKIRTING: Vec2 = Vec2::new(0.014, 0.085);
 
-/// What fills openings.
+/// Families of the things that fill openings.
 const OPENINGS: [&str; 3] = ["window", "door", "passage"];
-/// What a room has one of, before the room's name.
+/// Prefixes of names of parts that each room has once.
 const SHEETS: [&str; 3] = ["floor_", "ceiling_", "skirting_"];
 /// The walls of a room, as their names end.
 const SIDES: [&str; 4] = ["south", "east", "north", "west"];
 
-/// What the surfaces of a room's shell are made of.
+/// The finishes of the surfaces of a room's shell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShellFinish {
     /// Walls.
@@ -40,8 +40,8 @@ pub struct ShellFinish {
 }
 
 impl ShellFinish {
-    /// What is usual for a kind of room. `shape` decides what changes meshes, whether the floor is laid of boards; `look` which of the
-    /// coverings a floor that is not has, and how the accent wall is done.
+    /// The usual finish of a kind of room. `shape` decides what changes meshes: whether the floor is laid of boards. `look` decides the
+    /// covering of a floor without boards, and the finish of the accent wall.
     pub fn usual(kind: RoomKind, accent: Option<Wall>, shape: &mut Rng, look: &mut Rng) -> Self {
         use RoomKind::{Hall, Kitchen, Laundry};
         let boards = match kind {
@@ -119,7 +119,7 @@ fn is_shell_family(family: &str) -> bool {
     OPENINGS.contains(&family) || piece("wall_").is_some_and(wall) || SHEETS.iter().any(|sheet| piece(sheet).is_some_and(room))
 }
 
-/// How much of a wall belongs to the room.
+/// Depth of the part of a wall that belongs to the room, metres.
 fn depth(room: &Room, wall: Wall) -> f32 {
     if room.outer[wall as usize] { room.outer_wall } else { room.inner_half() - AIR }
 }

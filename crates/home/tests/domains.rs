@@ -1,4 +1,4 @@
-//! What is varied independently: materials and light without layout and furniture, and the other way round.
+//! Independent variation: materials and light without layout and furniture, and the other way round.
 
 use enfilade_home::light::Moment;
 use enfilade_home::{HomeConfig, RoomKind, home};

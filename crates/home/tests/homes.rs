@@ -1,4 +1,4 @@
-//! What every home must be, whatever its seed.
+//! Properties of every home, whatever its seed.
 
 use enfilade_geometry::Bvh;
 use enfilade_home::check::faults;

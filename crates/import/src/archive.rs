@@ -15,11 +15,11 @@ const MAX_INNER: usize = 8;
 /// All files of an archive together may unpack to this many bytes: a small file can unpack to a thousand times its size.
 const MAX_BYTES: u64 = 8 << 30;
 
-/// An archive that lies in memory.
+/// An archive in memory.
 pub(crate) struct Archive {
     file: PathBuf,
     names: Vec<String>,
-    /// Where the file of each name is: the archive, and what it is called there.
+    /// The archive of the file of each name, and its name there.
     entries: Vec<(usize, String)>,
     /// The archive itself, and those within it that were opened.
     zips: RefCell<Vec<ZipArchive<Cursor<Vec<u8>>>>>,
@@ -32,7 +32,7 @@ impl Archive {
     /// Opens the bytes of `file`.
     ///
     /// # Errors
-    /// What is wrong with them, as the rest of a sentence.
+    /// The fault, as the rest of a sentence.
     pub(crate) fn new(file: &Path, bytes: Vec<u8>) -> Result<Self, String> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("not an archive that can be read ({e})"))?;
         let mut archive = Self {
@@ -47,7 +47,8 @@ impl Archive {
         Ok(archive)
     }
 
-    /// Opens the archives within the archive: their files are then where the archive that holds them is. Those that are damaged stay closed.
+    /// Opens the archives within the archive: their files are then in the folder of the archive that contains them. Damaged ones stay
+    /// closed.
     pub(crate) fn open_inner(&mut self) {
         let inner: Vec<String> = self.names.iter().filter(|name| name.to_ascii_lowercase().ends_with(".zip")).cloned().collect();
         for name in inner.iter().take(MAX_INNER) {
@@ -83,7 +84,7 @@ impl Archive {
         &self.names
     }
 
-    /// The name of the file that `name` means: spelled the same, in other case, or with `%20` and the like replaced.
+    /// The name of the file that `name` refers to: spelled the same, in another case, or with `%20` and similar escapes replaced.
     pub(crate) fn find(&self, name: &str) -> Option<&str> {
         let name = name.trim_start_matches('/');
         let among = |wanted: &str| {

@@ -3,7 +3,7 @@
 //! `classes.csv` has the columns `category` and `class`. Its categories are those of HSSD-200's lexicon, Matterport3D's `mpcat40` and the
 //! commonest of HM3D, the categories of 3D-FUTURE, the object types of AI2-THOR and the classes of Replica. The classes are those of the
 //! column `nyu40` of Matterport3D's `mpcat40.tsv` where it has one class, and else those of this workspace's word list
-//! (`crates/suggest/words.csv`), which a test compares. A name that is not in the table says nothing: the part keeps it, for
+//! (`crates/suggest/words.csv`), which a test compares. A name that is not in the table gives no class: the part keeps the name, for
 //! `enfilade suggest` and for people.
 
 use enfilade_scene::NYU40;
@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 
 const TABLE: &str = include_str!("classes.csv");
 
-/// The class of NYU40 that a category stands for, however it is written: `DiningTable`, `dining_table` and `Dining table` are one.
+/// The class of NYU40 of a category, however it is written: `DiningTable`, `dining_table` and `Dining table` are one.
 pub(crate) fn class_of(category: &str) -> Option<i16> {
     static CLASSES: OnceLock<HashMap<String, i16>> = OnceLock::new();
     let classes = CLASSES.get_or_init(|| rows().filter_map(|(category, class)| Some((letters(category), number(class)?))).collect());
@@ -63,7 +63,7 @@ mod tests {
         }
     }
 
-    /// Where the word list knows a category as one phrase, both say the same, except for what Matterport3D's own table says otherwise.
+    /// If the word list has a category as one phrase, both give the same class, except where Matterport3D's own table differs.
     #[test]
     fn classes_are_those_of_the_word_list() {
         let known: HashMap<Vec<String>, i16> = Lexicon::builtin().unwrap().entries().into_iter().collect();

@@ -1,4 +1,4 @@
-//! What a file is by how it begins, for messages about files whose names say otherwise: a web page that came in the place of a download, a
+//! The content of a file by its first bytes, for messages about files that do not match their names: a web page in place of a download, a
 //! picture, a scene in another format.
 
 use crate::{Format, ImportError};
@@ -10,7 +10,7 @@ use std::path::Path;
 /// Bytes that are looked at.
 pub(crate) const HEAD: u64 = 1 << 16;
 
-/// Signatures, what a file is that begins so, and what its name should end with where it is a scene.
+/// Signatures, the contents of files that begin with them, and the extension of scenes in that format.
 const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
     (b"glTF", "a binary glTF", Some("glb")),
     (b"#usda", "USD as text", Some("usda")),
@@ -47,7 +47,7 @@ const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
     (b"ISO-10303-21", "a STEP or IFC file", None),
 ];
 
-/// Outermost elements of XML files, what these are, and what their names should end with where they are scenes.
+/// Outermost elements of XML files, the contents of these files, and the extension of scenes in that format.
 const ROOTS: [(&str, &str, Option<&str>); 17] = [
     ("mujoco", "a model of MuJoCo", None),
     ("robot", "a robot in URDF", Some("urdf")),
@@ -68,7 +68,7 @@ const ROOTS: [(&str, &str, Option<&str>); 17] = [
     ("model", "a 3MF or AMF model", None),
 ];
 
-/// What a file is.
+/// The content of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
     /// No bytes, or zeros alone, as interrupted downloads leave them.
@@ -81,12 +81,12 @@ pub(crate) enum Content {
     JsonList,
     /// A table in JSON; true for one that glTF's marks are in.
     JsonTable(bool),
-    /// What a signature tells, and the extension that scenes of it have.
+    /// The format of a signature, and the extension of scenes in it.
     Signed(&'static str, Option<&'static str>),
 }
 
 impl Content {
-    /// By the first bytes; `None` for what may be anything, such as text.
+    /// The content by the first bytes; `None` if it may be anything, such as text.
     pub(crate) fn of(head: &[u8]) -> Option<Self> {
         if head.is_empty() {
             return Some(Self::Nothing("empty"));
@@ -130,7 +130,7 @@ impl Content {
         }
     }
 
-    /// What to do with it.
+    /// Advice on what to do with it.
     pub(crate) fn remedy(&self) -> String {
         let rename = |extension: &str| format!("if it is the scene, let its name end with .{extension}");
         let known = |extension: &str| Format::ALL.iter().any(|(_, all)| all.contains(&extension));
@@ -181,7 +181,7 @@ impl Content {
     }
 }
 
-/// Refuses a scene file that is something else than its name says.
+/// Refuses a scene file whose content does not match its name.
 ///
 /// # Errors
 /// [`ImportError::Malformed`], with what it is and what to do. A file that cannot be read is left to its importer.
@@ -211,10 +211,10 @@ fn is_json_value(rest: &str) -> bool {
         || ["true", "false", "null"].iter().any(|word| rest.starts_with(word))
 }
 
-/// What XML or HTML is.
+/// The content of an XML or HTML file.
 fn markup(text: &str) -> Option<Content> {
     let mut rest = text;
-    // What may stand before the outermost element.
+    // Declarations that may precede the outermost element.
     while rest.starts_with("<?") || rest.starts_with("<!") {
         let is_page = rest.get(..14).is_some_and(|start| start.eq_ignore_ascii_case("<!doctype html"));
         if is_page {

@@ -9,7 +9,7 @@ use crate::others::{Others, named};
 use crate::{Format, ImportError, Imported, disguise, sweethome};
 use std::path::{Path, PathBuf};
 
-/// Folders within folders that are looked into, and as many files are listed: a scene lies near the top.
+/// Greatest depth of folders that are searched, and greatest number of files that are listed: a scene is near the top.
 const DEPTH: usize = 4;
 const MAX_FILES: usize = 20_000;
 /// Names of the file that includes the others.
@@ -104,7 +104,7 @@ impl Unclear {
 }
 
 /// Chooses the scene among files: of scenes before meshes, the nearest to the top, one that is called like the download or `scene`, and of
-/// the same scene in several formats the fullest. `read` gives the bytes of a file, where its name does not tell enough.
+/// the same scene in several formats the most complete. `read` returns the bytes of a file, for names that do not identify the format.
 fn choose(names: &[String], own: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Result<Chosen, Unclear> {
     let mut candidates: Vec<(usize, &String)> = names.iter().filter_map(|name| Some((rank(name, read)?, name))).collect();
     let all: Vec<String> = candidates.iter().map(|(_, name)| (*name).clone()).collect();
@@ -128,7 +128,7 @@ fn choose(names: &[String], own: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -
     Ok(Chosen { name: name.clone(), format, others: all.into_iter().filter(|other| other != name).collect() })
 }
 
-/// How full a scene file's format is, the fullest first; `None` for files that are no scenes.
+/// Rank of a scene file's format, the most complete first; `None` for files that are no scenes.
 fn rank(name: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<usize> {
     let last = name.rsplit('/').next().unwrap_or(name);
     // What macOS adds to archives, and hidden files.

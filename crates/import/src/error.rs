@@ -11,7 +11,7 @@ pub enum ImportError {
     UnknownFormat {
         /// The scene file.
         file: PathBuf,
-        /// What its extension is.
+        /// The extension that was found.
         found: String,
         /// The extensions that are known.
         known: String,
@@ -21,9 +21,9 @@ pub enum ImportError {
     Read {
         /// The file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
-        /// What to do.
+        /// Advice on what to do.
         remedy: String,
     },
     /// The pointer that Git LFS leaves in the place of a file that it has not fetched.
@@ -56,7 +56,7 @@ pub enum ImportError {
         user: String,
         /// The texture's file, or its place in the scene file.
         texture: String,
-        /// What is wrong with it.
+        /// The fault.
         problem: String,
     },
     /// A mesh in a file of its own that is not there.
@@ -72,7 +72,7 @@ pub enum ImportError {
         user: String,
         /// The mesh's file.
         mesh: String,
-        /// What is wrong with it.
+        /// The fault.
         problem: String,
     },
     /// A scene package that cannot be read.
@@ -80,7 +80,7 @@ pub enum ImportError {
     Package {
         /// The package.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         source: PackageError,
     },
     /// The file was read, but what it describes is not a usable scene.
@@ -88,7 +88,7 @@ pub enum ImportError {
     Scene {
         /// The scene file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         source: SceneError,
     },
     /// An option whose value makes no sense.
@@ -101,7 +101,7 @@ pub enum ImportError {
     },
 }
 
-/// What to do about a texture, by what is wrong with it.
+/// Advice about a texture, by its fault.
 fn remedy(problem: &str) -> &'static str {
     if problem.starts_with("cannot be read") || problem.starts_with("is not in the archive") {
         "put the file there, beside the scene or into a folder textures beside it, or correct the path in the scene"

@@ -95,7 +95,7 @@ impl Format {
     /// Ends of names that consist of several extensions, in lower case.
     const LONG: [&str; 3] = ["pbrt.gz", "scene_instance.json", "semantic.txt"];
 
-    /// What scenes of the format are called in messages.
+    /// Name of the format's scenes in messages.
     pub(crate) const fn words(self) -> &'static str {
         match self {
             Self::Gltf => "a glTF",
@@ -122,7 +122,7 @@ impl Format {
         if matches!(self, Self::Stl | Self::Urdf | Self::Sdf) { UpAxis::Z } else { UpAxis::Y }
     }
 
-    /// All extensions as they stand in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
+    /// All extensions as written in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
     pub fn extensions() -> String {
         Self::ALL.iter().flat_map(|(_, extensions)| *extensions).map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
     }
@@ -160,7 +160,7 @@ impl Format {
     }
 }
 
-/// What a scene is called by its file: the file's name without its extension, be it as long as `.scene_instance.json`.
+/// The name of a scene by its file: the file's name without its extension, which may be as long as `.scene_instance.json`.
 ///
 /// ```
 /// use enfilade_import::scene_name;

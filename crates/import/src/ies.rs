@@ -2,7 +2,7 @@
 //!
 //! | part | support |
 //! |---|---|
-//! | identification, keywords | skipped; the first line says which edition it is, none means 1986 |
+//! | identification, keywords | skipped; the first line states the edition, none means 1986 |
 //! | `TILT` | `NONE`; the factors of `INCLUDE` and of a file are not used, with a warning: they depend on how the luminaire hangs |
 //! | photometric type | C; A and B, for headlamps and floodlights, are an error |
 //! | candela multiplier, ballast factor | multiply all intensities, and until 1991 the ballast-lamp factor too |
@@ -22,7 +22,7 @@ pub(crate) struct Profile {
     pub warnings: Vec<String>,
 }
 
-/// Reads a photometric file. `file` and `place` say where the bytes are from: a line of it is added to the place.
+/// Reads a photometric file. `file` and `place` locate the bytes in messages; the line is added to the place.
 ///
 /// # Errors
 /// When it is not LM-63, cut short, of an unsupported type, or has numbers that make no sense.
@@ -88,7 +88,7 @@ pub(crate) fn parse(bytes: &[u8], file: &Path, place: &str) -> Result<Profile, I
     Ok(Profile { web, warnings })
 }
 
-/// What the editions differ in.
+/// The editions of the format, as far as they differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edition {
     /// 1986, without identification, and 1991.

@@ -1,4 +1,4 @@
-//! What an import gives: the scene, its labels, the files it was made of, and the report.
+//! The result of an import: the scene, its labels, the files it was made of, and the report.
 
 use crate::ImportReport;
 use enfilade_math::DMat3;
@@ -30,6 +30,6 @@ pub struct Imported {
     pub missing: Vec<PathBuf>,
     /// The rotation, or reflection, from the file's axes to the world's; of no meaning for packages, which have the world's.
     pub axes: DMat3,
-    /// What the scene contains, and what was dropped or guessed.
+    /// Counts of the scene's contents, and what was dropped or guessed.
     pub report: ImportReport,
 }

@@ -52,7 +52,7 @@ fn joined(group: Vec<Warning>) -> Option<Warning> {
     if count == 1 {
         return group.into_iter().next();
     }
-    // In one file its name is said once.
+    // If all places are in one file, its name is mentioned once.
     let within = |warning: &Warning| warning.place.split_once(": ").filter(|(of, _)| Some(*of) == file).map(|(_, place)| place.to_string());
     let inside: Option<Vec<String>> = group.iter().map(within).collect();
     let mut places = inside.clone().unwrap_or_else(|| group.iter().map(|warning| warning.place.clone()).collect());

@@ -1,6 +1,6 @@
 //! Scene files to [`Scene`](enfilade_scene::Scene), with a report of what was dropped or guessed.
 //!
-//! [`load`] tells the format by the file's extension:
+//! [`load`] recognises the format by the file's extension:
 //!
 //! ```
 //! use enfilade_import::{ImportOptions, load};
@@ -13,7 +13,7 @@
 //! let imported = load(&file, &ImportOptions::default(), &Quiet)?;
 //! let part = &imported.scene.parts[0];
 //! assert_eq!((part.name.as_str(), imported.report.counts.triangles), ("floor", 2));
-//! // y is up in OBJ files, z in scenes: the third corner lies 3 m along y.
+//! // y is up in OBJ files, z in scenes: the third corner is 3 m along y.
 //! assert_eq!(imported.scene.world_corners(part, 0)[2].to_array(), [4.0, 3.0, 0.0]);
 //! // What was dropped or guessed, here that there is no material.
 //! println!("{}", imported.report);
@@ -31,13 +31,13 @@
 //!   finite by zero. A position that is not finite or an index out of range is an error.
 //! - Mirroring placements get reversed triangles, so that the front stays the front. Of a part that its placement flattens, the faces
 //!   that still have an area are kept, with a warning; without any the part is left out.
-//! - A texture that is not where the file says is looked for by its name beside the scene file, in `textures/` and folders of such names, and in
-//!   those beside the scene file's folder, in whatever case; the report says which was used.
+//! - A texture that is not at the path in the file is sought by its name beside the scene file, in `textures/` and folders of such names,
+//!   and in those beside the scene file's folder, in whatever case; the report says which was used.
 //! - A texture that is missing or broken is an error, unless [`ImportOptions::allow_missing_textures`] is set.
-//! - A scene that stands farther than 8 km from the origin of its coordinates, as those of maps do, is moved to it, and the report says by how
-//!   much ([`ImportReport::offset_m`]). OBJ, PLY, USD, FBX, pbrt, Mitsuba and placements of all formats are read in double precision, so
-//!   that nothing is lost on the way.
-//! - A scene has no colours of vertices. Where a file has them, a mean of theirs colours the part (glTF, OBJ, PLY, USD's display
+//! - A scene farther than 8 km from the origin of its coordinates, such as map coordinates, is moved to the origin, and the report says by
+//!   how much ([`ImportReport::offset_m`]). OBJ, PLY, USD, FBX, pbrt, Mitsuba and placements of all formats are read in double precision,
+//!   so that nothing is lost on the way.
+//! - A scene has no colours of vertices. If a file has them, their mean colours the part (glTF, OBJ, PLY, USD's display
 //!   colour, `mesh_attribute` of Mitsuba) or they are dropped (FBX, pbrt); the report says so.
 //! - A scene does not move. Skins and morph targets have the pose that the file states (glTF, FBX) or stay at rest (USD); animations
 //!   are replaced by their first moment, in glTF by the pose of the nodes; the report says so.
@@ -46,7 +46,7 @@
 //!
 //! The pages of [`gltf`], [`obj`], [`mitsuba`], [`pbrt`], [`ply`], [`usd`], [`fbx`], [`collada`], [`stl`], [`robot`],
 //! [`vray`], [`sweethome`] and [`package`] list what is
-//! supported of each, and that of [`collections`] which layouts of published collections are read.
+//! supported of each, and the page of [`collections`] lists the layouts of published collections that are read.
 
 mod archive;
 mod assembly;

@@ -28,10 +28,10 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     by_format(format, Assembly::new(format, path, format.up_axis(), options, cx))
 }
 
-/// The file that [`load`] imports of a folder; `None` where it holds no scene.
+/// The file that [`load`] imports of a folder; `None` if it contains no scene.
 ///
 /// # Errors
-/// When it holds several scenes: which.
+/// When it contains several scenes, with their names.
 pub fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
     Ok(in_folder(folder)?.map(|(file, _)| file))
 }

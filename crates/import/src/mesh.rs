@@ -1,10 +1,10 @@
-//! What several importers need of meshes: repairs, smooth normals, fronts that agree with normals, areas.
+//! Operations on meshes that several importers need: repairs, smooth normals, fronts that agree with normals, areas.
 
 use crate::polygon::triangle_area;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// Squared length below which a vertex normal says nothing about a direction.
+/// Squared length below which a vertex normal has no usable direction.
 const SHORT_NORMAL: f32 = 1e-12;
 
 /// Normalizes normals, replaces unusable ones by the mean of the adjoining faces, and unusable texture coordinates by zero.

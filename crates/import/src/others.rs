@@ -1,22 +1,22 @@
-//! The scene files of a download that lie beside the one that was read.
+//! The scene files of a download beside the one that was read.
 
 use std::path::{Path, PathBuf};
 
 /// Greatest number of scene files that a message names.
 const NAMED: usize = 3;
 
-/// The scene files that lie beside the one that was chosen.
+/// The scene files beside the one that was chosen.
 pub(crate) struct Others {
-    /// What they lie in, for messages.
+    /// The folder or archive that contains them, in words for messages.
     pub place: &'static str,
-    /// What the chosen one is called there.
+    /// Name of the chosen one there.
     pub chosen: String,
-    /// What each is called there, and its path.
+    /// Name of each there, and its path.
     pub files: Vec<(String, PathBuf)>,
 }
 
 impl Others {
-    /// Where and what is said of those that the scene was not made of; `None` where it was made of all.
+    /// Place and message about those that the scene was not made of; `None` if it was made of all.
     pub(crate) fn remark(&self, was_read: impl Fn(&Path) -> bool) -> Option<(&'static str, String)> {
         let left: Vec<String> = self.files.iter().filter(|(_, path)| !was_read(path)).map(|(name, _)| name.clone()).collect();
         let all = left.len() + 1;

@@ -1,6 +1,6 @@
 //! The `%20` of URLs: in URIs of glTF files, and in the names by which files within an archive are called.
 
-/// A part of a URL with its `%` and two digits replaced by the bytes that they stand for.
+/// A part of a URL with its `%` and two digits replaced by the bytes that they encode.
 pub(crate) fn percent_decoded(text: &str) -> Vec<u8> {
     let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
     while let [first, after @ ..] = rest {

@@ -92,7 +92,7 @@ pub(crate) fn cylinder() -> Mesh {
 
 /// [−1,1]³ with the whole of texture space on each face.
 pub(crate) fn cube() -> Mesh {
-    // From the corner of u = 0, v = 1 on, counter-clockwise: by the bits of x, y and z, of which 1 stands for +1.
+    // From the corner of u = 0, v = 1 on, counter-clockwise: by the bits of x, y and z, where 1 means +1.
     const FACES: [[u8; 4]; 6] = [[1, 5, 4, 0], [3, 2, 6, 7], [1, 3, 7, 5], [5, 7, 6, 4], [4, 6, 2, 0], [3, 1, 0, 2]];
     const UVS: [Vec2; 4] = [Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)];
     let mut mesh = Mesh::default();

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::collections::HashSet;
 use std::fmt;
 
-/// How much of each thing an imported scene contains.
+/// Counts of an imported scene's contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// Visible parts.
@@ -54,10 +54,10 @@ impl Counts {
 pub struct ImportReport {
     /// Name of the format in lower case: "gltf", "obj", …; see [`Format`].
     pub format: &'static str,
-    /// What the scene contains.
+    /// Counts of the scene's contents.
     pub counts: Counts,
-    /// What was subtracted from all positions, metres, z up: of scenes that stand far from the origin of their coordinates, such as those of
-    /// maps. Adding it gives the file's positions in metres with z up.
+    /// Offset that was subtracted from all positions, metres, z up: of scenes far from the origin of their coordinates, such as map
+    /// coordinates. Adding it gives the file's positions in metres with z up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset_m: Option<[f64; 3]>,
     /// What was dropped, guessed or fixed, with its place; in the order of the file, one for all of a kind.
@@ -134,7 +134,7 @@ impl<'a> Warnings<'a> {
         }
     }
 
-    /// Tells what was recorded, and gives it.
+    /// Reports the recorded warnings, and returns them.
     pub(crate) fn into_list(mut self) -> Vec<Warning> {
         self.tell()
     }
@@ -146,7 +146,7 @@ impl<'a> Warnings<'a> {
     }
 }
 
-/// Passes on the warnings of an import that ends with an error as well: they may say why.
+/// Passes on the warnings of an import that ends with an error as well: they may explain it.
 impl Drop for Warnings<'_> {
     fn drop(&mut self) {
         self.tell();

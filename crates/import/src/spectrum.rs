@@ -7,7 +7,7 @@ use std::path::Path;
 /// Range of visible wavelengths, nm.
 const VISIBLE: (u32, u32) = (360, 830);
 
-/// What a spectrum describes.
+/// The quantity that a spectrum describes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A reflectance or other factor: constant spectra are grey.
@@ -40,7 +40,7 @@ pub(crate) fn sampled(pairs: &mut [(f64, f64)], kind: Kind) -> Rgb {
 /// The samples (wavelength in nm, value) that a file lists, between spaces, commas and ends of lines; comments begin with `#`.
 ///
 /// # Errors
-/// When a word is not a finite number, or the last one stands alone.
+/// When a word is not a finite number, or the last one has no partner.
 pub(crate) fn pairs(bytes: &[u8], file: &Path) -> Result<Vec<(f64, f64)>, ImportError> {
     let mut numbers = Vec::new();
     for (i, line) in enfilade_scene::decoded_text(bytes).lines().enumerate() {

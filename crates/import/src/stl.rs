@@ -71,7 +71,7 @@ fn mesh(corners: &[DVec3], origin: DVec3) -> Mesh {
 }
 
 /// The facets of a binary file; `None` for one of text. Text may be longer than a binary file would be, and a binary file may begin with
-/// `solid`: the number of facets tells.
+/// `solid`: they are distinguished by the number of facets.
 fn binary_facets(bytes: &[u8]) -> Option<&[u8]> {
     let count = bytes.get(80..HEAD)?.try_into().ok().map(u32::from_le_bytes)? as usize;
     let rest = bytes.get(HEAD..)?;
@@ -108,7 +108,7 @@ fn binary(facets: &[u8], a: &mut Assembly) -> Solid {
 /// The solids of a text.
 ///
 /// # Errors
-/// The line, and what is wrong there.
+/// The line, and the fault there.
 fn text(bytes: &[u8]) -> Result<Vec<Solid>, (usize, String)> {
     let text = decoded_text(bytes);
     let mut solids: Vec<Solid> = Vec::new();

@@ -6,7 +6,7 @@ use enfilade_scene::{Labels, PartId, PartLabel, Scene, is_stuff};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
 
-/// What a table did to a scene.
+/// Result of applying a table to a scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LabelReport {
     /// Number of parts with a class.
@@ -44,13 +44,14 @@ pub struct UnmatchedRow {
 impl LabelTable {
     /// Labels the parts of the scene called `scene_name`.
     ///
-    /// A row about the part beats one about its object, which beats one about what that lies in, the nearer first; one about the material
-    /// comes last. Within these a row for this scene beats one for all. Objects and what they lie in are called by their names, alone or
-    /// with all parents before them (`World/chair_1`); what a part's name has before its last slash is such a name too. Materials match
-    /// exactly, else without regard to case, else without Blender's numeric suffix (`Oak.001` is Oak).
+    /// A row about the part takes precedence over one about its object, then come rows about the object's parents, nearest first, and last
+    /// a row about the material. At each level, a row for this scene takes precedence over one for all scenes. Objects and their parents
+    /// are named alone or with all parents before them (`World/chair_1`); the text before the last slash of a part's name also counts as an
+    /// object's name. Materials match exactly, else without regard to case, else without Blender's numeric suffix (`Oak.001` is Oak).
     ///
-    /// A stated instance counts; every other labelled part that is not wall, floor or ceiling gets one, from 1 in the order of parts. It is
-    /// shared by the parts of one class that belong to one object ([`Scene::object_of`]), or that a row labels by what they all lie in.
+    /// An instance number given in a row is used. Every other labelled part that is not wall, floor or ceiling gets one, from 1 in the
+    /// order of parts. It is shared by the parts of one class that belong to one object ([`Scene::object_of`]), or that one row labels by a
+    /// common parent.
     pub fn assign(&self, scene_name: &str, scene: &Scene) -> (Labels, LabelReport) {
         let index = Index::new(&self.rows, scene_name, scene);
         let found: Vec<Option<Match<'_>>> = (0..scene.parts.len()).map(|part| index.find(part as PartId)).collect();
@@ -110,7 +111,7 @@ mod tests {
         LabelTable::parse(text.as_bytes(), "t").unwrap()
     }
 
-    /// Parts by their names and those of their materials, which belong to the objects given by index.
+    /// Parts by their names and their materials' names, which belong to the objects given by index.
     fn scene(objects: &[(&str, Option<u32>)], parts: &[(&str, &str, Option<u32>)]) -> Scene {
         let part = |(i, &(name, _, object)): (usize, &(&str, &str, Option<u32>))| Part {
             name: name.into(),
@@ -173,7 +174,7 @@ mod tests {
         let parts = "World/chair_1.wood,chair\nWorld/chair_1.cloth,chair\nWorld/chair_2,chair\nWorld/set/a,chair\nWorld/set/b,chair\n";
         assert_eq!(labelled(&format!("part,semantic\n{parts}")), apart);
         assert_eq!(labelled("name,semantic\nchair_1,chair\nWorld/chair_2,chair\na,chair\nb,chair\n"), apart);
-        // A row about what things lie in makes them one, and the nearer row counts.
+        // A row about a parent makes its things one instance, and the nearest row is used.
         assert_eq!(labelled("name,semantic\nset,sofa\nchair_1,chair\n"), [(5, 1), (5, 1), (-1, -1), (6, 2), (6, 2)]);
         assert_eq!(labelled("object,semantic\nWorld/set,sofa\nWorld/set/b,lamp\n")[3..], [(6, 1), (35, 2)]);
         // Another class within an object is another thing.

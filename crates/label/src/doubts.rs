@@ -1,32 +1,32 @@
-//! Instances that are hardly one thing, and things that are hardly several: what a look at the geometry tells of labels.
+//! Doubtful labels found from geometry: instances that are hardly one thing, and things that are hardly several.
 //!
-//! Boxes of parts stand for the parts, so that only what is surely apart is reported.
+//! Parts are represented by their bounding boxes, so that only parts that are certainly apart are reported.
 
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Labels, PartId, Scene, is_stuff};
 use std::collections::BTreeMap;
 
-/// Parts of one instance that are farther apart than this, with nothing between, are hardly one thing, metres.
+/// Distance between parts of one instance, with nothing between, above which they are hardly one thing, metres.
 const APART_M: f32 = 0.8;
-/// Parts that are nearer to each other than this touch, metres.
+/// Distance between parts below which they touch, metres.
 const TOUCHING_M: f32 = 0.01;
 /// Instances of more parts than this are not looked at: their pairs would take long.
 const MAX_PARTS: usize = 1000;
-/// Share of the way between two boxes, at either end, that does not count as between.
+/// Share of the distance between two boxes, at either end, that does not count as between.
 const AT_THE_ENDS: f32 = 0.05;
-/// Names that a remark shows.
+/// Number of names that a remark shows.
 const SHOWN: usize = 3;
 
-/// What is doubtful about the instances of a scene.
+/// Doubts about the instances of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Doubts {
-    /// Instances whose parts lie apart: the number, two of the parts, and how far apart they are, metres.
+    /// Instances whose parts are apart: instance number, two of the parts, and their distance, metres.
     pub scattered: Vec<(i16, [PartId; 2], f32)>,
     /// Parts of one object and class that touch and are of two instances.
     pub torn: Vec<[PartId; 2]>,
 }
 
-/// Looks for instances whose parts lie apart with nothing between, and for touching parts of one object that are several instances.
+/// Looks for instances whose parts are apart with nothing between, and for touching parts of one object that are several instances.
 ///
 /// # Panics
 /// When there is not one label per part.
@@ -74,7 +74,7 @@ impl Doubts {
     }
 }
 
-/// Two parts of an instance that lie apart, the nearest ones, and how far; `None` where all hang together.
+/// The two nearest parts of an instance that are apart, and their distance; `None` if all parts are connected.
 fn apart(parts: &[PartId], boxes: &[Bounds3], labels: &Labels) -> Option<([PartId; 2], f32)> {
     let mut group: Vec<usize> = (0..parts.len()).collect();
     let mut far: Vec<(f32, usize, usize)> = Vec::new();
@@ -102,7 +102,7 @@ fn two_of_one(parts: &[PartId], boxes: &[Bounds3], labels: &Labels) -> Option<[P
     pairs.into_iter().find(|&[a, b]| instance(a) != instance(b) && touch(a, b))
 }
 
-/// True where another thing than walls, floors and ceilings lies on the way; what encloses both ends, as a room does, is not between.
+/// True if something other than walls, floors and ceilings is between the points; what encloses both ends, as a room does, is not between.
 fn is_something_between(p: Vec3, q: Vec3, parts: &[PartId], boxes: &[Bounds3], labels: &Labels) -> bool {
     let [from, to] = [p.lerp(q, AT_THE_ENDS), q.lerp(p, AT_THE_ENDS)];
     (0..).zip(boxes).filter(|(part, _)| !is_stuff(labels.parts[*part as usize].semantic) && !parts.contains(part)).any(|(_, other)| {
@@ -133,7 +133,7 @@ fn nearest(a: &Bounds3, b: &Bounds3) -> [Vec3; 2] {
     let mut points = [Vec3::ZERO; 2];
     for axis in 0..3 {
         let (low, high) = (a.min[axis].max(b.min[axis]), a.max[axis].min(b.max[axis]));
-        // Where the boxes overlap along an axis both points lie in the middle of that.
+        // Where the boxes overlap along an axis, both points lie in the middle of the overlap.
         let [of_a, of_b] = if low <= high {
             [0.5 * (low + high); 2]
         } else if a.max[axis] < b.min[axis] {
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn three_chairs_of_one_instance_are_told_and_three_instances_are_sound() {
-        // 60 cm wide, 1.5 m from middle to middle: 90 cm apart. A slab of floor lies below.
+        // 60 cm wide, 1.5 m from middle to middle: 90 cm apart. A slab of floor is below.
         let scene = cubes(&[([-1.5, 2.0, 0.5], 0), ([0.0, 2.0, 0.5], 1), ([1.5, 2.0, 0.5], 2), ([0.0, 2.0, -0.31], 3)]);
         let found = doubts(&scene, &labels(&[(5, 1), (5, 1), (5, 1), (2, -1)]));
         let [(1, [0, 1], far)] = found.scattered[..] else { panic!("{found:?}") };

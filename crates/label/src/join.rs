@@ -19,7 +19,7 @@ pub struct JoinError {
 
 /// The `semantic` and `semantic_instance` images of an image of part numbers.
 ///
-/// `entity_ids` holds part numbers from 1, and −1 where nothing was hit, which stays −1 in both results.
+/// `entity_ids` has part numbers from 1, and −1 where nothing was hit, which stays −1 in both results.
 ///
 /// # Errors
 /// When an id is 0, below −1 or beyond the labels.

@@ -1,9 +1,9 @@
-//! What is it: from a table that people write to what every part is, and from there to label images and boxes.
+//! Labels: from a table that people write to the class of every part, and from there to label images and boxes.
 //!
-//! Labels never enter the renderer. A [`LabelTable`] says which class the parts or materials of a scene have;
+//! Labels never enter the renderer. A [`LabelTable`] assigns classes to the parts or materials of a scene;
 //! [`LabelTable::assign`] applies it to the parts of a scene; [`join`] turns entity ids into label images. Changing the table
-//! therefore costs a join, not a rendering. Where people cut parts into pieces, [`Pieces`] says which piece a pixel shows.
-//! [`annotation`] has what people labelled. [`structure`] finds rooms in what is labelled as walls, floors and ceilings.
+//! therefore costs a join, not a rendering. If people cut parts into pieces, [`Pieces`] determines the piece that a pixel shows.
+//! [`annotation`] has what people labelled. [`rooms`] finds rooms in what is labelled as walls, floors and ceilings.
 
 pub mod annotation;
 mod assign;
@@ -12,8 +12,8 @@ mod doubts;
 pub mod instances;
 mod join;
 mod pieces;
+pub mod rooms;
 mod rows;
-pub mod structure;
 mod table;
 
 pub use assign::{LabelReport, UnlabelledPart, UnmatchedRow};

@@ -1,7 +1,7 @@
 //! Parts that people cut into pieces: which piece a pixel shows, and the scene with its pieces as parts.
 //!
-//! The renderer knows parts alone, so `render_entity_id` says which part a pixel shows. Where that was cut, the point in `position`
-//! says which of its faces, and so which piece: the point lies on it, up to rounding.
+//! The renderer only knows parts, so `render_entity_id` gives the part that a pixel shows. Where that part was cut, the point in `position`
+//! determines the face, and with it the piece: the point lies on the face, up to rounding.
 
 use super::{JoinError, join};
 use enfilade_dataset::{DatasetError, MeshFiles};
@@ -26,7 +26,7 @@ struct PiecedPart {
 }
 
 impl Pieces {
-    /// What the mesh folder says; `None` when nothing was cut.
+    /// The pieces in the mesh folder; `None` if nothing was cut.
     ///
     /// # Errors
     /// When a file is damaged, or is about another version of the scene.
@@ -69,7 +69,7 @@ impl Pieces {
         self.parts.iter().map(|(&part, cut)| (part, cut.piece_of.as_slice()))
     }
 
-    /// Classes and instances of pixels as by [`join`], where `positions` (world, metres) tells the pieces of parts apart. `labels`
+    /// Classes and instances of pixels as by [`join`], where `positions` (world, metres) distinguishes the pieces of parts. `labels`
     /// has one row per piece.
     ///
     /// # Errors

@@ -1,21 +1,21 @@
-//! Which row of a table speaks of a part, and of what that is a part.
+//! The rows of a table that apply to a part, and to the objects that it is a part of.
 
 use super::table::{Row, Subject};
 use enfilade_scene::{ObjectId, Part, PartId, Scene};
 use std::collections::{HashMap, HashSet};
 
-/// A row of a table, by its index, as it speaks of a part.
+/// A row of a table, by its index, that applies to a part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Match<'a> {
     pub row: usize,
-    /// What is one instance by this row.
+    /// The parts that are one instance by this row.
     pub whole: Whole<'a>,
 }
 
-/// What a row means as one thing.
+/// The parts that a row labels as one thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Whole<'a> {
-    /// The parts of an object, by [`Scene::object_of`], or all that lies in it.
+    /// The parts of an object, by [`Scene::object_of`], or everything below it.
     Object(u32),
     /// The parts `object/…` of this name.
     Named(&'a str),
@@ -31,9 +31,9 @@ pub(super) struct Index<'a> {
     /// Material rows by lower-case name without numeric suffix.
     stem: HashMap<String, usize>,
     scene: &'a Scene,
-    /// The names of the objects with those of their parents before them.
+    /// The objects' names, preceded by the names of their parents.
     paths: Vec<String>,
-    /// The names of parts and of their own objects, with and without parents: rows about them do not speak of parents.
+    /// The names of parts and of their own objects, with and without parents: rows about these names do not apply to parents.
     near: HashSet<&'a str>,
 }
 
@@ -62,7 +62,7 @@ impl<'a> Index<'a> {
         self.candidates(part).into_iter().next()
     }
 
-    /// Every row that speaks of a part, the one that counts first.
+    /// Every row that applies to a part, in order of precedence.
     pub fn candidates(&self, part: PartId) -> Vec<Match<'a>> {
         let (own, part) = (Whole::Object(self.scene.object_of(part)), &self.scene.parts[part as usize]);
         let mut found: Vec<Match<'a>> = Vec::new();
@@ -80,7 +80,7 @@ impl<'a> Index<'a> {
         found
     }
 
-    /// The rows about what a part is a part of: its object, what its name says before the last slash, and all that it lies in.
+    /// The rows about what a part belongs to: its object, the prefix of its name before the last slash, and all parents.
     fn of_objects(&self, part: &'a Part, add: &mut impl FnMut(Option<usize>, Whole<'a>)) {
         for (level, object) in self.scene.objects_around(part).enumerate() {
             for name in self.names_of(object).into_iter().filter(|name| level == 0 || !self.near.contains(name)) {
@@ -112,7 +112,7 @@ impl<'a> Index<'a> {
     }
 }
 
-/// The names of all objects with those of their parents before them, slashes between.
+/// The names of all objects, preceded by the names of their parents, separated by slashes.
 fn paths(scene: &Scene) -> Vec<String> {
     let mut paths: Vec<String> = Vec::with_capacity(scene.objects.len());
     for object in &scene.objects {
@@ -122,12 +122,12 @@ fn paths(scene: &Scene) -> Vec<String> {
     paths
 }
 
-/// What stands before the last slash of a part's name.
+/// The text before the last slash of a part's name.
 fn before_slash(part: &str) -> Option<&str> {
     part.rsplit_once('/').map(|(object, _)| object).filter(|object| !object.is_empty())
 }
 
-/// The name without `.001` or the like.
+/// The name without a numeric suffix such as `.001`.
 fn without_numeric_suffix(name: &str) -> &str {
     match name.rsplit_once('.') {
         Some((stem, digits)) if !stem.is_empty() && !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) => stem,

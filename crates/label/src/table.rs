@@ -1,4 +1,4 @@
-//! The label table: a CSV file whose rows say what parts or materials are.
+//! The label table: a CSV file whose rows assign classes to parts or materials.
 //!
 //! Columns are found by their header, in any order; others are ignored. Commas, semicolons or tabs separate them; the text is UTF-8, UTF-16
 //! or Windows-1252, with or without a byte order mark. As pandas and spreadsheets write them, whole numbers may be `1.0` (`1,0` between
@@ -8,8 +8,9 @@
 //! |---|---|
 //! | `scene` | optional; the row is for this scene only, or for all when empty or `*` |
 //! | `part` | name of a part |
-//! | `object` | name of an object, or of what objects lie in, alone or with its parents before it (`World/chair_1`): all its parts, as one instance; the part of that name; all parts `object/…` |
-//! | `name` | name of a part, an object, what objects lie in, or a material, whichever there is |
+//! | `object` | name of an object, or of a parent of objects, alone or with its parents before it (`World/chair_1`): all its parts, as one
+//! instance; the part of that name; all parts `object/…` |
+//! | `name` | name of a part, an object, a parent of objects, or a material, whichever there is |
 //! | `material` | name of a material: all parts that wear it |
 //! | `nyu40_id` or `semantic` | class by NYU40 number or name; −1, 0 (NYU40's own) or empty for unlabelled |
 //! | `nyu40_name` | optional; checked against the class |
@@ -33,7 +34,7 @@ pub struct Row {
     pub line: u64,
     /// The only scene it is for; `None` for all.
     pub scene: Option<String>,
-    /// What the name names.
+    /// Kind of thing that the name refers to.
     pub subject: Subject,
     /// The name.
     pub name: String,
@@ -43,7 +44,7 @@ pub struct Row {
     pub instance: Option<i16>,
 }
 
-/// What the name in a row names.
+/// Kind of thing that the name in a row refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Subject {
     /// One part.
@@ -76,7 +77,7 @@ pub enum TableError {
         file: String,
         /// Line from 1.
         line: u64,
-        /// What was found, what was expected.
+        /// The problem found, and what was expected.
         problem: String,
     },
 }
@@ -84,15 +85,15 @@ pub enum TableError {
 const SUBJECTS: [(Subject, &str); 4] =
     [(Subject::Part, "part"), (Subject::Object, "object"), (Subject::Name, "name"), (Subject::Material, "material")];
 
-/// What may stand between the cells of a row. Where the comma is the decimal point, spreadsheets write semicolons.
+/// Separators of the cells of a row. Where the comma is the decimal point, spreadsheets write semicolons.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 impl LabelTable {
     /// Reads a table. `source_name` is what errors call it.
     ///
     /// # Errors
-    /// The first missing column or wrong row: not CSV, unknown class, number out of range, class and name that disagree, or two
-    /// rows about the same thing that say different things.
+    /// The first missing column or wrong row: not CSV, unknown class, number out of range, class and name that disagree, or two rows about
+    /// the same thing that differ.
     pub fn parse(bytes: &[u8], source_name: &str) -> Result<Self, TableError> {
         if is_git_lfs_pointer(bytes) {
             return Err(row_error(source_name, 1, format!("the file is {GIT_LFS_POINTER}")));
@@ -150,7 +151,7 @@ pub fn class_name(semantic: i16) -> &'static str {
     usize::try_from(semantic).ok().and_then(|id| NYU40.get(id.checked_sub(1)?)).map_or("unlabelled", |class| class.name)
 }
 
-/// Where each known column is.
+/// Index of each known column.
 struct Columns {
     scene: Option<usize>,
     subjects: Vec<(Subject, usize)>,
@@ -175,7 +176,7 @@ impl Columns {
         Ok(Self { scene: find("scene"), subjects, class, class_name: find("nyu40_name"), instance: find("instance") })
     }
 
-    /// A row; `None` for one that says nothing.
+    /// A row; `None` if it is empty.
     fn row(&self, record: &csv::StringRecord, line: u64) -> Result<Option<Row>, String> {
         let cell = |column: Option<usize>| column.and_then(|c| record.get(c)).unwrap_or("");
         let scene = Some(cell(self.scene)).filter(|s| !s.is_empty() && *s != "*").map(str::to_string);
@@ -215,7 +216,7 @@ fn parse_class(text: &str) -> Result<i16, String> {
     })
 }
 
-/// The letters of a name in lower case: `Floor_mat` and `night stand` are written in many ways.
+/// The letters of a name in lower case: names such as `Floor_mat` and `night stand` are spelled in many ways.
 fn letters(text: &str) -> String {
     text.chars().filter(|c| c.is_ascii_alphabetic()).map(|c| c.to_ascii_lowercase()).collect()
 }
@@ -228,7 +229,7 @@ fn parse_instance(text: &str) -> Result<Option<i16>, String> {
     }
 }
 
-/// Refuses two rows about the same thing that say different things.
+/// Refuses two rows about the same thing that differ.
 fn refuse_contradictions(rows: &[Row], file: &str) -> Result<(), TableError> {
     let mut first: HashMap<_, &Row> = HashMap::new();
     for row in rows {
@@ -257,7 +258,7 @@ fn whole_number(text: &str) -> Option<i64> {
     whole.parse().ok()
 }
 
-/// A table without the line `sep=;` by which spreadsheets are told what separates the cells.
+/// A table without the line `sep=;`, which names the separator for spreadsheets.
 fn without_hint(text: &str) -> &str {
     let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
     let is_hint = first.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("sep=")) && first.trim_end().chars().count() <= 5;
@@ -268,13 +269,13 @@ fn reader(bytes: &[u8], separator: u8) -> csv::Reader<&[u8]> {
     csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).delimiter(separator).from_reader(bytes)
 }
 
-/// The separator by which the header has the columns of a table; where none does, the comma.
+/// The separator with which the header has the columns of a table; where none fits, the comma.
 fn separator(bytes: &[u8]) -> u8 {
     let fits = |separator: &u8| reader(bytes, *separator).headers().is_ok_and(|header| Columns::find(header, "").is_ok());
     SEPARATORS.into_iter().find(fits).unwrap_or(b',')
 }
 
-/// Number of line ends before the first text at or after `start`: the reader skips them without telling.
+/// Number of line ends before the first text at or after `start`: the reader skips them silently.
 fn blank_lines(bytes: &[u8], start: u64) -> u64 {
     let rest = bytes.get(start as usize..).unwrap_or(&[]);
     rest.iter().take_while(|b| matches!(b, b'\r' | b'\n')).filter(|&&b| b == b'\n').count() as u64

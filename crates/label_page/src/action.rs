@@ -47,7 +47,7 @@ pub struct Look {
     filters: Filters,
 }
 
-/// Which label to give: a class, an instance, or a class with a new instance.
+/// The label to assign: a class, an instance, or a class with a new instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Apply {
@@ -85,7 +85,7 @@ pub enum SplitBy {
 pub struct Refusal {
     /// True when the request is valid, but cannot be done in the current state.
     pub conflict: bool,
-    /// What was found and what was expected.
+    /// The problem found, and what was expected.
     pub error: String,
     /// What to do.
     pub help: String,
@@ -111,9 +111,9 @@ const APPLIES: &str = "apply is none of {layer: \"semantic\", value}, the same w
 struct NewInstances {
     /// The value of the first piece.
     first: i16,
-    /// How much larger that of each next piece is: 0 where all get the same.
+    /// Increment from one piece to the next: 0 where all get the same.
     step: i16,
-    /// What giving them is called.
+    /// Description of the action.
     what: String,
     /// The first number that is free after them.
     next: i32,
@@ -162,7 +162,7 @@ impl Context<'_> {
         }
     }
 
-    /// What lies under an image point, and its piece.
+    /// The surface under an image point, and its piece.
     ///
     /// # Errors
     /// When the camera or a piece number is wrong, or the point is not in the image.
@@ -234,7 +234,7 @@ impl Context<'_> {
         Ok((instance, what, next.max(i32::from(instance) + 1)))
     }
 
-    /// One instance for so many pieces that was never given out, or one for each of them.
+    /// One unused instance for this number of pieces, or one for each of them.
     fn new_instances(&self, pieces: usize, unique: bool) -> Result<NewInstances, Refusal> {
         let wanted = if unique { pieces } else { pieces.min(1) };
         let first = self.instances(wanted)?;
@@ -266,7 +266,7 @@ impl Context<'_> {
         Ok(self.edit("Classes".into(), pieces, &labels, self.next_instance))
     }
 
-    /// The edit that gives these labels to those of the pieces whose labels differ.
+    /// The edit that gives these labels to the pieces whose labels differ.
     fn edit(&self, what: String, pieces: &[u32], labels: &[PartLabel], next_instance: i32) -> Option<Edit> {
         let differs = |(piece, label): &(&u32, &PartLabel)| self.pieces.list()[**piece as usize].label != **label;
         let (pieces, labels): (Vec<u32>, Vec<PartLabel>) = pieces.iter().zip(labels).filter(differs).unzip();

@@ -1,4 +1,4 @@
-//! What every handler of the page gets and gives.
+//! Types of arguments and results of the page's handlers.
 
 use super::app::App;
 use axum::extract::State;
@@ -6,7 +6,7 @@ use axum::response::Response;
 use enfilade_serve::ApiProblem;
 use std::sync::Arc;
 
-/// What a handler gets.
+/// The argument of a handler.
 pub type Shared = State<Arc<App>>;
-/// What a handler answers.
+/// The result of a handler.
 pub type Answer = Result<Response, ApiProblem>;

@@ -60,7 +60,7 @@ pub struct App {
     saved: Mutex<Saved>,
 }
 
-/// What the label files hold.
+/// Contents of the label files.
 #[derive(Default)]
 struct Saved {
     revision: u64,
@@ -143,7 +143,7 @@ impl App {
         &self.order
     }
 
-    /// Where pages listen for changes.
+    /// Channel on which pages listen for changes.
     pub fn events(&self) -> &Events {
         &self.events
     }
@@ -158,12 +158,12 @@ impl App {
         self.session.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Which faces the cameras see; computed at the first call.
+    /// The faces that the cameras see; computed at the first call.
     pub fn seen(&self) -> &Seen {
         self.seen.get_or_init(|| Seen::new(&self.scene, &self.bvh))
     }
 
-    /// What is proposed for each part, and so for its pieces.
+    /// The suggestion for each part, and so for its pieces.
     pub fn suggestions(&self) -> &[Option<Suggestion>] {
         self.suggestions.get_or_init(|| suggestions(&self.scene, &self.classes))
     }
@@ -201,7 +201,7 @@ impl App {
         self.session().select(look)
     }
 
-    /// What lies under an image point, and its piece.
+    /// The surface under an image point, and its piece.
     ///
     /// # Errors
     /// When the camera or a piece number is wrong, or the point is not in the image.
@@ -232,7 +232,7 @@ impl App {
         self.reviews().write(session.pieces().list().iter().map(|piece| piece.name.as_str()))
     }
 
-    /// How the reviews stand.
+    /// The current reviews.
     pub fn reviews(&self) -> RwLockReadGuard<'_, Reviews> {
         self.reviews.read().unwrap_or_else(PoisonError::into_inner)
     }
@@ -301,7 +301,7 @@ impl App {
         self.worklog.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Where labels are written.
+    /// Folder of the labels.
     pub fn labels_folder(&self) -> &Path {
         &self.scene.labels_folder
     }

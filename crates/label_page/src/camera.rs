@@ -1,4 +1,4 @@
-//! The camera of a page: as it is sent, and as a checked pinhole camera that rays start from.
+//! The camera of a page: as the page sends it, and as a checked pinhole camera that rays start from.
 
 use super::planned::rows;
 use enfilade_geometry::PinholeRays;
@@ -22,7 +22,7 @@ pub struct CameraRequest {
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     #[serde(default)]
     near_m: f64,
-    /// What lies outside of this box is not seen.
+    /// Box outside of which nothing is seen.
     #[serde(default)]
     clip: Option<Clip>,
 }
@@ -48,7 +48,7 @@ pub struct PageCamera {
     pub height: u32,
     /// Near plane: what is nearer along the optical axis is not seen, metres.
     pub near_m: f64,
-    /// What lies outside of this box is not seen.
+    /// Box outside of which nothing is seen.
     pub clip: Option<Bounds3>,
 }
 

@@ -1,4 +1,4 @@
-//! What an edit changed, as every page that shows the scene is told.
+//! What an edit changed, as sent to every page that shows the scene.
 
 use super::pieces::{Piece, Pieces};
 use super::scene::NO_MATERIAL;
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct Change {
     /// The revision after it.
     pub revision: u64,
-    /// Who asked for it.
+    /// The client that requested it.
     pub client: String,
     /// For people.
     pub description: String,
@@ -32,9 +32,9 @@ pub struct Change {
     pub can_undo: bool,
     /// True when there is something to do again.
     pub can_redo: bool,
-    /// What undoing would undo.
+    /// The edit that undo would revert.
     pub undo_description: Option<String>,
-    /// What redoing would do again.
+    /// The edit that redo would repeat.
     pub redo_description: Option<String>,
     /// The first instance number that was never given out.
     pub next_instance: i32,
@@ -45,9 +45,9 @@ pub struct Change {
 pub struct Standing<'a> {
     /// Number of edits ever made, undone ones and undoing included.
     pub revision: u64,
-    /// What undoing would undo.
+    /// The edit that undo would revert.
     pub undo_description: Option<&'a str>,
-    /// What redoing would do again.
+    /// The edit that redo would repeat.
     pub redo_description: Option<&'a str>,
     /// The first instance number that was never given out.
     pub next_instance: i32,

@@ -18,7 +18,7 @@ struct Message {
     text: Arc<str>,
 }
 
-/// Where changes are announced.
+/// Channel on which changes are announced.
 pub struct Events {
     kept: Mutex<Kept>,
     sender: Sender<Message>,
@@ -70,7 +70,7 @@ impl Events {
     }
 }
 
-/// What a page is told next.
+/// The next event for a page.
 enum Next {
     Change(Message),
     /// The page missed too much, and has to load the scene again.

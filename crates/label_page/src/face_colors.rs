@@ -1,4 +1,4 @@
-//! What the surfaces of a scene look like: the colour of each face by its material, the mean of the texture over the face where there is one.
+//! Colours of a scene's surfaces: the colour of each face by its material, or the mean of the texture over the face where there is one.
 
 use enfilade_math::{Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{Bsdf, ColorParam, Material, Parameter, ScalarParam, Scene, TriangleSource, WorldMesh, from_bytes};
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// A face is divided into this many triangles along a side; the texture is read in the middle of each.
 const SIDE: u32 = 4;
-/// What is seen of panes and solid glass, which have no colour of their own.
+/// Colour shown for panes and solid glass, which have no colour of their own.
 const GLASS: Rgb = Rgb::new(0.55, 0.68, 0.72);
 /// Share of light that metals without a colour of their own reflect.
 const METAL: f32 = 0.6;
@@ -17,7 +17,7 @@ pub enum FaceColors {
     Known(Vec<[u8; 3]>),
     /// A scene package with the materials, which is read when somebody wants to see them.
     Package(PathBuf),
-    /// The scene tells of no materials.
+    /// The scene has no information about materials.
     Unknown,
 }
 
@@ -40,7 +40,7 @@ impl FaceColors {
         Self::Known(enfilade_parallel::map(faces, of_face))
     }
 
-    /// Three bytes for each of so many faces.
+    /// Three bytes for each of this number of faces.
     ///
     /// # Errors
     /// Why there are none.

@@ -1,6 +1,6 @@
 //! Files of JSON lines that grow by one line at a time, each flushed to the disk before it counts.
 //!
-//! A last line that was cut short, because the program was killed or the disk was full, is no line: the next one takes its place.
+//! A last line that was cut short, because the program was killed or the disk was full, does not count: the next one replaces it.
 
 use serde::Serialize;
 use std::fs::File;

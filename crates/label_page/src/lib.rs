@@ -3,11 +3,11 @@
 //! [`App::open`] loads a scene, [`routes`] answers its page. What is labelled is called a piece: a part of the scene, or a piece of a part
 //! that was split.
 //!
-//! The way of an edit: a page sends an action (`action.rs`). Rays find the visible faces, filters and expansion the selected pieces, and the
-//! action becomes an edit that needs no further decision (`enfilade_label::annotation`). The edit is appended to the log and flushed to disk
-//! (`log.rs`), applied to the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone determines the state, whatever
-//! happens to the page or the program. The label stage makes the tables of a dataset's scene from it; other tables are written shortly after
-//! (`save.rs`). What reviewers say of pieces is no label and has a log of its own (`review.rs`).
+//! An edit is made as follows. A page sends an action (`action.rs`). Rays find the visible faces, filters and expansion find the selected
+//! pieces, and the action becomes an edit that needs no further decision (`enfilade_label::annotation`). The edit is appended to the log
+//! and flushed to disk (`log.rs`), applied to the pieces (`session.rs`), and announced to every page (`events.rs`). The log alone
+//! determines the state, whatever happens to the page or the program. The label stage makes the tables of a dataset's scene from it; other
+//! tables are written shortly after (`save.rs`). Reviews of pieces are not labels and have a separate log (`review.rs`).
 
 mod action;
 mod answer;

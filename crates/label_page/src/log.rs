@@ -6,7 +6,7 @@
 use super::json_lines::JsonLines;
 use super::scene::AnnotatedScene;
 use enfilade_dataset::ANNOTATION_LOG;
-use enfilade_label::annotation::{Entry, FORMAT, Header, LogProblem, parse};
+use enfilade_label::annotation::{AnnotationError, Entry, FORMAT, Header, LogProblem, parse};
 use enfilade_scene::PartLabel;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub enum LogError {
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// Another program has it open.
@@ -34,42 +34,14 @@ pub enum LogError {
     OtherScene {
         /// The file.
         path: PathBuf,
-        /// What it says.
+        /// The scene that it is about.
         log: String,
-        /// What is here.
+        /// This scene.
         scene: String,
     },
-    /// The log is of another form, which a newer program may have written: nothing in it is to be lost.
-    #[error(
-        "{}:1: found the format {found:?}, expected {FORMAT:?}; open it with the enfilade that wrote it, or a newer one, or name another \
-        folder with --labels",
-        path.display()
-    )]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// What it calls itself.
-        found: String,
-    },
-    /// A line is not valid.
-    #[error("{}:{line}: {problem}; remove this line and those after it to continue from there, or restore a copy", path.display())]
-    Line {
-        /// The file.
-        path: PathBuf,
-        /// From 1.
-        line: usize,
-        /// What is wrong with it.
-        problem: String,
-    },
-}
-
-impl LogError {
-    fn of(path: PathBuf, problem: LogProblem) -> Self {
-        match problem {
-            LogProblem::Format { found } => Self::Format { path, found },
-            LogProblem::Line { line, problem } => Self::Line { path, line, problem },
-        }
-    }
+    /// The log is of another form, which a newer program may have written, or a line is not valid: nothing in it is to be lost.
+    #[error("{0}; or name another folder with --labels")]
+    Content(#[from] AnnotationError),
 }
 
 /// An open log, locked for this program.
@@ -78,13 +50,13 @@ pub struct Log {
     lines: JsonLines,
 }
 
-/// What a log holds.
+/// Contents of a log.
 pub struct Recorded {
     /// The labels that the parts began with.
     pub initial: Vec<PartLabel>,
     /// The edits in order.
     pub entries: Vec<Entry>,
-    /// What was dropped, if anything.
+    /// Description of dropped data, if any.
     pub warning: Option<String>,
 }
 
@@ -135,8 +107,9 @@ impl Log {
     }
 
     fn parse(&self, bytes: &[u8], scene: &AnnotatedScene) -> Result<(Vec<PartLabel>, Vec<Entry>), LogError> {
-        let located = |problem| LogError::of(self.path.clone(), problem);
-        let Some((header, entries)) = parse(bytes).map_err(located)? else { return Ok((Vec::new(), Vec::new())) };
+        let Some((header, entries)) = parse(bytes).map_err(|problem| AnnotationError::at(&self.path, problem))? else {
+            return Ok((Vec::new(), Vec::new()));
+        };
         if !entries.is_empty() && header.scene_hash != scene.hash() {
             let describe = |name: &str, parts: usize, faces: usize| format!("{name:?} of {parts} parts and {faces} faces");
             return Err(LogError::OtherScene {
@@ -152,10 +125,10 @@ impl Log {
 
     /// The problem of the entry with this revision.
     pub fn problem(&self, revision: u64, problem: String) -> LogError {
-        LogError::of(self.path.clone(), LogProblem::of_edit(revision, problem))
+        AnnotationError::at(&self.path, LogProblem::of_edit(revision, problem)).into()
     }
 
-    /// Appends an edit. When this returns it is on the disk; when it fails the log is as it was.
+    /// Appends an edit. On success it is on the disk; on failure the log is unchanged.
     ///
     /// # Errors
     /// When the file cannot be written.

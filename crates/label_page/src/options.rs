@@ -1,4 +1,4 @@
-//! Which scene to annotate, and where its labels and classes are: what `enfilade annotate` is told.
+//! Options of `enfilade annotate`: which scene to annotate, and where its labels and classes are.
 
 use enfilade_import::UpAxis;
 use std::path::PathBuf;
@@ -14,8 +14,8 @@ pub struct AnnotateOptions {
     pub labels: Option<PathBuf>,
     /// A list of classes, if not the one in the folder of labels or NYU40.
     pub classes: Option<PathBuf>,
-    /// Metres per unit of a scene file, if not 1; multiplies what the file says itself.
+    /// Metres per unit of a scene file, if not 1; multiplies the unit stated in the file.
     pub meters_per_unit: Option<f64>,
-    /// The axis that points up in a scene file, if not the one that its format says.
+    /// The axis that points up in a scene file, if not the one that its format states.
     pub up_axis: Option<UpAxis>,
 }

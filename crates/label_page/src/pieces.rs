@@ -23,7 +23,7 @@ pub struct Piece {
     pub measure: Measure,
 }
 
-/// What is computed from the faces of a piece.
+/// Values computed from the faces of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
     /// Square metres.
@@ -34,7 +34,7 @@ pub struct Measure {
     pub max: [f32; 3],
     /// The material of its first face, [`NO_MATERIAL`] without one.
     pub material: u32,
-    /// Equal for pieces of the same geometry, wherever they stand.
+    /// Equal for pieces of the same geometry, at any position.
     pub geometry_key: u32,
 }
 

@@ -1,4 +1,4 @@
-//! Where a scene's pictures are to be taken from: the cameras of its file, or the planned trajectories of its dataset.
+//! Planned viewpoints of a scene: the cameras of its file, or the planned trajectories of its dataset.
 
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{Camera, Pose, Projection, Scene, StartCamera};
@@ -23,11 +23,11 @@ pub struct PlannedFrame {
     pub position: [f64; 3],
     /// World from camera, row by row.
     pub orientation: [f64; 9],
-    /// Vertical field of view; for cameras that are not pinholes, that of a pinhole which shows about as much.
+    /// Vertical field of view; for cameras that are not pinholes, the one of a pinhole that shows about as much.
     pub fov_y_deg: f64,
     /// Width over height.
     pub aspect: f64,
-    /// Where its picture lies once it is rendered. The page is told whether it is there.
+    /// Path of its picture once it is rendered. The page receives only whether the file exists.
     #[serde(serialize_with = "is_file")]
     pub photograph: Option<PathBuf>,
 }

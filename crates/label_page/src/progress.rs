@@ -16,12 +16,12 @@ const ROWS: u32 = 120;
 const EYE_HEIGHT_M: f32 = 1.5;
 /// Free distance in front of generated viewpoints, metres.
 const FREE_M: f32 = 0.5;
-/// Generated viewpoints stand on a grid of `GRID` by `GRID`.
+/// Generated viewpoints are on a grid of `GRID` by `GRID`.
 const GRID: usize = 4;
 
 /// Which faces the views of a scene show, and in how many pixels.
 pub struct Seen {
-    /// Where the views come from, for people.
+    /// Source of the views, for people.
     pub views_of: &'static str,
     /// The views' cameras.
     pub cameras: Vec<PlannedCamera>,
@@ -64,7 +64,7 @@ impl Seen {
         Self { views_of, cameras, views }
     }
 
-    /// How far the work is, as JSON.
+    /// Progress of the work, as JSON.
     pub fn progress(&self, pieces: &Pieces) -> Value {
         let list = pieces.list();
         let (pixels, best) = self.pixels(pieces);
@@ -142,7 +142,7 @@ fn classes(pieces: &Pieces) -> Vec<Value> {
     classes.iter().map(row).collect()
 }
 
-/// Instances whose pieces are of different classes, or some of them of none.
+/// Instances whose pieces are of different classes, or some of them unlabelled.
 fn conflicts(pieces: &Pieces) -> Vec<Value> {
     let mut of_instance: BTreeMap<i16, BTreeSet<i16>> = BTreeMap::new();
     let labels = pieces.list().iter().map(|piece| piece.label).filter(|label| label.instance >= 1);

@@ -1,8 +1,8 @@
-//! What reviewers say of pieces: to do, done, approved, or a question with a note.
+//! Reviews of pieces: to do, done, approved, or a question with a note.
 //!
-//! It has a log of its own beside that of the edits, one line of JSON each, flushed before it counts. A review is no label: undoing an edit
-//! leaves it, and a program that knows nothing of it reads the labels all the same. Pieces are named, because numbers change when a split is
-//! undone.
+//! Reviews have their own log beside the log of edits, one line of JSON each, flushed before it counts. A review is not a label: undoing an
+//! edit does not change it, and programs that do not know reviews can still read the labels. Pieces are identified by name, because numbers
+//! change when a split is undone.
 
 use super::json_lines::JsonLines;
 use enfilade_dataset::{DatasetError, write_bytes};
@@ -14,14 +14,14 @@ use std::path::{Path, PathBuf};
 
 /// Name of the log in the folder of labels.
 pub const REVIEW_LOG: &str = "annotation_review.jsonl";
-/// How the reviews of all pieces stand, as a table in the folder of labels.
+/// The table of the current reviews of all pieces, in the folder of labels.
 pub const REVIEW_TABLE: &str = "metadata_object_review.csv";
 
-/// How far a piece is.
+/// State of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReviewState {
-    /// Nothing was said of it, or it has to be done again.
+    /// There is no review of it, or it has to be done again.
     ToDo,
     /// The annotator is content with it.
     Done,
@@ -48,23 +48,23 @@ impl ReviewState {
 pub struct Review {
     /// When, in UTC.
     pub time: String,
-    /// Who said it.
+    /// The client that made it.
     pub client: String,
     /// Names of the pieces.
     pub pieces: Vec<String>,
-    /// How far they are from now on.
+    /// Their state from now on.
     pub state: ReviewState,
     /// For people; may be empty.
     #[serde(default)]
     pub note: String,
 }
 
-/// How the reviews of a scene stand.
+/// The current reviews of a scene.
 pub struct Reviews {
     folder: PathBuf,
     /// The log, once there is one.
     log: Option<JsonLines>,
-    /// State and note of each piece that something was said of.
+    /// State and note of each piece that was reviewed.
     of_piece: BTreeMap<String, (ReviewState, String)>,
 }
 
@@ -111,13 +111,13 @@ impl Reviews {
         }
     }
 
-    /// State and note of a piece; none if nothing was said of it, or that it is to do, without a note.
+    /// State and note of a piece; none if it was not reviewed, or is to do without a note.
     pub fn of(&self, piece: &str) -> Option<(ReviewState, &str)> {
         let (state, note) = self.of_piece.get(piece)?;
         (*state != ReviewState::ToDo || !note.is_empty()).then_some((*state, note.as_str()))
     }
 
-    /// Writes the table: a row for each of these pieces that something was said of. Without any review there is no table.
+    /// Writes the table: a row for each of these pieces that was reviewed. Without any review there is no table.
     ///
     /// # Errors
     /// When the file cannot be written.

@@ -1,4 +1,4 @@
-//! The routes of the annotation page. Whatever takes time runs on threads for blocking work.
+//! The routes of the annotation page. Slow work runs on threads for blocking tasks.
 
 use super::action::{Action, Look, Refusal};
 use super::answer::{Answer, Shared};
@@ -207,7 +207,7 @@ async fn reviews(State(app): Shared) -> Answer {
     beside(move || Ok(Json(reviewed(&app)).into_response())).await
 }
 
-/// The pieces that something was said of.
+/// The pieces that were reviewed.
 fn reviewed(app: &App) -> Vec<Value> {
     let (session, reviews) = (app.session(), app.reviews());
     let row = |(number, piece): (usize, &super::pieces::Piece)| {

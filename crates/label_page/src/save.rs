@@ -1,4 +1,4 @@
-//! What is written beside the log: a table of labels or the list of classes, and, where no label stage does, Hypersim's files.
+//! Files written beside the log: a table of labels or the list of classes, and Hypersim's files if no label stage writes them.
 
 use super::pieces::Pieces;
 use enfilade_dataset::{Classes, DatasetError, LabelColors, MeshFiles, write_bytes};
@@ -6,7 +6,7 @@ use enfilade_label::write_part_table;
 use enfilade_scene::{Labels, PartLabel};
 use std::path::PathBuf;
 
-/// Everything that is written, copied at one moment, so that editing goes on meanwhile.
+/// Everything that is written, copied at one moment, so that editing can continue meanwhile.
 pub struct Snapshot {
     labels: Labels,
     instances: usize,

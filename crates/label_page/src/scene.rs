@@ -21,9 +21,9 @@ pub const NO_MATERIAL: u32 = u32::MAX;
 pub struct AnnotatedScene {
     /// The scene's name.
     pub name: String,
-    /// Where it comes from, for people.
+    /// Source of the scene, for people.
     pub origin: String,
-    /// Where labels are written.
+    /// Folder of the labels.
     pub labels_folder: PathBuf,
     /// Corners of every face in the world, metres.
     pub corners: Vec<[Vec3; 3]>,
@@ -33,11 +33,11 @@ pub struct AnnotatedScene {
     pub part_of_face: Vec<u32>,
     /// The material of every face, [`NO_MATERIAL`] where it has none.
     pub material_of_face: Vec<u32>,
-    /// What its surfaces look like.
+    /// Colours of its surfaces.
     pub colors: FaceColors,
     /// Names of the parts.
     pub parts: Vec<String>,
-    /// What the parts lie in, outermost first, with slashes between; empty where a mesh folder does not say it.
+    /// Parent objects of the parts, outermost first, separated by slashes; empty where a mesh folder does not state them.
     pub around: Vec<String>,
     /// Names of the materials.
     pub materials: Vec<String>,
@@ -60,9 +60,9 @@ pub enum SceneError {
         Format::extensions()
     )]
     Path {
-        /// What was named.
+        /// The path given.
         path: String,
-        /// What is wrong with it.
+        /// The problem with it.
         problem: String,
     },
     /// A dataset has several scenes, or not the one that was named.
@@ -70,7 +70,7 @@ pub enum SceneError {
     Scene {
         /// The dataset.
         path: String,
-        /// What is wrong.
+        /// The problem.
         problem: String,
         /// The scenes there are.
         scenes: String,
@@ -206,7 +206,7 @@ fn read_mesh(files: &MeshFiles) -> Result<MeshGeometry, DatasetError> {
     }
 }
 
-/// The labels of so many parts by the tables in `folder`; none where there are no tables.
+/// The labels of this number of parts by the tables in `folder`; none where there are no tables.
 fn read_labels(parts: usize, folder: &Path, home: Option<&SceneOfDataset>, cx: &dyn Cx) -> Result<Vec<PartLabel>, DatasetError> {
     let mut known = vec![PartLabel::NONE; parts];
     let warn = |message: String| cx.warn(Warning { place: folder.display().to_string(), message });
@@ -248,7 +248,7 @@ impl SceneOfDataset {
         Some(Self { dataset, scene: scene.file_name()?.to_string_lossy().into_owned() })
     }
 
-    /// The scene as it was imported, where it is still there.
+    /// The imported scene, if it still exists.
     fn package(&self) -> Option<PathBuf> {
         Some(self.dataset.root().join(WORKDIR).join(&self.scene).join(PACKAGE)).filter(|package| package.is_file())
     }

@@ -15,7 +15,7 @@ pub struct Filters {
     only_with_class: bool,
 }
 
-/// What is selected along with a face.
+/// The pieces selected along with a face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Expand {

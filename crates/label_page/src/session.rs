@@ -114,7 +114,7 @@ impl Session {
         Ok((session, warning))
     }
 
-    /// What is labelled.
+    /// The labelled pieces.
     pub fn pieces(&self) -> &Pieces {
         &self.pieces
     }
@@ -145,7 +145,7 @@ impl Session {
         look.select(&self.context())
     }
 
-    /// What lies under an image point, and its piece.
+    /// The surface under an image point, and its piece.
     ///
     /// # Errors
     /// When the camera or a piece number is wrong, or the point is not in the image.
@@ -172,7 +172,7 @@ impl Session {
         if let Some(&revision) = id.and_then(|id| self.known.get(id)) {
             return self.told_again(revision).map_err(ActionError::Refused);
         }
-        // What is asked for becomes an edit that needs no further decision.
+        // The action becomes an edit that needs no further decision.
         let edit = match action {
             Action::Undo if self.done.is_empty() => {
                 return Err(Refusal::conflict("there is nothing to undo", "everything is as it was in the beginning").into());
@@ -185,7 +185,7 @@ impl Session {
             action => self.context().decide(action)?,
         };
         let Some(edit) = edit else { return Ok(Change::default().told(None, client, &self.standing())) };
-        // The log has it before the pieces do: what pages were told survives a crash.
+        // The log is written before the pieces change: what was sent to pages survives a crash.
         let (time, id) = (clock::iso(clock::now_s()), id.map(Into::into));
         let entry = Entry { revision: self.revision + 1, time, client: client.into(), id, edit };
         self.log.append(&entry).map_err(ActionError::Log)?;

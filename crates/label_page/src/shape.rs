@@ -1,4 +1,4 @@
-//! Finds pieces of the same geometry, wherever they stand and however they are turned.
+//! Finds pieces of the same geometry, at any position and orientation.
 //!
 //! Two pieces count as the same if they have equally many faces and agree in three lengths that rigid motion does not change: the sum of
 //! all edges, the root of the area, and the root mean square distance of the corners from their mean. A mirrored piece counts as the same.
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// Relative difference allowed between lengths: files store single precision.
 const TOLERANCE: f64 = 1e-4;
 
-/// What does not change when a piece is moved and turned.
+/// Measures of a piece that do not change when it is moved and turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeInvariants {
     faces: usize,

@@ -24,7 +24,7 @@ pub fn by_material(scene: &AnnotatedScene, faces: &[u32]) -> Vec<Vec<u32>> {
     grouped(faces, |i| scene.material_of_face[faces[i] as usize])
 }
 
-/// What is left of a piece, and the painted faces.
+/// The rest of a piece, and the painted faces.
 ///
 /// # Errors
 /// When a face is not of the piece, or nothing is left on one side.

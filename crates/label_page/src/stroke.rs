@@ -15,7 +15,7 @@ const MAX_SAMPLES: f64 = 16e6;
 /// Rows of a rectangle that are drawn at once: whole tiles of the visibility buffer.
 const BAND_ROWS: u32 = 64;
 
-/// What is drawn over the image. Pixels count from the upper left corner of the image, so that their centres lie at halves.
+/// A shape drawn over the image. Coordinates are in pixels from the upper left corner of the image, so that pixel centres are at halves.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StrokeShape {
@@ -23,7 +23,7 @@ pub enum StrokeShape {
     Pen(Vec<[f64; 2]>),
     /// A straight line.
     Line([[f64; 2]; 2]),
-    /// Every pixel between two corners, those of the corners included.
+    /// Every pixel between two corners, including the pixels at the corners.
     Rectangle([f64; 4]),
     /// One pixel.
     Click([f64; 2]),
@@ -39,7 +39,7 @@ pub enum Covered {
 }
 
 impl StrokeShape {
-    /// The pixels that it covers; none where it lies beside the image.
+    /// The pixels that it covers; none where it is outside of the image.
     ///
     /// # Errors
     /// When a coordinate is not finite or far away, or the stroke is longer than a person draws.
@@ -97,7 +97,7 @@ fn rectangle(a: [f64; 2], b: [f64; 2], camera: &PageCamera) -> Covered {
 
 /// The scene as rays meet it, without hidden pieces.
 pub struct VisibleScene<'a> {
-    /// All faces, those of hidden pieces included.
+    /// All faces, including those of hidden pieces.
     pub bvh: &'a Bvh,
     /// The piece of every face.
     pub piece_of_face: &'a [u32],
@@ -105,7 +105,7 @@ pub struct VisibleScene<'a> {
     pub hidden: &'a HashSet<u32>,
 }
 
-/// What a ray of the page meets.
+/// The hit of a ray of the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Picked {
     /// The face.
@@ -137,7 +137,7 @@ impl VisibleScene<'_> {
                     let rows = (last[1] - top + 1).min(BAND_ROWS);
                     let mut buffer = VisibilityBuffer::new(last[0] - first[0] + 1, rows);
                     buffer.draw(self.bvh, &camera.rays(first[0], top));
-                    // The buffer has no near plane: where a face before it covers the pixel, a ray says what is behind.
+                    // The buffer has no near plane: if a face in front of it covers the pixel, a ray finds the surface behind.
                     let seen = |(i, (&face, &inverse_z)): (usize, (&u32, &f32))| {
                         if f64::from(inverse_z) * camera.near_m <= 1.0 {
                             return (face != NOTHING).then_some(face);
@@ -155,14 +155,14 @@ impl VisibleScene<'_> {
         faces
     }
 
-    /// What the ray through an image point meets first.
+    /// The first hit of the ray through an image point.
     pub fn meet(&self, camera: &PageCamera, x: f64, y: f64) -> Option<Picked> {
         let ray = camera.ray(x, y);
         let hit = self.first(&ray, camera.clip.as_ref())?;
         Some(Picked { face: hit.triangle, point: ray.at(hit.t), distance_m: hit.t })
     }
 
-    /// What a ray meets first within the box, if there is one.
+    /// The first hit of a ray within the box, if there is one.
     pub fn first(&self, ray: &Ray, clip: Option<&Bounds3>) -> Option<Hit> {
         if self.hidden.is_empty() && clip.is_none() {
             return self.bvh.closest(ray);

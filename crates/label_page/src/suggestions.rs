@@ -28,7 +28,7 @@ pub fn suggestions(scene: &AnnotatedScene, classes: &Classes) -> Vec<Option<Sugg
     let suggester = Suggester::builtin();
     let suggest = |((part, around), material): ((&String, &String), Option<u32>)| {
         let material = material.and_then(|material| scene.materials.get(material as usize)).map_or("", String::as_str);
-        // With what it lies in, the path that a part's name may have says nothing more.
+        // Where the parents are known, a path in the part's name adds nothing.
         let part = if around.is_empty() { part } else { part.rsplit('/').next().unwrap_or_default() };
         let found = suggester.suggest(&PartNames { part, material, group: around })?;
         Some(Suggestion { semantic: found.class, confidence: found.confidence, alternatives: found.alternatives })

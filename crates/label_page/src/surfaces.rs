@@ -1,4 +1,4 @@
-//! What the page draws: the faces, the colours of instances and of materials, and rendered pictures.
+//! Data that the page draws: the faces, the colours of instances and of materials, and rendered pictures.
 
 use super::answer::{Answer, Shared};
 use axum::extract::rejection::QueryRejection;
@@ -8,10 +8,10 @@ use axum::response::IntoResponse;
 use enfilade_serve::{ApiProblem, beside, reply};
 use serde::Deserialize;
 
-/// What is asked for of the geometry.
+/// The query of a request for geometry.
 #[derive(Deserialize)]
 pub struct GeometryQuery {
-    /// Only the first levels, up to so many faces.
+    /// Only the first levels, up to this number of faces.
     most: Option<usize>,
 }
 
@@ -38,7 +38,7 @@ pub async fn instance_colors_of_files() -> Answer {
     .await
 }
 
-/// How each face looks, three bytes each.
+/// Colour of each face, three bytes each.
 pub async fn face_colors(State(app): Shared, headers: HeaderMap) -> Answer {
     let gzip = reply::takes_gzip(&headers);
     beside(move || match app.face_colors() {

@@ -3,10 +3,11 @@
 use enfilade_dataset::{ANNOTATION_LOG, MeshFiles};
 use enfilade_label::annotation::{Edit, Entry, Header, numbers};
 
-/// How many objects a mesh folder had before any was split, and the object of every face then. `None` if none was split, or if the
+/// Number of objects of a mesh folder before any was split, and the object of every face then. `None` if none was split, or if the
 /// folder's log cannot be read.
 ///
-/// The folder's tables say the same, but they are written one after the other and disagree if the program is killed in between.
+/// The folder's tables have the same information, but they are written one after the other and disagree if the program is killed in
+/// between.
 pub fn unsplit(files: &MeshFiles) -> Option<(usize, Vec<u32>)> {
     let bytes = std::fs::read(files.file(ANNOTATION_LOG)).ok()?;
     let mut lines = bytes.split(|&b| b == b'\n');

@@ -1,7 +1,7 @@
 //! A place from which pieces are seen well: not within a wall, not below the floor, not behind other things.
 //!
-//! Places in several directions and distances are tried, and rays say how much of the pieces each sees: points of their faces, weighted by
-//! how squarely they face the place.
+//! Places in several directions and distances are tried, and rays measure how much of the pieces each sees: points of their faces, weighted
+//! by how squarely they face the place.
 
 use super::action::{Context, Refusal};
 use super::camera::CameraRequest;
@@ -19,11 +19,11 @@ const PITCHES_DEG: [f32; 4] = [20.0, 45.0, 70.0, -30.0];
 const TURNS_DEG: [f32; 6] = [0.0, 60.0, -60.0, 120.0, -120.0, 180.0];
 /// Distances that are tried, as shares of the one at which the pieces fill a good part of the picture.
 const NEARER: [f32; 4] = [1.0, 0.7, 0.45, 0.3];
-/// The distance at which a ball fills a good part of the picture is so many times that at which it fills all of it.
+/// Ratio of the distance at which a ball fills a good part of the picture to the distance at which it fills all of it.
 const ROOM: f32 = 1.4;
 /// Smaller pieces are looked at as if they had this radius, metres.
 const SMALLEST_M: f32 = 0.15;
-/// What counts beside the share that is seen: to be inside, with something above and below; and to look the same way as before.
+/// Bonuses added to the share that is seen: for being inside, with something above and below, and for looking the same way as before.
 const INSIDE: f32 = 0.2;
 const SAME_WAY: f32 = 0.1;
 
@@ -42,7 +42,7 @@ struct Target<'a> {
     points: Vec<(Vec3, Vec3)>,
     centre: Vec3,
     radius: f32,
-    /// What lies outside of this box hides nothing.
+    /// Surfaces outside of this box hide nothing.
     clip: Option<Bounds3>,
 }
 
@@ -97,7 +97,7 @@ impl<'a> Target<'a> {
         (!points.is_empty()).then(|| Self { scene, pieces, points, centre: bounds.center(), radius, clip })
     }
 
-    /// How much of the pieces a place sees: the mean over the points of how squarely they face it, where nothing else is in between.
+    /// Visibility of the pieces from a place: the mean over the points of the cosine at which they face it, 0 for hidden ones.
     fn seen_from(&self, from: Vec3) -> f32 {
         let worth = |&(point, normal): &(Vec3, Vec3)| {
             let direction = (point - from).normalize_or_zero();
@@ -111,7 +111,7 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Unit vectors from what is looked at to the camera, its own first.
+/// Unit vectors from the target to the camera, starting with the camera's own.
 fn backs(own: Vec3) -> Vec<Vec3> {
     let turn = if own.x.hypot(own.y) > 1e-3 { own.y.atan2(own.x) } else { -std::f32::consts::FRAC_PI_2 };
     let at = |by: f32, pitch: f32| {

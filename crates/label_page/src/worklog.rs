@@ -23,7 +23,7 @@ pub struct WorkSession {
     pub actions: u64,
 }
 
-/// All sessions of a scene; the last one is that of this run, once something is done in it.
+/// All sessions of a scene; the last one is the session of this run, once something is done in it.
 pub struct WorkLog {
     path: PathBuf,
     earlier: Vec<WorkSession>,
@@ -120,7 +120,7 @@ mod tests {
         assert!(!folder.path().join(WORK_LOG).exists());
         log.input(1000.0);
         log.input(1015.0);
-        // A second page tells of the same time.
+        // A second page reports the same time.
         log.input(1010.0);
         log.action(1030.0);
         // Lunch.

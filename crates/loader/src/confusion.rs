@@ -1,4 +1,4 @@
-//! How predicted classes agree with true ones: the confusion matrix, and what is computed from it.
+//! Agreement of predicted classes with true ones: the confusion matrix, and metrics computed from it.
 //!
 //! Intersection over union of a class is TP / (TP + FP + FN) (Everingham et al., "The Pascal Visual Object Classes Challenge", IJCV 2010),
 //! with the pixels of all images in one matrix. Mean IoU is the mean over the classes that occur, in truth or prediction.
@@ -28,7 +28,7 @@ pub enum ConfusionError {
         what: &'static str,
         /// The number.
         found: i64,
-        /// Where, in the order of the values.
+        /// Index among the values.
         place: usize,
         /// Number of classes.
         classes: usize,
@@ -72,10 +72,10 @@ impl Confusion {
         &self.counts
     }
 
-    /// Counts pixels; those whose truth is `ignore` are left out, whatever was predicted. All pixels are counted or, on an error, none.
+    /// Counts pixels, except those whose truth is `ignore`. All pixels are counted or, on an error, none.
     ///
     /// # Errors
-    /// When a number is no class, or there are not as many predictions as truths.
+    /// If a number is not a class, or the numbers of predictions and truths differ.
     pub fn add<P: Copy + Into<i64>, T: Copy + Into<i64>>(
         &mut self,
         prediction: &[P],

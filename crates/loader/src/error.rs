@@ -9,17 +9,17 @@ pub enum LoaderError {
     /// A file is missing or damaged.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// A side of the partition was asked for, and nothing says which frames are on it.
+    /// A side of the partition was requested, but there is no file that lists its frames.
     #[error(
         "there is no partition at {}; Hypersim's comes apart from its archives: put metadata_images_split_scene_v1.csv of \
         github.com/apple/ml-hypersim (evermotion_dataset/analysis) into the dataset's folder; for a dataset of ours run `enfilade partition`",
         path.display()
     )]
     NoPartition {
-        /// Where it was looked for.
+        /// Path at which it was expected.
         path: PathBuf,
     },
-    /// What was asked for does not fit the dataset.
+    /// The request does not fit the dataset.
     #[error("{0}")]
     Request(String),
 }

@@ -1,8 +1,9 @@
 //! Frames of a dataset as samples to train with.
 //!
-//! [`Samples`] is a list of frames, ours or those of Hypersim's release, with the layers that were asked for: chosen by scene, camera and
-//! side of the partition, cropped, resized and tone-mapped as [`Options`] say, with mask, K and pose. A sample is a function of (options, seed,
-//! epoch, index) and of nothing else. [`Stream`] decodes samples ahead on several threads and gives them in order.
+//! [`Samples`] is a list of frames, ours or those of Hypersim's release, with the requested layers. Frames are chosen by scene, camera and
+//! side of the partition. Samples are cropped, resized and tone-mapped according to [`Options`], with mask, K and pose. A sample is a
+//! function of (options, seed, epoch, index) and of nothing else. [`Stream`] decodes samples ahead on several threads and gives them in
+//! order.
 //!
 //! ```
 //! use enfilade_dataset::Dataset;
@@ -35,7 +36,7 @@
 //!
 //! [`NyuV2`] gives samples of the same kind from that dataset's published file.
 //!
-//! Nothing here keeps threads between calls but a [`Stream`], so a process may be forked while it holds [`Samples`].
+//! Only a [`Stream`] keeps threads between calls, so a process may be forked while it has [`Samples`].
 
 pub mod confusion;
 mod error;

@@ -1,4 +1,4 @@
-//! What users choose: which frames and layers, and what is done to each sample.
+//! The options of users: which frames and layers, and how each sample is processed.
 
 use enfilade_dataset::Side;
 use enfilade_frame::Layer;
@@ -16,7 +16,7 @@ pub struct Choice {
     pub side: Option<Side>,
 }
 
-/// What is done to a sample.
+/// How a sample is processed.
 ///
 /// ```
 /// use enfilade_loader::Options;
@@ -36,7 +36,7 @@ pub struct Options {
     pub mask: bool,
     /// Gives K and the pose.
     pub cameras: bool,
-    /// Gives layers exactly as their files have them, and not in metres and single precision where the table of layers says so.
+    /// Gives layers exactly as in their files, instead of in metres and single precision where the table of layers specifies it.
     pub stored: bool,
     /// Seed of the places of random crops.
     pub seed: u64,
@@ -53,11 +53,11 @@ impl Default for Options {
 pub struct Crop {
     /// Height and width, pixels.
     pub size: [usize; 2],
-    /// Where it lies.
+    /// Position in the image.
     pub place: CropPlace,
 }
 
-/// Where a crop lies.
+/// Position of a crop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CropPlace {
     /// In the middle.

@@ -34,14 +34,14 @@ pub struct Sample {
     pub frame: u32,
     /// The part of the frame that it shows, before resizing.
     pub window: Window,
-    /// In the order in which they were asked for.
+    /// In the requested order.
     pub layers: Vec<(Layer, Image)>,
     /// 1 where every layer has a value, else 0: floating-point values are finite, and depths above zero.
     pub mask: Option<Image>,
     /// K of OpenCV's conventions for the sample's pixels, row by row; `None` for cameras that are no pinhole, and where it was not asked
     /// for.
     pub k: Option<Matrix3>,
-    /// Camera to world in OpenCV's axes, row by row, metres; `None` where it was not asked for.
+    /// Camera to world in OpenCV's axes, row by row, metres; `None` if it was not requested.
     pub world_from_camera: Option<Matrix4>,
 }
 

@@ -14,7 +14,7 @@ use enfilade_scene::{Pose, Projection};
 use std::collections::{BTreeMap, HashSet};
 use std::sync::OnceLock;
 
-/// Which frame of the dataset a sample is.
+/// The frame of the dataset of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameName<'a> {
     /// Name of the scene.
@@ -99,7 +99,7 @@ impl Samples {
         &self.layers
     }
 
-    /// What is done to each.
+    /// How each sample is processed.
     pub fn options(&self) -> &Options {
         &self.options
     }
@@ -114,14 +114,14 @@ impl Samples {
         FrameName { scene: &camera.scene, camera: &camera.name, frame: frame.number }
     }
 
-    /// Decodes a sample. Random crops lie elsewhere in each `epoch`.
+    /// Decodes a sample. Random crops are elsewhere in each `epoch`.
     ///
     /// # Errors
     /// When a file is missing or damaged, the crop larger than the image, or the image of another size than the camera whose K or
     /// rays it takes.
     ///
     /// # Panics
-    /// When there are fewer samples.
+    /// If `index` is not below the number of samples.
     pub fn sample(&self, index: usize, epoch: u64) -> Result<Sample, LoaderError> {
         let (FrameName { scene, camera, frame }, options) = (self.place(index), &self.options);
         // Decode the layers, or the part of them that the crop shows
@@ -183,7 +183,7 @@ impl Samples {
         LAYERS.iter().map(|spec| spec.layer).filter(|&layer| self.dataset.has_layer(scene, camera, frame, layer)).collect()
     }
 
-    /// Refuses a camera without poses where these are asked for: who downloads Hypersim's images alone has none.
+    /// Refuses a camera without poses if these are requested: there are none if only Hypersim's images were downloaded.
     fn check_poses(&self, scene: &str, camera: &str) -> Result<(), LoaderError> {
         let poses = self.dataset.layout().keyframes(scene, camera, "positions");
         if !self.options.cameras || poses.is_file() {
@@ -193,7 +193,7 @@ impl Samples {
         Err(LoaderError::Request(format!("{scene}/{camera} has images but no poses: {} is not there; {remedy}", poses.display())))
     }
 
-    /// Adds a camera with those of its frames that have all layers.
+    /// Adds a camera with the frames that have all layers.
     fn add(&mut self, scene: &str, name: String, numbers: &[u32], layers: &[Layer]) {
         let has = |frame, layer| self.dataset.layer_source(scene, &name, frame, layer).is_file();
         let whole = numbers.iter().filter(|&&frame| layers.iter().all(|&layer| has(frame, layer)));
@@ -248,7 +248,7 @@ impl Samples {
                     self.check_size(index, projection, part)?;
                     turn_planar_depth(projection, part, &mut values);
                 }
-                // Images without their `_detail`, of whose camera no table has a matrix.
+                // Images without `_detail`, and no table has a matrix of their camera.
                 Err(_) if !self.dataset.layout().camera_model(scene, camera).is_file() => {}
                 Err(error) => return Err(error.into()),
             }
@@ -263,7 +263,7 @@ impl Samples {
         get_or_try(known, || self.dataset.image_size(scene, camera, frame, self.layers[0])).copied()
     }
 
-    /// Refuses images of another size than their camera's, whose rays and K are not theirs. `window` is the part of them that was read.
+    /// Refuses images of another size than their camera's: its rays and K would not fit. `window` is the part of them that was read.
     fn check_size(&self, index: usize, projection: &Projection, window: Window) -> Result<(), LoaderError> {
         let whole = [window.height, window.width];
         let [height, width] = if self.options.crop.is_some() { self.image_size(index)? } else { whole };
@@ -302,7 +302,7 @@ impl Samples {
         Err(LoaderError::Request(format!("{}: {crop} leaves the image of {rows}x{columns}", path.display())))
     }
 
-    /// The exposure of the sample's frame, if colour is to be displayed. `whole` says that the layers are of the whole frame.
+    /// The exposure of the sample's frame, if colour is to be displayed. `whole` means that the layers are of the whole frame.
     fn tone(&self, index: usize, layers: &[(Layer, Image)], whole: bool) -> Result<Option<ToneMap>, LoaderError> {
         let color = layers.iter().find(|(layer, _)| *layer == Layer::Color).map(|(_, image)| image);
         let (true, Some(color)) = (self.options.tone_map, color) else { return Ok(None) };
@@ -319,7 +319,7 @@ impl Samples {
         Ok(Some(*frame.exposure.get_or_init(|| found)))
     }
 
-    /// The exposure of a frame's whole colour, by the pixels that show the scene where the frame says which do.
+    /// The exposure of a frame's whole colour, by the pixels that show the scene if the frame identifies them.
     fn fitted(&self, index: usize, color: &Image) -> Result<ToneMap, LoaderError> {
         let (FrameName { scene, camera, frame }, layer) = (self.place(index), Layer::RenderEntityId);
         if !self.dataset.has_layer(scene, camera, frame, layer) {
@@ -447,7 +447,7 @@ mod tests {
             assert_eq!(depth_z(false, crop), depth_z(true, crop));
         }
         assert_ne!(depth_z(false, None), stored);
-        // Images alone, of whose camera nothing is known.
+        // Only images, whose camera is not known.
         std::fs::remove_dir_all(layout.detail_dir("room")).unwrap();
         std::fs::remove_file(layout.camera_parameters()).unwrap();
         assert_eq!(depth_z(false, None), stored);

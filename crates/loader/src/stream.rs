@@ -20,7 +20,7 @@ struct Work {
     samples: Arc<Samples>,
     order: Vec<usize>,
     epoch: u64,
-    /// How many samples may be decoded, or in decoding, that have not been given.
+    /// Largest number of samples that are decoded or being decoded, but not yet returned.
     ahead: usize,
     state: Mutex<State>,
     /// Something was decoded, given, or ended.
@@ -55,7 +55,7 @@ impl Work {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What a thread does: takes the next place until none is left.
+    /// The loop of a thread: decodes the next place until none is left.
     fn decode(&self) {
         while let Some(place) = self.next_place() {
             let index = self.order[place];

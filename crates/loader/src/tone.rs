@@ -5,7 +5,7 @@ use enfilade_frame::tonemap::{ToneMap, brightness, encode};
 use enfilade_frame::{Values, f16};
 use half::slice::HalfFloatSliceExt;
 
-/// The tone map of an image: 90th percentile of the brightness of the pixels that `seen` says show the scene, of all where it is `None`.
+/// The tone map of an image: 90th percentile of the brightness of the pixels that show the scene by `seen`, of all pixels if it is `None`.
 pub(crate) fn fit(color: &Image, seen: Option<&Values>) -> ToneMap {
     let mut values = vec![0.0; color.values.len()];
     match &color.values {

@@ -17,7 +17,7 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     }
 }
 
-/// The angle of a cosine, radians; values beyond ±1 count as that. Abramowitz & Stegun 1964, 4.4.46: to 2e−8 and rounding.
+/// The angle of a cosine, radians; values beyond ±1 count as ±1. Abramowitz & Stegun 1964, 4.4.46: to 2e−8 and rounding.
 #[inline]
 pub fn acos(x: f32) -> f32 {
     const C: [f32; 8] =

@@ -41,7 +41,7 @@ impl Bounds3 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// True when no point lies inside.
+    /// True if no point is inside.
     pub fn is_empty(&self) -> bool {
         self.min.cmpgt(self.max).any()
     }
@@ -61,7 +61,7 @@ impl Bounds3 {
         (self.min - other.max).max(other.min - self.max).max(Vec3::ZERO)
     }
 
-    /// True when `p` lies inside or on the surface.
+    /// True if `p` is inside or on the surface.
     pub fn contains(&self, p: Vec3) -> bool {
         p.cmpge(self.min).all() && p.cmple(self.max).all()
     }

@@ -19,7 +19,7 @@ pub fn hash_u64(mut x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// A number that stands for a text: FNV-1a (Fowler, Noll & Vo).
+/// Hash of a text: FNV-1a (Fowler, Noll & Vo).
 pub fn hash_text(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -1,8 +1,8 @@
 //! Vectors, rays, colour, random numbers, sampling warps and distributions.
 //!
 //! Conventions of the whole workspace: right-handed world, z up, metres, radians; column vectors, so that
-//! `world_from_camera * p_camera` is a point in the world. Vectors are `glam`'s; what a value is (point, direction,
-//! normal) and which space it is in stands in its name: `p_world`, `n_camera`, `dir_world`.
+//! `world_from_camera * p_camera` is a point in the world. Vectors are `glam`'s; names state what a value is (point, direction, normal) and
+//! its space: `p_world`, `n_camera`, `dir_world`.
 
 pub mod angle;
 mod bounds;
@@ -33,7 +33,7 @@ pub use spline::NaturalSpline;
 
 /// A point in another space: in double precision, rounded once.
 ///
-/// Everything that is placed in the world goes through this function, so that all users get the same position to the last bit.
+/// Everything that is placed in the world uses this function, so that all users get the same position to the last bit.
 #[inline]
 pub fn place(to_from: &DAffine3, p: Vec3) -> Vec3 {
     to_from.transform_point3(p.as_dvec3()).as_vec3()

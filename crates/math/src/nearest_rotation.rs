@@ -2,7 +2,7 @@
 
 use crate::DMat3;
 
-/// Iterations after which a matrix that has not come to rest is given up; a matrix within a factor of 1000 of a rotation needs 15.
+/// Iterations after which a matrix that has not converged is rejected; a matrix within a factor of 1000 of a rotation needs 15.
 const MAX_STEPS: usize = 100;
 
 /// The rotation nearest to `m` (sum of squared differences of the entries): the orthogonal factor of its polar decomposition.

@@ -44,7 +44,7 @@ impl OrientedBox {
         self.extents.element_product()
     }
 
-    /// Corner i lies toward the end of axis k where bit k of i is set.
+    /// The eight corners; corner i is at the positive end of axis k if bit k of i is set.
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|i| {
             let side = |bit: usize| if i >> bit & 1 == 1 { 0.5 } else { -0.5 };
@@ -57,7 +57,7 @@ impl OrientedBox {
         self.world_from_box.transpose() * (p_world - self.center)
     }
 
-    /// How far `p` lies outside: the largest distance beyond a pair of sides; at most 0 inside.
+    /// Distance of `p` outside: the largest distance beyond a pair of sides; at most 0 inside.
     pub fn distance_beyond(&self, p: DVec3) -> f64 {
         (self.local(p).abs() - 0.5 * self.extents).max_element()
     }

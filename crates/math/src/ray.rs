@@ -5,7 +5,7 @@ use glam::Vec3;
 /// A half-line with a parameter range. `direction` need not be unit length; distances are in its units.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Where the parameter is zero.
+    /// Point at which the parameter is zero.
     pub origin: Vec3,
     /// Unit length wherever a distance in metres is read from the hit.
     pub direction: Vec3,

@@ -56,7 +56,7 @@ impl NaturalSpline {
         [slope + bend * (h / 6.0), a * self.bends[i] + b * self.bends[i + 1]]
     }
 
-    /// The stretch between two knots that says what the curve is at `t`, by the first of them.
+    /// The interval between two knots that determines the curve at `t`, by its first knot.
     fn stretch(&self, t: f64) -> usize {
         self.knots.partition_point(|knot| *knot <= t).clamp(1, self.knots.len() - 1) - 1
     }

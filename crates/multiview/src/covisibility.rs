@@ -1,9 +1,9 @@
-//! What share of each frame's surfaces each other frame of a scene sees.
+//! The share of each frame's surfaces that each other frame of a scene sees.
 //!
 //! A grid of each frame's pixels is carried into every other frame by stored distance, camera and pose. A point that falls outside of the
-//! image is not seen. One before which none of the four pixels around it shows anything is seen. Of all others a ray through the scene
-//! tells whether it is hidden; where the scene is not there, it counts as hidden when the four pixels show something clearly nearer. So
-//! the shares are those of `flow_visibility`, except for what is finer than the pixels of the frame that looks.
+//! image is not seen. A point is seen if none of the four pixels around it shows anything nearer. For all other points a ray through the
+//! scene decides whether they are hidden; without the scene, a point counts as hidden if all four pixels show something clearly nearer. So
+//! the shares agree with `flow_visibility`, except for details finer than the pixels of the other frame.
 
 use crate::surroundings::{Around, Surroundings};
 use crate::{Filmed, MultiviewError, ScenePackage};
@@ -41,9 +41,10 @@ struct Grid {
     points: Vec<DVec3>,
 }
 
-/// Measures what share of each frame's surfaces each other frame sees. Without a package the frames' distances alone tell what is hidden.
+/// Measures the share of each frame's surfaces that each other frame sees. Without a package, only the frames' distances decide what is
+/// hidden.
 ///
-/// Distances are read twice, and no more than one frame per thread is held at a time; of each frame only its grid is kept.
+/// Distances are read twice, and at most one frame per thread is in memory at a time; only the grid of each frame is kept.
 ///
 /// # Errors
 /// When a frame or the scene cannot be used.

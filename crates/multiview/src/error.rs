@@ -14,7 +14,7 @@ pub enum MultiviewError {
     Package {
         /// Which file.
         path: PathBuf,
-        /// What was found, and what to do.
+        /// The problem found, and what to do.
         problem: String,
     },
 }

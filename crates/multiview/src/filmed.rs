@@ -7,7 +7,7 @@ use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Cx, Pose};
 use std::ops::Range;
 
-/// What a scene was filmed with, and which frames are there.
+/// The cameras of a scene, and its finished frames.
 pub struct Filmed<'d> {
     pub(crate) dataset: &'d Dataset,
     pub(crate) scene: String,
@@ -60,12 +60,12 @@ impl<'d> Filmed<'d> {
         (&self.tracks[track].name, self.tracks[track].poses[index].frame)
     }
 
-    /// The frames whose numbers lie in a range; all without one.
+    /// The frames whose numbers are in a range; all frames without one.
     pub fn numbered(&self, range: Option<&Range<u32>>) -> Vec<usize> {
         (0..self.len()).filter(|&frame| range.is_none_or(|range| range.contains(&self.name(frame).1))).collect()
     }
 
-    /// Where the camera of a frame stood.
+    /// Pose of the camera of a frame.
     pub fn pose(&self, frame: usize) -> &Pose {
         let (track, index) = self.frames[frame];
         &self.tracks[track].poses[index]
@@ -104,7 +104,7 @@ impl<'d> Filmed<'d> {
         }
     }
 
-    /// The surface points that a frame shows in some of its pixels (column, row), world, metres: those pixels that show nothing are left out.
+    /// The surface points that a frame shows in some of its pixels (column, row), world, metres; pixels that show nothing are left out.
     pub(crate) fn points(&self, frame: usize, distances_m: &[f32], pixels: impl Iterator<Item = [u32; 2]>) -> Vec<DVec3> {
         let view = self.view(frame);
         let width = view.camera().size()[0];

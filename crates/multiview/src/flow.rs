@@ -11,7 +11,7 @@ impl Filmed<'_> {
         (0..self.len()).find(|&frame| self.name(frame) == (camera, number))
     }
 
-    /// Each frame with the one that is `step` poses later in its trajectory (earlier where it is negative), where that is there.
+    /// Each frame with the one `step` poses later in its trajectory (earlier if negative), if that exists.
     pub fn steps(&self, step: i64) -> Vec<[usize; 2]> {
         let later = |frame: usize| {
             let (track, index) = self.frames[frame];

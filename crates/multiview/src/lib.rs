@@ -1,7 +1,7 @@
 //! Many views of one scene: which frames see the same surfaces, and where the points of one are in the others.
 //!
-//! Everything is a pure function of the frames that are stored and, where it is there, of the scene package that they were rendered from.
-//! Frames of all cameras of a scene stand side by side, whatever their cameras are: points go from one to the other by
+//! Everything is a pure function of the stored frames and, if it exists, of the scene package that they were rendered from. Frames of all
+//! cameras of a scene are treated alike, regardless of the camera model: points are transferred between them by
 //! [`CameraView`](enfilade_scene::CameraView). The same input gives the same bytes on any number of threads.
 //!
 //! [`covisibility`] measures, and [`choose_pairs`] picks what is worth training on; [`write_flow`] leads from any frame to any

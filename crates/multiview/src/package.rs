@@ -1,4 +1,4 @@
-//! The scene package that frames were rendered from, where the dataset still has it: with it a ray says what hides what.
+//! The scene package that frames were rendered from, if the dataset still has it: with it, rays decide what hides what.
 
 use crate::{Filmed, MultiviewError};
 use enfilade_render::{Lookout, RenderError};
@@ -37,7 +37,7 @@ impl ScenePackage {
         Ok(Some(Self { path, scene }))
     }
 
-    /// The scene made ready for rays, which takes as long as its hierarchy: once for everything that is asked.
+    /// The scene prepared for rays. Building its hierarchy takes time, so do it once for all queries.
     ///
     /// # Errors
     /// When the scene cannot be used.
@@ -58,7 +58,7 @@ impl ScenePackage {
     }
 }
 
-/// The first frame whose record names the checksum of another package. Records of earlier versions name none.
+/// The first frame whose record has the checksum of another package. Records of earlier versions have no checksum.
 fn rendered_from_another(filmed: &Filmed<'_>, bytes: &[u8]) -> Result<Option<(String, u32)>, MultiviewError> {
     let found = blake3::hash(bytes).to_hex();
     for (camera, number) in (0..filmed.len()).map(|frame| filmed.name(frame)) {

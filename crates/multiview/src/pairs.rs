@@ -8,9 +8,9 @@ use enfilade_dataset::{Covisibility, PairRow};
 pub struct PairFilter {
     /// Bounds of both shares: of the first frame that the second sees, and the other way around.
     pub overlap: [f32; 2],
-    /// Distances between the camera centres, metres, lie between these.
+    /// Range of distances between the camera centres, metres.
     pub baseline_m: [f64; 2],
-    /// Angles between the viewing axes, degrees, lie between these.
+    /// Range of angles between the viewing axes, degrees.
     pub angle_deg: [f64; 2],
 }
 

@@ -1,12 +1,12 @@
-//! What a frame's stored distances tell of a surface point that lies in its image: whether it can be seen there.
+//! Whether a surface point can be seen in a frame, as far as the frame's stored distances can decide.
 
 use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
 
 /// A surface is before a point when it is nearer than this share of the point's distance: as far as a ray is followed to the point.
 const BEFORE: f64 = 0.999;
-/// Distances alone do not tell how a surface runs between pixels; a point that lies at most this share farther away than the farthest
-/// pixel around it counts as seen by them.
+/// Distances alone do not show how a surface runs between pixels: a point is clearly hidden only if the farthest pixel around it is nearer
+/// than this share of its distance.
 const SEEN: f64 = 0.99;
 
 /// A frame whose distances are known.
@@ -15,7 +15,7 @@ pub(crate) struct Surroundings<'a> {
     distances_m: Vec<f32>,
 }
 
-/// What is around the image of a point.
+/// What the pixels around the image of a point show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Around {
     /// The point has no image, or it is outside.
@@ -37,7 +37,7 @@ impl<'a> Surroundings<'a> {
         &self.view
     }
 
-    /// What the four pixels whose centres are around the image of a world point show; at the border those that there are.
+    /// What the four pixels whose centres are around the image of a world point show; at the border, the existing ones.
     pub fn around(&self, p_world: DVec3) -> Around {
         let [width, height] = self.view.camera().size();
         let Some((x, y)) = self.view.project(p_world) else { return Around::Outside };

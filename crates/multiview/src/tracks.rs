@@ -1,9 +1,9 @@
 //! Points on surfaces, followed through the frames of a camera.
 //!
-//! Points are seeded evenly over time and over the image: point i of N in frame i T / N of T, at the pixel that the R2 sequence of points of
-//! even spacing says (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); where that shows nothing, at the next one.
-//! Scenes do not move, so a point is one place in the world. It is occluded where it is outside of the image, or a ray from the camera meets
-//! something before it, as `flow_visibility` tells.
+//! Points are seeded evenly over time and over the image: point i of N in frame i T / N of T, at the pixel given by the evenly spaced R2
+//! sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); if that pixel shows nothing, at the next one. Scenes
+//! do not move, so a point is one place in the world. It is occluded where it is outside of the image, or a ray from the camera meets
+//! something before it, as in `flow_visibility`.
 
 use crate::{Filmed, MultiviewError};
 use enfilade_dataset::Tracks;
@@ -13,7 +13,7 @@ use enfilade_scene::{CameraView, Counted, Cx};
 
 /// The generalised golden ratio of two dimensions, the real root of x³ = x + 1.
 const GOLDEN: f64 = 1.324_717_957_244_746;
-/// Pixels that are tried for a point. A point that finds none is left out: its frame shows next to nothing.
+/// Number of pixels tried for a point. A point without a pixel is left out: its frame shows next to nothing.
 const TRIES: u64 = 64;
 
 /// How points are seeded.
@@ -39,7 +39,7 @@ struct Seed {
     p_world: DVec3,
 }
 
-/// Follows points through `frames`, which are of one camera, in their order. `lookout` is that of the scene that was filmed.
+/// Follows points through `frames`, which are of one camera, in their order. `lookout` belongs to the scene that was filmed.
 ///
 /// # Errors
 /// When a frame cannot be used.
@@ -72,7 +72,7 @@ pub fn tracks(
 /// The points that are seeded in a frame.
 fn seeds(filmed: &Filmed<'_>, frames: &[usize], place: usize, config: TracksConfig) -> Result<Vec<Seed>, MultiviewError> {
     let (n, t) = (u64::from(config.points), frames.len() as u64);
-    // Those whose frame this is: i T / N rounded down.
+    // The points seeded in this frame: i T / N rounded down.
     let own = (place as u64 * n).div_ceil(t)..((place as u64 + 1) * n).div_ceil(t);
     if own.is_empty() {
         return Ok(Vec::new());
@@ -98,7 +98,8 @@ fn pixel(size: [u32; 2], index: u64, seed: u64) -> [u32; 2] {
     })
 }
 
-/// Where a view has a point, as shares of width and height, and whether it is occluded there; the frame that it was seeded in shows it.
+/// Position of a point in a view, as shares of width and height, and whether it is occluded there; it is visible in the frame it was seeded
+/// in.
 fn image(lookout: &Lookout<'_>, view: &CameraView<'_>, seed: &Seed, is_own: bool) -> ([f32; 2], bool) {
     let size = view.camera().size().map(f64::from);
     let share = |(x, y): (f64, f64)| [(x / size[0]) as f32, (y / size[1]) as f32];

@@ -2,9 +2,10 @@
 
 /// Declares a struct of options: `pub name: Type = default`, each with a doc comment.
 ///
-/// `=> `[`named`](crate::named)`("VALUE")` or another [`Shown`](crate::Shown) after the default is how the command line shows the value where
-/// that is not as its form; `=> fixed` is a field that is no option. Attributes stay on the fields. The struct has [`Default`] and
-/// [`Options`](crate::Options). With `struct Name keys Keys { … }` a struct `Keys` is declared too: the options that a file gives, and their places in it.
+/// `=> `[`named`](crate::named)`("VALUE")` or another [`Shown`](crate::Shown) after the default changes how the command line shows the
+/// value; `=> fixed` marks a field that is not an option. Attributes stay on the fields. The struct has [`Default`] and
+/// [`Options`](crate::Options). With `struct Name keys Keys { … }` a struct `Keys` is declared too: the options that a file gives, and
+/// their places in it.
 #[macro_export]
 macro_rules! options {
     (@take $head:tt $keys:tt [$($all:tt)*] $options:tt
@@ -94,7 +95,7 @@ macro_rules! options {
 }
 
 /// Declares a struct of [`Keys`](crate::Keys): its own fields, each of a type with a default, and after `with` fields that are such structs
-/// themselves, whose keys are in the same table.
+/// themselves and whose keys are in the same table.
 #[macro_export]
 macro_rules! keys {
     ($(#[$($attribute:tt)*])* $visible:vis struct $name:ident { $($(#[$($field_attribute:tt)*])* $field_visible:vis $field:ident: $type:ty),* $(,)? }
@@ -158,7 +159,7 @@ macro_rules! words {
         }
 
         impl $crate::Value for $name {
-            const FORM: $crate::Form = $crate::Form::Word(&[$($crate::Word { name: $word, doc: $crate::doc!($([$($variant_attribute)*])*) }),*]);
+            const FORM: $crate::Form = $crate::Form::Word(&[$($crate::Word { name: $word, variant: ::std::stringify!($variant), doc: $crate::doc!($([$($variant_attribute)*])*) }),*]);
 
             fn read(given: &$crate::Given) -> ::std::option::Option<Self> {
                 let word = given.text()?;
@@ -177,7 +178,7 @@ macro_rules! doc {
     ([$($other:tt)*] $($rest:tt)*) => { $crate::doc!($($rest)*) };
 }
 
-/// How a value is shown, if that is said.
+/// How a value is shown, if that is specified.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! shown {

@@ -27,12 +27,22 @@ pub trait Keys: Default {
 /// # Errors
 /// When `deserializer` or a value fails.
 pub fn read_keys<'de, D: Deserializer<'de>, K: Keys>(deserializer: D) -> Result<K, D::Error> {
-    deserializer.deserialize_map(Table(PhantomData))
+    let mut known = Vec::new();
+    K::names(&mut known);
+    read_keys_of(deserializer, &known)
 }
 
-struct Table<K>(PhantomData<K>);
+/// Reads a table that may have the keys `known` alone, which are some of those that there are.
+///
+/// # Errors
+/// As [`read_keys`].
+pub fn read_keys_of<'de, D: Deserializer<'de>, K: Keys>(deserializer: D, known: &[&'static str]) -> Result<K, D::Error> {
+    deserializer.deserialize_map(Table(known, PhantomData))
+}
 
-impl<'de, K: Keys> Visitor<'de> for Table<K> {
+struct Table<'k, K>(&'k [&'static str], PhantomData<K>);
+
+impl<'de, K: Keys> Visitor<'de> for Table<'_, K> {
     type Value = K;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -40,9 +50,8 @@ impl<'de, K: Keys> Visitor<'de> for Table<K> {
     }
 
     fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<K, M::Error> {
-        let (mut keys, mut known) = (K::default(), Vec::new());
-        K::names(&mut known);
-        while let Some(name) = map.next_key_seed(Name(&known))? {
+        let mut keys = K::default();
+        while let Some(name) = map.next_key_seed(Name(self.0))? {
             keys.take(name, &mut map)?;
         }
         Ok(keys)
@@ -68,12 +77,15 @@ impl Visitor<'_> for Name<'_> {
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
-        let known = || self.0.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let expected = || match self.0 {
+            [] => "there are none".to_string(),
+            known => format!("expected one of {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+        };
         let today = FORMER.iter().find(|(former, _)| *former == name).map_or(name, |(_, today)| *today);
         self.0
             .iter()
             .find(|known| **known == today)
             .copied()
-            .ok_or_else(|| E::custom(format_args!("unknown field `{name}`, expected one of {}", known())))
+            .ok_or_else(|| E::custom(format_args!("unknown field `{name}`, {}", expected())))
     }
 }

@@ -33,6 +33,7 @@
 //! # Ok::<(), String>(())
 //! ```
 
+mod bounded;
 mod declare;
 mod form;
 mod keys;
@@ -40,10 +41,11 @@ mod spec;
 pub mod text;
 mod value;
 
+pub use bounded::{Interval, Whole};
 pub use form::{Form, Given, Word};
-pub use keys::{Keys, read_keys};
+pub use keys::{Keys, read_keys, read_keys_of};
 pub use serde_spanned::Spanned;
-pub use spec::{Options, SHARE, Shown, Spec, TIME, named, unknown};
+pub use spec::{DEGREES, MEBIBYTES, METERS, Options, SHARE, SHARES, Shown, Spec, TIME, named, unknown};
 pub use text::Unit;
 pub use value::Value;
 

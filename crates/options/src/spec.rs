@@ -51,11 +51,22 @@ pub const SHARE: Shown = Shown { value: "SHARE", unit: Unit::Share };
 /// A time in seconds, which may be written in minutes and hours.
 pub const TIME: Shown = Shown { value: "TIME", unit: Unit::Time };
 
+/// An interval of shares.
+pub const SHARES: Shown = Shown { value: "RANGE", unit: Unit::Share };
+
+/// An interval of lengths.
+pub const METERS: Shown = Shown { value: "RANGE", unit: Unit::Meters };
+
+/// An interval of angles.
+pub const DEGREES: Shown = Shown { value: "RANGE", unit: Unit::Degrees };
+
+/// An amount of memory.
+pub const MEBIBYTES: Shown = Shown { value: "MIB", unit: Unit::Mebibytes };
+
 impl Spec {
     /// Name of the flag, without hyphens before it.
     pub fn flag(&self) -> String {
-        let name = if self.unit() == Unit::Time { self.name.trim_end_matches("_s") } else { self.name };
-        name.replace('_', "-")
+        self.name.strip_suffix(self.unit().suffix()).unwrap_or(self.name).replace('_', "-")
     }
 
     /// Units of its numbers on the command line.
@@ -75,13 +86,33 @@ impl Spec {
         text.strip_suffix('.').map_or(text.clone(), String::from)
     }
 
-    /// The default, where it is a number.
-    pub fn number(&self) -> Option<&'static str> {
-        let plain = self.default.strip_suffix(".0").unwrap_or(self.default);
-        plain.parse::<f64>().is_ok().then_some(plain)
+    /// The default as written in files, if it is a number, a word, true or false; otherwise as written in Rust.
+    pub fn literal(&self) -> &'static str {
+        self.word()
+            .unwrap_or_else(|| self.default.strip_prefix("Whole::new(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(self.default))
     }
 
-    /// The value that a text of the command line gives.
+    /// The default, where it is a word.
+    pub fn word(&self) -> Option<&'static str> {
+        let Form::Word(words) = self.form else { return None };
+        let (_, variant) = self.default.rsplit_once("::")?;
+        words.iter().find(|word| word.variant == variant).map(|word| word.name)
+    }
+
+    /// The default as shown in help: a number, a word, or "any" if an interval may be left out.
+    pub fn told_default(&self) -> Option<&'static str> {
+        let literal = self.literal();
+        let number = || literal.strip_suffix(".0").or(Some(literal)).filter(|plain| plain.parse::<f64>().is_ok());
+        let any = || matches!(self.form, Form::Interval { .. }).then_some("any");
+        self.word().or_else(number).or_else(any)
+    }
+
+    /// Examples of a value on the command line, if its form needs an explanation.
+    pub fn examples(&self) -> Option<&'static str> {
+        matches!(self.form, Form::Interval { .. }).then(|| self.unit().intervals())
+    }
+
+    /// Parses a value from the command line.
     ///
     /// # Errors
     /// What was expected.
@@ -99,6 +130,7 @@ pub fn unknown(name: &str, options: &[Spec]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Word;
 
     const LIMIT: Spec = Spec {
         name: "time_limit_s",
@@ -110,10 +142,21 @@ mod tests {
 
     #[test]
     fn a_spec_shows_itself_as_flag_and_sentence() {
-        assert_eq!((LIMIT.flag().as_str(), LIMIT.value_name(), LIMIT.number()), ("time-limit", "TIME", Some("2")));
+        assert_eq!((LIMIT.flag().as_str(), LIMIT.value_name(), LIMIT.told_default()), ("time-limit", "TIME", Some("2")));
         assert_eq!(LIMIT.about(), "Seconds that a frame may take, see `Spec`");
         assert_eq!(LIMIT.parse("1.5m"), Ok(Given::Number(90.0)));
         assert!(LIMIT.parse("soon").unwrap_err().contains("90s"));
+    }
+
+    #[test]
+    fn defaults_are_told_as_people_write_them() {
+        let points = Spec { default: "Whole::new(256)", form: Form::Whole { least: 1, most: 999 }, shown: None, ..LIMIT };
+        assert_eq!((points.literal(), points.told_default()), ("256", Some("256")));
+        let words = Form::Word(&[Word { name: "as-is", variant: "AsIs", doc: "" }]);
+        let word = Spec { default: "Form::AsIs", form: words, shown: None, ..LIMIT };
+        assert_eq!((word.literal(), word.told_default()), ("as-is", Some("as-is")));
+        let any = Spec { name: "baseline_m", default: "None", form: Form::Interval { most: u32::MAX }, shown: Some(METERS), ..LIMIT };
+        assert_eq!((any.flag().as_str(), any.told_default(), any.examples()), ("baseline", Some("any"), Some("0.3..2, 0.3.. or ..2")));
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! Types that options may have.
 
 use crate::form::{Form, Given};
+use std::path::PathBuf;
 
 /// A type whose values can be given on the command line and in Python.
 pub trait Value: Sized {
-    /// What values look like.
+    /// Form of the values.
     const FORM: Form;
 
     /// The value that is given; `None` when it is not of the form.
@@ -20,7 +21,7 @@ impl Value for bool {
 }
 
 impl Value for u32 {
-    const FORM: Form = Form::Whole { most: u32::MAX as u64 };
+    const FORM: Form = Form::Whole { least: 0, most: u32::MAX as u64 };
 
     fn read(given: &Given) -> Option<Self> {
         u64::read(given)?.try_into().ok()
@@ -28,10 +29,22 @@ impl Value for u32 {
 }
 
 impl Value for u64 {
-    const FORM: Form = Form::Whole { most: u64::MAX };
+    const FORM: Form = Form::Whole { least: 0, most: u64::MAX };
 
     fn read(given: &Given) -> Option<Self> {
         if let Given::Whole(value) = given { Some(*value) } else { None }
+    }
+}
+
+impl Value for i64 {
+    const FORM: Form = Form::Integer;
+
+    fn read(given: &Given) -> Option<Self> {
+        match given {
+            Given::Integer(value) => Some(*value),
+            Given::Whole(value) => (*value).try_into().ok(),
+            _ => None,
+        }
     }
 }
 
@@ -42,6 +55,7 @@ impl Value for f64 {
         match given {
             Given::Number(value) => Some(*value),
             Given::Whole(value) => Some(*value as f64),
+            Given::Integer(value) => Some(*value as f64),
             _ => None,
         }
     }
@@ -60,6 +74,32 @@ impl Value for String {
 
     fn read(given: &Given) -> Option<Self> {
         given.text().map(String::from)
+    }
+}
+
+impl Value for PathBuf {
+    const FORM: Form = Form::Path;
+
+    fn read(given: &Given) -> Option<Self> {
+        if let Given::Path(path) = given { Some(path.clone()) } else { given.text().map(Self::from) }
+    }
+}
+
+impl Value for (String, u32) {
+    const FORM: Form = Form::Frame;
+
+    fn read(given: &Given) -> Option<Self> {
+        let Given::List(values) = given else { return None };
+        let [camera, frame] = values.as_slice() else { return None };
+        Some((String::read(camera)?, u32::read(frame)?))
+    }
+}
+
+impl Value for [(String, u32); 2] {
+    const FORM: Form = Form::Two(&Form::Frame);
+
+    fn read(given: &Given) -> Option<Self> {
+        Vec::read(given)?.try_into().ok()
     }
 }
 

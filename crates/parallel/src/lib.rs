@@ -1,15 +1,16 @@
 //! Maps over many items on rayon's threads.
 //!
-//! Rayon's own iterators are compiled again for every closure, some ten thousand lines of intermediate code each, which was two fifths of what
-//! the compiler made of the planner. Here items are cut into pieces, what hands pieces to threads is compiled once, and only the loop over
-//! a piece is made for a closure, so that items cost no more. Values come in the order of the items, whatever the number of threads.
+//! Rayon's own iterators are compiled again for every closure, some ten thousand lines of intermediate code each, which was two fifths of
+//! the planner's compiled code. Here items are cut into pieces, the code that distributes pieces to threads is compiled once, and only the
+//! loop over a piece is compiled per closure. The cost per item is the same. Values come in the order of the items, whatever the number of
+//! threads.
 //!
 //! ```
 //! let squares = enfilade_parallel::map(&[1, 2, 3], |n| n * n);
 //! assert_eq!(squares, [1, 4, 9]);
 //! ```
 //!
-//! Loops over pixels that write in place, and what sorts or reduces, are better by rayon itself.
+//! Use rayon itself for loops over pixels that write in place, and for sorting and reducing.
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use std::ops::Range;
@@ -19,35 +20,35 @@ use std::sync::{Mutex, PoisonError};
 /// Pieces for each thread: many enough that no thread waits long for the last ones.
 const PIECES: usize = 32;
 
-/// What `value` makes of every item.
+/// Maps every item by `value`.
 pub fn map<'s, S: Sync, T: Send>(items: &'s [S], value: impl Fn(&'s S) -> T + Sync) -> Vec<T> {
     in_pieces(items.len(), |piece| items[piece].iter().map(&value).collect())
 }
 
-/// What `value` makes of every number below `count`.
+/// Maps every number below `count` by `value`.
 pub fn map_up_to<T: Send>(count: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     in_pieces(count, |piece| piece.map(&value).collect())
 }
 
-/// What `values` makes of every item, one after the other: lists, or an `Option` where some items are left out.
+/// Maps every item by `values` and concatenates the results: lists, or an `Option` where some items are left out.
 pub fn flat_map<'s, S: Sync, V: IntoIterator<Item: Send>>(items: &'s [S], values: impl Fn(&'s S) -> V + Sync) -> Vec<V::Item> {
     in_pieces(items.len(), |piece| items[piece].iter().flat_map(&values).collect())
 }
 
-/// What `values` makes of every number below `count`, one after the other, as [`flat_map`].
+/// Maps every number below `count` by `values` and concatenates the results, as [`flat_map`].
 pub fn flat_map_up_to<V: IntoIterator<Item: Send>>(count: usize, values: impl Fn(usize) -> V + Sync) -> Vec<V::Item> {
     in_pieces(count, |piece| piece.flat_map(&values).collect())
 }
 
-/// What `value` makes of every item.
+/// Maps every item by `value`.
 ///
 /// # Errors
-/// The first in the order of the items among those that came up; what has not begun by then is left out.
+/// Of the errors that occurred, the first in the order of the items; items that have not begun by then are skipped.
 pub fn try_map<'s, S: Sync, T: Send, E: Send>(items: &'s [S], value: impl Fn(&'s S) -> Result<T, E> + Sync) -> Result<Vec<T>, E> {
     try_map_up_to(items.len(), |i| value(&items[i]))
 }
 
-/// What `value` makes of every number below `count`.
+/// Maps every number below `count` by `value`.
 ///
 /// # Errors
 /// As [`try_map`].
@@ -67,7 +68,7 @@ pub fn each<'s, S: Sync>(items: &'s [S], work: impl Fn(&'s S) + Sync) {
     hand_out(items.len().div_ceil(size), &|k| items[piece(k, size, items.len())].iter().for_each(&work));
 }
 
-/// What `make` makes of ranges that together are all numbers below `count`, one after the other.
+/// Concatenates the results of `make` for consecutive ranges that cover all numbers below `count`.
 fn in_pieces<T: Send>(count: usize, make: impl Fn(Range<usize>) -> Vec<T> + Sync) -> Vec<T> {
     let size = size(count);
     let made: Vec<Mutex<Vec<T>>> = (0..count.div_ceil(size)).map(|_| Mutex::default()).collect();

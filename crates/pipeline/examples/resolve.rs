@@ -1,7 +1,7 @@
-//! What becomes of configurations: for every line of the standard input, a `dataset.toml` as a JSON string, one line of JSON goes out,
+//! Resolves configurations: for every line of the standard input, a `dataset.toml` as a JSON string, it writes one line of JSON,
 //! `{"config": …}` with every default filled in, or `{"error": …}`.
 //!
-//! `cargo xtask docs` asks it for the defaults and ranges of all keys, so that the documentation says what the program does.
+//! `cargo xtask docs` gets the defaults and ranges of all keys from it, so that the documentation agrees with the program.
 
 use anyhow::Result;
 use enfilade_pipeline::{Config, Error, Overrides};

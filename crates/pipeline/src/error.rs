@@ -1,4 +1,4 @@
-//! What can go wrong in a run, in words for the person who will fix it.
+//! The errors of a run, in words for the person who will fix them.
 
 use enfilade_dataset::DatasetError;
 use std::error::Error as StdError;
@@ -15,7 +15,7 @@ pub enum Error {
     /// A request that cannot be carried out as given.
     #[error("{message}")]
     Usage {
-        /// What was asked and why it cannot be.
+        /// The request, and why it cannot be done.
         message: String,
         /// What to do.
         hint: String,
@@ -30,10 +30,10 @@ pub enum Error {
         /// The system's answer.
         source: io::Error,
     },
-    /// The scene as it is cannot be worked on.
+    /// The scene cannot be processed in its current state.
     #[error("{message}")]
     Scene {
-        /// What was found and what was expected.
+        /// The problem found, and what was expected.
         message: String,
         /// What to do.
         hint: String,
@@ -45,7 +45,7 @@ pub enum Error {
         camera: String,
         /// Number of the frame.
         frame: u32,
-        /// What was kept of it.
+        /// The file with the unfinished frame.
         kept: PathBuf,
     },
     /// A stage's own error.
@@ -77,7 +77,7 @@ impl Error {
         matches!(self, Self::Config(_) | Self::Usage { .. })
     }
 
-    /// What to do about it, where that is known.
+    /// What to do about it, if known.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Config(error) => error.help.clone(),
@@ -87,7 +87,7 @@ impl Error {
         }
     }
 
-    /// The message and its causes on one line, without causes that the message already tells.
+    /// The message and its causes on one line, without causes that the message already contains.
     pub fn explain(&self) -> String {
         let mut text = self.to_string();
         let mut cause = self.source();
@@ -131,14 +131,14 @@ fn hint_for(kind: io::ErrorKind) -> Option<&'static str> {
     }
 }
 
-/// What is wrong with a configuration file, and where.
+/// An error in a configuration file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConfigError {
     /// The file as the user named it.
     pub file: PathBuf,
-    /// Where; `None` when the file as a whole is meant.
+    /// Place of the error; `None` if the file as a whole is meant.
     pub place: Option<Box<Place>>,
-    /// What was found and what was expected.
+    /// The problem found, and what was expected.
     pub message: String,
     /// What to do.
     pub help: Option<String>,
@@ -169,9 +169,9 @@ impl fmt::Display for ConfigError {
     }
 }
 
-/// Greatest length of a line that is shown whole, characters; of a longer one this many are shown, ...
+/// Greatest length of a line that is shown whole, characters; of a longer line this many are shown, ...
 pub(crate) const LONGEST_LINE: usize = 160;
-/// ... up to so many of them before the place.
+/// ... at most this many of them before the place.
 const BEFORE_PLACE: usize = 60;
 
 impl Place {

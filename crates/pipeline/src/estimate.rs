@@ -1,4 +1,4 @@
-//! What a run will still take: forecasts scene by scene, from a pilot of each.
+//! Forecasts of the remaining time and resources of a run, scene by scene, from a pilot of each.
 
 use crate::config::{Config, SceneConfig};
 use crate::error::Error;
@@ -11,13 +11,13 @@ use crate::workdir::Workdir;
 use enfilade_dataset::Dataset;
 use std::path::Path;
 
-/// How scenes fared before rendering, and the forecasts of those that came through.
+/// Results of scenes before rendering, and forecasts of those that succeeded.
 type Forecasts = (Summary, Vec<(String, Forecast)>);
 
-/// Forecasts what [`run`](crate::run()) will still take, by scene: does all that comes before rendering, which is kept, and tries out a
-/// little of the rest, which is not. Scenes that fail are left out, and the summary tells why.
+/// Forecasts what [`run`](crate::run()) will still take, by scene: it does everything before rendering, which is kept, and tries a little
+/// of the rest, which is not kept. Scenes that fail are left out, and the summary has the reasons.
 ///
-/// Where a scene that has finished frames would be planned anew, the folder and the configuration stored in it stay as they are.
+/// If a scene with finished frames would be planned anew, the folder and the configuration stored in it are not changed.
 ///
 /// # Errors
 /// As [`run`](crate::run()).
@@ -61,7 +61,7 @@ fn before_rendering() -> Vec<&'static StageSpec> {
     STAGES.iter().filter(|spec| spec.stage < Stage::Render).collect()
 }
 
-/// What the `frames` of a scene take.
+/// The forecast for the `frames` of a scene.
 fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) -> Result<Forecast, Error> {
     if frames.is_empty() {
         return Ok(Forecast::default());
@@ -71,8 +71,8 @@ fn forecast_of(job: &Job, frames: &FramesByTrajectory, reporter: &dyn Reporter) 
 }
 
 impl Session<'_> {
-    /// Forecasts as [`forecast`] does, and nothing of the folder changes: scenes that are planned are tried out as they are, and the
-    /// others, all of whose frames count, in a folder that is removed.
+    /// Forecasts as [`forecast`] does, without changing the folder: planned scenes are tried in place, and the others, of which all frames
+    /// count, in a folder that is removed.
     fn forecast_aside(&self, scenes: &[&SceneConfig], reporter: &dyn Reporter) -> Result<Forecasts, Error> {
         let time = Stopwatch::start();
         let folder = self.workdir.aside()?;
@@ -110,7 +110,7 @@ impl Session<'_> {
         }
     }
 
-    /// True when any frame of the scene is finished, or cannot be told from one that is.
+    /// True if any frame of the scene is finished, or may be.
     fn has_frames(&self, scene: &SceneConfig) -> bool {
         let name = &scene.name;
         let has_none = |camera: &String| self.dataset.frame_numbers(name, camera).is_ok_and(|frames| frames.is_empty());

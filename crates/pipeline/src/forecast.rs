@@ -1,15 +1,15 @@
-//! What a run will take, from a pilot: the arithmetic alone. `stages/pilot.rs` makes the pilot.
+//! The arithmetic of forecasts from a pilot. `stages/pilot.rs` makes the pilot.
 //!
-//! A frame costs a fixed part, which the pilot does once (geometry, compressing and writing, and what later stages do with it), and a
-//! part in proportion to its samples: pixels × the mean over squares of pixels of (samples that are wanted there × seconds per sample
-//! there). Squares and frames are samples of the image and of the trajectory, so their spread tells how sure the mean is; to it
-//! are added the errors that no spread shows, as shares of the whole.
+//! The cost of a frame has a fixed part, which the pilot measures once (geometry, compressing and writing, and later stages), and a part in
+//! proportion to its samples: pixels × the mean over squares of pixels of (samples wanted there × seconds per sample there). Squares and
+//! frames are samples of the image and of the trajectory, so their spread gives the uncertainty of the mean; errors that the spread does
+//! not show are added as shares of the whole.
 
 use enfilade_render::FrameRender;
 use serde::{Deserialize, Serialize};
 use std::ops::Add;
 
-/// Standard deviations to either side of the intervals that are told: 95 of 100 hold the truth.
+/// Standard deviations to either side of the reported intervals: 95 of 100 contain the true value.
 const DEVIATIONS: f64 = 1.96;
 /// Processor time of the same work differs by this share between runs (shared caches, clock rates, neighbours), standard deviation.
 const MACHINE_SHARE: f64 = 0.08;
@@ -22,15 +22,15 @@ const BUSY: f64 = 0.95;
 const BUSY_SHARE: f64 = 0.03;
 /// Compressed sizes differ between frames by this share, standard deviation.
 const SIZE_SHARE: f64 = 0.06;
-/// Memory is that of the pilot and more frames at once; standard deviation.
+/// Memory is estimated from the pilot and more frames at once; standard deviation as a share.
 const MEMORY_SHARE: f64 = 0.1;
-/// What is done once per scene after rendering is known from one frame to this share.
+/// Work that is done once per scene after rendering is known from one frame to within this share.
 const LATER_SHARE: f64 = 0.25;
 
 /// A number that is not known for sure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Expected {
-    /// What is expected.
+    /// Expected value.
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
@@ -50,13 +50,13 @@ impl Expected {
         Self { mean: factor * self.mean, deviation: factor * self.deviation }
     }
 
-    /// Ends of the interval that holds the truth in 95 of 100 cases; never below 0.
+    /// Ends of the interval that contains the true value in 95 of 100 cases; never below 0.
     pub fn interval(&self) -> [f64; 2] {
         [(self.mean - DEVIATIONS * self.deviation).max(0.0), self.mean + DEVIATIONS * self.deviation]
     }
 }
 
-/// Adds two numbers whose errors have the same reasons, as those of two scenes on one machine: deviations add up.
+/// Adds two numbers whose errors have the same causes, such as two scenes on one machine: deviations add up.
 impl Add for Expected {
     type Output = Self;
 
@@ -74,7 +74,7 @@ pub struct ProbeCost {
     pub cpu_s: f64,
 }
 
-/// What the pilot has found out about a scene.
+/// Measurements of the pilot for a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScenePilot {
     /// Frames that are to be rendered.
@@ -89,7 +89,7 @@ pub struct ScenePilot {
     pub time_limit_s: Option<f64>,
     /// Processor seconds before the first frame: hierarchy, lights, guides.
     pub before_cpu_s: f64,
-    /// Processor seconds of a frame whatever its samples: geometry, compressing, writing.
+    /// Processor seconds of a frame independent of its samples: geometry, compressing, writing.
     pub frame_cpu_s: f64,
     /// Processor seconds of later stages for each frame.
     pub later_frame_cpu_s: f64,
@@ -109,7 +109,7 @@ pub struct ScenePilot {
     pub busy: bool,
 }
 
-/// What a scene, or all of them, will take.
+/// Forecast for a scene, or for all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Forecast {
     /// Frames.
@@ -180,7 +180,7 @@ fn sampling(pilot: &ScenePilot) -> Expected {
     let frames = pilot.frames as f64;
     let (mean, between) = mean_and_variance(&tried.iter().map(|t| t.0).collect::<Vec<_>>());
     let within = tried.iter().map(|t| t.1).sum::<f64>() / n;
-    // Frames that were tried differ by chance within them too; only the rest says how much the others may differ.
+    // Frames that were tried also differ by chance within them; only the remaining variance shows how much the others may differ.
     let others = (1.0 - n / frames.max(n)).max(0.0);
     let variance = ((between - within).max(0.0) * others + within) / n;
     let all = Expected::new(frames * mean, frames * variance.sqrt());
@@ -194,8 +194,8 @@ fn mean_cost(probes: &[ProbeCost], cost: impl Fn(&ProbeCost) -> f64) -> (f64, f6
     (mean, variance / costs.len().max(1) as f64)
 }
 
-/// Processor seconds of a frame that its limit ends, and their variance, by those of one sample of every pixel, which is always taken,
-/// and of all of them.
+/// Processor seconds of a frame that is ended by its time limit, and their variance. `one` is for one sample of every pixel, which is
+/// always taken, `all_s` for all samples.
 fn ended(limit_s: f64, one: (f64, f64), all_s: f64) -> (f64, f64) {
     if limit_s <= one.0 {
         return one;

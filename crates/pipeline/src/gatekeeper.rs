@@ -1,4 +1,4 @@
-//! Judges views by their geometry: for `gate`, which says what is rendered, and for `plan`, which looks for views that pass.
+//! Judges views by their geometry: for `gate`, which decides what is rendered, and for `plan`, which looks for views that pass.
 
 use crate::error::Error;
 use crate::world::World;
@@ -13,14 +13,14 @@ use enfilade_verify::view_gates::{GateConfig, Place, ViewGate, ViewMeasures};
 /// Views are first measured through about this many of their columns, and in full only where a measure is close to its limit.
 const COLUMNS: u32 = 256;
 
-/// What is needed to judge views of a scene.
+/// Everything needed to judge views of a scene.
 pub(crate) struct Gatekeeper<'a> {
     lookout: Lookout<'a>,
     around: Surroundings<'a>,
     config: &'a GateConfig,
 }
 
-/// A view as it was judged.
+/// A judged view.
 pub(crate) struct Judgement {
     pub measures: ViewMeasures,
     /// The worst fault.

@@ -1,7 +1,8 @@
-//! A scene in memory, and pictures of it without a dataset: what `import`, `render`, `denoise` and `label` do, without files between them.
+//! A scene in memory, and pictures of it without a dataset: the work of `import`, `render`, `denoise` and `label`, without files between
+//! them.
 //!
-//! A frame has the values that a run writes for the same scene, views, settings and seed, the seed being that of the frame's record. What
-//! rays need is prepared for the first picture and serves all others.
+//! A frame has the values that a run writes for the same scene, views, settings and seed, where the seed is the one in the frame's record.
+//! The data for rays is prepared for the first picture and used for all others.
 
 use crate::assets;
 use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
@@ -39,9 +40,9 @@ pub struct LoadedScene {
     picture_files: PictureFiles,
     warnings: Vec<Warning>,
     report: serde_json::Value,
-    /// Made for the first picture, and again where another one asks for Lambertian surfaces or for none.
+    /// Made for the first picture, and again if a later one changes the option for Lambertian surfaces.
     prepared: Mutex<Option<(bool, Arc<Prepared>)>>,
-    /// The view that was found when one was first asked for.
+    /// The view that was found on the first request.
     found: OnceLock<(StartCamera, String)>,
 }
 
@@ -50,13 +51,12 @@ pub struct LoadedScene {
 pub struct Shot {
     /// Transport.
     pub render: RenderConfig,
-    /// What the colour layers hold. Denoised ones have what was rendered beside them.
+    /// Kind of the colour layers. Denoised frames have the rendered layers too.
     pub color: ColorKind,
 }
 
 impl Shot {
-    /// A shot as a run makes it with this quality and these choices, but for the seed, which is taken as it is. A time limit does not
-    /// count.
+    /// A shot as a run makes it with this quality and these choices, except that the seed is used unchanged. A time limit is ignored.
     ///
     /// # Errors
     /// When a number is out of its range.
@@ -67,10 +67,10 @@ impl Shot {
 }
 
 impl LoadedScene {
-    /// Reads the file of `source` (a path as it stands), with the labels of a table (a path too) or those that come with it.
+    /// Reads the file of `source` (its path is used unchanged), with the labels of a table (also a path) or the file's own.
     ///
     /// # Errors
-    /// When the file cannot be imported, or the table not be read.
+    /// If the file cannot be imported, or the table cannot be read.
     pub fn read(source: &FileSource, labels: Option<&LabelSource>, cx: &dyn Cx) -> Result<Self, Error> {
         let file = Path::new(&source.file);
         let imported = intake::read(source, file, &|path| Ok(path.into()), cx)?;
@@ -85,7 +85,7 @@ impl LoadedScene {
         Ok(Self { picture_files: imported.picture_files, ..read })
     }
 
-    /// Makes the home of `config`, whose libraries are paths as they stand.
+    /// Makes the home of `config`; the paths of its libraries are used unchanged.
     ///
     /// # Errors
     /// When a library of models cannot be used, see [`HomeConfig::assets`].
@@ -112,7 +112,7 @@ impl LoadedScene {
         }
     }
 
-    /// Name of the scene: that of the file, without what tells the format.
+    /// Name of the scene: the file's name without the extension of its format.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -122,7 +122,7 @@ impl LoadedScene {
         &self.scene
     }
 
-    /// What its parts are.
+    /// Labels of its parts.
     pub fn labels(&self) -> &Labels {
         &self.labels
     }
@@ -142,16 +142,16 @@ impl LoadedScene {
         describe(&self.scene)
     }
 
-    /// The walls and whatever else stands there, cut at two fifths of the scene's height, as a drawing in SVG of this many pixels across.
+    /// The walls and everything else cut at two fifths of the scene's height, as a drawing in SVG of this many pixels across.
     pub fn plan_svg(&self, width: u32) -> String {
         floor_plan_svg(&WorldMesh::new(&self.scene), width)
     }
 
-    /// The camera of that name; without one, the view that `look` takes: a camera of the file that stands in a room or sees something, else a
-    /// place that is found, which takes seconds the first time. Says in words which.
+    /// The camera of that name; without a name, the view that `look` takes: a camera of the file that is in a room or sees something, else
+    /// a place that is searched, which takes seconds the first time. Also returns which, in words.
     ///
     /// # Errors
-    /// When there is no camera of that name.
+    /// If there is no camera of that name.
     pub fn view(&self, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
         if let Some(name) = name {
             return named_camera(&self.scene, name).map(|camera| (camera.clone(), format!("camera {name:?} of the file")));
@@ -187,7 +187,7 @@ impl LoadedScene {
         (0..views.len()).map(frame).collect()
     }
 
-    /// Denoises where that is asked for, and joins the labels.
+    /// Denoises if requested, and joins the labels.
     fn finish(&self, mut frame: Frame, color: ColorKind) -> Result<Frame, Error> {
         if color == ColorKind::Denoised {
             let denoised = denoise(&frame, |noisy| Denoiser::built_in().filter(noisy)).map_err(Error::stage)?;
@@ -205,7 +205,7 @@ impl LoadedScene {
         Ok(frame)
     }
 
-    /// Writes the scene to `output`, as `encode` gives its bytes and what they cannot hold.
+    /// Writes the scene to `output`; `encode` returns its bytes and what they cannot represent.
     ///
     /// # Errors
     /// When the file cannot be written.

@@ -1,6 +1,6 @@
 //! The stages, their work folder, and how a run resumes.
 //!
-//! [`Config`] says what to make, [`run`] makes it. [`STAGES`] is the one list of stages; each is skipped when nothing that it
+//! [`Config`] describes a dataset, [`run`] makes it. [`STAGES`] is the one list of stages; each is skipped when nothing that it
 //! depends on has changed, so that a second run does nothing and a killed run resumes where it was. This is the only crate below
 //! the command line that reads clocks and the environment.
 
@@ -49,12 +49,12 @@ pub use look::{Looked, look};
 pub use partition::{PartitionReport, partition};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};
 pub use products::{
-    Made, MakeOptions, OutOfDate, PRODUCTS, ProductOptions, ProductSpec, When, choose_pairs_of, make, make_products, make_stale,
-    out_of_date, read_mixes, write_statistics,
+    Made, MakeOptions, OutOfDate, PRODUCTS, ProductSpec, When, choose_pairs_of, make, make_products, make_stale, out_of_date, read_mixes,
+    write_statistics,
 };
 pub use replay::{Replay, ReplayedFile, replay};
 pub use report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, Silent, StageOutcome, Stopwatch, Summary};
-pub use request::{FlowPairs, FrameChoice, MixRequest, PairsRequest, Product, Request, Scope};
+pub use request::{FlowPairs, FrameChoice, MixRequest, PairsRequest, Product, ProductOptions, Request, Scope};
 pub use run::{draw_plans, relabel, run, run_stage, run_stages, stored_config, verify};
 pub use single::{Checked, Imported, MadeHome, check_file, holds_scene, import_file, make_home, refuse_overwriting, scene_file_of};
 pub use stage::Stage;

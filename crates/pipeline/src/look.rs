@@ -1,7 +1,7 @@
 //! `look`: the first picture of a scene file, in one step.
 //!
-//! The file is imported and looked at; it gets light if it has none, and a place to stand is found if none of its cameras stands in a
-//! room or sees something from where it is. Then one picture is rendered, denoised and shown as people see it.
+//! The file is imported and inspected. It gets light if it has none, and a viewpoint is searched if none of its cameras is in a room or
+//! sees something. Then one picture is rendered, denoised and tone-mapped for display.
 
 use crate::config::{FileSource, Lamps};
 use crate::error::Error;
@@ -26,32 +26,32 @@ use std::path::Path;
 const SIZE: [u32; 2] = [640, 480];
 /// Samples per pixel, before denoising, where there is time for them.
 const SAMPLES: u32 = 16;
-/// Horizontal field of view from a place that was found: 75 degrees, a wide lens.
+/// Horizontal field of view from a found place: 75 degrees, a wide lens.
 const WIDE_RAD: f64 = 75.0 * PI / 180.0;
-/// Range of that of a file's camera, for pictures that show something.
+/// Range of the field of view of a file's camera, for pictures that show something.
 const FOV_RAD: [f64; 2] = [20.0 * PI / 180.0, 100.0 * PI / 180.0];
-/// Places tried besides those that were found, in all rooms together.
+/// Number of places tried besides the found ones, in all rooms together.
 const EYES: usize = 24;
 /// Headings tried at each place, and how far the view is tilted down, radians.
 const HEADINGS: u32 = 24;
 const TILT_RAD: f64 = 0.08;
-/// Views that go farther are not better, metres.
+/// Distance beyond which a farther view is not better, metres.
 const FAR_M: f64 = 6.0;
 /// Test images of them.
 const TEST_SIZE: [u32; 2] = [64, 48];
-/// Least share of a camera's pixels that show something, and the distance over the scene's diagonal from which on something is seen and not
-/// only in the way.
+/// Least share of a camera's pixels that show something, and the distance over the scene's diagonal beyond which a surface counts as seen
+/// and not only in the way.
 const SEES_SHARE: f64 = 0.2;
 const IN_THE_WAY: f32 = 0.002;
 
-/// What a look showed.
+/// Result of a look.
 #[derive(Clone, Debug)]
 pub struct Looked {
     /// One line about the scene.
     pub summary: String,
-    /// What is looked through.
+    /// The view, in words.
     pub view: String,
-    /// What lights it, where the file did not.
+    /// The light that was added, if the file has none.
     pub light: Option<String>,
     /// Samples per pixel that were taken.
     pub samples: f64,
@@ -59,11 +59,11 @@ pub struct Looked {
     pub wall_s: f64,
 }
 
-/// Renders a picture of the file of `source` (a path as it stands) to `output`, a JPEG or PNG by its extension; through the file's camera
-/// `camera` where one is named. No samples are begun after `seconds` of rendering.
+/// Renders a picture of the file of `source` (its path is used unchanged) to `output`, a JPEG or PNG by its extension; from the file's
+/// camera `camera` if one is named. No samples are begun after `seconds` of rendering.
 ///
 /// # Errors
-/// When the file cannot be imported, has no such camera, shows no place to stand, or the picture cannot be written.
+/// If the file cannot be imported, has no such camera, no viewpoint is found, or the picture cannot be written.
 pub fn look(source: &FileSource, camera: Option<&str>, seconds: u32, output: &Path, cx: &dyn Cx) -> Result<Looked, Error> {
     let time = Stopwatch::start();
     let name = picture_name(output)?;
@@ -97,7 +97,7 @@ fn picture_name(output: &Path) -> Result<&'static str, Error> {
     }
 }
 
-/// Gives a scene without light some; says which.
+/// Adds light to a scene without any; returns which, in words.
 fn lit(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> (Option<String>, Look) {
     let is_dark = !has_light(&imported.scene) && source.lamps.is_none();
     if !is_dark {
@@ -121,7 +121,7 @@ pub(crate) fn named_camera<'s>(scene: &'s Scene, name: &str) -> Result<&'s Start
     found.ok_or_else(|| Error::usage(format!("the scene has no camera {name:?}"), format!("{}its cameras: {names:?}", proposal())))
 }
 
-/// Where to look from, and in words.
+/// The viewpoint, and its description in words.
 pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
     let of_file = |camera: &StartCamera| (with_usable_view(camera), format!("camera {:?} of the file", camera.name));
     if let Some(name) = name {
@@ -146,7 +146,7 @@ pub(crate) fn place(scene: &Scene, look: &Look, name: Option<&str>, cx: &dyn Cx)
     Ok((from_outside(look), "outside, since no place for a camera was found inside".into()))
 }
 
-/// Whether enough of a camera's pixels show something, wherever it stands.
+/// Whether enough of a camera's pixels show something, at any position.
 fn sees_something(look: &Look, camera: &StartCamera) -> bool {
     if !camera.position.is_finite() || look.world.bounds.is_empty() {
         return false;
@@ -169,8 +169,8 @@ fn with_usable_view(camera: &StartCamera) -> StartCamera {
     StartCamera { fov_x_rad: camera.fov_x_rad.clamp(FOV_RAD[0], FOV_RAD[1]), ..camera.clone() }
 }
 
-/// The view that shows most, not from close by, of the places that were found and others in the rooms around them, with all headings: its
-/// saliency times the root of how far it goes. `None` where nothing was found.
+/// The best view from the found places and others in the rooms around them, with all headings: the one with the largest saliency times the
+/// root of its distance. `None` if no place was found.
 fn best_view(look: &Look, places: &[StartCamera]) -> Option<StartCamera> {
     if places.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! The partition of a dataset by scene, and the assets that lie on several sides of it.
+//! The partition of a dataset by scene, and the assets that occur on several sides of it.
 
 use crate::error::Error;
 use crate::workdir::{CHOICE, Hash, PACKAGE, Workdir, read_json};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// What stands in the dataset's `split.json`.
+/// Contents of the dataset's `split.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartitionReport {
     /// How scenes were divided.
@@ -67,10 +67,10 @@ struct KeptAssets {
     assets: SceneAssets,
 }
 
-/// Divides the dataset in `out` by scene, as it was divided last but for what `change` changes, which holds from now on.
+/// Divides the dataset in `out` by scene, with the last choice as modified by `change`, which is stored for the future.
 ///
 /// # Errors
-/// When the choice means nothing, `out` is no dataset that was begun here, or a file cannot be read or written.
+/// If the choice is invalid, `out` is not a dataset made by this program, or a file cannot be read or written.
 pub fn partition(out: &Path, change: impl FnOnce(&mut PartitionConfig)) -> Result<PartitionReport, Error> {
     let workdir = Workdir::open(out)?;
     let last = choice(&workdir)?;
@@ -89,7 +89,7 @@ pub fn partition(out: &Path, change: impl FnOnce(&mut PartitionConfig)) -> Resul
     write_partition(&dataset, &workdir, &manifest)
 }
 
-/// How the dataset was divided last; the usual way where nobody chose.
+/// The last choice of how the dataset is divided; the default if there is none.
 fn choice(workdir: &Workdir) -> Result<PartitionConfig, Error> {
     let path = workdir.file(CHOICE);
     let text = match std::fs::read(&path) {

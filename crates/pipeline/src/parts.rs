@@ -1,8 +1,8 @@
-//! A dataset that several machines make: what is done once before, what each machine does, and what is done once after.
+//! A dataset made by several machines: the work done once before, by each machine, and once after.
 //!
-//! [`prepare`] does on one machine all that comes before rendering. The files that it names are all that a worker needs: put into a
-//! folder of its own, they let [`render_part`] make any frames. When all frames lie in one folder, [`finish`] makes the rest of the
-//! dataset there, byte for byte as one machine would have made it. How files travel is up to the caller.
+//! [`prepare`] does everything before rendering on one machine. A worker needs only the files that it names: with these in a separate
+//! folder, [`render_part`] can make any frames. When all frames are in one folder, [`finish`] makes the rest of the dataset there, byte for
+//! byte as one machine would have made it. The caller transfers the files.
 
 use crate::config::Config;
 use crate::error::Error;
@@ -21,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 /// The name under which a scene's label table travels.
 const TABLE: &str = "label_table.csv";
 
-/// What rendering needs of a dataset whose trajectories are planned.
+/// The files and scenes of a planned dataset that rendering needs.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// In the order of the configuration.
@@ -30,12 +30,12 @@ pub struct Prepared {
     pub files: Vec<PathBuf>,
 }
 
-/// What rendering needs of one scene.
+/// The data of one scene that rendering needs.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
     /// Name of the scene in the dataset.
     pub name: String,
-    /// What its rendering will take.
+    /// Forecast of its rendering.
     pub forecast: Forecast,
     /// Trajectories with the numbers of the frames that are to be rendered.
     pub trajectories: Vec<(String, Vec<u32>)>,
@@ -43,10 +43,10 @@ pub struct PreparedScene {
     pub files: Vec<PathBuf>,
 }
 
-/// Does all that comes before rendering in the folder `out`, and forecasts the rest.
+/// Does everything before rendering in the folder `out`, and forecasts the rest.
 ///
 /// # Errors
-/// As [`crate::estimate`]. Scenes that fail are left out, and the summary tells why.
+/// As [`crate::estimate`]. Scenes that fail are left out, and the summary has the reasons.
 pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Reporter) -> Result<(Summary, Prepared), Error> {
     let chosen = config.select(pattern)?;
     let (summary, forecasts) = forecast(config, &chosen, &Workdir::create(out)?, &|job| job.frames_by_trajectory(), reporter)?;
@@ -62,7 +62,7 @@ pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dy
         let folders = [out.join(WORKDIR).join(&name), dataset.layout().scene_dir(&name)];
         let mut files = Vec::new();
         folders.iter().try_for_each(|folder| files_below(folder, out, &mut files))?;
-        // A table that several scenes share lies with the last of them.
+        // A table that several scenes share is stored with the last of them.
         if let Some(labels) = &scene.labels {
             files.push(relative(&config.path(&labels.table)?, out));
         }
@@ -73,8 +73,8 @@ pub fn prepare(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dy
     Ok((summary, Prepared { scenes, files: common_files(out)? }))
 }
 
-/// Renders and labels `part` of the dataset in `out`, whose files [`prepare`] has named. `finished` hears of every frame as soon as it
-/// is done. Of a frame in the making `stop` ends the work; what was kept of it, see [`kept_frame`], lets another worker go on.
+/// Renders and labels `part` of the dataset in `out`, whose files [`prepare`] has named. `finished` is called for every frame as soon as it
+/// is done. `stop` ends the work within a frame; its saved state, see [`kept_frame`], lets another worker continue.
 ///
 /// # Errors
 /// [`Error::Interrupted`] when it was stopped, what `finished` answers, and as rendering.
@@ -100,12 +100,12 @@ pub fn render_part(
         finished(&finisher.finish(&job, camera, frame)?)
     };
     render_frames(&job.on_shift(&Shift { part, stop, rendered: &tell }), &cx)?;
-    // Frames that an earlier attempt on this machine had rendered, but nobody has heard of.
+    // Frames that an earlier attempt on this machine rendered but did not report.
     let told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone();
     part.frames.difference(&told).try_for_each(|&frame| finished(&finisher.finish(&job, &part.camera, frame)?))
 }
 
-/// Where a frame in the making is kept in the worker's folder `out`: put what another worker has kept there, and it goes on from it.
+/// Path of an unfinished frame in the worker's folder `out`: put another worker's file there, and rendering continues from it.
 ///
 /// # Errors
 /// When the folder cannot be made.
@@ -115,11 +115,11 @@ pub fn kept_frame(out: &Path, scene: &str, camera: &str, frame: u32) -> Result<P
     Ok(folder.join(kept_part(camera, frame)))
 }
 
-/// Takes the folder `out` for the dataset that `job` names, to bring its files and frames there: a new folder, or one that was taken for
-/// the same before. Nobody else works in it while the value lives.
+/// Reserves the folder `out` for the dataset that `job` names, to bring its files and frames there: a new folder, or one reserved for the
+/// same job before. No other process works in it while the value lives.
 ///
 /// # Errors
-/// When it holds something else, or another process works there.
+/// If it contains something else, or another process works there.
 pub fn gather(out: &Path, job: &str) -> Result<Workdir, Error> {
     let workdir = Workdir::create(out)?;
     let note = workdir.file(GATHERED);
@@ -145,7 +145,7 @@ pub fn finish(out: &Path, reporter: &dyn Reporter) -> Result<Summary, Error> {
     Session::with_products(&config, &workdir)?.run(&scenes, &later, false, reporter)
 }
 
-/// Puts the label tables, which lie elsewhere, into the work folder.
+/// Copies the label tables, which are elsewhere, into the work folder.
 fn carry_tables(workdir: &Workdir, config: &mut Config) -> Result<(), Error> {
     let mut carried = std::mem::take(&mut config.carried);
     for scene in &config.scenes {

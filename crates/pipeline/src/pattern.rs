@@ -5,7 +5,7 @@ use wildmatch::WildMatchPattern;
 /// A pattern in which only `*` has a meaning: no name has the other character.
 type Pattern = WildMatchPattern<'*', '\0'>;
 
-/// Whether `name` fits `pattern`, in which `*` stands for any run of characters.
+/// Whether `name` matches `pattern`, in which `*` matches any run of characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     Pattern::new(pattern).matches(name)
 }

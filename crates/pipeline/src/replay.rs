@@ -9,7 +9,7 @@ use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, Cx, Scene, Trajectory, Warning};
 use std::path::{Path, PathBuf};
 
-/// What a frame came to when it was rendered again.
+/// Result of rendering a frame again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
     /// `SCENE/CAMERA/frame.IIII`.
@@ -23,12 +23,12 @@ pub struct Replay {
 pub struct ReplayedFile {
     /// Path relative to the scene's folder.
     pub name: String,
-    /// True where the file has the bytes that the record tells.
+    /// True if the file has the bytes stated in the record.
     pub same: bool,
 }
 
 impl Replay {
-    /// True when every file has the bytes that the record tells.
+    /// True if every file has the bytes stated in the record.
     pub fn is_same(&self) -> bool {
         self.files.iter().all(|file| file.same)
     }
@@ -49,14 +49,14 @@ struct Source {
 }
 
 /// Renders the frame of the commit record `file` (`OUT/scenes/SCENE/_detail/CAMERA/frames/frame.IIII.json`) once more and compares its
-/// files with those of the record. They are written below `out` as a dataset of their own; without it nothing is kept.
+/// files with the record. They are written below `out` as a separate dataset; without it nothing is kept.
 ///
-/// Layers that are made from a frame afterwards (labels, denoised ones) are no part of its record. A frame that a time limit has ended
-/// is given as many samples as it had. Of files that are in the dataset by now with other bytes than its record tells, `cx` is warned.
+/// Layers that are made from a frame afterwards (labels, denoised ones) are not part of its record. A frame that was ended by a time limit
+/// gets as many samples as it had. If files in the dataset now have other bytes than the record states, `cx` receives a warning.
 ///
 /// # Errors
-/// When the file is no record with a recipe, when what it was made from is not there any more or not the same, or when this is another
-/// version of the program; and when `out` has this frame already.
+/// If the file is not a record with a recipe, if its inputs are missing or have changed, if this is another version of the program, or if
+/// `out` already has this frame.
 pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Error> {
     let source = read(file)?;
     if let Some(out) = out {
@@ -89,7 +89,7 @@ pub fn replay(file: &Path, out: Option<&Path>, cx: &dyn Cx) -> Result<Replay, Er
     Ok(Replay { frame: format!("{}/{}/frame.{:04}", record.scene, record.camera, record.frame), files })
 }
 
-/// Warns of the dataset's own files that are not what the record tells: only what is rendered is compared with that.
+/// Warns of the dataset's own files that differ from the record: only the newly rendered files are compared with it.
 fn warn_of_changed(source: &Source, cx: &dyn Cx) {
     let is_changed = |name: &str, then: &FileRecord| FileRecord::of(&source.folder.join(name)).is_ok_and(|found| found != *then);
     for (name, _) in source.record.files.iter().filter(|(name, then)| is_changed(name, then)) {
@@ -98,7 +98,7 @@ fn warn_of_changed(source: &Source, cx: &dyn Cx) {
     }
 }
 
-/// A frame that lies below `out` would be replaced, and its labels would be gone.
+/// An existing frame below `out` would be replaced, and its labels would be lost.
 fn refuse_older(out: &Path, record: &FrameRecord) -> Result<(), Error> {
     let (layout, FrameRecord { scene, camera, frame, .. }) = (Layout::new(out), record);
     let layers = LAYERS.iter().map(|spec| layout.layer(scene, camera, *frame, spec.layer));
@@ -145,7 +145,7 @@ fn read(file: &Path) -> Result<Source, Error> {
     Ok(Source { folder, record, recipe, config, scene, camera, trajectory, index })
 }
 
-/// The dataset's folder, where the file lies in it as the record says.
+/// The dataset's folder, if the file is at the place in it that the record states.
 fn root_of(file: &Path, record: &FrameRecord) -> Option<PathBuf> {
     let root = file.ancestors().nth(6)?;
     let there = Dataset::open(root).ok()?.layout().frame_record(&record.scene, &record.camera, record.frame);

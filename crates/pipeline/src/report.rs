@@ -1,4 +1,4 @@
-//! How a run speaks: to a [`Reporter`] while it goes on, and in a [`Summary`] at its end.
+//! Reports of a run: to a [`Reporter`] while it continues, and in a [`Summary`] at its end.
 
 use crate::request::Product;
 use crate::stage::Stage;
@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// What happens to a stage of a scene.
+/// An event of a stage of a scene.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
     /// The stage begins.
@@ -57,26 +57,26 @@ impl Reporter for Silent {
     fn on(&self, _scene: &str, _stage: Stage, _event: Event) {}
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Summary {
     /// Outcomes of the scenes, in the order of the configuration.
     pub scenes: Vec<SceneOutcome>,
-    /// What concerns the dataset as a whole and should be known, a line each.
+    /// Warnings about the dataset as a whole, a line each.
     pub warnings: Vec<String>,
-    /// What became of products of the dataset as a whole.
+    /// Results of products of the dataset as a whole.
     pub products: Vec<ProductOutcome>,
     /// Seconds on the wall clock.
     pub wall_s: f64,
 }
 
 impl Summary {
-    /// True when every scene and every product came through.
+    /// True if every scene and every product succeeded.
     pub fn ok(&self) -> bool {
         self.scenes.iter().all(|s| s.failure.is_none()) && self.all_products().all(|product| product.failure.is_none())
     }
 
-    /// What became of products, in scenes and in the dataset as a whole.
+    /// Results of products, in scenes and in the dataset as a whole.
     pub fn all_products(&self) -> impl Iterator<Item = &ProductOutcome> {
         self.scenes.iter().flat_map(|scene| &scene.products).chain(&self.products)
     }
@@ -88,16 +88,16 @@ impl Summary {
     }
 }
 
-/// What became of one scene.
+/// Result of one scene.
 #[derive(Clone, Debug)]
 pub struct SceneOutcome {
     /// Name of the scene in the dataset.
     pub name: String,
-    /// The stages that came through, in order.
+    /// The stages that succeeded, in order.
     pub stages: Vec<StageOutcome>,
-    /// What became of its products.
+    /// Results of its products.
     pub products: Vec<ProductOutcome>,
-    /// The stage that did not, if one did not.
+    /// The failure of the stage that did not succeed, if any.
     pub failure: Option<Failure>,
 }
 
@@ -108,7 +108,7 @@ impl SceneOutcome {
     }
 }
 
-/// What became of one stage of a scene.
+/// Result of one stage of a scene.
 #[derive(Clone, Debug)]
 pub struct StageOutcome {
     /// Which.
@@ -121,11 +121,11 @@ pub struct StageOutcome {
     pub warnings: usize,
     /// Seconds on the wall clock, of this run.
     pub wall_s: f64,
-    /// Names what it was made from.
+    /// Key of its inputs.
     pub(crate) key: Hash,
 }
 
-/// What became of a product of a scene, or of the dataset as a whole.
+/// Result of a product of a scene, or of the dataset as a whole.
 #[derive(Clone, Debug)]
 pub struct ProductOutcome {
     /// Which.
@@ -134,7 +134,7 @@ pub struct ProductOutcome {
     pub scene: Option<String>,
     /// Parts that were made.
     pub made: usize,
-    /// What was made, in lines.
+    /// Lines about what was made.
     pub lines: Vec<String>,
     /// Why it could not be made, and what to do.
     pub failure: Option<(String, Option<String>)>,
@@ -143,7 +143,7 @@ pub struct ProductOutcome {
 /// Why a scene stopped.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// Where.
+    /// The stage that failed.
     pub stage: Stage,
     /// One line with all causes.
     pub message: String,
@@ -241,19 +241,19 @@ impl Stopwatch {
         self.wall.elapsed().as_secs_f64()
     }
 
-    /// Processor seconds of all threads of this process; 0 where the system does not tell.
+    /// Processor seconds of all threads of this process; 0 if the system does not report them.
     pub fn cpu_s(&self) -> f64 {
         process_cpu_s() - self.cpu_s
     }
 
-    /// What is recorded of a frame, or of more, that began with this.
+    /// The time and memory to record for one frame or more that began with this stopwatch.
     pub fn of_frame(&self) -> FrameTime {
         let threads = Some(rayon::current_num_threads() as u32);
         FrameTime { wall_s: self.wall_s(), cpu_s: self.cpu_s(), peak_memory_bytes: peak_memory_bytes(), threads }
     }
 }
 
-/// Most memory that this process ever had; `None` where the system does not tell.
+/// Peak memory of this process; `None` if the system does not report it.
 pub(crate) fn peak_memory_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -271,7 +271,7 @@ fn process_cpu_s() -> f64 {
     0.0
 }
 
-/// True when more threads want to run than the machine has, by the mean of the last minute; false where the system does not tell.
+/// True if more threads want to run than the machine has, by the mean of the last minute; false if the system does not report it.
 pub(crate) fn machine_is_busy() -> bool {
     let load = std::fs::read_to_string("/proc/loadavg").ok();
     let wanting: Option<f64> = load.and_then(|load| load.split_whitespace().next()?.parse().ok());
@@ -279,7 +279,7 @@ pub(crate) fn machine_is_busy() -> bool {
     wanting.is_some_and(|wanting| wanting > 1.5 * processors)
 }
 
-/// Processor seconds of this thread; on the wall clock where the system does not tell.
+/// Processor seconds of this thread; wall-clock seconds if the system does not report them.
 pub(crate) fn thread_cpu_s() -> f64 {
     #[cfg(unix)]
     {

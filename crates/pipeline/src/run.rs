@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// What is kept of a run so that single stages can be run again.
+/// The stored data of a run with which single stages can be run again.
 #[derive(Serialize, Deserialize)]
 struct RunFile {
     base: PathBuf,
@@ -36,7 +36,7 @@ const LABELLING: [&StageSpec; 2] = [&STAGES[Stage::Label as usize], &STAGES[Stag
 
 /// Makes the dataset `config` in the folder `out`: every stage of every scene that is not up to date.
 ///
-/// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others go on.
+/// `pattern` restricts it to some scenes ([`Config::select`]). A scene that fails is reported and the others continue.
 ///
 /// # Errors
 /// Only what concerns the run as a whole: the output folder, the lock, the pattern.
@@ -52,11 +52,11 @@ pub fn run(config: &Config, out: &Path, pattern: Option<&str>, reporter: &dyn Re
     Ok(summary)
 }
 
-/// Runs one stage of the dataset in `out` with the configuration stored there; after rendering also what `color`
-/// holds and, of labelled scenes, the labels, after new labels also the boxes of what they name.
+/// Runs one stage of the dataset in `out` with the configuration stored there. After rendering it also makes the colour layers and, for
+/// labelled scenes, the labels; after new labels also the boxes of the labelled things.
 ///
 /// # Errors
-/// As [`run`], and when `out` is no dataset.
+/// As [`run`], and if `out` is not a dataset.
 pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
     let (workdir, config) = open(out)?;
     let scenes = config.select(pattern)?;
@@ -68,8 +68,8 @@ pub fn run_stage(out: &Path, stage: Stage, pattern: Option<&str>, force: bool, r
     Session::new(&config, &workdir)?.run(&scenes, stages, force, reporter)
 }
 
-/// Runs some stages of the dataset `config` in `out`, as [`run`] runs all, in their order; after rendering also what `color` holds and the
-/// labels, after new labels also the boxes of what they name. With `force` also stages that are up to date.
+/// Runs some stages of the dataset `config` in `out`, as [`run`] runs all, in their order. After rendering it also makes the colour layers
+/// and the labels; after new labels also the boxes of the labelled things. With `force`, stages that are up to date run too.
 ///
 /// # Errors
 /// As [`run`].
@@ -98,8 +98,7 @@ pub fn run_stages(
     session.run(&scenes, &specs, force, reporter)
 }
 
-/// The settings of the dataset in `out` as they are stored there, with `overrides` over the scenes that `pattern` means; the seed of
-/// everything stays.
+/// The stored settings of the dataset in `out`, with `overrides` for the scenes that match `pattern`; all seeds stay the same.
 ///
 /// # Errors
 /// When `out` is no dataset, and when a number is out of its range.
@@ -127,8 +126,8 @@ pub fn draw_plans(config: &Config, out: &Path, summary: &Summary, reporter: &dyn
     config.scenes.iter().filter(came_through).map(draw).collect()
 }
 
-/// Checks every law over `scenes` of a dataset, whoever made it. That a scene has passed once is forgotten where it does not now, so that
-/// the next [`run`] verifies it again.
+/// Checks every law for `scenes` of any dataset. If a scene that passed before fails now, its record is removed, so that the next [`run`]
+/// verifies it again.
 ///
 /// # Errors
 /// When the manifest, or a file that a product is made from, cannot be read.
@@ -211,14 +210,14 @@ pub(crate) fn first_of(names: &[&str]) -> String {
     }
 }
 
-/// Tells that a stage of a scene could not be done, and why.
+/// Reports that a stage of a scene failed, and why.
 pub(crate) fn told_failure(scene: &str, stage: Stage, error: &Error, reporter: &dyn Reporter) -> Failure {
     let message = error.explain();
     reporter.on(scene, stage, Event::Failed { message: &message });
     Failure { stage, message, hint: error.hint() }
 }
 
-/// The pairs of frames that the configuration asks for: one list for all scenes that it asks them of.
+/// The pairs of frames that the configuration requests: one list for all scenes that request them.
 fn configured_pairs(config: &Config) -> Vec<Request> {
     let of_scene = |scene: &SceneConfig| {
         scene.products.iter().find_map(|request| if let Request::Pairs(pairs) = request { Some(pairs.clone()) } else { None })
@@ -236,7 +235,7 @@ pub(crate) struct Session<'a> {
     pub config: &'a Config,
     pub workdir: &'a Workdir,
     pub dataset: Dataset,
-    /// Whether products are made too, and not the stages alone.
+    /// Whether products are made too, and not only the stages.
     makes_products: bool,
 }
 
@@ -253,7 +252,7 @@ impl<'a> Session<'a> {
     /// Runs `stages` over `scenes`.
     pub fn run(&self, scenes: &[&SceneConfig], stages: &[&StageSpec], force: bool, reporter: &dyn Reporter) -> Result<Summary, Error> {
         let time = Stopwatch::start();
-        // Scene by scene; one that fails does not keep the others from going on.
+        // Scene by scene; one that fails does not stop the others.
         let mut outcomes: Vec<SceneOutcome> = Vec::new();
         for scene in scenes {
             let stages = self.with_labels(scene, stages)?;
@@ -274,7 +273,7 @@ impl<'a> Session<'a> {
         warnings.extend(self.out_of_date());
         let summary = Summary { scenes: outcomes, warnings, products, wall_s: time.wall_s() };
         match finished {
-            // Where a scene has failed, as on a full disk, the user must see that; the next run writes these files.
+            // If a scene has failed, for example on a full disk, the user must see that error; the next run writes these files.
             Err(error) if summary.ok() => Err(error),
             _ => Ok(summary),
         }
@@ -290,7 +289,7 @@ impl<'a> Session<'a> {
         bring_up_to_date(&self.dataset, Place::Scene(&scene.name), &configured, late, reporter)
     }
 
-    /// Brings the products of the dataset as a whole up to date, and those of scenes that come after them.
+    /// Brings the products of the dataset as a whole up to date, and the products of scenes that come after them.
     fn make_products_of_dataset(&self, outcomes: &mut [SceneOutcome], reporter: &dyn Reporter) -> Vec<ProductOutcome> {
         if !self.makes_products {
             return Vec::new();
@@ -310,8 +309,8 @@ impl<'a> Session<'a> {
         told.unwrap_or_else(|error| Some(format!("it is unknown which products are out of date: {}", error.explain())))
     }
 
-    /// The `stages`, and after rendering alone those of labels that the scene has been through: frames that are rendered again lose what was
-    /// joined to them.
+    /// The `stages`; after rendering alone also the stages of labels that were done for the scene, because frames that are rendered again
+    /// lose their labels.
     fn with_labels<'s>(&self, scene: &SceneConfig, stages: &[&'s StageSpec]) -> Result<Vec<&'s StageSpec>, Error> {
         let is_among = |stage: Stage| stages.iter().any(|spec| spec.stage == stage);
         let mut with = stages.to_vec();
@@ -369,7 +368,7 @@ impl<'a> Session<'a> {
     /// A line about scenes of the folder that the configuration does not have; `None` where it has all.
     pub fn unknown_scenes(&self) -> Option<String> {
         let is_known = |name: &String| self.config.scenes.iter().any(|scene| scene.name == *name);
-        // Where the folder cannot be read, the run has said so.
+        // If the folder cannot be read, the run has reported it.
         let unknown: Vec<String> = self.dataset.scenes().unwrap_or_default().into_iter().filter(|name| !is_known(name)).collect();
         if unknown.is_empty() {
             return None;
@@ -383,8 +382,8 @@ impl<'a> Session<'a> {
         ))
     }
 
-    /// Divides the dataset by scene, and says what kinds of rooms it has; lines about assets on several sides and, where there are as many
-    /// scenes as sides, about those without an image.
+    /// Divides the dataset by scene, and writes its kinds of rooms. Returns lines about assets on several sides and, if there are enough
+    /// scenes, about sides without an image.
     fn write_partition(&self) -> Result<Vec<String>, Error> {
         let Some(manifest) = self.dataset.read_manifest().map_err(Error::stage)? else { return Ok(Vec::new()) };
         let partition = write_partition(&self.dataset, self.workdir, &manifest)?;
@@ -414,7 +413,7 @@ impl<'a> Session<'a> {
         write_report(&self.dataset, &report).map_err(Error::stage)
     }
 
-    /// What names the pictures of all scenes, and whether any were made in this run.
+    /// The keys of the pictures of all scenes, and whether any were made in this run.
     fn pictures(&self, outcomes: &[SceneOutcome]) -> Result<(Pictures, bool), Error> {
         let of_scene = |scene: &SceneOutcome| {
             let stage = scene.stages.iter().find(|outcome| outcome.stage == Stage::Preview)?;
@@ -461,7 +460,7 @@ impl<'a> Session<'a> {
             failed_scenes.remove(name);
         }
         for outcome in outcomes {
-            // The manifest is among what is verified, so it cannot say how that went.
+            // The manifest is verified too, so it cannot contain the result.
             let failure = outcome.failure.as_ref().filter(|f| f.stage != Stage::Verify);
             failed_scenes.extend(failure.map(|f| (outcome.name.clone(), format!("{}: {}", f.stage.name(), f.message))));
         }
@@ -476,7 +475,7 @@ impl<'a> Session<'a> {
             return Ok(());
         }
         if old.is_none_or(|old| old.scenes.keys().any(|name| !manifest.scenes.contains_key(name))) {
-            // What scenes that are gone have left in a table of the dataset.
+            // Rows of removed scenes in a table of the dataset.
             self.dataset.retain_camera_parameters(|scene| there.contains(scene)).map_err(Error::stage)?;
         }
         self.dataset.write_manifest(&manifest).map_err(Error::stage)

@@ -1,26 +1,26 @@
-//! What kind of room each camera of a dataset goes through, for those who classify scenes.
+//! Kinds of room that each camera of a dataset passes through, for classification of scenes.
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::products::not_judged;
 use enfilade_dataset::{Dataset, Manifest, SceneTypeRow, scene_type};
-use enfilade_scene::{Structure, StructureRoom};
+use enfilade_scene::{RoomOutline, Rooms};
 use std::collections::BTreeMap;
 
-/// What has no other type.
+/// Type of scenes without another type.
 const OTHER: &str = "Other";
 
-/// Writes the type of scene of every camera that `manifest` lists: what `scene_type` says, else the room in which most of its poses are, else
-/// that it is another.
+/// Writes the type of scene of every camera that `manifest` lists: the key `scene_type`, else the room with most of its poses, else
+/// [`OTHER`].
 pub(crate) fn write_scene_types(dataset: &Dataset, config: &Config, manifest: &Manifest) -> Result<(), Error> {
     let mut rows = Vec::new();
     for (scene, entry) in &manifest.scenes {
         let told = config.scenes.iter().find(|known| known.name == *scene).and_then(|known| scene_type(known.scene_type.as_deref()?));
-        // What is missing or damaged is told by the stages that need it.
-        let is_fresh = !not_judged(dataset, scene)?.has(&dataset.layout().structure(scene));
-        let structure = dataset.read_structure(scene).ok().flatten().filter(|_| is_fresh);
+        // Missing or damaged files are reported by the stages that need them.
+        let is_fresh = !not_judged(dataset, scene)?.has(&dataset.layout().rooms(scene));
+        let rooms = dataset.read_rooms(scene).ok().flatten().filter(|_| is_fresh);
         for camera in entry.cameras.keys() {
-            let room = structure.as_ref().and_then(|structure| most_seen_from(dataset, structure, scene, camera));
+            let room = rooms.as_ref().and_then(|rooms| most_seen_from(dataset, rooms, scene, camera));
             let of_room = room.map_or(OTHER, |room| type_of_room(&room.kind));
             let notes = room.map(|room| room.name.clone()).unwrap_or_default();
             rows.push(SceneTypeRow { scene: scene.clone(), camera: camera.clone(), scene_type: told.unwrap_or(of_room), notes });
@@ -30,15 +30,15 @@ pub(crate) fn write_scene_types(dataset: &Dataset, config: &Config, manifest: &M
 }
 
 /// The room in which most poses of a camera are.
-fn most_seen_from<'s>(dataset: &Dataset, structure: &'s Structure, scene: &str, camera: &str) -> Option<&'s StructureRoom> {
+fn most_seen_from<'s>(dataset: &Dataset, rooms: &'s Rooms, scene: &str, camera: &str) -> Option<&'s RoomOutline> {
     let mut poses: BTreeMap<usize, usize> = BTreeMap::new();
     for pose in dataset.read_trajectory(scene, camera).ok()?.poses {
-        if let Some(room) = structure.room_at(pose.position) {
+        if let Some(room) = rooms.room_at(pose.position) {
             *poses.entry(room).or_default() += 1;
         }
     }
     let most = poses.into_iter().max_by_key(|&(room, count)| (count, std::cmp::Reverse(room)));
-    most.map(|(room, _)| &structure.rooms[room])
+    most.map(|(room, _)| &rooms.outlines[room])
 }
 
 /// Hypersim's word for a kind of room of a home.

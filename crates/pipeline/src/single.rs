@@ -12,7 +12,7 @@ use enfilade_scene::{Cx, Labels, PictureFiles, Scene, Warning};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// What importing a file made.
+/// Result of importing a file.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// One line about the scene.
@@ -21,7 +21,7 @@ pub struct Imported {
     pub report: PathBuf,
     /// Everything that was dropped, guessed or fixed.
     pub warnings: Vec<Warning>,
-    /// What the output cannot hold.
+    /// What the output cannot represent.
     pub lost: Vec<String>,
 }
 
@@ -33,22 +33,22 @@ struct Report<'a> {
     lost: &'a [String],
 }
 
-/// Where a scene file is imported to unless that is said: a package of its name, in the current folder.
+/// Default output of importing a scene file: a package of its name, in the current folder.
 pub fn scene_file_of(input: &Path) -> PathBuf {
     let name = input.file_name().map_or_else(|| "scene".into(), |_| scene_name(input));
     format!("{name}.scene").into()
 }
 
-/// True for a folder that is no dataset and holds the scene of a collection.
+/// True for a folder that is not a dataset and has the scene of a collection.
 ///
 /// # Errors
-/// When it holds several scenes.
+/// If it has several scenes.
 pub fn holds_scene(folder: &Path) -> Result<bool, Error> {
     Ok(!folder.join(WORKDIR).exists() && scene_in_folder(folder).map_err(Error::stage)?.is_some())
 }
 
-/// Imports the file of `source` (a path as it stands) to `output` and a report `<output>.report.json`. `encode` gives the bytes of the
-/// output from the scene and the labels that came with it, and what they cannot hold.
+/// Imports the file of `source` (its path is used unchanged) to `output` and a report `<output>.report.json`. `encode` returns the bytes of
+/// the output from the scene and its labels, and what they cannot represent.
 ///
 /// # Errors
 /// When the file cannot be imported, or the output is a file that was read for it or cannot be written.
@@ -72,7 +72,7 @@ pub fn import_file(
     Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
 }
 
-/// What a look at a file found.
+/// Result of checking a file.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// One line about the scene.
@@ -95,7 +95,7 @@ pub fn check_file(source: &FileSource, cx: &dyn Cx) -> Result<Checked, Error> {
 /// # Errors
 /// When it is, however the two are spelled.
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
-    // One that is not there is none of them.
+    // An output that does not exist is not one of the inputs.
     let Ok(place) = output.canonicalize() else { return Ok(()) };
     match inputs.iter().find(|input| input.canonicalize().is_ok_and(|input| input == place)) {
         Some(input) => Err(Error::usage(
@@ -113,23 +113,23 @@ pub(crate) fn write_output(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     Ok(write_bytes(path, bytes)?)
 }
 
-/// What making a home made.
+/// Result of making a home.
 #[derive(Clone, Debug)]
 pub struct MadeHome {
     /// One line about the scene.
     pub summary: String,
     /// One line about the rooms.
     pub rooms: String,
-    /// What the output cannot hold.
+    /// What the output cannot represent.
     pub lost: Vec<String>,
     /// The models of others that are in it, with their licences.
     pub credits: Vec<String>,
 }
 
-/// Makes a home and writes it to `output`, as `encode` gives its bytes (see [`import_file`]); its labels are all there.
+/// Makes a home and writes it to `output`; `encode` returns its bytes (see [`import_file`]). All its parts are labelled.
 ///
 /// # Errors
-/// When a library of models cannot be used (see [`HomeConfig::assets`], here paths as they stand), or the file cannot be written.
+/// When a library of models cannot be used (see [`HomeConfig::assets`]; the paths are used unchanged), or the file cannot be written.
 pub fn make_home(
     config: &HomeConfig,
     output: &Path,

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Stands in the hashes by which outputs are known to be up to date, where the program's version stood until 0.1.0: a release makes
-/// nothing again but what the versions of its stages ask for.
+/// Part of the hashes that decide whether outputs are up to date, in place of the program's version, which was part of them until 0.1.0: a
+/// new release makes only those outputs again whose stages have new versions.
 pub(crate) const HASHED_AS: &str = "0.1.0";
 
 /// A stage by name.

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Share of the written classes that should be right, where no confidence is asked for.
+/// Share of the written classes that should be right, if no confidence is given.
 const PRECISION: f32 = 0.9;
 
 /// A suggested label table.
@@ -28,24 +28,24 @@ pub struct SuggestedLabels {
     pub unsure: Vec<UnsurePart>,
 }
 
-/// A part that nobody knows the class of.
+/// A part of unknown class.
 #[derive(Clone, Debug)]
 pub struct UnsurePart {
     /// Name of the part.
     pub part: String,
     /// Name of the part's material.
     pub material: String,
-    /// The best guess, if its names say anything.
+    /// The best guess, if its names give any information.
     pub guess: Option<Suggestion>,
 }
 
-/// Writes the label table `output` for the scene file of `source` (a path as it stands): a row per part, −1 where the confidence
-/// is below `min_confidence`, from 0 to 1; where that is not given, where fewer than nine of ten would be right. A table that is there and
-/// differs is replaced with `force` alone.
+/// Writes the label table `output` for the scene file of `source` (its path is used unchanged): a row per part, −1 where the confidence is
+/// below `min_confidence`, from 0 to 1; by default, below the confidence at which nine of ten are right. An existing table that differs is
+/// replaced only with `force`.
 ///
 /// # Errors
-/// When the confidence is out of range, the file cannot be imported, or the table is a file that was read for it, holds something else or
-/// cannot be written.
+/// When the confidence is out of range, the file cannot be imported, or the table is an input file, has other contents or cannot be
+/// written.
 pub fn suggest_labels(
     source: &FileSource,
     min_confidence: Option<f32>,
@@ -92,8 +92,8 @@ fn refuse_another(output: &Path, table: &str) -> Result<(), Error> {
     }
 }
 
-/// The table as `label` reads it, which ignores the last two columns: how sure we are, and of what. The column `instance` says which parts
-/// of several objects are one thing; `label` numbers the others.
+/// The table as `label` reads it, which ignores the last two columns: the confidence, and the class that it is for. The column `instance`
+/// marks parts of several objects that are one thing; `label` numbers the others.
 fn table(scene: &Scene, suggestions: &[Option<Suggestion>], min_confidence: f32) -> String {
     let mut text = String::from("part,nyu40_id,nyu40_name,instance,confidence,guess\n");
     let sure = |suggestion: &Option<Suggestion>| suggestion.clone().filter(|s| s.confidence >= min_confidence);

@@ -1,15 +1,15 @@
-//! The folder `.enfilade` inside a dataset: what a run needs to resume, and nothing that a reader of the dataset needs.
+//! The folder `.enfilade` inside a dataset: data that a run needs to resume; readers of the dataset do not need it.
 //!
 //! ```text
 //! OUT/.enfilade/lock                 held by the process at work
 //! OUT/.enfilade/run.json             the resolved configuration, and the folder its relative paths start from
-//! OUT/.enfilade/gathered.json        of a dataset that others made: which job's files were brought here
-//! OUT/.enfilade/split.json           how the dataset is divided, where that was chosen
-//! OUT/.enfilade/.products/NAME.json  what a product of the dataset as a whole was asked for by, and made from
-//! OUT/.enfilade/.estimate/           what a forecast tries out where the folder is to stay as it is
+//! OUT/.enfilade/gathered.json        for a dataset made by other machines: the job whose files were brought here
+//! OUT/.enfilade/split.json           how the dataset is divided, if that was chosen
+//! OUT/.enfilade/.products/NAME.json  requests and inputs of a product of the dataset as a whole
+//! OUT/.enfilade/.estimate/           trials of a forecast that must not change the folder
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
-//! OUT/.enfilade/SCENE/partial/       frames in the making, to go on from where a run was killed
-//! OUT/.enfilade/SCENE/products/NAME.json  the same of a product of the scene
+//! OUT/.enfilade/SCENE/partial/       unfinished frames, to continue where a run was killed
+//! OUT/.enfilade/SCENE/products/NAME.json  the same for a product of the scene
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs
 //! ```
 
@@ -23,13 +23,13 @@ use tempfile::TempDir;
 
 /// The resolved configuration in the work folder.
 pub(crate) const RUN: &str = "run.json";
-/// Which job's files were brought here, where other machines made the dataset.
+/// The job whose files were brought here, if other machines made the dataset.
 pub(crate) const GATHERED: &str = "gathered.json";
-/// How the dataset is divided, where that was chosen.
+/// The choice of how the dataset is divided, if one was made.
 pub(crate) const CHOICE: &str = "split.json";
-/// What earlier versions noted of statistics.
+/// Record of statistics by earlier versions.
 const STATISTICS: &str = "statistics.json";
-/// Where a forecast tries things out.
+/// Folder for the trials of a forecast.
 const ASIDE: &str = ".estimate";
 /// The files beside the folders of scenes: no scene can have such a name.
 pub(crate) const OWN_FILES: [&str; 5] = [LOCK, RUN, GATHERED, CHOICE, STATISTICS];
@@ -61,10 +61,10 @@ impl Workdir {
         Ok(workdir)
     }
 
-    /// Opens the work folder of an existing dataset, and locks it.
+    /// Opens and locks the work folder of an existing dataset.
     ///
     /// # Errors
-    /// When `out` holds no dataset that `enfilade run` began, or another process works on it.
+    /// If `out` has no dataset that `enfilade run` began, or another process works on it.
     pub fn open(out: &Path) -> Result<Self, Error> {
         if !out.join(WORKDIR).is_dir() {
             let found = if out.exists() { "has no work folder `.enfilade`" } else { "does not exist" };
@@ -104,7 +104,7 @@ impl Workdir {
     }
 }
 
-/// Records and tables hold paths as text, so that another path would only fail when they are written.
+/// Records and tables store paths as text, so a path that is not text would fail only when they are written.
 pub(crate) fn refuse_other_text(path: &Path) -> Result<(), Error> {
     if path.to_str().is_some() {
         return Ok(());
@@ -112,7 +112,7 @@ pub(crate) fn refuse_other_text(path: &Path) -> Result<(), Error> {
     Err(Error::usage(format!("the path {} is not UTF-8", path.display()), "rename the folder, or choose another one"))
 }
 
-/// Refuses a folder that holds something else: it must not be filled with a dataset.
+/// Refuses a folder with other contents: it must not be filled with a dataset.
 fn refuse_foreign_folder(out: &Path) -> Result<(), Error> {
     if out.is_symlink() && !out.exists() {
         let message = format!("the output {} is a broken link", out.display());

@@ -18,7 +18,7 @@ those of `enfilade farm`, which makes a dataset on many machines, are in `enfila
 """
 
 from . import farm
-from ._declared import home, import_scene
+from ._declared import export, home, import_scene, make
 from ._frames import Frame, render
 from ._native import (
     FORMATS,
@@ -41,9 +41,7 @@ from ._native import (
     StageError,
     __version__,
     compare_meshes,
-    export,
     judge_shapes,
-    make,
     partition,
     read_voxels,
     repack,

@@ -6,8 +6,8 @@ import inspect
 from . import _native
 
 
-def explained(*declarations):
-    """A decorator that puts the options of declarations into a function's signature and doc string."""
+def explained(*declarations, module="enfilade"):
+    """A decorator that puts the options of declarations into the signature and doc string of a function of `module`."""
     rows = [row for declaration in declarations for row in _native.declared(declaration)]
     options = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default) for name, default, _ in rows]
 
@@ -21,7 +21,7 @@ def explained(*declarations):
         def call(*places, **keywords):
             return function(*places, **keywords)
 
-        call.__module__ = "enfilade"
+        call.__module__ = module
         call.__signature__ = signature.replace(parameters=[*places, *options, *keywords])
         call.__doc__ = _described(function, rows)
         return call
@@ -34,8 +34,10 @@ def _described(documented, rows):
     return documented.__doc__.replace("{options}", "\n".join(f"{name}: {sentence}" for name, _, sentence in rows))
 
 
+export = explained("ExportOptions")(_native.export)
 home = explained("HomeConfig")(_native.home)
 import_scene = explained("FileSource")(_native.import_scene)
+make = explained("ProductOptions")(_native.make)
 _native.Config.demo = staticmethod(explained("Overrides", "RenderChoices")(_native.Config.demo))
 _native.Config.read = staticmethod(explained("Overrides", "RenderChoices")(_native.Config.read))
 _native.Dataset.__doc__ = _described(_native.Dataset, _native.declared("DatasetOptions"))

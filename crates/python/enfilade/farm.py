@@ -8,13 +8,14 @@
     farm.collect("/shared/job", "/shared/rooms")
 """
 
+from ._declared import explained as _explained
 from ._native import farm as _farm
 
 collect = _farm.collect
-plan = _farm.plan
+plan = _explained("PlanOptions", module="enfilade.farm")(_farm.plan)
 statistics = _farm.statistics
 status = _farm.status
-submit = _farm.submit
+submit = _explained("SubmitOptions", module="enfilade.farm")(_farm.submit)
 work = _farm.work
 
 __all__ = ["collect", "plan", "statistics", "status", "submit", "work"]

@@ -9,22 +9,33 @@ from . import Config
 Path = str | PathLike[str]
 Price = float | Path
 
-def plan(job: Path, config: Config | None = None, *, minutes: float = 15.0, cpus: int = 8, price: Price | None = None) -> dict[str, Any]: ...
+def plan(
+    job: Path,
+    config: Config | None = None,
+    *,
+    # options: PlanOptions
+    minutes: float = 15.0,
+    cpus: int = 8,
+    # end of options
+    price: Price | None = None,
+) -> dict[str, Any]: ...
 def submit(
     job: Path,
     engine: Literal["slurm", "kubernetes", "aws-batch", "openjd"],
     *,
     output: Path = ".",
-    program: str | None = None,
-    collect: Path | None = None,
+    # options: SubmitOptions
     dry_run: bool = False,
-    image: str | None = None,
-    queue: str | None = None,
-    definition: str | None = None,
+    program: str | None = None,
     at_once: int | None = None,
     memory_mib: int | None = None,
     minutes: int | None = None,
     array_limit: int = 1000,
+    collect: Path | None = None,
+    image: str | None = None,
+    queue: str | None = None,
+    definition: str | None = None,
+    # end of options
 ) -> dict[str, list[str]]: ...
 def work(
     job: Path, tasks: int | str | Sequence[int] | None = None, *, shard: tuple[int, int] | None = None, scratch: Path | None = None

@@ -1,6 +1,6 @@
 //! Arguments as Python passes them, and what each is in Rust: names, layers, indices, frame numbers, positions of crops.
 
-use enfilade_frame::{LAYERS, Layer};
+use enfilade_frame::Layer;
 use enfilade_loader::CropPlace;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -31,10 +31,7 @@ impl Names {
 
 /// The layer of that name.
 pub fn layer(name: &str) -> PyResult<Layer> {
-    Layer::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = LAYERS.iter().map(|spec| spec.name).collect();
-        PyValueError::new_err(format!("there is no layer {name:?}; the layers are: {}", known.join(", ")))
-    })
+    Layer::named(name).map_err(PyValueError::new_err)
 }
 
 /// The layers of these names.
@@ -76,7 +73,7 @@ impl Frames {
     }
 }
 
-/// Where a crop lies: `"center"`, `"random"`, or first row and column.
+/// Position of a crop: `"center"`, `"random"`, or first row and column.
 #[derive(Clone, FromPyObject, IntoPyObject)]
 pub enum CropPosition {
     /// By name.

@@ -84,7 +84,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Puts samples of one size into one array per layer. `Err` says which differs.
+    /// Puts samples of one size into one array per layer. `Err` names the one that differs.
     pub fn of(samples: Vec<(usize, Sample)>) -> Result<Self, String> {
         let count = samples.len();
         let (_, first) = &samples[0];

@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-/// Rotations that are off by more are none: those of single precision are off by less.
+/// A matrix that is off by more is not a rotation; rotations in single precision are off by less.
 const ORTHONORMAL: f64 = 1e-4;
 /// Greatest error of a number of double precision.
 const EXACT: f64 = 1e-9;
@@ -61,7 +61,7 @@ impl Camera {
     }
 }
 
-/// A matrix of that many rows and columns, from whatever numpy makes an array of.
+/// A matrix of that many rows and columns, from anything that numpy can convert to an array.
 fn matrix<const R: usize, const C: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; C]; R]> {
     let array = value.py().import("numpy")?.call_method1("asarray", (value, "float64"))?;
     let array: PyReadonlyArrayDyn<f64> = array.extract()?;
@@ -88,7 +88,7 @@ fn pose(m: [[f64; 4]; 4]) -> PyResult<Pose> {
         let expected = "a rotation and a translation over the row 0 0 0 1, as of a camera whose x is right, y down and z forward";
         return Err(PyValueError::new_err(format!("world_from_camera is {m:?}, off by {off:.1e}; expected {expected}")));
     }
-    // What was written in single precision becomes the nearest rotation; what is one keeps its bits.
+    // A matrix in single precision becomes the nearest rotation; an exact rotation keeps its bits.
     let nearest = || nearest_rotation(world_from_camera).unwrap_or(world_from_camera);
     Ok(if off > EXACT { Pose { world_from_camera: nearest(), ..pose } } else { pose })
 }

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 #[derive(Clone)]
 pub struct Config(pub enfilade_pipeline::Config);
 
-/// What keywords of `function` say otherwise than the configuration; it takes those of `own` besides.
+/// Changes of the configuration by keywords of `function`, which also takes the keywords `own`.
 fn overrides(options: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<Overrides> {
     let (mut overrides, mut render) = (Overrides::default(), RenderChoices::default());
     keywords::apply(&mut [&mut overrides, &mut render], options, function, own)?;

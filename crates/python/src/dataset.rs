@@ -49,12 +49,12 @@ pub struct Dataset {
     arguments: Arguments,
 }
 
-/// What a dataset was made with, so that pickling can make it again in another process.
+/// Arguments of a dataset, so that pickling can make it again in another process.
 struct Arguments {
     path: PathBuf,
     crop_place: CropPosition,
     camera_table: Option<PathBuf>,
-    /// Options as they were given.
+    /// The given options.
     options: Py<PyDict>,
 }
 

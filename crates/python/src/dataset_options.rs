@@ -50,7 +50,7 @@ words! {
 }
 
 impl DatasetOptions {
-    /// Options of the loader, which say what is done to each sample; crops lie at `place`.
+    /// Options of the loader, which define how each sample is processed; crops are at `place`.
     pub fn of_samples(&self, place: CropPlace) -> Options {
         let pixels = |size: [u32; 2]| size.map(|side| side as usize);
         Options {
@@ -69,7 +69,7 @@ impl DatasetOptions {
         self.layers.as_ref().map(|names| names.iter().map(|name| layer(name)).collect()).transpose()
     }
 
-    /// The side that is asked for.
+    /// The requested side.
     pub fn side(&self) -> PyResult<Option<DatasetSide>> {
         self.split.map(|side| side.name().parse().map_err(|problem| PyValueError::new_err(format!("split: {problem}")))).transpose()
     }

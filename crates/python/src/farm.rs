@@ -3,16 +3,18 @@
 use crate::config::Config;
 use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, interruptible};
-use crate::json;
 use crate::verbs::conclude;
+use crate::{json, keywords};
 use enfilade_dataset::{Price, read_prices};
 use enfilade_farm::{
-    Assignment, Attempt, Engine, FarmError, Job, PlanOptions, Ranges, Store, SubmitOptions, Submitted, Work, default_scratch, environment,
-    parse_ranges,
+    Assignment, Attempt, Engine, EngineName, FarmError, Job, PlanOptions, Ranges, Store, SubmitOptions, Submitted, Work, default_scratch,
+    environment, parse_ranges,
 };
+use enfilade_options::{Given, Value as _};
 use enfilade_pipeline::Silent;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -41,7 +43,7 @@ pub enum GivenPrice {
     Text(PathBuf),
 }
 
-/// What is given as prices; none, where nothing is.
+/// The given prices; empty if none are given.
 fn prices(given: Option<&GivenPrice>) -> PyResult<Vec<Price>> {
     let text = match given {
         None => return Ok(Vec::new()),
@@ -65,27 +67,27 @@ fn open(job: &str) -> Result<Job, FarmError> {
 /// it as it is.
 ///
 /// config: an `enfilade.Config`; the demo unless given.
-/// minutes: how long a task is to take. cpus: threads of a worker.
+/// {options}
 /// price: dollars per vCPU-hour, or text as `--price` of the command line takes it, such as "0.0165,licence=0.00015/core-minute" or the file
 /// of a table.
 ///
 /// Gives numbers of `tasks`, `frames` and `scenes`, `vcpu_hours` with mean and standard deviation, `prices` with the dollars of each, `warnings`, and
 /// where the `job` is. Raises StageError when a scene fails before rendering.
 #[pyfunction]
-#[pyo3(signature = (job, config=None, *, minutes=15.0, cpus=8, price=None))]
+#[pyo3(signature = (job, config=None, *, price=None, **options))]
 pub fn plan<'py>(
     py: Python<'py>,
     job: PathBuf,
     config: Option<Config>,
-    minutes: f64,
-    cpus: u32,
     price: Option<GivenPrice>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let config = match config {
         Some(config) => config.0,
         None => enfilade_pipeline::Config::demo(&Default::default()).map_err(IntoPy::into_py)?,
     };
-    let (prices, place, options) = (prices(price.as_ref())?, place(&job)?, PlanOptions { minutes, cpus });
+    let options: PlanOptions = keywords::options(options, "plan", &["job", "config", "price"])?;
+    let (prices, place) = (prices(price.as_ref())?, place(&job)?);
     options.check().map_err(IntoPy::into_py)?;
     let (summary, planned) =
         interruptible(py, |reporter: &Interrupt| enfilade_farm::plan(&config, Store::begin(place, environment())?, &options, reporter))?;
@@ -100,46 +102,23 @@ pub fn plan<'py>(
 /// Writes what an engine needs to render the missing tasks of a job into the folder `output`, and submits it to Slurm where that is the engine.
 ///
 /// engine: "slurm", "kubernetes" (needs `image`), "aws-batch" (needs `queue` and `definition`) or "openjd".
-/// dry_run: only write the files. collect: with Slurm, collect the dataset into this folder when the arrays have ended.
-/// program: what the nodes run; `enfilade`, found by PATH, unless given.
-/// at_once: workers at once. memory_mib, minutes: of a worker, unless the forecast's are to be taken. array_limit: tasks of one array at most.
+/// output: folder for the files; the current one unless given.
+/// {options}
 ///
 /// Gives the `files` that were written, none where nothing is missing, and the numbers of the `jobs` that were submitted.
 #[pyfunction]
-#[pyo3(signature = (job, engine, *, output=PathBuf::from("."), program=None, collect=None, dry_run=false, image=None, queue=None, definition=None, at_once=None, memory_mib=None, minutes=None, array_limit=1000))]
+#[pyo3(signature = (job, engine, *, output=PathBuf::from("."), **options))]
 pub fn submit<'py>(
     py: Python<'py>,
     job: PathBuf,
     engine: &str,
     output: PathBuf,
-    program: Option<String>,
-    collect: Option<PathBuf>,
-    dry_run: bool,
-    image: Option<String>,
-    queue: Option<String>,
-    definition: Option<String>,
-    at_once: Option<u32>,
-    memory_mib: Option<u64>,
-    minutes: Option<u64>,
-    array_limit: u32,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let named = |option: Option<String>, name: &str| {
-        option.ok_or_else(|| PyValueError::new_err(format!("{name} is not given, which {engine:?} needs")))
-    };
-    let engine = match engine {
-        "slurm" => Engine::Slurm { collect: collect.as_deref().map(|out| place(out).map(Into::into)).transpose()?, dry_run },
-        "kubernetes" => Engine::Kubernetes { image: named(image, "image")? },
-        "aws-batch" => Engine::AwsBatch { queue: named(queue, "queue")?, definition: named(definition, "definition")? },
-        "openjd" => Engine::Openjd,
-        other => {
-            let expected = "expected \"slurm\", \"kubernetes\", \"aws-batch\" or \"openjd\"";
-            return Err(PyValueError::new_err(format!("engine is {other:?}; {expected}")));
-        }
-    };
-    if array_limit == 0 {
-        return Err(PyValueError::new_err("array_limit must be at least 1"));
-    }
-    let options = SubmitOptions { program, at_once, memory_mib, minutes, array_limit: Some(array_limit) };
+    let options: SubmitOptions = keywords::options(options, "submit", &["job", "engine", "output"])?;
+    let given = Given::Text(engine.into());
+    let unknown = || PyValueError::new_err(format!("engine is {engine:?}; {}", EngineName::FORM.refusal(&given)));
+    let engine = Engine::of(EngineName::read(&given).ok_or_else(unknown)?, &options).map_err(IntoPy::into_py)?;
     let place = place(&job)?;
     let (mut files, mut jobs) = (Vec::new(), Vec::new());
     let mut done = |done: Submitted| match done {

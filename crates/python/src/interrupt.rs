@@ -44,7 +44,7 @@ impl Reporter for Interrupt {
 }
 
 impl Interrupt {
-    /// Tells of a stage or a product of a scene.
+    /// Reports an event of a stage or a product of a scene.
     fn tell(&self, scene: &str, name: &str, event: Event) {
         self.check();
         match event {

@@ -4,13 +4,15 @@ use crate::arguments::Names;
 use crate::dataset_options::DatasetOptions;
 use crate::json;
 use crate::render_options::RenderOptions;
+use enfilade_export::ExportOptions;
+use enfilade_farm::{PlanOptions, SubmitOptions};
+use enfilade_options::text::parse_frame;
 use enfilade_options::{Form, Given, Options, Spec, proposal};
-use enfilade_pipeline::{FileSource, HomeConfig, Overrides, RenderChoices};
+use enfilade_pipeline::{FileSource, HomeConfig, Overrides, ProductOptions, RenderChoices};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Value, json};
-use std::path::PathBuf;
 
 /// A struct of options, whichever it is.
 pub trait Target {
@@ -31,7 +33,7 @@ impl<T: Options> Target for T {
     }
 }
 
-/// Lays the keywords over `targets`, each over the one that has its option; `None` says nothing. `function` takes the keywords `own` besides,
+/// Applies the keywords to `targets`, each to the one that has its option; `None` is ignored. `function` also takes the keywords `own`,
 /// which are not among them.
 pub fn apply(targets: &mut [&mut dyn Target], keywords: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<()> {
     for (name, value) in keywords.into_iter().flat_map(|keywords| keywords.iter()) {
@@ -51,7 +53,7 @@ pub fn apply(targets: &mut [&mut dyn Target], keywords: Option<&Bound<'_, PyDict
     Ok(())
 }
 
-/// The options alone, those without a keyword by their defaults.
+/// Only the options; those without a keyword have their defaults.
 pub fn options<T: Options>(keywords: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<T> {
     let mut options = T::default();
     apply(&mut [&mut options], keywords, function, own)?;
@@ -62,18 +64,47 @@ fn given(value: &Bound<'_, PyAny>, spec: &Spec, form: &Form) -> PyResult<Given> 
     let found = match form {
         Form::Switch => value.extract().map(Given::Switch),
         Form::Whole { .. } => value.extract().map(Given::Whole),
+        Form::Integer => value.extract().map(Given::Integer),
         Form::Number => value.extract().map(Given::Number),
+        Form::Interval { .. } => value.extract::<[f64; 2]>().map(|ends| Given::List(ends.map(Given::Number).to_vec())),
         Form::Text | Form::Word(_) => value.extract().map(Given::Text),
-        Form::Path => value.extract::<PathBuf>().map(|path| Given::Text(path.to_string_lossy().into_owned())),
+        Form::Path => value.extract().map(Given::Path),
+        Form::Frame => value.extract::<FrameName>().and_then(|name| name.given(&form.expected())),
         Form::Size => value.extract::<[u64; 2]>().map(|size| Given::List(size.map(Given::Whole).to_vec())),
+        Form::Two(element) => {
+            let two: [Bound<'_, PyAny>; 2] = value.extract().map_err(|_| wrong_type(value, spec, form))?;
+            return two.iter().map(|value| given(value, spec, element)).collect::<PyResult<_>>().map(Given::List);
+        }
         Form::List(element) => return list(value, spec, element),
         Form::Table => return Err(PyTypeError::new_err(format!("argument '{}': {}", spec.name, form.expected()))),
     };
-    // What cannot be such a value at all is a TypeError as Python words it; a number out of its range has an error of its own.
+    // A value of the wrong type is a TypeError in Python's words; a number out of its range has a separate error.
     found.map_err(|error| match error.is_instance_of::<PyTypeError>(value.py()) {
-        true => PyTypeError::new_err(format!("argument '{}': {}, found {}", spec.name, form.expected(), shown(value))),
+        true => wrong_type(value, spec, form),
         false => error,
     })
+}
+
+fn wrong_type(value: &Bound<'_, PyAny>, spec: &Spec, form: &Form) -> PyErr {
+    PyTypeError::new_err(format!("argument '{}': {}, found {}", spec.name, form.expected(), shown(value)))
+}
+
+/// A frame: its camera and number, or both as the command line has them.
+#[derive(FromPyObject)]
+enum FrameName {
+    Parts(String, u32),
+    Text(String),
+}
+
+impl FrameName {
+    fn given(self, expected: &str) -> PyResult<Given> {
+        let named = match self {
+            Self::Parts(camera, number) => Some((camera, number)),
+            Self::Text(text) => parse_frame(&text).ok(),
+        };
+        let (camera, number) = named.ok_or_else(|| PyValueError::new_err(expected.to_string()))?;
+        Ok(Given::frame(camera, number.into()))
+    }
 }
 
 /// A value that is one or a list of them.
@@ -101,18 +132,22 @@ fn shown(value: &Bound<'_, PyAny>) -> String {
 pub fn declared<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     let options = match name {
         "DatasetOptions" => DatasetOptions::OPTIONS,
+        "ExportOptions" => ExportOptions::OPTIONS,
         "FileSource" => FileSource::OPTIONS,
         "HomeConfig" => HomeConfig::OPTIONS,
         "Overrides" => Overrides::OPTIONS,
+        "PlanOptions" => PlanOptions::OPTIONS,
+        "ProductOptions" => ProductOptions::OPTIONS,
         "RenderOptions" => RenderOptions::OPTIONS,
         "RenderChoices" => RenderChoices::OPTIONS,
+        "SubmitOptions" => SubmitOptions::OPTIONS,
         _ => return Err(PyValueError::new_err(format!("no options are declared by {name:?}"))),
     };
     let rows: Vec<Value> = options.iter().map(|spec| json!([spec.name, default(spec), format!("{}.", spec.about())])).collect();
     json::to_python(py, &rows)
 }
 
-/// The default, where Python can have it; what `None` stands for is in the sentence.
+/// The default, if Python can represent it; the sentence explains `None`.
 fn default(spec: &Spec) -> Value {
-    serde_json::from_str(spec.default).unwrap_or(Value::Null)
+    spec.word().map_or_else(|| serde_json::from_str(spec.literal()).unwrap_or(Value::Null), Value::from)
 }

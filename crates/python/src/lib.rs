@@ -2,7 +2,8 @@
 //!
 //! This crate only converts: samples come from `enfilade-loader`, stages from `enfilade-pipeline`, layouts from `enfilade-export`,
 //! shapes from `enfilade-shapes`, jobs of many machines from `enfilade-farm`. Arrays are handed over without a copy, and the interpreter is
-//! released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public face with its types; the doc strings stand here.
+//! released while anything is read, decoded or rendered. `enfilade/__init__.pyi` is the public interface with its types; the doc strings
+//! are here.
 
 mod arguments;
 mod arrays;

@@ -3,14 +3,18 @@
 use crate::arguments::{Frames, Names};
 use crate::errors::IntoPy;
 use crate::interrupt::{Interrupt, watched};
-use crate::json;
 use crate::progress::Bar;
+use crate::{json, keywords};
 use enfilade_dataset::Dataset;
 use enfilade_pipeline::{FrameChoice, Made, MakeOptions, PRODUCTS, Product, ProductOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde_json::{Value, json};
 use std::path::PathBuf;
+
+/// Keywords of `make` besides the options of products.
+const OWN: [&str; 9] = ["dataset", "what", "stale", "force", "scenes", "cameras", "frames", "camera_table", "progress"];
 
 /// Makes products of finished frames, each after those that it needs: "pairs", "flow", "tracks", "surfaces", "rooms", "words", "sensors" and
 /// "relit". What is up to date is left alone; what it was asked for by is kept, so that a run, or `stale`, makes it again when it is out of date.
@@ -18,17 +22,14 @@ use std::path::PathBuf;
 /// what: one or several of these. stale: makes again what is out of date, as it was asked for: of `what`, or of everything.
 /// force: makes also what is up to date.
 /// scenes, cameras: only these; `*` stands for any run of characters. frames: only these numbers, where a product is made by frame.
-/// pixels, overlap, baseline, angle, pairs: of "pairs": how finely frames are compared; shares, metres and degrees of the pairs that are chosen;
-/// the list, which "flow" follows. step, between: of "flow", instead of a list. points, seed: of "tracks". layers: of "surfaces".
-/// sensors, mixes: the files of "sensors" and of "relit".
+/// {options}
 /// camera_table: another metadata_camera_parameters.csv.
 /// progress: shows how far it has come; unless given, in notebooks and terminals.
 ///
 /// Gives a list of what was made: product, scene, the number of parts made and kept, and lines about it.
 #[pyfunction]
-#[pyo3(signature = (dataset, what=None, *, stale=false, force=false, scenes=None, cameras=None, frames=None, pixels=None, overlap=None,
-    baseline=None, angle=None, pairs=None, step=None, between=None, points=None, seed=None, layers=None, sensors=None, mixes=None,
-    camera_table=None, progress=None))]
+#[pyo3(signature = (dataset, what=None, *, stale=false, force=false, scenes=None, cameras=None, frames=None, camera_table=None, progress=None,
+    **options))]
 pub fn make<'py>(
     py: Python<'py>,
     dataset: PathBuf,
@@ -38,39 +39,15 @@ pub fn make<'py>(
     scenes: Option<Names>,
     cameras: Option<Names>,
     frames: Option<Frames>,
-    pixels: Option<u32>,
-    overlap: Option<[f32; 2]>,
-    baseline: Option<[f64; 2]>,
-    angle: Option<[f64; 2]>,
-    pairs: Option<PathBuf>,
-    step: Option<i64>,
-    between: Option<[(String, u32); 2]>,
-    points: Option<u32>,
-    seed: Option<u64>,
-    layers: Option<u32>,
-    sensors: Option<PathBuf>,
-    mixes: Option<PathBuf>,
     camera_table: Option<PathBuf>,
     progress: Option<bool>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let products = what.iter().flat_map(Names::list).map(|name| product(&name)).collect::<PyResult<Vec<Product>>>()?;
     if products.is_empty() && !stale {
         return Err(PyValueError::new_err(format!("nothing is asked for: name one of {}, or give stale=True", words())));
     }
-    let options = ProductOptions {
-        pixels,
-        overlap,
-        baseline_m: baseline,
-        angle_deg: angle,
-        list: pairs,
-        step,
-        between,
-        points,
-        seed,
-        layers,
-        sensors,
-        mixes,
-    };
+    let options: ProductOptions = keywords::options(options, "make", &OWN)?;
     let opened = Dataset::open(&dataset).map_err(IntoPy::into_py)?;
     let opened = match camera_table {
         Some(table) => opened.with_camera_table(table),

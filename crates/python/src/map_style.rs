@@ -1,4 +1,4 @@
-//! What the datasets of this module have in common: indexing by one number or by several, as Python and torch's DataLoader do it.
+//! Common parts of the datasets of this module: indexing by one number or by several, as Python and torch's DataLoader do it.
 
 use crate::arguments::position;
 use crate::arrays;
@@ -15,7 +15,7 @@ pub trait MapStyle {
     /// Number of samples.
     fn count(&self) -> usize;
 
-    /// What decodes samples by their index. One decoder serves one request, so that all its samples are of one epoch.
+    /// A function that decodes samples by their index. One decoder serves one request, so that all its samples are of one epoch.
     fn decoder(&self) -> impl Fn(usize) -> Result<Sample, LoaderError> + Sync;
 
     /// The index that Python means: negative ones count from the end.
@@ -47,7 +47,7 @@ where
     indices.into_iter().zip(samples).map(|(index, sample)| Ok(arrays::sample(py, index, sample)?.into_any())).collect()
 }
 
-/// The samples one after the other, as `dataset[0]`, `dataset[1]`, … give them, those of a subclass too.
+/// The samples one after the other, as `dataset[0]`, `dataset[1]`, … return them, also for subclasses.
 #[pyclass(module = "enfilade")]
 pub struct SampleIterator {
     dataset: Py<PyAny>,

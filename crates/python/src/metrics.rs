@@ -144,7 +144,7 @@ fn numbers(what: &str, array: &Bound<'_, PyAny>) -> PyResult<Vec<i64>> {
     fn of<T: numpy::Element + Copy>(array: &Bound<'_, PyAny>, number: impl Fn(T) -> i64) -> Option<Vec<i64>> {
         let array = array.cast::<PyArrayDyn<T>>().ok()?.readonly();
         Some(match array.as_slice() {
-            // A slice has the order of memory, which in Fortran's order is not that of the pixels.
+            // A slice has the order of memory, which differs from the order of pixels for Fortran's layout.
             Ok(values) if array.is_c_contiguous() => values.iter().map(|&value| number(value)).collect(),
             _ => array.as_array().iter().map(|&value| number(value)).collect(),
         })

@@ -3,11 +3,11 @@
 use pyo3::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// How far work has come, as it last said: heard on any thread, shown by Python's own.
+/// Last reported progress of the work: received on any thread, shown by Python's own.
 #[derive(Default)]
 pub struct Heard(Mutex<Option<State>>);
 
-/// What work says.
+/// Messages of the work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Name of the work.
@@ -38,12 +38,12 @@ impl Heard {
 pub struct Bar<'py>(Option<Bound<'py, PyAny>>);
 
 impl<'py> Bar<'py> {
-    /// None, whatever happens.
+    /// No progress bar in any case.
     pub fn none() -> Self {
         Self(None)
     }
 
-    /// A bar where `progress` asks for one; where it says nothing, in notebooks and terminals.
+    /// A bar if `progress` requests one; if it is `None`, in notebooks and terminals.
     pub fn new(py: Python<'py>, progress: Option<bool>, title: &str) -> PyResult<Self> {
         if progress == Some(false) {
             return Ok(Self(None));
@@ -58,7 +58,7 @@ impl<'py> Bar<'py> {
         bar.call_method1("update", (state.what, state.done, state.total)).map(drop)
     }
 
-    /// Ends it; `whole` says that the work is done.
+    /// Ends it; `whole` means that the work is done.
     pub fn close(&self, whole: bool) -> PyResult<()> {
         self.0.as_ref().map_or(Ok(()), |bar| bar.call_method1("close", (whole,)).map(drop))
     }

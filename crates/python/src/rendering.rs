@@ -117,7 +117,7 @@ fn frame_of(sample: &Bound<'_, PyDict>) -> PyResult<Frame> {
     }
     let mut frame = frame.ok_or_else(|| PyValueError::new_err("the sample has no layer that could be shown"))?;
     if frame.get(Layer::RenderEntityId).is_none() {
-        // Where nothing says which pixels show the scene, all of them do.
+        // If no layer identifies the pixels that show the scene, all do.
         let pixels = frame.pixels();
         frame.insert(Layer::RenderEntityId, Values::I16(vec![1; pixels]));
     }

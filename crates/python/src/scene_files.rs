@@ -51,14 +51,14 @@ pub fn home<'py>(py: Python<'py>, output: PathBuf, options: Option<&Bound<'py, P
     json::to_python(py, &done)
 }
 
-/// The scene file with the options that keywords of `function` give, which takes those of `own` besides.
+/// The scene file with the options from keywords of `function`, which also takes the keywords `own`.
 pub fn file_source(file: &Path, options: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<FileSource> {
     let mut source = FileSource::of(file.to_string_lossy());
     keywords::apply(&mut [&mut source], options, function, own)?;
     Ok(source)
 }
 
-/// The home that keywords of `function` ask for, which takes those of `own` besides.
+/// The home from keywords of `function`, which also takes the keywords `own`.
 pub fn home_config(options: Option<&Bound<'_, PyDict>>, function: &str, own: &[&str]) -> PyResult<HomeConfig> {
     let config: HomeConfig = keywords::options(options, function, own)?;
     config.problem().map_or(Ok(config), |problem| Err(PyValueError::new_err(problem)))

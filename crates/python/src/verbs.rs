@@ -4,14 +4,15 @@ use crate::arguments::{Frames, Names, layers};
 use crate::config::Config;
 use crate::errors::{IntoPy, StageError};
 use crate::interrupt::{Interrupt, interruptible, watched};
-use crate::json;
 use crate::progress::Bar;
+use crate::{json, keywords};
 use enfilade_dataset::Dataset;
-use enfilade_export::{CloudSource, Existing, ExportConfig, FORMATS, Format, Selection};
+use enfilade_export::{Existing, ExportOptions, FORMATS, Format, Selection};
 use enfilade_pipeline::{STAGES, Stage, Summary};
 use enfilade_show::report_card::write_report;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -120,22 +121,22 @@ pub fn repack<'py>(py: Python<'py>, dataset: PathBuf, output: PathBuf, layers: O
     json::to_python(py, &counts)
 }
 
+/// Keywords of `export` besides its options.
+const EXPORT: [&str; 9] = ["dataset", "format", "output", "scenes", "cameras", "frames", "force", "camera_table", "progress"];
+
 /// Writes a dataset, ours or Hypersim's, in another layout to the folder `output`; an earlier export there is replaced. Nothing is rendered.
 ///
 /// format: a name of `enfilade.FORMATS`, which tells what each is; docs/export.md has units and axes.
 /// scenes, cameras: only these; `*` stands for any run of characters.
 /// frames: only these numbers: one, or a range such as range(0, 10).
-/// layers: only these, of those that the format can hold.
-/// shard_mb: with "webdataset" and "huggingface", the largest size of a file in megabytes.
-/// cloud: with "spatiallm", "frames" for points of what the frames show and the rooms that they show, "mesh" for the whole mesh and all rooms.
+/// {options}
 /// force: if `output` exists and is no export, renames it to `output`.old.
 /// camera_table: another metadata_camera_parameters.csv.
 /// progress: shows how far it has come; unless given, in notebooks and terminals.
 ///
 /// Gives numbers of `frames`, `files` and `bytes`.
 #[pyfunction]
-#[pyo3(signature = (dataset, format, output, *, scenes=None, cameras=None, frames=None, layers=None, shard_mb=1000, cloud="frames", force=false,
-    camera_table=None, progress=None))]
+#[pyo3(signature = (dataset, format, output, *, scenes=None, cameras=None, frames=None, force=false, camera_table=None, progress=None, **options))]
 pub fn export<'py>(
     py: Python<'py>,
     dataset: PathBuf,
@@ -144,25 +145,16 @@ pub fn export<'py>(
     scenes: Option<Names>,
     cameras: Option<Names>,
     frames: Option<Frames>,
-    layers: Option<Names>,
-    shard_mb: u64,
-    cloud: &str,
     force: bool,
     camera_table: Option<PathBuf>,
     progress: Option<bool>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let known = || FORMATS.map(|spec| spec.name).join(", ");
     let unknown = || PyValueError::new_err(format!("there is no format {format:?}; the formats are: {}", known()));
     let format = Format::from_name(format).ok_or_else(unknown)?;
-    if shard_mb == 0 {
-        return Err(PyValueError::new_err("shard_mb must be at least 1"));
-    }
-    let cloud = match cloud {
-        "frames" => CloudSource::Frames,
-        "mesh" => CloudSource::Mesh,
-        other => return Err(PyValueError::new_err(format!("cloud is {other:?}; expected \"frames\" or \"mesh\""))),
-    };
-    let (layers, frames) = (self::layers(layers.as_ref())?, frames.map(|frames| frames.range()).transpose()?);
+    let options: ExportOptions = keywords::options(options, "export", &EXPORT)?;
+    let frames = frames.map(|frames| frames.range()).transpose()?;
     let select = |what, names: &[String], chosen: Option<&Names>| {
         enfilade_pipeline::select(what, names, chosen.map(Names::pattern).as_deref()).map_err(IntoPy::into_py)
     };
@@ -176,8 +168,7 @@ pub fn export<'py>(
         None => None,
         chosen => Some(select("camera", &opened.camera_names(&scenes).map_err(IntoPy::into_py)?, chosen.as_ref())?),
     };
-    let selection = Selection { scenes, cameras, frames, layers };
-    let config = ExportConfig { format, selection, shard_bytes: shard_mb.saturating_mul(1_000_000), cloud };
+    let config = options.config(format, Selection { scenes, cameras, frames, layers: None }).map_err(IntoPy::into_py)?;
     let existing = if force { Existing::SetAside } else { Existing::Refuse };
     let bar = Bar::new(py, progress, "export")?;
     let exported = watched(py, &bar, |cx: &Interrupt| enfilade_export::export(&opened, &config, &output, existing, cx))?;

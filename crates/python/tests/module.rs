@@ -39,7 +39,7 @@ fn the_tests_in_python_pass() {
     let found = Command::new(python)
         .args(["-m", "unittest", "discover", "--start-directory"])
         .arg(&tests)
-        // The sources lie in the folder that tests are started in, and Python would take them first.
+        // The sources are in the folder that tests are started in, and Python would take them first.
         .current_dir(folder.path())
         .env("PYTHONPATH", folder.path())
         .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -47,6 +47,6 @@ fn the_tests_in_python_pass() {
         .unwrap();
     let said = format!("{}{}", String::from_utf8_lossy(&found.stdout), String::from_utf8_lossy(&found.stderr));
     assert!(found.status.success(), "{said}");
-    // The last lines say how many tests ran, and which of them were left out.
+    // The last lines state how many tests ran, and which were left out.
     eprintln!("{said}");
 }

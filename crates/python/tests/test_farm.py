@@ -129,7 +129,7 @@ class Farm(unittest.TestCase):
             (lambda: farm.status(folder), "wrong-job does not exist"),
             (lambda: farm.plan(folder, minutes=0), "cannot take 0 minutes"),
             (lambda: farm.plan(folder, price="cheap"), "is no number, and no table.*--price 0.04"),
-            (lambda: farm.submit(folder, "pbs"), "engine is \"pbs\"; expected \"slurm\""),
+            (lambda: farm.submit(folder, "pbs"), "engine is \"pbs\"; expected one of slurm, kubernetes"),
             (lambda: farm.submit(folder, "kubernetes"), "image is not given"),
             (lambda: farm.work(folder), "name either tasks"),
             (lambda: farm.work(folder, 1, shard=(0, 2)), "name either tasks"),

@@ -15,6 +15,10 @@ DECLARED = {
     enfilade.Scene.home: {"seed": 0, "rooms": None},
     enfilade.render: {"seed": 0, "quality": None, "lambertian": False, "progress": None},
     enfilade.Config.demo: {"seed": None, "size": None, "time_limit_s": None, "extra": False},
+    enfilade.make: {"overlap": None, "baseline_m": None, "points": 256, "layers": 8, "stale": False},
+    enfilade.export: {"layers": None, "shard_mb": 1000, "cloud": "frames", "force": False},
+    enfilade.farm.plan: {"minutes": 15.0, "cpus": 8, "price": None},
+    enfilade.farm.submit: {"memory_mib": None, "array_limit": 1000, "dry_run": False},
 }
 
 
@@ -30,6 +34,7 @@ class Options(unittest.TestCase):
         self.assertIn("tone_map: Makes `color` uint8", enfilade.Dataset.__doc__)
         self.assertIs(pickle.loads(pickle.dumps(enfilade.home)), enfilade.home)
         self.assertIs(pickle.loads(pickle.dumps(enfilade.Scene.read)), enfilade.Scene.read)
+        self.assertIs(pickle.loads(pickle.dumps(enfilade.farm.plan)), enfilade.farm.plan)
 
     def test_unknown_keywords_are_refused_with_the_nearest(self):
         for function, keyword, nearest in (
@@ -38,6 +43,9 @@ class Options(unittest.TestCase):
             (enfilade.Scene.home, "room", "rooms"),
             (enfilade.home, "outputs", "output"),
             (lambda **options: enfilade.Dataset(datasets.made(), **options), "layer", "layers"),
+            (lambda **options: enfilade.make(datasets.made(), "pairs", **options), "baseline", "baseline_m"),
+            (lambda **options: enfilade.export(datasets.made(), "coco", "out", **options), "shard", "shard_mb"),
+            (lambda **options: enfilade.farm.submit("job", "slurm", **options), "memory", "memory_mib"),
         ):
             with self.assertRaisesRegex(TypeError, f"'{keyword}'; did you mean `{nearest}`"):
                 function(**{keyword: 1})
@@ -52,6 +60,20 @@ class Options(unittest.TestCase):
         ):
             with self.assertRaisesRegex(error, message):
                 enfilade.Scene.home(**options)
+
+    def test_values_out_of_their_bounds_are_refused_by_name(self):
+        for options, error, message in (
+            ({"points": 0}, ValueError, "points is 0; expected a whole number from 1 to 4294967295"),
+            ({"layers": 65}, ValueError, "layers is 65; expected a whole number from 1 to 64"),
+            ({"overlap": (0.7, 0.2)}, ValueError, "overlap is \\(0.7, 0.2\\); expected two numbers from 0 to 1, the smaller one first"),
+            ({"baseline_m": (-1, 2)}, ValueError, "expected two numbers from 0, the smaller one first"),
+            ({"baseline_m": 2}, TypeError, "argument 'baseline_m': expected two numbers from 0"),
+            ({"between": ("cam_00", "cam_01")}, ValueError, "a camera and the number of a frame, as in cam_00/3"),
+            ({"between": (("cam_00", 0), "cam_00/1", ("cam_00", 2))}, TypeError, "argument 'between'"),
+            ({"step": "far"}, TypeError, "argument 'step': expected a whole number"),
+        ):
+            with self.assertRaisesRegex(error, message):
+                enfilade.make(datasets.made(), ["pairs", "flow"], **options)
 
 
 if __name__ == "__main__":

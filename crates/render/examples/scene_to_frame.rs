@@ -31,12 +31,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Renders what the first camera of a scene file sees, with this many samples per pixel.
 pub fn frame_of(scene_file: &Path, [width, height]: [u32; 2], samples: u32) -> Result<Frame, Box<dyn Error>> {
-    // Every importer gives the same plain data: meshes, materials, lights and parts, in metres with z up. The report says what was dropped.
+    // Every importer gives the same plain data: meshes, materials, lights and parts, in metres with z up. The report lists what was
+    // dropped.
     let imported = load(scene_file, &ImportOptions::default(), &Quiet)?;
     eprint!("{}", imported.report);
     let scene = imported.scene;
 
-    // A camera is intrinsics, here from a horizontal field of view; a pose says where it stands. A view is both.
+    // A camera has intrinsics, here from a horizontal field of view; a pose gives its position and orientation. A view is both.
     let start = scene.cameras.first().ok_or("the scene has no camera")?;
     let camera = Camera::from(Intrinsics::from_fov_x(width, height, start.fov_x_rad));
     let pose = start.pose(0);
@@ -49,11 +50,11 @@ pub fn frame_of(scene_file: &Path, [width, height]: [u32; 2], samples: u32) -> R
     let config = RenderConfig { samples, ..RenderConfig::default() };
     let guide = Guide::learn(&prepared, &[view], &config);
 
-    // Render every layer. The bytes depend on these arguments alone, whatever the number of threads.
+    // Render every layer. The bytes depend on these arguments only, not on the number of threads.
     Ok(render_frame(&prepared, &guide, &view, &config, &Quiet)?)
 }
 
-/// Writes a layer of a frame in the way of datasets: one HDF5 array of rows × columns, and × channels where there are several.
+/// Writes a layer of a frame as datasets have it: one HDF5 array of rows × columns, and × channels where there are several.
 pub fn write_layer(frame: &Frame, layer: Layer, file: &Path) -> Result<(), Box<dyn Error>> {
     let values = match frame.get(layer).ok_or("the frame lacks the layer")?.clone() {
         Values::F16(values) => Elements::F16(values),

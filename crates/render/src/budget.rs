@@ -1,12 +1,12 @@
-//! Where the samples go: to each pixel in proportion to the error that it would have left.
+//! Allocation of samples: to each pixel in proportion to the error that it would have left.
 //!
 //! The error of a pixel is estimated from the first samples of the pixels *around* it. Its own samples do not influence their number. So
-//! the mean of a pixel stays unbiased, which it would not if a dark first sample could end the search for a bright one (Kirk & Arvo 1991,
-//! "Unbiased sampling techniques for image synthesis").
+//! the mean of a pixel stays unbiased; it would be biased if a dark first sample could prevent further samples (Kirk & Arvo 1991, "Unbiased
+//! sampling techniques for image synthesis").
 //!
-//! What the first samples say of the noise is not exact, and the samples that it leads to leave somewhat more noise than they were counted
-//! for. So the noise that is left is measured when they are taken, and while it is above its target, [`Budget::more`] adds samples. In that
-//! a pixel has no other say than its small part in the whole picture's noise.
+//! The estimate of the noise from the first samples is not exact, and the allocated samples leave somewhat more noise than predicted. So
+//! the remaining noise is measured once they are taken, and while it is above its target, [`Budget::more`] adds samples. There a pixel's
+//! own samples matter only as a small part of the whole picture's noise.
 
 use enfilade_frame::NOISE_FLOOR;
 
@@ -14,11 +14,10 @@ use enfilade_frame::NOISE_FLOOR;
 const REACH: usize = 3;
 /// No pixel gets more than this many times the mean number of samples.
 const MAX_RATIO: f32 = 16.0;
-/// Where the noise is still above its target, further samples are to take it to this fraction of the target: less than this would not pay
-/// a round of its own.
+/// Further samples aim for this fraction of the noise target: a smaller reduction would not be worth another round.
 const BELOW_TARGET: f64 = 0.985;
 
-/// What the samples of a pixel say of its luminance.
+/// Statistics of the luminance of a pixel's samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Estimate {
     /// Mean luminance of its samples.
@@ -43,7 +42,7 @@ impl Budget {
     pub fn allocate(&self, width: usize, estimates: &[Estimate]) -> Vec<u32> {
         let errors = errors(width, estimates);
 
-        // Where no error is known, either nothing is left to improve or nothing is known.
+        // Without a usable total error, either the picture is clean or nothing is known.
         let total: f64 = errors.iter().sum();
         if !(total > 0.0 && total.is_finite()) {
             let is_clean = total == 0.0 && self.noise.is_some();
@@ -53,11 +52,11 @@ impl Budget {
         self.spread(&errors, &taken, self.noise.map(f64::from))
     }
 
-    /// The number of samples of every pixel, row by row, when they have `taken` so many and left the noise `measured` above its target.
-    /// `None` where no more can be taken, or nothing tells where.
+    /// The number of samples of every pixel, row by row, after `taken` samples left the noise `measured`, which is above its target. `None`
+    /// if no more can be taken, or nothing indicates where.
     pub fn more(&self, width: usize, estimates: &[Estimate], taken: &[u32], measured: f64) -> Option<Vec<u32>> {
         let errors = errors(width, estimates);
-        // What the errors around the pixels say of the noise is in a proportion to what it is that further samples hardly change.
+        // The ratio of the noise estimated from neighbouring pixels to the measured noise hardly changes with further samples.
         let told = (errors.iter().zip(taken).map(|(e, &n)| e * e / f64::from(n)).sum::<f64>() / errors.len() as f64).sqrt();
         let target = BELOW_TARGET * f64::from(self.noise?) * told / measured;
         if !(target > 0.0 && target.is_finite()) {
@@ -67,7 +66,7 @@ impl Budget {
         (wanted != taken).then_some(wanted)
     }
 
-    /// Spreads samples over pixels of these errors, which have `taken` some, up to the mean number or until no more noise is left than told.
+    /// Distributes samples over pixels of these errors, in addition to `taken`, up to the mean number or until at most `noise` is left.
     ///
     /// The variance that is left, Σ e²/n, has its minimum for a given number of samples where n is in proportion to e: this finds the
     /// factor of proportion.
@@ -84,7 +83,7 @@ impl Budget {
     }
 }
 
-/// What a sample leaves of error in each pixel, row by row, by the pixels around it.
+/// The error of one sample in each pixel, row by row, estimated from the pixels around it.
 fn errors(width: usize, estimates: &[Estimate]) -> Vec<f64> {
     let height = estimates.len() / width.max(1);
     let mean = estimates.iter().map(|e| f64::from(e.mean)).sum::<f64>() / estimates.len().max(1) as f64;
@@ -150,7 +149,7 @@ mod tests {
         assert!((left.sqrt() - 0.05).abs() < 0.003, "left {}", left.sqrt());
         let bounded = budget(1e-6).allocate(64, &half_noisy());
         assert!(bounded.iter().map(|&n| u64::from(n)).sum::<u64>() <= 4097 * 64 * 32);
-        // What is beyond all numbers is not taken for clean.
+        // An infinite variance does not count as clean.
         let wild = vec![Estimate { mean: 1.0, variance: f32::INFINITY }; 25];
         assert_eq!(budget(0.05).allocate(5, &wild), [4096; 25]);
         assert_eq!(budget(0.05).allocate(5, &[Estimate::default(); 25]), [8; 25]);
@@ -158,7 +157,7 @@ mod tests {
 
     #[test]
     fn more_samples_take_the_noise_as_it_was_measured_below_the_target() {
-        // The noise as measured is ten per cent above what the errors around the pixels tell.
+        // The measured noise is ten per cent above the estimate from neighbouring pixels.
         let estimates = half_noisy();
         let budget = Budget { first: 8, mean: 4096, noise: Some(0.05) };
         let taken = budget.allocate(64, &estimates);

@@ -63,7 +63,7 @@ impl Integrator<'_, '_> {
             illumination += self.add_scattered(&mut sample, &weight, &self.clamped(light, reflected), crossed);
         }
 
-        // Where nothing is reflected diffusely, some samples measure what falls on a white surface in its place.
+        // Where nothing is reflected diffusely, some samples measure the light on a white surface in its place.
         sample.illumination = if sample.reflectance.is_black() {
             camera.index.is_multiple_of(IRRADIANCE_STRIDE).then(|| self.irradiance(&vertex.surface, sampler))
         } else {

@@ -1,4 +1,4 @@
-//! Why something cannot be rendered, in words for the person who can change it.
+//! Reasons why something cannot be rendered, in words for the person who can change it.
 
 /// Why a scene or frame cannot be rendered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -9,7 +9,7 @@ pub enum RenderError {
          light it by `environment = \"sky\"` or `lamps = \"ceiling\"`, or add lights to the scene file"
     )]
     NoLight,
-    /// More parts than `render_entity_id` (int16) can tell apart.
+    /// More parts than `render_entity_id` (int16) can distinguish.
     #[error("the scene has {found} parts, but render_entity_id (int16) can tell apart {limit}; merge small parts before importing", limit = i16::MAX)]
     TooManyParts {
         /// Number of parts.
@@ -20,7 +20,7 @@ pub enum RenderError {
     Camera {
         /// Frame number.
         frame: u32,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
     /// Settings out of their domain.
@@ -28,9 +28,9 @@ pub enum RenderError {
     Config {
         /// Name of the field.
         field: &'static str,
-        /// Value of the setting, as it was found.
+        /// Value found.
         found: String,
-        /// What it must do, as in "lie between 0 and 1".
+        /// Requirement, as in "lie between 0 and 1".
         expected: &'static str,
     },
 }

@@ -24,7 +24,7 @@ pub(crate) struct PixelSum {
     deviations: f32,
 }
 
-/// The colour values of one pixel as they are stored.
+/// The stored colour values of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelColor {
     pub color: [f16; 3],
@@ -67,7 +67,7 @@ impl PixelSum {
         Estimate { mean: (self.diffuse + self.residual).luminance() / n, variance: self.deviations / (n - 1.0).max(1.0) }
     }
 
-    /// Standard error of the mean luminance, as if samples were independent; NaN when there are too few to say.
+    /// Standard error of the mean luminance, as if samples were independent; NaN if there are too few samples.
     pub fn standard_error(&self) -> f32 {
         if self.samples < 2 { f32::NAN } else { (self.estimate().variance / self.samples as f32).sqrt() }
     }
@@ -81,7 +81,7 @@ impl PixelSum {
         words
     }
 
-    /// What [`PixelSum::to_words`] was made of.
+    /// The inverse of [`PixelSum::to_words`].
     pub fn from_words(words: &[u32; Self::WORDS]) -> Self {
         let float = |index: usize| f32::from_bits(words[index]);
         let color = |index: usize| Rgb::new(float(index), float(index + 1), float(index + 2));
@@ -97,7 +97,7 @@ impl PixelSum {
         }
     }
 
-    /// The diffuse reflectance as it is stored.
+    /// The stored diffuse reflectance.
     fn stored_reflectance(&self) -> [f16; 3] {
         (self.reflectance / self.samples.max(1) as f32).to_array().map(|v| f16::from_f32(v.clamp(0.0, 1.0)))
     }
@@ -129,21 +129,21 @@ impl PixelSum {
     }
 }
 
-/// The light of a pixel in parts as it is stored, given the sum over its samples and their number.
+/// The stored parts of a pixel's light, given the sum over its samples and their number.
 pub(crate) fn resolve_light_parts(sum: &LightParts, samples: u32) -> [[f16; 3]; LightParts::PARTS] {
     let n = samples.max(1) as f32;
     std::array::from_fn(|index| (sum.part(index) / n).to_array().map(|v| f16::from_f32(v.min(F16_LIMIT))))
 }
 
-/// What of a pixel's diffuse light its stored reflectance and the brightest illumination do not hold; the residual takes it.
+/// The part of a pixel's diffuse light beyond its stored reflectance times the brightest illumination; it is added to the residual.
 fn beyond(diffuse: f32, reflectance: f16) -> f32 {
     (diffuse - reflectance.to_f32() * F16_LIMIT).max(0.0)
 }
 
-/// The light of a fixture as it is stored: its part of the illumination and of the residual, given the sums of reflectance × illumination and
+/// The stored light of a fixture: its part of the illumination and of the residual, given the sums of reflectance × illumination and
 /// of the residual over the pixel's samples.
 ///
-/// Where the reflectance is zero the illumination is zero. What it cannot hold is in the residual.
+/// Where the reflectance is zero the illumination is zero. Light that it cannot represent is in the residual.
 pub(crate) fn resolve_fixture(pixel: &PixelSum, [diffuse, residual]: [Rgb; 2]) -> [[f16; 3]; 2] {
     let n = pixel.samples.max(1) as f32;
     let mut stored = [[f16::ZERO; 3]; 2];

@@ -1,5 +1,5 @@
 //! The geometry layers: point samples at pixel centres, evaluated in double precision. A lens or an open shutter changes nothing of
-//! them: [`CameraView::centre_ray`] says which ray a pixel's is.
+//! them: [`CameraView::centre_ray`] gives the ray of a pixel.
 
 use crate::prepared::{AlphaTest, RenderScene};
 use crate::surface::Surface;
@@ -8,7 +8,7 @@ use enfilade_frame::{F16_LIMIT, f16};
 use enfilade_math::{DVec3, Ray, Vec3};
 use enfilade_scene::{CameraRay, CameraView};
 
-/// What the ray through a pixel's centre meets.
+/// Geometry at the point that the ray through a pixel's centre meets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PixelGeometry {
     /// Euclidean distance, metres.
@@ -40,7 +40,7 @@ pub(crate) struct Sighting<'s> {
     pub p_world: DVec3,
 }
 
-/// What the ray through an image point meets first; `None` when nothing is there.
+/// The first surface that the ray through an image point meets; `None` if there is none.
 pub(crate) fn sighting<'s>(scene: &RenderScene<'s>, view: &CameraView<'_>, (x, y): (f64, f64)) -> Option<Sighting<'s>> {
     let CameraRay { origin, direction } = view.centre_ray(x, y)?;
     let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
@@ -57,7 +57,7 @@ pub(crate) fn pixel_geometry(scene: &RenderScene<'_>, view: &CameraView<'_>, x: 
     sighting(scene, view, (x, y)).map(|found| geometry_of(scene, view, y, &found))
 }
 
-/// What is kept of the surface that an image point at the coordinate `y` shows.
+/// The stored geometry of the surface that an image point at the coordinate `y` shows.
 pub(crate) fn geometry_of(scene: &RenderScene<'_>, view: &CameraView<'_>, y: f64, found: &Sighting<'_>) -> PixelGeometry {
     let &Sighting { ref surface, triangle, direction, distance_m: distance, p_world } = found;
     let cam_from_world = view.row_placement(y).1.transpose();
@@ -75,7 +75,7 @@ pub(crate) fn geometry_of(scene: &RenderScene<'_>, view: &CameraView<'_>, y: f64
     }
 }
 
-/// Distance along the exact ray to the plane of a triangle. `None` when the ray lies in the plane.
+/// Distance along the exact ray to the plane of a triangle. `None` if the ray is in the plane.
 pub(crate) fn exact_distance(corners: [Vec3; 3], origin: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let n = (b - a).cross(c - a);

@@ -17,7 +17,7 @@ use enfilade_math::{Ray, Rgb, Rng, Sampler, Vec3, hash_u64};
 /// A path continues with a probability of this times the light that it is expected to reflect, relative to that at the first surface. The
 /// light is not known exactly, and ending a path that mattered costs more than following one that did not.
 const SURVIVAL_GAIN: f32 = 0.8;
-/// Factor of the throughput alone in that probability, where nothing is known of the light, and for the light that mirrors and glass find.
+/// Factor of the throughput in that probability if nothing is known of the light, and for the light that mirrors and glass find.
 const UNKNOWN_GAIN: f32 = 12.0;
 /// Bounds of the probability that a path continues; the second one where nothing is known of the light.
 const MIN_SURVIVAL: f32 = 0.2;
@@ -71,13 +71,13 @@ pub(crate) struct Direct {
 }
 
 impl<'a, 's> Integrator<'a, 's> {
-    /// The fixture, where fixtures are told apart.
+    /// The fixture, if light is separated by fixture.
     #[inline]
     fn fixture(&self, find: impl FnOnce() -> Option<u16>) -> Option<u16> {
         if self.config.fixtures { find() } else { None }
     }
 
-    /// What the emission of a surface comes from.
+    /// Origin of the emission of a surface.
     #[inline]
     pub fn origin_of_surface(&self, surface: &Surface<'s>) -> Origin {
         let part = || self.scene.triangles.part_of(surface.triangle);
@@ -93,14 +93,14 @@ impl<'a, 's> Integrator<'a, 's> {
         self.scene.told_apart().of_pane(self.scene.triangles.part_of(surface.triangle)).or(next.window)
     }
 
-    /// What a shadow ray lets through, and the farthest window along it.
+    /// Transmittance along a shadow ray, and the farthest window along it.
     #[inline]
     fn transmittance_and_window(&self, ray: &Ray) -> (Rgb, Option<u16>) {
         let fixtures = self.scene.told_apart();
         self.scene.unbent_transmittance_and_pane(ray, |part| fixtures.of_pane(part))
     }
 
-    /// What comes from beyond the scene, by its origin; `window` is the one that it comes through.
+    /// Light from beyond the scene, by its origin; `window` is the window that it comes through.
     #[inline]
     pub fn background_by_origin(&self, background: Background, window: Option<u16>) -> [(Origin, Rgb); 2] {
         [(LightKind::Environment, background.environment), (LightKind::Distant, background.distant)]
@@ -108,7 +108,7 @@ impl<'a, 's> Integrator<'a, 's> {
     }
 
     /// The surface at the end of a segment, and the throughput to it. What it emits, or the background in its place, is added to
-    /// `radiance`, weighted against light sampling; `direct` says that nothing has scattered it.
+    /// `radiance`, weighted against light sampling; `direct` means that nothing has scattered it.
     #[inline]
     fn next_surface(&self, segment: &Segment, throughput: Rgb, direct: bool, radiance: &mut Arriving) -> Option<(Surface<'s>, Rgb)> {
         let (lights, sampled) = (&self.scene.lights, segment.sampled.as_ref());
@@ -150,7 +150,7 @@ impl<'a, 's> Integrator<'a, 's> {
         }
     }
 
-    /// Where a segment continues as light samples reach through panes, thin or solid, and what comes through.
+    /// Continuation of a segment through panes, thin or solid, as light samples reach through them, and its transmittance.
     fn straight_on(&self, segment: &Segment, surface: &Surface<'s>) -> Option<(Rgb, Segment)> {
         if let Some(passed) = surface.straight_transmittance(self.scene).filter(|passed| !passed.is_black()) {
             let ray = surface.ray(segment.ray.direction);
@@ -160,9 +160,10 @@ impl<'a, 's> Integrator<'a, 's> {
         (next.straight || next.inside.is_some()).then_some((passed, next))
     }
 
-    /// Where a path continues, and with which weight: the BSDF's value over the direction's density and the probability of going on; `None`
-    /// where it ends. Two arguments concern Russian roulette alone: `so_far`, the throughput to the camera ([`roulette_throughput`]), and
-    /// `expected`, the luminance that the first surface is expected to reflect of the light that sampled directions find there (0: unknown).
+    /// Continuation of a path and its weight: the BSDF's value over the direction's density and the probability of survival; `None` where
+    /// it ends. Two arguments are only for Russian roulette: `so_far`, the throughput to the camera ([`roulette_throughput`]), and
+    /// `expected`, the luminance that the first surface is expected to reflect of the light that sampled directions find there (0:
+    /// unknown).
     #[inline]
     fn next_step(
         &self,
@@ -180,9 +181,9 @@ impl<'a, 's> Integrator<'a, 's> {
             return Some((weight, next));
         }
 
-        // Estimate what the path will still add, in relation to what was expected of its first surface, and let it live with a probability
-        // in that proportion. Where the guide knows nothing, and for mirror-like reflection, which it says nothing of, the throughput alone
-        // decides (Vorba & Křivánek 2016, "Adjoint-Driven Russian Roulette and Splitting", for the idea).
+        // Estimate the light that the path will still add, relative to the light expected from its first surface, and let it survive with a
+        // proportional probability. Where the guide knows nothing, and for mirror-like reflection, which it does not cover, only the
+        // throughput decides (Vorba & Křivánek 2016, "Adjoint-Driven Russian Roulette and Splitting", for the idea).
         let reflectance = vertex.bsdf.reflectance;
         let here = so_far.luminance() * vertex.expected_at_most();
         let blurred = weight.specular.luminance() <= (reflectance * weight.diffuse).luminance();
@@ -204,7 +205,7 @@ impl<'a, 's> Integrator<'a, 's> {
     }
 
     /// Radiance that arrives along `segment`, whose end is surface number `bounce` of the path. For `so_far` and `expected` see
-    /// [`Integrator::next_step`]. `direct` says that nothing has scattered the light yet.
+    /// [`Integrator::next_step`]. `direct` means that nothing has scattered the light yet.
     pub fn radiance(
         &self,
         mut segment: Segment,
@@ -217,8 +218,8 @@ impl<'a, 's> Integrator<'a, 's> {
         let mut radiance = Arriving::default();
         let mut throughput = Rgb::WHITE;
         for bounce in bounce.. {
-            // Find the next surface, and add what it emits, or the background where there is none. Where light sampling could have found
-            // the same light, the power heuristic divides it between the two.
+            // Find the next surface, and add its emission, or the background where there is none. Where light sampling could have found the
+            // same light, the power heuristic weights the two.
             let Some((surface, reached)) = self.next_surface(&segment, throughput, direct, &mut radiance) else { return radiance };
             throughput = reached;
 
@@ -267,8 +268,8 @@ impl<'a, 's> Integrator<'a, 's> {
         if brightest > max { light.scaled(max / brightest) } else { light }
     }
 
-    /// Direct light by one light sample at surface number `bounce`, or that of a glint; `None` where that contributes nothing. `medium` lies
-    /// before the surface, on the viewer's side.
+    /// Direct light by one light sample at surface number `bounce`, or by a glint; `None` where that contributes nothing. `medium` is in
+    /// front of the surface, on the viewer's side.
     pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, bounce: u32, sampler: &Sampler, medium: Medium) -> Option<Direct> {
         // Choose a light and a point on it, above the shading and the geometric surface alike.
         let (surface, u) = (&vertex.surface, sampler.set(light_set(bounce)));
@@ -293,8 +294,8 @@ impl<'a, 's> Integrator<'a, 's> {
         let ray = surface.shadow_ray(light.wi, light.target);
         let crosses = wi.z < 0.0;
         let medium = medium.after(surface, crosses);
-        // Light from infinity that reaches a point inside a body came through an opening in it. How far it went inside is unknown, as it is
-        // to a sampled direction, so nothing is absorbed.
+        // Light from infinity that reaches a point inside a body came through an opening in it. Its distance inside is unknown, as it is
+        // for a sampled direction, so nothing is absorbed.
         let absorbed = if light.target.is_some() { medium.transmittance(ray.t_max) } else { Rgb::WHITE };
         let (through, window) = match scattered {
             true if self.scene.is_covered(&ray) => (Rgb::BLACK, None),
@@ -316,7 +317,7 @@ impl<'a, 's> Integrator<'a, 's> {
         Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
     }
 
-    /// Direct light by a light sample that lies behind solid glass; `medium` is that on the light's side of the surface.
+    /// Direct light by a light sample behind solid glass; `medium` is on the light's side of the surface.
     fn light_through_glass(&self, vertex: &Vertex<'_, 's>, light: &LightSample, medium: Medium, rng: Rng) -> Option<Direct> {
         // Find the way, and what the surface makes of light from there.
         let (scene, surface) = (self.scene, &vertex.surface);
@@ -330,7 +331,7 @@ impl<'a, 's> Integrator<'a, 's> {
             return None;
         }
 
-        // The weight is that of the straight direction to the light, by which sampled directions weight it too.
+        // The weight is for the straight direction to the light, which sampled directions use too.
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
         let radiance = match light.target {
             // A light at a point is where its light seems to come from, by how it is spread.

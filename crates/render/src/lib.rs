@@ -1,10 +1,10 @@
 //! Light transport: a [`Scene`](enfilade_scene::Scene) and a camera to a [`Frame`](enfilade_frame::Frame) with every layer.
 //!
-//! A unidirectional path tracer with next-event estimation and multiple importance sampling. Nothing is clamped, denoised or cut short but
-//! by the fields of [`RenderConfig`]. The way of a frame: [`RenderScene::new`] prepares rays and lights, [`Guide::learn`] learns where
-//! light comes from, and [`render_frame`] goes over the pixels. Per pixel, `camera_path` and `integrator` follow light paths, `film` turns
-//! their sums into the stored colour layers, and `geometry_pass` finds what the ray through the pixel's centre meets. A [`Lookout`] sees
-//! the latter alone, before light is computed.
+//! A unidirectional path tracer with next-event estimation and multiple importance sampling. Nothing is clamped, denoised or truncated
+//! except by the fields of [`RenderConfig`]. A frame is made in three steps: [`RenderScene::new`] prepares rays and lights,
+//! [`Guide::learn`] learns where light comes from, and [`render_frame`] renders the pixels. Per pixel, `camera_path` and `integrator`
+//! follow light paths, `film` turns their sums into the stored colour layers, and `geometry_pass` finds the surface that the ray through
+//! the pixel's centre meets. A [`Lookout`] does only the latter, before light is computed.
 //!
 //! ```
 //! use enfilade_frame::Layer;
@@ -43,7 +43,7 @@
 //! # Ok::<(), RenderError>(())
 //! ```
 //!
-//! `examples/scene_to_frame.rs` goes from a scene file to files of a frame.
+//! `examples/scene_to_frame.rs` renders a scene file to the files of a frame.
 //!
 //! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
 

@@ -6,11 +6,11 @@ use crate::light::{Background, LightKind};
 use enfilade_math::Rgb;
 use std::ops::AddAssign;
 
-/// What light comes from.
+/// Origin of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
     pub kind: LightKind,
-    /// `None` where fixtures are not told apart.
+    /// `None` if light is not separated by fixture.
     pub fixture: Option<u16>,
 }
 
@@ -19,16 +19,16 @@ pub(crate) struct Origin {
 pub(crate) struct Arriving {
     /// All of it.
     pub total: Rgb,
-    /// What comes straight from a source, through panes at most.
+    /// Light straight from a source, through panes at most.
     direct: Rgb,
     /// By [`LightKind`].
     by_source: [Rgb; 4],
-    /// What came of fixtures, one after the other; empty where they are not told apart.
+    /// Light of fixtures, one after the other; empty if light is not separated by fixture.
     pub by_fixture: Vec<(u16, Rgb)>,
 }
 
 impl Arriving {
-    /// Adds light of a source, which is `direct` when nothing but panes lies between.
+    /// Adds light of a source, which is `direct` if only panes are between.
     #[inline]
     pub fn add(&mut self, from: Origin, light: Rgb, direct: bool) {
         self.total += light;
@@ -63,7 +63,7 @@ const EMISSION: usize = 4;
 pub(crate) struct LightParts {
     /// In the order of `enfilade_frame::LIGHT_BY_PATH`.
     pub by_path: [Rgb; 5],
-    /// In the order of `enfilade_frame::LIGHT_BY_SOURCE`, which is that of [`LightKind`].
+    /// In the order of `enfilade_frame::LIGHT_BY_SOURCE`, which is the order of [`LightKind`].
     pub by_source: [Rgb; 4],
 }
 
@@ -79,7 +79,7 @@ impl LightParts {
         std::array::from_fn(|i| self.part(i / 3)[i % 3].to_bits())
     }
 
-    /// What [`LightParts::to_words`] was made of.
+    /// The inverse of [`LightParts::to_words`].
     pub fn from_words(words: &[u32; Self::WORDS]) -> Self {
         let mut parts = Self::default();
         let float = |i: usize| f32::from_bits(words[i]);

@@ -1,4 +1,5 @@
-//! A look at a view without any light: its geometry layers alone, in full or through some of its pixels, and where its points are in others.
+//! A look at a view without any light: only its geometry layers, in full or through some of its pixels, and the positions of its points in
+//! other views.
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
@@ -38,20 +39,20 @@ use std::sync::OnceLock;
 /// # Ok::<(), enfilade_render::RenderError>(())
 /// ```
 pub struct Lookout<'s> {
-    /// Has no lights and no tables, since no light is asked for.
+    /// Has no lights and no tables, since no light is computed.
     scene: RenderScene<'s>,
     /// Rays ask about every surface that they meet, not only about those with an opacity.
     asks_always: bool,
 }
 
-/// What a look has met.
+/// Result of a look.
 pub struct Look {
     /// `depth_meters`, `depth_z_meters`, `position`, `normal_world` and `render_entity_id`: of a look in full, the values that the
     /// rendered frame will have.
     pub frame: Frame,
     /// By pixel, row by row: true where it shows the back of a triangle, whose corners run clockwise.
     pub behind: Vec<bool>,
-    /// Number of pixels that have a ray, as all have but those beyond the rim of a fisheye.
+    /// Number of pixels that have a ray: all except those beyond the rim of a fisheye.
     pub seeing: usize,
 }
 
@@ -100,7 +101,7 @@ impl<'s> Lookout<'s> {
         })
     }
 
-    /// Looks through the centres of the view's pixels, or of every so many of them in both directions.
+    /// Looks through the centres of the view's pixels, or of every `step`-th of them in both directions.
     ///
     /// # Panics
     /// When `step` is 0.
@@ -125,8 +126,8 @@ impl<'s> Lookout<'s> {
         Look { frame, behind: pixels.iter().map(|p| p.behind).collect(), seeing }
     }
 
-    /// Whether the picture of `view` shows the world point: it lies inside the image, and nothing is before it up to a thousandth of its
-    /// distance. What is half transparent or a pane is in the way, as it is in the geometry layers.
+    /// Whether the picture of `view` shows the world point: it is inside the image, and nothing is in front of it up to a thousandth of its
+    /// distance. Panes and half-transparent surfaces hide it, as in the geometry layers.
     pub fn shows(&self, view: &CameraView<'_>, p_world: DVec3) -> bool {
         view.project(p_world).is_some_and(|at| flow::shows(&self.scene, view, at, p_world))
     }

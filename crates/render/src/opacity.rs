@@ -1,4 +1,4 @@
-//! What a camera ray shows where surfaces are only partly there: one of them drawn by opacity, and the reflectance that is expected.
+//! The surface that a camera ray shows where surfaces are partly transparent: one of them drawn by opacity, and the expected reflectance.
 //!
 //! All other rays draw for themselves ([`AlphaTest::Stochastic`](crate::prepared::AlphaTest)). A camera ray draws with a number that is
 //! stratified over its pixel, and the stored reflectance, which no denoiser touches, has no noise from the draw at all: the illumination
@@ -10,16 +10,17 @@ use enfilade_geometry::Hit;
 use enfilade_math::{Ray, Rgb};
 use std::cell::RefCell;
 
-/// What a camera ray shows.
+/// The surface that a camera ray shows.
 pub(crate) struct Seen {
-    /// Where its path continues; `None` where it shows the background.
+    /// The hit from which its path continues; `None` where it shows the background.
     pub hit: Option<Hit>,
     /// The expected value of the diffuse reflectance there, which is zero for the background; `None` where there is nothing to draw.
     pub reflectance: Option<Rgb>,
 }
 
 impl RenderScene<'_> {
-    /// What a camera ray with the cone `cone` at its origin shows. `number`, uniform on [0,1), decides where there is something to draw.
+    /// The surface that a camera ray with the cone `cone` at its origin shows. `number`, uniform on [0,1), decides where there is something
+    /// to draw.
     pub(crate) fn seen(&self, ray: &Ray, cone: &Cone, number: impl FnOnce() -> f32) -> Seen {
         // Find the first surface that is all there, and the others before it.
         let partly = RefCell::new(Vec::new());

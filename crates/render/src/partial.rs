@@ -1,9 +1,9 @@
-//! A frame in the making as bytes, so that it can continue in another process.
+//! An unfinished frame as bytes, so that it can continue in another process.
 //!
-//! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1
-//! where light is kept in parts, the number of fixtures that light is told apart by, the length of the key and the key; per pixel the samples it is
-//! to have in the end, row by row; per pixel its sums, tile by tile; a checksum of all that. Sums are kept bit by bit, so a frame that goes
-//! on has the bytes of one that was never interrupted.
+//! All numbers are little-endian: eight bytes of signature, the version of this form, width, height, passes done and in all, 1 if light is
+//! kept in parts, the number of fixtures that light is separated by, the length of the key and the key; per pixel its final number of
+//! samples, row by row; per pixel its sums, tile by tile; a checksum of all that. Sums are stored exactly, so a continued frame has the
+//! same bytes as one that was never interrupted.
 
 use enfilade_math::hash_u64;
 
@@ -27,7 +27,7 @@ pub enum PartialError {
     OtherFrame,
 }
 
-/// What precedes the pixels.
+/// The header before the pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Header<'a> {
     pub size: [u32; 2],
@@ -35,7 +35,7 @@ pub(crate) struct Header<'a> {
     /// Passes in all, as far as is known.
     pub passes: u32,
     pub light_parts: bool,
-    /// Number of fixtures that are told apart.
+    /// Number of fixtures that light is separated by.
     pub fixtures: u32,
     /// The caller's name for everything that the frame depends on.
     pub key: &'a [u8],

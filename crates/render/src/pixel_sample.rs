@@ -20,19 +20,19 @@ pub(crate) struct CameraSample {
 pub(crate) struct PixelSample {
     /// Diffuse reflectance A of the first surface.
     pub reflectance: Rgb,
-    /// What A is expected to be, where the first surface is drawn by opacity.
+    /// Expected value of A, where the first surface is drawn by opacity.
     pub expected_reflectance: Option<Rgb>,
     /// Demodulated diffuse light E; `None` where this sample did not measure it.
     pub illumination: Option<Rgb>,
     /// Everything else, R.
     pub residual: Rgb,
-    /// A·E + R in parts, where they are asked for.
+    /// A·E + R in parts, if requested.
     pub parts: LightParts,
-    /// A·E + R by fixture, where that is asked for; a fixture may be there several times.
+    /// A·E + R by fixture, if requested; a fixture may occur several times.
     pub fixtures: Vec<FixtureLight>,
 }
 
-/// What a fixture adds to a sample.
+/// Light that a fixture adds to a sample.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixtureLight {
     pub fixture: u16,

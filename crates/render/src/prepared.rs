@@ -42,7 +42,7 @@ pub struct RenderScene<'s> {
     pub(crate) tables: Vec<Tables>,
     /// True when a material may be the border of a transparent body.
     pub(crate) has_bodies: bool,
-    /// Found when they are first asked for.
+    /// Found on first use.
     pub(crate) fixtures: OnceLock<Fixtures>,
 }
 
@@ -59,7 +59,8 @@ impl<'s> RenderScene<'s> {
         Ok(ready)
     }
 
-    /// The scene with what the settings say of its materials: [`RenderConfig::lambertian`]. Frames need one that their settings have settled.
+    /// The scene with the changes of its materials by the settings: [`RenderConfig::lambertian`]. Frames need a scene that was settled by
+    /// their settings.
     #[must_use]
     pub fn settled(mut self, config: &RenderConfig) -> Self {
         if config.lambertian {
@@ -96,7 +97,7 @@ impl<'s> RenderScene<'s> {
         self.triangles.bounds()
     }
 
-    /// What lights the scene, in the order in which frames have their light apart: see [`RenderConfig::fixtures`](crate::RenderConfig).
+    /// The fixtures of the scene, in the order in which frames store their light: see [`RenderConfig::fixtures`](crate::RenderConfig).
     pub fn fixtures(&self) -> &[Fixture] {
         &self.told_apart().list
     }
@@ -112,7 +113,7 @@ impl<'s> RenderScene<'s> {
         self.triangles.count()
     }
 
-    /// The nearest hit whose surface is present there by its opacity; `test` says how partial opacity counts.
+    /// The nearest hit whose surface is present there by its opacity; `test` decides how partial opacity counts.
     #[inline]
     pub(crate) fn closest(&self, ray: &Ray, test: AlphaTest) -> Option<Hit> {
         self.bvh.closest_filtered(ray, |hit| self.is_present(hit, test))
@@ -182,7 +183,7 @@ impl<'s> RenderScene<'s> {
         if blocked { Rgb::BLACK } else { through.get() }
     }
 
-    /// True when anything lies in the way of a shadow ray, panes as well.
+    /// True if anything is in the way of a shadow ray, including panes.
     pub(crate) fn is_covered(&self, ray: &Ray) -> bool {
         self.is_met(ray, AlphaTest::Stochastic)
     }

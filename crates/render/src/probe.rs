@@ -1,7 +1,7 @@
-//! A few pixels of a frame, rendered to learn what the whole frame would cost.
+//! A few pixels of a frame, rendered to estimate the cost of the whole frame.
 //!
-//! A pixel's samples are those of the frame, since they depend on where it is and on no other pixel; so a probe does what the frame will
-//! do there, and what it finds out about the pixels' noise is what the frame will find out.
+//! A pixel's samples depend on its position and on no other pixel. So a probe takes the same samples as the frame will, and finds the same
+//! noise.
 
 use crate::budget::Estimate;
 use crate::config::RenderConfig;

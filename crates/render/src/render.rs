@@ -1,8 +1,8 @@
 //! One frame: every pixel's geometry and colour, tile by tile and pass by pass.
 //!
-//! The first passes give every pixel equally many samples. What these say of the noise decides how many more each pixel gets
-//! (see [`crate::budget`]), and further passes take those. With a noise target there may be rounds of further passes, until what is left
-//! is measured not to be above it.
+//! The first passes give every pixel equally many samples. The noise estimated from these decides how many more each pixel gets (see
+//! [`crate::budget`]), and further passes take those. With a noise target there may be rounds of further passes, until the measured noise
+//! is not above it.
 
 use crate::budget::Budget;
 use crate::config::RenderConfig;
@@ -27,13 +27,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// `samples` over this is what every pixel gets first, to find out where the others are needed.
 const FIRST_DIVISOR: u32 = 4;
-/// The fewest first samples: fewer say nothing about a pixel's error.
+/// Least number of first samples: fewer are not enough to estimate a pixel's error.
 const MIN_FIRST: u32 = 8;
-/// The most first samples with a noise target: `samples` may be far beyond what the target takes, and the 48 pixels around one, from which
-/// its noise is estimated, have three thousand samples together.
+/// Largest number of first samples with a noise target: `samples` may be far more than the target needs, and the 48 pixels around one, from
+/// which its noise is estimated, have three thousand samples together.
 const MAX_FIRST_FOR_NOISE: u32 = 64;
 
-/// Renders every layer but the labels. The bytes depend on the arguments alone, whatever the number of threads.
+/// Renders every layer except the labels. The bytes depend only on the arguments, not on the number of threads.
 ///
 /// # Errors
 /// When the camera or the settings are not usable.
@@ -104,7 +104,7 @@ pub struct FrameRender<'a, 's> {
 /// How a frame's samples are spread over passes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Schedule {
-    /// Samples that every pixel gets, which tell where the others are needed.
+    /// Samples that every pixel gets, which show where further samples are needed.
     first: u32,
     /// Passes that take them.
     first_passes: u32,
@@ -124,7 +124,7 @@ impl Schedule {
         Self { first, first_passes, passes: first_passes + (config.samples - first).div_ceil(FrameRender::PASS) }
     }
 
-    /// What tells how many samples each pixel gets, once the first are taken.
+    /// The budget that decides how many samples each pixel gets, once the first are taken.
     pub fn budget(&self, config: &RenderConfig) -> Budget {
         Budget { first: self.first, mean: config.samples, noise: config.noise }
     }
@@ -205,7 +205,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let in_pass = |tiles: u64| (u64::from(begun) * count + u64::from(goal.saturating_sub(begun)) * tiles) / u64::from(whole);
         let (finished, before, total) = (AtomicU64::new(0), u64::from(pass) * count, u64::from(schedule.passes) * count);
         self.film.par_iter_mut().zip(0..tiles.count()).for_each(|(film, tile)| {
-            // Also before it: whoever ends the work here ends every thread before its next tile.
+            // Also before the tile: a caller who ends the work here ends every thread before its next tile.
             cx.progress("rendering", before + in_pass(finished.load(Ordering::Relaxed)), total);
             let pixels: Vec<(u32, u32)> = tiles.pixels(tile).collect();
             let goal =
@@ -266,8 +266,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         taken as f64 / self.wanted.len() as f64
     }
 
-    /// The noise as it is now, as [`Frame::noise`] measures it in the finished frame; `None` after one sample per pixel, which says
-    /// nothing.
+    /// The current noise, as [`Frame::noise`] measures it in the finished frame; `None` after one sample per pixel, which is not enough.
     pub fn noise(&self) -> Option<f64> {
         let stored = |sum: &PixelSum| -> ([f16; 3], f16) {
             let pixel = sum.resolve();
@@ -277,7 +276,7 @@ impl<'a, 's> FrameRender<'a, 's> {
     }
 
     /// True when the frame is done with fewer samples than it might have taken, because fewer were enough for the noise target: it has at
-    /// most the noise that was asked for.
+    /// most the requested noise.
     pub fn met_noise_target(&self) -> bool {
         let config = self.integrator.config;
         let Some(target) = config.noise else { return false };
@@ -294,11 +293,11 @@ impl<'a, 's> FrameRender<'a, 's> {
         partial::write(&header, self.wanted.iter().copied().chain(sums).chain(light_parts).chain(fixtures))
     }
 
-    /// Goes on from where [`FrameRender::save`] was called, in this process or another. The frame is to be a new one of the same
-    /// scene, guide, view and configuration, which is what `key` says.
+    /// Continues from where [`FrameRender::save`] was called, in this process or another. The frame must be a new one of the same scene,
+    /// guide, view and configuration, identified by `key`.
     ///
     /// # Errors
-    /// When the bytes are damaged, or not of this frame. Then this frame is as it was.
+    /// If the bytes are damaged, or not of this frame. Then this frame is unchanged.
     pub fn restore(&mut self, bytes: &[u8], key: &[u8]) -> Result<(), PartialError> {
         let (header, mut words) = partial::read(bytes)?;
         let expected = Header { done: header.done, passes: header.passes, ..self.header(key) };
@@ -321,13 +320,13 @@ impl<'a, 's> FrameRender<'a, 's> {
         Ok(())
     }
 
-    /// What precedes the pixels of this frame, before the first pass.
+    /// The header before the pixels of this frame, before the first pass.
     fn header<'k>(&self, key: &'k [u8]) -> Header<'k> {
         let fixtures = self.film.first().map_or(0, |film| film.fixture_count) as u32;
         Header { size: self.view.camera().size(), done: 0, passes: 0, light_parts: self.integrator.config.light_parts, fixtures, key }
     }
 
-    /// The layers as they are now, all but the labels and those of [`crate::add_extra_layers`].
+    /// The current layers, except the labels and those of [`crate::add_extra_layers`].
     pub fn frame(&self) -> Frame {
         // Resolve the sums of every pixel, and find the geometry at its centre.
         let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);

@@ -1,4 +1,4 @@
-//! What a ray finds where it hits: place, normals, texture coordinates, material.
+//! The surface at a ray's hit: position, normals, texture coordinates, material.
 
 use crate::bsdf::{self, Bsdf};
 use crate::light::LightPoint;
@@ -29,7 +29,7 @@ pub(crate) struct Surface<'s> {
     pub uv: Vec2,
     /// How wide the ray is that found it.
     pub cone: Cone,
-    /// The part of a texture that a reading stands for here.
+    /// The part of a texture that one lookup covers here.
     footprint: Footprint,
     /// True when `wo` is on the side that outward normals point to.
     pub outside: bool,
@@ -52,7 +52,7 @@ impl<'s> RenderScene<'s> {
         let [a, b, c] = triangle.normals;
         let winding = if triangle.winding == Vec3::ZERO { wo } else { triangle.winding };
         let interpolated = (a * weights[0] + b * weights[1] + c * weights[2]).try_normalize().unwrap_or(winding);
-        // The vertex normals say which side of the face is outside.
+        // The vertex normals determine the outer side of the face.
         let outward = if interpolated.dot(winding) < 0.0 { -winding } else { winding };
         let outside = wo.dot(outward) >= 0.0;
         let side = if outside { 1.0 } else { -1.0 };
@@ -136,12 +136,13 @@ impl<'s> Surface<'s> {
         Onb::from_z(self.ns)
     }
 
-    /// Lets light in where smooth shading says that it still shines, though the face is turned away from it already. Light on coarse
+    /// Admits light that smooth shading still receives although the face is already turned away from it. Light on coarse
     /// smooth meshes would otherwise end in steps along their edges, before it has faded: the "shadow terminator".
     ///
-    /// Light in such directions meets the surface where that would be if it were as round as its normals, by the planes through the corners
-    /// that are square to their normals: Hanika 2021, "Hacking the Shadow Terminator". All other directions are as they were. Nothing is
-    /// lifted on flat faces, in hollows, on what transmits light, nor where something else lies within the lift.
+    /// For such directions the surface point is moved to where it would be if the surface were as round as its normals, by the planes
+    /// through the corners that are perpendicular to their normals: Hanika 2021, "Hacking the Shadow Terminator". All other directions are
+    /// unchanged. Nothing is lifted on flat faces, in hollows, on surfaces that transmit light, nor where another surface is within the
+    /// lift.
     pub fn lifted(self, scene: &RenderScene<'s>) -> Self {
         Self { lift: self.lift(scene).unwrap_or(Vec3::ZERO), ..self }
     }
@@ -200,7 +201,7 @@ impl<'s> Surface<'s> {
 
 /// Surfaces that bulge by less are as good as flat.
 const MIN_LIFT_M: f32 = 1e-6;
-/// Where surfaces bulge by less, nothing that matters lies between: what is within this distance is not asked for.
+/// Lifts below this are not checked for other surfaces in between: at so small a distance they do not matter.
 const FREE_LIFT_M: f32 = 1e-3;
 
 /// The ray from a surface to a light, ending just before it.
@@ -295,7 +296,7 @@ mod tests {
     use enfilade_math::DAffine3;
     use enfilade_scene::{Environment, Part, Quiet, Scene};
 
-    /// A roof whose normals are those of a bulge, and a sheet at a height over it.
+    /// A roof with the normals of a bulge, and a sheet at a height over it.
     fn scene(sheet_m: f32) -> Scene {
         let roof = Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
@@ -318,8 +319,8 @@ mod tests {
         }
     }
 
-    /// By hand: the centre lies 0.2/√1.18 below the plane of one corner and 0.2/√1.09 below those of the others; the normals rise by 1/√1.18 and
-    /// 1/√1.09.
+    /// By hand: the centre is 0.2/√1.18 below the plane of one corner and 0.2/√1.09 below the planes of the others; the normals rise by
+    /// 1/√1.18 and 1/√1.09.
     #[test]
     fn bulges_are_lifted_to_the_planes_of_their_corners_unless_something_lies_between() {
         let expected = (0.2 / 1.18 + 2.0 * 0.2 / 1.09) / 3.0;

@@ -1,4 +1,4 @@
-//! What the pixels of a tile have gathered.
+//! Sums of the samples of a tile's pixels.
 
 use crate::film::PixelSum;
 use crate::light_parts::LightParts;
@@ -10,10 +10,10 @@ pub(crate) struct TileFilm {
     pub sums: Vec<PixelSum>,
     /// Empty unless light is kept in parts.
     pub light_parts: Vec<LightParts>,
-    /// For each pixel and then each fixture, the sums of reflectance × illumination and of the residual; empty unless fixtures are told
-    /// apart.
+    /// For each pixel and then each fixture, the sums of reflectance × illumination and of the residual; empty unless light is separated by
+    /// fixture.
     pub fixtures: Vec<[Rgb; 2]>,
-    /// Number of fixtures that are told apart.
+    /// Number of fixtures that light is separated by.
     pub fixture_count: usize,
 }
 
@@ -45,7 +45,7 @@ impl TileFilm {
         }
     }
 
-    /// What a fixture has sent to each pixel, with the pixel's sum.
+    /// Light of a fixture in each pixel, with the pixel's sum.
     pub fn of_fixture(&self, fixture: usize) -> impl Iterator<Item = (&PixelSum, [Rgb; 2])> {
         self.sums.iter().enumerate().map(move |(pixel, sum)| (sum, self.fixtures[pixel * self.fixture_count + fixture]))
     }

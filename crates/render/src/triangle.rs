@@ -1,9 +1,9 @@
-//! What shading needs of a triangle, in one place: two cache lines instead of a walk through part, mesh and three vertices.
+//! The data of a triangle for shading, in one place: two cache lines instead of lookups of part, mesh and three vertices.
 
 use enfilade_math::{Mat3, Vec2, Vec3};
 use enfilade_scene::{Part, Scene};
 
-/// A triangle in world space with its vertex attributes. Two cache lines that lie side by side are fetched together.
+/// A triangle in world space with its vertex attributes. Two adjacent cache lines are fetched together.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(128))]
 pub(crate) struct Triangle {
@@ -27,7 +27,7 @@ pub(crate) struct Triangle {
 
 /// Points of a face are found within about this fraction of the coordinates of its corners: a few units in the last place.
 const ROUNDING: f32 = 4e-7;
-/// What [`enfilade_math::offset_origin`] moves points by near the world's origin, metres.
+/// Distance by which [`enfilade_math::offset_origin`] moves points near the world's origin, metres.
 const OFFSET: f32 = 1.0 / 65536.0;
 
 /// The origin's offset grows with a point's own coordinates. A point in the middle of a face whose corners are far away has small
@@ -60,7 +60,7 @@ impl Triangle {
         self.corners[0] * a + self.corners[1] * b + self.corners[2] * c
     }
 
-    /// Normal by winding times twice the area; its side is that of the corners' order, not always outward.
+    /// Normal by winding times twice the area; its side follows from the corners' order and is not always outward.
     #[inline]
     pub fn cross(&self) -> Vec3 {
         (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])

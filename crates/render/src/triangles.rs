@@ -1,14 +1,14 @@
 //! All triangles of a scene, by the numbers that the hierarchy reports.
 //!
-//! Few triangles are all kept in world space. Where they are too many, meshes that stand in several places are instanced: their triangles
-//! are made from the mesh whenever they are asked for, with the same rounding, so that no pixel depends on which are kept.
+//! A small number of triangles is all kept in world space. If there are too many, meshes that are placed several times are instanced: their
+//! triangles are computed from the mesh on demand, with the same rounding, so that no pixel depends on which are kept.
 
 use crate::triangle::Triangle;
 use enfilade_geometry::{Bvh, Placement};
 use enfilade_math::{Bounds3, Mat3, Vec3};
 use enfilade_scene::{Material, Part, PartId, Scene};
 
-/// Up to this many triangles, all are kept as they stand: rays are faster then, for about 200 bytes a triangle.
+/// Up to this many triangles, all are kept in world space: rays are faster then, for about 200 bytes a triangle.
 const KEPT: usize = 1 << 21;
 /// Meshes of fewer triangles are never instanced.
 const MIN_INSTANCED: usize = 64;
@@ -26,7 +26,7 @@ pub(crate) struct Triangles<'s> {
 struct Range {
     /// Number of the first.
     first: u32,
-    /// Where the first is among those that are kept, if they are.
+    /// Index of the first among the kept triangles, if they are kept.
     kept: Option<u32>,
     /// For those that are not kept.
     normal_from_mesh: Mat3,
@@ -94,7 +94,7 @@ impl<'s> Triangles<'s> {
         if self.all_kept() { self.kept[number as usize].material } else { self.scene.parts[self.part(number)].material }
     }
 
-    /// The hierarchy over them, in which those of some materials ask the filter.
+    /// The hierarchy over them, in which triangles of some materials ask the filter.
     pub fn hierarchy(&self, filtered: impl Fn(&Material) -> bool) -> Bvh {
         let filtered: Vec<bool> = self.scene.materials.iter().map(filtered).collect();
         let corners: Vec<[Vec3; 3]> = self.kept.iter().map(|triangle| triangle.corners).collect();
@@ -226,7 +226,7 @@ mod tests {
             assert_eq!(format!("{:?}", kept.get(number)), format!("{:?}", made.get(number)));
             assert_eq!(kept.material(number), made.material(number));
         }
-        // What saves most is instanced first, and no more than is needed.
+        // Meshes that save most are instanced first, and no more than needed.
         assert_eq!(Triangles::keeping(&scene, 1500).kept.len(), 1313);
     }
 

@@ -18,10 +18,10 @@ const GUIDED_FRACTION: f32 = 0.65;
 /// A segment of a path: the ray that leaves a surface, and what is known of it.
 pub(crate) struct Segment {
     pub ray: Ray,
-    /// Where light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
+    /// The point that light was last sampled from, and the density of the ray's direction there; `None` after the camera or a
     /// mirror, where light sampling has no chance.
     pub sampled: Option<(LightPoint, f32)>,
-    /// The medium that it goes through.
+    /// The medium that it passes through.
     pub medium: Medium,
     /// True when the surface at its origin was passed through.
     pub crossed: bool,
@@ -31,9 +31,9 @@ pub(crate) struct Segment {
     pub shifted: bool,
     /// The way into the body that it is in, as long as it may leave it as through a pane.
     pub inside: Option<Inside>,
-    /// Where it has just left a solid pane: whether nothing had scattered the light before that.
+    /// If it has just left a solid pane: whether nothing had scattered the light before that.
     pub was_direct: Option<bool>,
-    /// The window that it has last gone through since its direction changed, where fixtures are told apart.
+    /// The last window that it has passed since its direction changed, if light is separated by fixture.
     pub window: Option<u16>,
     /// Weight of the sun's disk where the segment meets it, beside that of `sampled`: see [`crate::light::Lights::glint_weight`].
     pub sun: f32,
@@ -41,7 +41,7 @@ pub(crate) struct Segment {
     pub cone: Cone,
 }
 
-/// The medium that a ray goes through.
+/// The medium that a ray passes through.
 #[derive(Clone, Copy)]
 pub(crate) struct Medium {
     /// Absorption per metre.
@@ -66,7 +66,7 @@ impl Medium {
         if self.is_clear() { Rgb::WHITE } else { self.absorption.map(|a| (-a * distance.min(f32::MAX)).exp()) }
     }
 
-    /// The medium after a border, on its other side if the ray `crosses` it: that of a body which is entered, air where one is left.
+    /// The medium after a border, on its other side if the ray `crosses` it: the body's medium when entering, air when leaving.
     #[inline]
     pub fn after(self, border: &Surface<'_>, crosses: bool) -> Self {
         if crosses { self.beyond(border) } else { self }
@@ -100,11 +100,11 @@ pub(crate) struct Vertex<'a, 's> {
     /// Shading space.
     pub onb: Onb,
     wo: Vec3,
-    /// What the guide knows of the light here.
+    /// The guide's light here.
     guided: Option<Guided<'a>>,
 }
 
-/// What the guide knows of the light at a surface.
+/// The guide's light at a surface.
 struct Guided<'a> {
     light: &'a CellLight,
     /// The axes that it is stored in.
@@ -128,7 +128,7 @@ impl Segment {
         Self { ray, sampled, medium, crossed, straight, shifted, inside, was_direct, window, sun, cone }
     }
 
-    /// Goes on after this one as the way into a body through a flat border and out of it through a parallel one asks: unbent in the end.
+    /// Adapts the next segment for a path into a body through a flat border and out through a parallel one: the result is unbent.
     fn through_body(&self, surface: &Surface<'_>, mut next: Self) -> Self {
         if !surface.flat {
             return next;
@@ -159,8 +159,8 @@ impl Segment {
         }
     }
 
-    /// Whether nothing has scattered the light that comes along it, given the same of the segment `before` it. One that enters a body keeps
-    /// that for where it leaves.
+    /// Whether nothing has scattered the light that comes along it, given the same for the segment `before` it. A segment that enters a
+    /// body stores this for the point where the path leaves it.
     #[inline]
     pub fn is_direct(&mut self, before: &Self, direct: bool) -> bool {
         if let (None, Some(inside)) = (before.inside, &mut self.inside) {
@@ -234,7 +234,7 @@ impl<'a, 's> Vertex<'a, 's> {
             return self.scatter_by_bsdf([u[0], u[1], renewed], 1.0 - fraction, before);
         }
 
-        // Sample a direction from the guide; its density is that of the mixture of both.
+        // Sample a direction from the guide; its density is the density of the mixture of both.
         let (direction, light_pdf) = light.sample([u[0], u[1]], surface.p, onb);
         let wi = self.onb.to_local(direction);
         let side = surface.side(direction);

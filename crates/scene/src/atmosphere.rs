@@ -1,15 +1,15 @@
 //! The earth's atmosphere lit by the sun: radiance of the sky by single scattering along the view, and all further orders by the
 //! series of Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique".
 //!
-//! The air is that of Bruneton & Neyret 2008 with the ozone of Bruneton 2017, which keeps the zenith blue at dusk; haze is added
-//! by Ångström's law. Three wavelengths, 680, 550 and 440 nm, stand for red, green and blue. Kilometres inside.
+//! The air is modelled as in Bruneton & Neyret 2008 with the ozone of Bruneton 2017, which keeps the zenith blue at dusk; haze is added
+//! by Ångström's law. Three wavelengths, 680, 550 and 440 nm, represent red, green and blue. Lengths are in kilometres.
 
 use enfilade_math::{DVec3, Rgb, warp};
 use std::f64::consts::PI;
 
 const GROUND_KM: f64 = 6360.0;
 const TOP_KM: f64 = 6460.0;
-/// The eye stands this high, so that rounding does not put it below the ground.
+/// Height of the eye, so that rounding does not put it below the ground.
 const EYE_KM: f64 = 0.002;
 const WAVELENGTHS_UM: [f64; 3] = [0.680, 0.550, 0.440];
 /// Scattering by air at sea level, per km, and the height in which it falls to 1/e.
@@ -110,7 +110,7 @@ impl Atmosphere {
         Dome { to_sun, parts }
     }
 
-    /// What the sky's radiance in the direction `d` is made of: see [`Dome`].
+    /// The components of the sky's radiance in the direction `d`: see [`Dome`].
     fn seen(&self, d: DVec3, to_sun: DVec3, multiple: &[Spectrum]) -> [Spectrum; 3] {
         let eye = DVec3::new(0.0, 0.0, GROUND_KM + EYE_KM);
         let length = to_top(eye.z, d.z);
@@ -124,12 +124,12 @@ impl Atmosphere {
             let r = p.length();
             let mu_sun = p.dot(to_sun) / r;
 
-            // What arrives there and is scattered: sunlight, and light that was scattered before.
+            // Light that arrives there and is scattered: sunlight, and light that was scattered before.
             let (air, haze, extinction) = self.coefficients(r);
             let sun = self.to_sun(r, mu_sun);
             let many = bilinear(multiple, MULTIPLE_TABLE, (r - GROUND_KM) / (TOP_KM - GROUND_KM), 0.5 * mu_sun + 0.5);
 
-            // What of it reaches the eye, with the extinction within the step integrated exactly.
+            // The share that reaches the eye, with the extinction within the step integrated exactly.
             for c in 0..3 {
                 let step = (-extinction[c] * (far - near)).exp();
                 let weight = through[c] * if extinction[c] > 1e-12 { (1.0 - step) / extinction[c] } else { far - near };

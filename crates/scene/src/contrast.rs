@@ -1,4 +1,4 @@
-//! How much the colours of a surface vary, by its textures: a number per part for whoever wants views of something.
+//! Variation of a surface's colours by its textures: a number per part, used to find views with visible detail.
 
 use crate::{Image, Parameter, Pixels, Scene};
 use enfilade_math::Rgb;

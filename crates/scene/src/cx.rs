@@ -1,4 +1,4 @@
-//! How a stage speaks to its caller. Nothing below the pipeline prints, so progress and warnings go through [`Cx`].
+//! How a stage reports to its caller. Nothing below the pipeline prints, so progress and warnings go through [`Cx`].
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -10,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 pub struct Warning {
     /// File, and place in it, or the part or frame concerned.
     pub place: String,
-    /// What was found and what was done about it.
+    /// The problem found, and how it was handled.
     pub message: String,
 }
 
@@ -20,7 +20,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// What a stage may tell its caller, from any thread.
+/// Receives the reports of a stage, from any thread.
 pub trait Cx: Sync {
     /// `done` of `total` units of `what` are finished. Cheap enough to call per tile.
     fn progress(&self, what: &str, done: u64, total: u64);
@@ -29,10 +29,10 @@ pub trait Cx: Sync {
     fn warn(&self, warning: Warning);
 }
 
-/// Tells a [`Cx`] how many units of parallel work are finished.
+/// Reports to a [`Cx`] how many units of parallel work are finished.
 ///
-/// It hears of each unit before and after it. A caller may end the work by unwinding from [`Cx::progress`], which ends what one thread
-/// does; the other threads take over what that one leaves, and end at their next unit before they have begun it.
+/// Progress is reported before and after each unit. A caller may end the work by unwinding from [`Cx::progress`], which ends one thread's
+/// work; the other threads take over its remaining units, and end before they begin their next unit.
 pub struct Counted<'a> {
     cx: &'a dyn Cx,
     what: &'a str,

@@ -16,7 +16,7 @@ pub enum Environment {
     Map {
         /// Index into `Scene::images`.
         image: u32,
-        /// Where the image's rows lie.
+        /// Polar angles of the image's rows.
         rows: MapRows,
         /// Multiplies the image.
         scale: Rgb,
@@ -26,7 +26,7 @@ pub enum Environment {
 }
 
 impl Environment {
-    /// True when all its numbers are finite, those of the image apart.
+    /// True if all its numbers are finite, except for the image's.
     pub(crate) fn is_finite(&self) -> bool {
         match self {
             Self::Constant { radiance } => radiance.is_finite(),
@@ -35,7 +35,7 @@ impl Environment {
     }
 }
 
-/// Where the rows of an equirectangular image lie between the zenith and the nadir.
+/// How the rows of an equirectangular image are distributed between the zenith and the nadir.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MapRows {
     /// Each fills one of as many equal bands, so that the image's borders are the poles.

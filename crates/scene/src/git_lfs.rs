@@ -6,7 +6,8 @@ pub const GIT_LFS_POINTER: &str = "a Git LFS pointer to a file that was not fetc
 /// Longest pointer, bytes, by Git LFS's specification.
 const LONGEST: usize = 1024;
 
-/// True for the bytes of a pointer. Their first line is the specification's address; that of Git LFS before its first release counts too.
+/// True for the bytes of a pointer. Their first line is the specification's address; the address used before the first release of Git LFS
+/// counts too.
 ///
 /// ```
 /// use enfilade_scene::is_git_lfs_pointer;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A semantic class: id, name and display colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SemanticClass {
-    /// 1 to 40; −1 stands for "unlabelled" and 0 is never used.
+    /// 1 to 40; −1 means "unlabelled" and 0 is never used.
     pub id: i16,
     /// NYU40's name.
     pub name: &'static str,
@@ -44,7 +44,7 @@ pub fn is_stuff(semantic: i16) -> bool {
     matches!(semantic, WALL | FLOOR | CEILING)
 }
 
-/// What a part is called by people. −1 means unlabelled in both fields.
+/// The label of a part. −1 means unlabelled in both fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartLabel {
     /// NYU40 class, 1 to 40, or −1.

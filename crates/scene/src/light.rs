@@ -22,7 +22,7 @@ pub enum Light {
         name: String,
         /// World position.
         position: Vec3,
-        /// Unit axis, pointing the way the light goes.
+        /// Unit axis, in the direction in which light travels.
         direction: Vec3,
         /// Radiant intensity on the axis, W/sr.
         intensity: Rgb,
@@ -30,7 +30,7 @@ pub enum Light {
         inner_rad: f32,
         /// None beyond this one.
         outer_rad: f32,
-        /// How it dims between them.
+        /// Falloff between them.
         falloff: SpotFalloff,
     },
     /// A point light with a measured distribution of intensity (IES).
@@ -59,7 +59,7 @@ pub enum Light {
     },
 }
 
-/// How a spot dims from the inner angle to the outer one.
+/// Falloff of a spot from the inner angle to the outer one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SpotFalloff {
     /// The square of a line in the angle's cosine (glTF's `KHR_lights_punctual`).

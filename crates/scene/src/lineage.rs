@@ -1,10 +1,10 @@
-//! Which object a part belongs to, and what that lies in.
+//! The object that a part belongs to, and its parents.
 
 use crate::{ObjectId, Part, PartId, Scene};
 
 impl Scene {
-    /// A number that all parts of one object share and no other part has: by which instances are known. A part without an object is one by
-    /// itself.
+    /// A number that all parts of one object share and no other part has: it identifies instances. A part without an object is an instance
+    /// by itself.
     ///
     /// ```
     /// use enfilade_math::DAffine3;
@@ -27,19 +27,19 @@ impl Scene {
         self.parts[part as usize].object.unwrap_or(self.objects.len() as u32 + part)
     }
 
-    /// The objects that a part lies in, its own first and the outermost last.
+    /// The objects that contain a part, its own first and the outermost last.
     pub fn objects_around<'a>(&'a self, part: &Part) -> impl Iterator<Item = ObjectId> + 'a {
         std::iter::successors(part.object, |&object| self.objects[object as usize].parent)
     }
 
-    /// Names of the objects that a part lies in, the outermost first and its own last.
+    /// Names of the objects that contain a part, the outermost first and its own last.
     pub fn lineage(&self, part: &Part) -> Vec<&str> {
         let mut names: Vec<&str> = self.objects_around(part).map(|object| self.objects[object as usize].name.as_str()).collect();
         names.reverse();
         names
     }
 
-    /// Removes the objects that no part lies in; the others keep their order.
+    /// Removes the objects that contain no part; the others keep their order.
     pub fn remove_unused_objects(&mut self) {
         let mut used = vec![false; self.objects.len()];
         self.parts.iter().filter_map(|part| part.object).for_each(|object| used[object as usize] = true);

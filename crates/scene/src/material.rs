@@ -1,6 +1,6 @@
 //! Materials: how a surface scatters and emits light, what is cut out of it, and how its normals are perturbed.
 //!
-//! The variants of [`Bsdf`] are what scene files can say; the renderer resolves each at a point to the lobes that it samples.
+//! The variants of [`Bsdf`] are the materials of scene files; the renderer resolves each at a point to the lobes that it samples.
 
 use crate::nesting::{self, nested};
 use crate::texture::TextureRef;
@@ -31,14 +31,14 @@ pub struct ScalarParam {
 pub struct Roughness {
     /// Alpha; 0 is smooth.
     pub param: ScalarParam,
-    /// Whose slopes.
+    /// Distribution of the slopes.
     pub distribution: Distribution,
 }
 
-/// How the slopes of facets are distributed, and what becomes of light between them.
+/// Distribution of the slopes of facets, and treatment of light between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Distribution {
-    /// Trowbridge and Reitz'; light that meets several facets in a row is kept, but under a plastic's coat.
+    /// Trowbridge and Reitz'; light that meets several facets in a row is kept, except under a plastic's coat.
     #[default]
     Ggx,
     /// Beckmann's, as Mitsuba has it: only single bounces count, and the facets mask both directions independently.
@@ -83,7 +83,7 @@ impl From<f32> for ScalarParam {
     }
 }
 
-/// How light is scattered at a surface. `alpha` is the roughness of interfaces (0 = smooth); reflectances lie on `[0,1]`.
+/// How light is scattered at a surface. `alpha` is the roughness of interfaces (0 = smooth); reflectances are in `[0,1]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Bsdf {
     /// Lambert's law.
@@ -146,10 +146,10 @@ pub enum Bsdf {
     Disney(Box<Disney>),
     /// Two of these side by side.
     Blend {
-        /// Where the weight is 0.
+        /// Scattering where the weight is 0.
         #[serde(deserialize_with = "nested")]
         first: Box<Bsdf>,
-        /// Where the weight is 1.
+        /// Scattering where the weight is 1.
         #[serde(deserialize_with = "nested")]
         second: Box<Bsdf>,
         /// Share of the second.
@@ -267,7 +267,7 @@ pub struct Principled {
     pub metallic: ScalarParam,
     /// Perceptual roughness; GGX alpha is its square.
     pub roughness: ScalarParam,
-    /// Index of refraction (1.5 unless `KHR_materials_ior` says otherwise).
+    /// Index of refraction (1.5 unless `KHR_materials_ior` states another).
     pub ior: f32,
     /// `KHR_materials_specular` strength.
     pub specular: ScalarParam,
@@ -333,7 +333,7 @@ pub struct Disney {
     pub flatness: ScalarParam,
     /// Strength of the clear-coat; sheets have none.
     pub clearcoat: ScalarParam,
-    /// The clear-coat's gloss; its alpha goes from 0.1 to 0.001.
+    /// The clear-coat's gloss; its alpha ranges from 0.1 to 0.001.
     pub clearcoat_gloss: ScalarParam,
     /// True for a sheet without thickness (`principledthin`).
     pub thin: bool,
@@ -342,7 +342,7 @@ pub struct Disney {
 }
 
 impl Disney {
-    /// True for a smooth sheet: light goes straight on through it.
+    /// True for a smooth sheet: light passes straight through it.
     pub fn is_pane(&self) -> bool {
         self.thin && self.spec_trans.factor > 0.0 && self.roughness.factor == 0.0
     }
@@ -380,7 +380,7 @@ impl Disney {
     }
 }
 
-/// What is cut out of the surface.
+/// The parts of the surface that are cut out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Alpha {
     /// Nothing.
@@ -419,7 +419,7 @@ pub enum NormalMap {
     },
 }
 
-/// What a part's surface is made of.
+/// The material of a part's surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Name from the file, or a stable one that the importer made.
@@ -457,7 +457,7 @@ impl Material {
         Self::new(name, Bsdf::Diffuse { reflectance: reflectance.into() })
     }
 
-    /// Whether its surface has holes or shows what lies behind it, by its opacity.
+    /// Whether its surface has holes or is see-through, by its opacity.
     pub fn is_partly_there(&self) -> bool {
         match self.alpha {
             Alpha::Opaque => false,

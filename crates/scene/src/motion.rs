@@ -1,4 +1,4 @@
-//! How a camera moves, as an inertial measurement unit inside it would feel it.
+//! Motion of a camera, as measured by an inertial measurement unit inside it.
 
 use crate::Pose;
 use enfilade_math::{DMat3, DQuat, DVec3, NaturalSpline};
@@ -20,25 +20,26 @@ pub const OPENCV: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z)
 pub struct MotionSample {
     /// Since frame 0.
     pub time_s: f64,
-    /// Where the camera is, world, metres.
+    /// Position of the camera, world, metres.
     pub position: DVec3,
     /// Takes the body's axes to the world's; a unit quaternion with w ≥ 0.
     pub rotation: DQuat,
     /// World, m/s.
     pub velocity: DVec3,
-    /// What an ideal gyroscope reads: about the body's axes, rad/s.
+    /// Reading of an ideal gyroscope: about the body's axes, rad/s.
     pub angular_rate: DVec3,
-    /// What an ideal accelerometer reads: acceleration less gravity, along the body's axes, m/s². At rest and level that is 9.80665 along −y.
+    /// Reading of an ideal accelerometer: acceleration less gravity, along the body's axes, m/s². At rest and level that is 9.80665 along
+    /// −y.
     pub specific_force: DVec3,
 }
 
-/// The way of a camera through its frames: natural cubic splines in time through positions and, component by component, rotations. Velocity and
-/// acceleration are continuous.
+/// The path of a camera through its frames: natural cubic splines in time through positions and, component by component, rotations.
+/// Velocity and acceleration are continuous.
 ///
 /// ```
 /// use enfilade_math::DVec3;
 /// use enfilade_scene::{GRAVITY_M_S2, Motion, Pose};
-/// // At rest and level: what is felt is the ground that holds the camera.
+/// // At rest and level: the reading is the force of the ground that supports the camera.
 /// let pose = |frame| Pose::look_at(frame, DVec3::Z, DVec3::Z + DVec3::Y, DVec3::Z).unwrap();
 /// let motion = Motion::through(&[pose(0), pose(1)], 0.04).unwrap();
 /// assert_eq!(motion.rate_hz(), 200.0);
@@ -80,7 +81,7 @@ impl Motion {
         })
     }
 
-    /// Samples from one frame to the next: so many that there are 200 a second or a little more.
+    /// Samples from one frame to the next, chosen to give 200 a second or a little more.
     pub fn per_frame(&self) -> usize {
         (RATE_HZ * self.frame_time_s).ceil().max(1.0) as usize
     }

@@ -3,18 +3,18 @@
 use serde::de::{Deserialize, Deserializer, Error as _};
 use std::cell::Cell;
 
-/// Blends within blends are no deeper than this.
+/// Largest depth of blends within blends.
 pub(crate) const MAX_DEPTH: usize = 128;
 
 thread_local! {
-    /// How many blends the one that is being read lies within.
+    /// Number of blends around the one that is being read.
     static WITHIN: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Reads a part of a blend: what `serde(deserialize_with)` asks for.
+/// Reads a part of a blend, for `serde(deserialize_with)`.
 ///
 /// # Errors
-/// When the data end too soon, or the blend lies too deep.
+/// If the data end too soon, or the blend is too deep.
 pub(crate) fn nested<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Box<T>, D::Error> {
     let within = WITHIN.get();
     if within >= MAX_DEPTH {

@@ -22,7 +22,7 @@
 
 use crate::{Labels, Scene, SceneError};
 
-/// What packages begin with, before their number.
+/// First bytes of packages, before their number.
 const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
 const VERSION: u32 = 4;
@@ -78,12 +78,12 @@ fn package(body: Vec<u8>) -> Vec<u8> {
     [format!("{NAME}{VERSION}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
 }
 
-/// True where bytes begin as the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
+/// True if the bytes begin like the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
 pub fn is_current_package(head: &[u8]) -> bool {
     split_head(head).is_ok()
 }
 
-/// What follows the first line.
+/// The bytes after the first line.
 fn split_head(bytes: &[u8]) -> Result<&[u8], PackageError> {
     let head = &bytes[..bytes.len().min(PACKAGE_HEAD_BYTES as usize)];
     let line = head.split_inclusive(|&b| b == b'\n').next().unwrap_or_default();

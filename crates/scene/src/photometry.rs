@@ -3,7 +3,7 @@
 use enfilade_math::Vec3;
 use serde::{Deserialize, Serialize};
 
-/// The measured intensity of a luminaire by direction: a photometric web of type C, as IES LM-63 files hold it.
+/// The measured intensity of a luminaire by direction: a photometric web of type C, as in IES LM-63 files.
 ///
 /// Its own space has the luminaire's axis, where vertical angles begin, along −z; horizontal angles count from +x towards +y.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ impl PhotometricWeb {
     /// from 90 to 270 at y.
     ///
     /// # Errors
-    /// What is wrong, as a sentence's end: angles out of order or range, counts that do not fit, values that are no intensities.
+    /// The problem, as the end of a sentence: angles out of order or range, counts that do not fit, values that are not intensities.
     pub fn new(vertical_deg: Vec<f32>, horizontal_deg: Vec<f32>, candela: Vec<f32>) -> Result<Self, String> {
         let ordered = |angles: &[f32]| angles.windows(2).all(|pair| pair[0] < pair[1]);
         let (Some(&v0), Some(&v1)) = (vertical_deg.first(), vertical_deg.last()) else { return Err("there are no vertical angles".into()) };
@@ -122,7 +122,7 @@ impl PhotometricWeb {
     }
 }
 
-/// The interval of rising `angles` that holds `angle`, and where in it on [0, 1].
+/// The interval of rising `angles` that contains `angle`, and its position there on [0, 1].
 fn interval(angles: &[f32], angle: f32) -> (usize, f32) {
     let first = angles.partition_point(|&a| a <= angle).saturating_sub(1).min(angles.len().saturating_sub(2));
     let Some(&next) = angles.get(first + 1) else { return (0, 0.0) };
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn planes_are_mirrored_as_their_range_says() {
         let web = |horizontal: Vec<f32>| {
-            // The intensity tells the plane.
+            // The intensity identifies the plane.
             let candela = horizontal.iter().flat_map(|&h| [h + 1.0; 2]).collect();
             PhotometricWeb::new(vec![0.0, 180.0], horizontal, candela).unwrap()
         };

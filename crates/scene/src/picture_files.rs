@@ -1,9 +1,8 @@
-//! What a scene's pictures were before they were decoded, for whoever writes them again: a file that is passed on costs no time and loses
-//! nothing.
+//! The original files of a scene's pictures, for exporters: copying a file takes no time and loses nothing.
 
 use std::collections::BTreeMap;
 
-/// A picture as it came, compressed.
+/// A picture file as it was read, compressed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureFile {
     /// The media type: `image/png` or `image/jpeg`, the two that every program reads.
@@ -12,5 +11,5 @@ pub struct PictureFile {
     pub bytes: Vec<u8>,
 }
 
-/// Files by index into `Scene::images`. A picture without one was made, or came in another form.
+/// Files by index into `Scene::images`. A picture without a file was generated, or had another format.
 pub type PictureFiles = BTreeMap<u32, PictureFile>;

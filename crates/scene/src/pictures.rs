@@ -1,4 +1,4 @@
-//! How a package stores the pictures of a scene: eight-bit ones as PNG, which loses nothing, the others as they are.
+//! Storage of a scene's pictures in a package: eight-bit ones as PNG, which is lossless, the others as raw values.
 //!
 //! Pictures are packed and unpacked in parallel, each by itself, so the bytes do not depend on the number of threads. The package's
 //! own hash guards them, which is why PNG's checksums are not computed again when they are read.
@@ -30,12 +30,12 @@ enum PackedPixels<'a> {
 /// Bytes in one run, which are not written one by one.
 struct Bytes(Vec<u8>);
 
-/// Writes all pictures: what `serde(with)` asks for.
+/// Writes all pictures, for `serde(with)`.
 pub fn serialize<S: Serializer>(images: &[Image], serializer: S) -> Result<S::Ok, S::Error> {
     enfilade_parallel::map(images, packed).serialize(serializer)
 }
 
-/// Reads all pictures: what `serde(with)` asks for.
+/// Reads all pictures, for `serde(with)`.
 ///
 /// # Errors
 /// When the data end too soon or a picture is no PNG of its size.
@@ -81,7 +81,7 @@ pub enum PngEffort {
 /// opaque. `texels` are R, G, B, A row by row from the top, of a picture of `size` [width, height].
 ///
 /// # Panics
-/// When there are not as many texels as the size says.
+/// If the number of texels does not fit the size.
 pub fn smallest_png(size: [u32; 2], texels: &[[u8; 4]], effort: PngEffort) -> Vec<u8> {
     let opaque = texels.iter().all(|&[_, _, _, a]| a == 255);
     let grey = texels.iter().all(|&[r, g, b, _]| r == g && g == b);

@@ -10,19 +10,19 @@ use std::collections::HashMap;
 /// Index into [`Scene::parts`]. A part's render entity id in the images is this plus one.
 pub type PartId = u32;
 
-/// A visible thing with one mesh and one material: the unit that is labelled and that `render_entity_id` tells apart.
+/// A visible thing with one mesh and one material: the unit that is labelled and that `render_entity_id` distinguishes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// Unique within the scene.
     pub name: String,
-    /// What it is a part of; `None` where it is a thing by itself.
+    /// The object it is a part of; `None` if it is a thing by itself.
     pub object: Option<ObjectId>,
     /// Index into `Scene::meshes`; several parts may share one.
     pub mesh: u32,
     /// Index into `Scene::materials`.
     pub material: u32,
-    /// Places the mesh in the world. Triangles are counter-clockwise seen from outside once placed, so a placement that mirrors
-    /// goes with a mesh wound the other way.
+    /// Places the mesh in the world. Triangles are counter-clockwise seen from outside once placed, so a placement that mirrors is used
+    /// with a mesh of opposite winding.
     pub world_from_mesh: DAffine3,
 }
 
@@ -56,7 +56,7 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Everything visible.
     pub parts: Vec<Part>,
-    /// What the parts are parts of, and what these lie in; an object's parent stands before it.
+    /// The objects that the parts belong to, and their parents; a parent comes before its children.
     pub objects: Vec<Object>,
     /// Surfaces.
     pub materials: Vec<Material>,
@@ -92,13 +92,13 @@ pub enum SceneError {
     Mesh {
         /// The first part that uses the mesh.
         part: String,
-        /// What is wrong.
+        /// The problem.
         error: MeshError,
     },
     /// An index to nothing.
     #[error("{what} refers to {kind} {index}, but there are only {count}")]
     Dangling {
-        /// What holds the index.
+        /// The owner of the index.
         what: String,
         /// "mesh", "material", "object" or "image".
         kind: &'static str,
@@ -113,9 +113,9 @@ pub enum SceneError {
     /// A number out of its domain.
     #[error("{what}: {problem}")]
     Value {
-        /// What holds the number.
+        /// The owner of the number.
         what: String,
-        /// What was found and what was expected.
+        /// The value found and what was expected.
         problem: String,
     },
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// What Windows-1252 has where Latin-1 has control characters, 0x80 to 0x9f; its five unused bytes stay what they are in Latin-1.
+/// Characters of Windows-1252 for the bytes 0x80 to 0x9f, control characters in Latin-1; its five unused bytes are as in Latin-1.
 const WINDOWS: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘', '’', '“', '”', '•', '–',
     '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Image {
-    /// Where it came from, for messages.
+    /// Source, for messages.
     pub name: String,
     /// Pixels per row.
     pub width: u32,
@@ -32,7 +32,7 @@ pub struct Image {
 /// Texel storage.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Pixels {
-    /// Eight bits a channel, RGBA. `srgb` says that RGB are sRGB-encoded; alpha is always linear.
+    /// Eight bits a channel, RGBA. `srgb` means that RGB are sRGB-encoded; alpha is always linear.
     Rgba8 {
         /// True for colours, false for data such as normals and roughness.
         srgb: bool,
@@ -43,7 +43,7 @@ pub enum Pixels {
     RgbF32(Vec<[f32; 3]>),
 }
 
-/// What lies outside the unit square.
+/// How a texture continues outside the unit square.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Wrap {
     /// The image repeats.
@@ -79,7 +79,7 @@ pub struct TextureRef {
 }
 
 impl TextureRef {
-    /// The image as it is: repeated, bilinear, coordinates unchanged.
+    /// The unmodified image: repeated, bilinear, coordinates unchanged.
     pub fn new(image: u32) -> Self {
         Self { image, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], wrap: [Wrap::Repeat; 2], filter: Filter::Linear }
     }
@@ -93,7 +93,7 @@ impl TextureRef {
 }
 
 impl Wrap {
-    /// The texel of `n` along an axis that holds a texture coordinate.
+    /// The texel of `n` along an axis that contains a texture coordinate.
     #[inline]
     pub fn nearest(self, coordinate: f32, n: u32) -> usize {
         self.index(floor(self.reduced(coordinate) * n as f32), n as i32)
@@ -122,7 +122,7 @@ impl Wrap {
         (first, position - first as f32)
     }
 
-    /// The coordinate within one period (repeat: [0,1], mirror: [0,2]) or, clamped, within [−1,2], so that integers hold it.
+    /// The coordinate within one period (repeat: [0,1], mirror: [0,2]) or, clamped, within [−1,2], so that it fits integers.
     #[inline]
     fn reduced(self, coordinate: f32) -> f32 {
         match self {

@@ -3,7 +3,7 @@
 use enfilade_math::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a camera is for one frame.
+/// Pose of a camera for one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Frame number; poses of a trajectory have ascending numbers.

@@ -42,7 +42,7 @@ pub struct TriangleSource {
 pub struct WorldMesh {
     /// Corners of every triangle.
     pub corners: Vec<[Vec3; 3]>,
-    /// Where each triangle comes from.
+    /// Source of each triangle.
     pub sources: Vec<TriangleSource>,
     /// The smallest box around all of them.
     pub bounds: Bounds3,

@@ -13,7 +13,7 @@ use image::codecs::jpeg::JpegEncoder;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// What a camera writes.
+/// Output of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraFormat {
@@ -29,16 +29,16 @@ pub enum CameraFormat {
     Raw,
 }
 
-/// A camera's own path from radiance to files. Lens, shutter and distortion are not its: those are rendered.
+/// A camera's own path from radiance to files. Lens, shutter and distortion are not part of it: they are rendered.
 ///
 /// Light passes, in this order: vignetting; the exposure; the sensor with shot noise, read noise, mosaic and converter; white balance; the
-/// tone curve; sharpening; rounding. All of it acts on `color`, be it denoised or as rendered.
+/// tone curve; sharpening; rounding. All of it acts on `color`, denoised or as rendered.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraSensor {
-    /// What its folder is called.
+    /// Name of its folder.
     pub name: String,
-    /// What it writes.
+    /// Its output.
     #[serde(default)]
     pub format: CameraFormat,
     /// Radiance is multiplied by this, and 1 saturates the sensor. Unless it is given, pictures are exposed as in Hypersim's tone map, by the
@@ -88,7 +88,7 @@ const fn quality() -> Amount {
 /// Bits of a raw file unless others are given.
 const RAW_BITS: u8 = 12;
 
-/// What was drawn for a frame.
+/// Random values drawn for a frame.
 struct Drawn {
     exposure: Option<f64>,
     stops: f64,
@@ -127,7 +127,7 @@ impl CameraSensor {
     }
 
     fn draw(&self, rng: &mut Rng) -> Drawn {
-        // In one order, whatever is given: a key that is added does not change what others draw.
+        // Always in the same order, so that an added key does not change the values of others.
         Drawn {
             exposure: drawn_or_none(self.exposure, rng),
             stops: self.stops.draw(rng),
@@ -141,7 +141,7 @@ impl CameraSensor {
         }
     }
 
-    /// What it gives of a frame.
+    /// The reading for a frame.
     pub(crate) fn sense(&self, subject: &Subject<'_>, mut rng: Rng) -> Result<Reading, SensorError> {
         let drawn = self.draw(&mut rng);
         let mut light = self.arriving(subject, &drawn)?;

@@ -1,4 +1,4 @@
-//! What the depth sensors share: which surface they see, and how far they reach.
+//! Common parts of the depth sensors: which surface they see, and their range.
 
 use crate::reading::Subject;
 use crate::{Amount, SensorError};
@@ -6,14 +6,14 @@ use enfilade_frame::tonemap::brightness;
 use enfilade_frame::{Layer, traits};
 use serde::{Deserialize, Serialize};
 
-/// What a depth sensor sees of glass.
+/// How a depth sensor sees glass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Glass {
     /// The glass, as the layers of geometry do.
     #[default]
     Surface,
-    /// What is behind it, by `depth_behind_meters`.
+    /// The surface behind it, by `depth_behind_meters`.
     Behind,
     /// Nothing.
     Nothing,
@@ -26,7 +26,7 @@ pub(crate) struct Optics {
 }
 
 impl Optics {
-    /// The layers that tell it.
+    /// The layers needed to find it.
     pub fn layers(&self) -> Vec<Layer> {
         let mut layers = vec![Layer::DepthMeters];
         if self.glass == Glass::Behind {
@@ -65,7 +65,7 @@ pub(crate) fn forget(depths: &mut [f32], unseen: impl Iterator<Item = bool>) {
     depths.iter_mut().zip(unseen).filter(|(_, unseen)| *unseen).for_each(|(depth, _)| *depth = f32::NAN);
 }
 
-/// True for what lies before the sensor, and within its range.
+/// True if the depth is in front of the sensor and within its range.
 pub(crate) fn reaches(range_m: Option<[f64; 2]>, depth_m: f64) -> bool {
     depth_m > 0.0 && range_m.is_none_or(|[near, far]| (near..=far).contains(&depth_m))
 }
@@ -86,7 +86,7 @@ pub(crate) fn reflectances(sensor: &str, subject: &Subject<'_>) -> Result<Vec<f6
     Ok((0..subject.frame.pixels()).map(|i| brightness([0, 1, 2].map(|c| reflectance.get(3 * i + c)))).collect())
 }
 
-/// Checks that a number, or the whole range of one, lies between two bounds.
+/// Checks that a number, or the whole range of one, is between two bounds.
 pub(crate) fn check_within(key: &str, amount: Amount, [least, most]: [f64; 2]) -> Result<(), String> {
     let [low, high] = amount.bounds();
     if low >= least && high <= most && high.is_finite() {

@@ -40,14 +40,14 @@ pub fn sense_frames(dataset: &Dataset, sensors: &[Sensor], of: [&str; 2], frames
     show(dataset, sensors, &layers, of, frames, cx)
 }
 
-/// Reads those of the layers that a frame has; a frame of 0 × 0 pixels where it has none.
+/// Reads the layers that a frame has; a frame of 0 × 0 pixels if it has none.
 fn read(dataset: &Dataset, (scene, camera, number): (&str, &str, u32), layers: &[Layer]) -> Result<Frame, SensorError> {
     let there: Vec<Layer> = layers.iter().copied().filter(|&layer| dataset.gives_layer(scene, camera, number, layer)).collect();
     Ok(if there.is_empty() { Frame::new(0, 0) } else { dataset.read_frame(scene, camera, number, &there)? })
 }
 
 impl Sensor {
-    /// What it gives of a stored frame (scene, camera, number).
+    /// The reading for a stored frame (scene, camera, number).
     ///
     /// # Errors
     /// When the frame cannot be read, or cannot be seen by the sensor.

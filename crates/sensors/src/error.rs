@@ -23,7 +23,7 @@ pub enum SensorError {
         sensor: String,
         /// Scene, camera and number.
         frame: String,
-        /// What is missing, and what to do.
+        /// The missing data, and what to do.
         problem: String,
     },
 }

@@ -14,7 +14,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Imu {
-    /// What its folder is called.
+    /// Name of its folder.
     pub name: String,
     /// Noise density of the gyroscope, rad/s/√Hz.
     pub gyroscope_noise: f64,
@@ -55,7 +55,7 @@ impl Imu {
             subject.unseen(&self.name, problem.into())
         })?;
         let rate_hz = motion.rate_hz();
-        // What the biases have come to before this frame follows from the numbers that the frames before have drawn.
+        // The biases before this frame follow from the random numbers of the frames before.
         let rng = |number: u32| subject.rng(seed, &self.name, number);
         let mut bias = self.first_bias(&mut rng(u32::MAX));
         let wanders = self.gyroscope_walk > 0.0 || self.accelerometer_walk > 0.0;
@@ -83,7 +83,7 @@ impl Imu {
         [self.gyroscope_bias, self.accelerometer_bias].map(|deviation| deviation * normal(rng))
     }
 
-    /// Lets the biases wander by one sample, and draws its noise. The same numbers are drawn whatever the settings are.
+    /// Lets the biases wander by one sample, and draws its noise. The same random numbers are drawn for all settings.
     fn step(&self, rng: &mut Rng, rate_hz: f64, bias: &mut [DVec3; 2]) -> [DVec3; 2] {
         let root = rate_hz.sqrt();
         let noise = [self.gyroscope_noise, self.accelerometer_noise].map(|density| density * root * normal(rng));

@@ -1,9 +1,9 @@
-//! What real cameras and depth sensors would make of rendered frames.
+//! Simulation of real cameras and depth sensors from rendered frames.
 //!
-//! A rendered frame is what an ideal sensor sees. Here frames that are finished become what others would see: a [`CameraSensor`] with its
+//! A rendered frame is what an ideal sensor sees. This crate turns finished frames into the readings of others: a [`CameraSensor`] with its
 //! exposure, noise and tone curve, depth by [`TimeOfFlight`] and by [`Triangulation`] (structured light and stereo), and the beams of a
-//! [`Lidar`]; of a video also an [`Imu`]. Nothing is rendered, and nothing is done that is not asked for: a sensor of which only what it
-//! must have is told gives the stored truth back, bit by bit.
+//! [`Lidar`]; of a video also an [`Imu`]. Nothing is rendered, and every effect is optional: a sensor with only its required keys returns
+//! the stored truth, bit by bit.
 //!
 //! Every reading is a pure function of the sensor, the seed and the stored frame, so `verify` can make it again and compare.
 //! [`sense`] does it for a dataset.

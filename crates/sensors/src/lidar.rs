@@ -9,15 +9,15 @@ use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Projection;
 use serde::{Deserialize, Serialize};
 
-/// A lidar at the camera's centre, turned as the camera is: beams in rows of one elevation and columns of one azimuth, as far as the picture
-/// shows where they go. A panorama sees all around.
+/// A lidar at the camera's centre, turned as the camera is: beams in rows of one elevation and columns of one azimuth, as far as they are
+/// within the picture. A panorama covers all directions.
 ///
 /// It gives `scan.npz` ([`Scan`]). A beam meets the plane through the three pixels around it that show the same part, so distances on flat
-/// surfaces are exact whatever the camera; where the part is too thin for three, it has the distance of the nearest pixel.
+/// surfaces are exact for every camera; where the part is too thin for three, it has the distance of the nearest pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lidar {
-    /// What its folder is called.
+    /// Name of its folder.
     pub name: String,
     /// Rows: the angle of each above the camera's x-z plane, degrees.
     pub elevations_deg: Vec<f64>,
@@ -25,7 +25,7 @@ pub struct Lidar {
     pub azimuth_deg: [f64; 2],
     /// Number of columns.
     pub columns: u32,
-    /// What lies nearer or farther does not return, metres.
+    /// Range: nearer or farther surfaces do not return, metres.
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of distances, metres.
@@ -80,7 +80,7 @@ impl Lidar {
         DVec3::new(elevation.cos() * azimuth.sin(), elevation.sin(), -elevation.cos() * azimuth.cos())
     }
 
-    /// What it gives of a frame.
+    /// The reading for a frame.
     pub(crate) fn sense(&self, subject: &Subject<'_>, mut rng: Rng) -> Result<Reading, SensorError> {
         let [noise_m, min_intensity, dropout] = [self.noise_m, self.min_intensity, self.dropout].map(|amount| amount.draw(&mut rng));
         let surfaces = Surfaces {
@@ -112,7 +112,7 @@ impl Lidar {
     }
 }
 
-/// What a frame's pixels show.
+/// The surfaces that a frame's pixels show.
 struct Surfaces<'a> {
     subject: &'a Subject<'a>,
     distances_m: &'a [f32],
@@ -126,7 +126,7 @@ impl Surfaces<'_> {
         Some(self.subject.ray(pixel).filter(|_| distance.is_finite())? * distance)
     }
 
-    /// Where a beam from the camera's centre meets them: the pixel, and the distance in metres.
+    /// The hit of a beam from the camera's centre: the pixel, and the distance in metres.
     fn meet(&self, direction: DVec3) -> Option<(usize, f64)> {
         let [width, height] = self.subject.size();
         let (x, y) = match self.subject.projection {

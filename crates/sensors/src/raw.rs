@@ -2,10 +2,10 @@
 
 use enfilade_math::Rng;
 
-/// Above this many electrons their Poisson distribution is a normal one: it is told from that by a skewness of a tenth.
+/// Above this many electrons their Poisson distribution is replaced by a normal one: its skewness is a tenth there.
 const MANY_ELECTRONS: f64 = 100.0;
 
-/// What the pixels of a sensor are like. Light of 1 saturates them.
+/// Properties of a sensor's pixels. Light of 1 saturates them.
 pub(crate) struct Pixels {
     /// Electrons of a saturated pixel; `None`: no noise.
     pub full_well: Option<f64>,
@@ -16,7 +16,7 @@ pub(crate) struct Pixels {
 }
 
 impl Pixels {
-    /// What a pixel gives of its light, 0 to 1.
+    /// A pixel's reading of its light, 0 to 1.
     fn measure(&self, light: f32, rng: &mut Rng) -> f32 {
         let light = f64::from(light).clamp(0.0, 1.0);
         let noisy = self.full_well.map_or(light, |full_well| {

@@ -1,4 +1,4 @@
-//! What a sensor is pointed at, and what it gives.
+//! Input and output of a sensor.
 
 use crate::SensorError;
 use enfilade_dataset::Dataset;
@@ -23,23 +23,24 @@ pub struct Subject<'a> {
     pub motion: Option<&'a Motion>,
 }
 
-/// What a sensor gives of a frame.
+/// The reading of a sensor for a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What was drawn for this frame, or follows from it: of a camera also the exposure, with its stops, and the three factors of white balance.
+    /// Random values drawn for this frame, or values that follow from it: of a camera also the exposure, with its stops, and the three
+    /// factors of white balance.
     pub drawn: Vec<(&'static str, f64)>,
-    /// What was seen.
+    /// The sensor's data.
     pub data: Data,
 }
 
-/// What was seen.
+/// The sensor's data.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Data {
     /// Values with the unit and the meaning of a layer.
     Layer(Layer, Values),
     /// A file of another kind: a picture, or the points of a scan.
     File {
-        /// `color.jpg` and the like: what follows the number of the frame in its name.
+        /// End of its name after the frame number, such as `color.jpg`.
         name: &'static str,
         /// Bytes of the whole file.
         bytes: Vec<u8>,

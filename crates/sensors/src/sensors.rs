@@ -54,15 +54,15 @@ pub struct Sensors {
 /// One sensor, with everything that its readings depend on beside the frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensor {
-    /// The version of what sensors make of frames: [`Sensor::FORMAT`].
+    /// Version of the sensors' output: [`Sensor::FORMAT`].
     pub format: u32,
-    /// Seed of its noise and of what is drawn for every frame.
+    /// Seed of its noise and of the values drawn for every frame.
     pub seed: u64,
-    /// What it is.
+    /// The sensor itself.
     pub kind: Kind,
 }
 
-/// What a sensor is.
+/// Kinds of sensor, with their settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "the structures say it")]
@@ -76,7 +76,7 @@ pub enum Kind {
 }
 
 impl Sensors {
-    /// Every one of them, by kind, in their order.
+    /// All sensors, by kind, in their order.
     pub fn all(&self) -> impl Iterator<Item = Sensor> + '_ {
         let cameras = self.camera.iter().cloned().map(Kind::Camera);
         let timers = self.time_of_flight.iter().cloned().map(Kind::TimeOfFlight);
@@ -113,7 +113,7 @@ impl Sensor {
     /// Raised when the same settings give other readings.
     pub const FORMAT: u32 = 1;
 
-    /// What its folder is called.
+    /// Name of its folder.
     pub fn name(&self) -> &str {
         match &self.kind {
             Kind::Camera(sensor) => &sensor.name,
@@ -156,10 +156,10 @@ impl Sensor {
         checked.map_err(|problem| SensorError::Setting { sensor: self.name().into(), problem })
     }
 
-    /// What it gives of a frame.
+    /// The reading for a frame.
     ///
     /// # Errors
-    /// When the frame lacks a layer that the sensor looks at, or its camera is none that such a sensor can have.
+    /// If the frame lacks a layer that the sensor needs, or its camera does not suit such a sensor.
     pub fn sense(&self, subject: &Subject<'_>) -> Result<Reading, SensorError> {
         let rng = subject.rng(self.seed, self.name(), subject.number);
         match &self.kind {

@@ -11,15 +11,15 @@ use serde::{Deserialize, Serialize};
 ///
 /// The light that returns from a surface of diffuse reflectance ρ at distance d, seen at the angle θ, is proportional to the *signal*
 /// s = ρ cos θ / d² (1 for a white surface that faces the sensor at one metre), and the error of a distance to 1 / √s, as long as the
-/// noise is that of the sensor's own light (Lange 2000, "3D time-of-flight distance measurement with custom solid-state image sensors").
-/// The reflectance is the luminance of the visible one, although real sensors use infrared; gloss returns nothing, so that with noise glass and
-/// smooth metals have no distance; light that comes back by way of other surfaces (multi-path) is left out.
+/// sensor's own light dominates the noise (Lange 2000, "3D time-of-flight distance measurement with custom solid-state image sensors"). The
+/// reflectance is the luminance of the visible one, although real sensors use infrared. Gloss returns nothing, so that with noise glass and
+/// smooth metals have no distance. Light that comes back by way of other surfaces (multi-path) is left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TimeOfFlight {
-    /// What its folder is called.
+    /// Name of its folder.
     pub name: String,
-    /// What lies nearer or farther is not seen, metres.
+    /// Range: nearer or farther surfaces are not seen, metres.
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of the distance to a white surface that faces the sensor at one metre, metres.
@@ -38,7 +38,7 @@ pub struct TimeOfFlight {
     /// Distances are whole multiples of this, metres.
     #[serde(default)]
     pub step_m: f64,
-    /// What is seen of glass.
+    /// How glass is seen.
     #[serde(default)]
     pub glass: Glass,
     /// Whether smooth metals are seen, as surfaces.
@@ -46,7 +46,7 @@ pub struct TimeOfFlight {
     pub mirrors: bool,
 }
 
-/// What was drawn for a frame.
+/// Random values drawn for a frame.
 struct Drawn {
     noise_m: f64,
     min_signal: f64,
@@ -88,7 +88,7 @@ impl TimeOfFlight {
         }
     }
 
-    /// What it gives of a frame.
+    /// The reading for a frame.
     pub(crate) fn sense(&self, subject: &Subject<'_>, mut rng: Rng) -> Result<Reading, SensorError> {
         let drawn =
             Drawn { noise_m: self.noise_m.draw(&mut rng), min_signal: self.min_signal.draw(&mut rng), mixing: self.mixing.draw(&mut rng) };
@@ -126,8 +126,8 @@ impl TimeOfFlight {
     }
 }
 
-/// Distances and signals where every pixel, except for what would lie beyond the border, gets the share `mixing` of its light from its
-/// neighbours: two parts from each of the four beside it to one from those at its corners.
+/// Distances and signals where every pixel gets the share `mixing` of its light from its neighbours (except for those beyond the border):
+/// two parts from each of the four beside it, one part from each at its corners.
 fn mixed([width, height]: [usize; 2], distances_m: &[f32], signals: &[f64], mixing: f64) -> (Vec<f32>, Vec<f64>) {
     let mixed = |i: usize| {
         let (x, y) = (i % width, i / width);

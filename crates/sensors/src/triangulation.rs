@@ -8,21 +8,21 @@ use enfilade_math::Rng;
 use enfilade_scene::{Intrinsics, Projection};
 use serde::{Deserialize, Serialize};
 
-/// A structured-light or stereo sensor in the frame's camera: its second eye, a projector or another camera, stands beside it on the
-/// camera's x axis and looks the same way. It gives `depth_z_meters`: planar depth, NaN where nothing was matched.
+/// A structured-light or stereo sensor in the frame's camera: its second eye, a projector or another camera, is beside it on the camera's x
+/// axis and looks in the same direction. It gives `depth_z_meters`: planar depth, NaN where nothing was matched.
 ///
-/// A surface at depth z has the disparity f · b / z, where f is the focal length in pixels and b the baseline. Errors are those of the
+/// A surface at depth z has the disparity f · b / z, where f is the focal length in pixels and b the baseline. Errors are made in the
 /// disparity, so that errors of depth grow with z² / (f b) (Khoshelham and Oude Elberink 2012, "Accuracy and resolution of Kinect depth
-/// data"). What the second eye does not see has no depth: the shadow beside near things.
+/// data"). Surfaces that the second eye does not see have no depth: the shadow beside near things.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulation {
-    /// What its folder is called.
+    /// Name of its folder.
     pub name: String,
-    /// How far the second eye stands to the right of the frame's camera (to the left where it is negative), metres. 0 casts no shadow.
+    /// Distance of the second eye to the right of the frame's camera (to the left if negative), metres. 0 casts no shadow.
     #[serde(default)]
     pub baseline_m: f64,
-    /// What lies nearer or farther is not seen, metres.
+    /// Range: nearer or farther surfaces are not seen, metres.
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
     /// Standard deviation of the disparity, pixels.
@@ -44,7 +44,7 @@ pub struct Triangulation {
     /// The share of pixels that find no match for no reason.
     #[serde(default = "Amount::nothing")]
     pub dropout: Amount,
-    /// What is seen of glass.
+    /// How glass is seen.
     #[serde(default)]
     pub glass: Glass,
     /// Whether smooth metals are seen, as surfaces.
@@ -60,12 +60,12 @@ const fn one() -> u32 {
     1
 }
 
-/// What the second eye is.
+/// Kind of the second eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SecondEye {
     /// A projector, which lights everything that the camera sees except for shadows.
     Projector,
-    /// A camera of the first one's field of view; what lies outside of it has no match.
+    /// A camera with the first one's field of view; points outside of it have no match.
     Camera,
 }
 
@@ -74,7 +74,7 @@ impl Triangulation {
         Optics { glass: self.glass, mirrors: self.mirrors }
     }
 
-    /// True when disparities are not what the stored depth says.
+    /// True if disparities differ from the stored depth's.
     fn measures_disparity(&self) -> bool {
         self.noise_px.bounds()[1] > 0.0 || self.step_px > 0.0 || self.window_px > 1
     }
@@ -117,7 +117,7 @@ impl Triangulation {
         Ok(())
     }
 
-    /// What it gives of a frame.
+    /// The reading for a frame.
     pub(crate) fn sense(&self, eye: SecondEye, subject: &Subject<'_>, mut rng: Rng) -> Result<Reading, SensorError> {
         let Projection::Pinhole(k) = subject.projection else {
             let problem = "its camera is no pinhole; use a sensor of another kind, or choose cameras with --camera";
@@ -171,7 +171,7 @@ impl Triangulation {
     }
 }
 
-/// Parts of a pixel of the second eye's image that are told apart.
+/// Subdivisions of a pixel of the second eye's image.
 const PARTS: f64 = 4.0;
 /// A surface hides those whose disparity is smaller by more than this, pixels: what is nearer by less casts no shadow that a pixel could show.
 const NEARER_PX: f64 = 1.0;

@@ -1,7 +1,7 @@
-//! Connections: how many there may be, how long they may be silent, and how they end.
+//! Connections: their number, how long they may be silent, and how they end.
 //!
-//! Browsers keep connections open that they do not use, and anybody can open one and say nothing. Neither may keep others out: a head that
-//! does not arrive in time ends its connection, and where there are too many, the one that has been silent for longest makes room.
+//! Browsers keep unused connections open, and anybody can open one and send nothing. Neither may keep others out: a request head that does
+//! not arrive in time ends its connection, and if there are too many connections, the one that has been silent longest is closed.
 
 use super::line::{Answer, Line, Watched};
 use axum::Router;
@@ -29,7 +29,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// A connection that has just begun, or has just been answered, may be about to send a request.
 const GRACE: Duration = Duration::from_millis(100);
 
-/// What connections may take.
+/// Limits of connections.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Connections at a time.
@@ -88,7 +88,7 @@ pub(super) async fn answer(listener: TcpListener, app: Router, limits: Limits, e
 struct Open {
     talks: JoinSet<()>,
     lines: Vec<Weak<Line>>,
-    /// Room is short: connections end with their answers, so that whoever waits has a turn.
+    /// Connections are scarce: they end with their answers, so that waiting clients have a turn.
     is_crowded: Arc<AtomicBool>,
 }
 

@@ -3,7 +3,7 @@
 //! A header of 64 bytes: `ENFGEOM1`, number of faces F and of pieces P (u32), the lower and upper corner of the scene's bounds (f32 × 3 each),
 //! number of levels L (u32), zeros. Then the L ends of the levels (u32), filled with zeros to a multiple of 16 bytes. Then, in the order
 //! of display: F × 3 corners of 4 × u16 (x, y and z as shares of the scene's extent in 65535ths, and 0), F face numbers (u32), F piece
-//! numbers (u32). All little-endian. For a first sight of the scene over a slow connection, the first levels alone have the same form.
+//! numbers (u32). All little-endian. For a first view of the scene over a slow connection, the first levels alone have the same format.
 //!
 //! Drawing the faces up to the end of a level is a decimation of the scene like that of Hypersim's tool: a random choice in which a face
 //! is left out with weight 2^(−area / half-life). Here the half-life is the median area, so it fits scenes of any unit.
@@ -50,7 +50,7 @@ impl DisplayOrder {
         self.bounds
     }
 
-    /// The bytes, with the piece of every face as it is now: of all levels, or of those that end at or before so many faces, at least one.
+    /// The bytes, with the current piece of every face: of all levels, or of those that end at or before `most` faces, at least one.
     pub fn encode(&self, piece_of_face: &[u32], pieces: usize, most: Option<usize>) -> Vec<u8> {
         let whole = |end: &&u32| most.is_none_or(|most| **end as usize <= most);
         let levels = self.level_ends.iter().take_while(whole).count().max(1);

@@ -1,8 +1,8 @@
-//! The files of a page, which are embedded in the binary; each is compressed once, as well as can be.
+//! The files of a page, which are embedded in the binary; each is compressed once, at the best level.
 //!
-//! Pages name their scripts and styles below `/@DIGEST/`, where DIGEST is that of all files: what is there never changes, so browsers keep
-//! it without asking. Modules import each other by relative addresses and so stay there. Without a digest the same files are answered by a
-//! tag.
+//! Pages name their scripts and styles below `/@DIGEST/`, where DIGEST is the digest of all files: files there never change, so browsers
+//! keep them without asking. Modules import each other by relative addresses, so their addresses have the digest too. Without a digest the
+//! same files are served with a tag.
 
 use super::ApiProblem;
 use super::jobs::beside;
@@ -15,7 +15,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What every page has.
+/// Files that every page has.
 #[derive(RustEmbed)]
 #[folder = "web"]
 struct Shared;
@@ -88,7 +88,7 @@ impl Sent {
     }
 }
 
-/// The files of one page as they are sent, each made when it is first asked for.
+/// The files of one page as they are sent, each made on the first request.
 pub struct PageFiles {
     page: Page,
     sent: Mutex<HashMap<String, Arc<Sent>>>,

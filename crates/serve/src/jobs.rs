@@ -1,4 +1,4 @@
-//! Work that would hold up other requests, on threads of its own, and no more of it at a time than helps.
+//! Work that would delay other requests, on separate threads, with a limit on how much runs at a time.
 
 use super::ApiProblem;
 use std::num::NonZero;

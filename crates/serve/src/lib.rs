@@ -40,7 +40,7 @@ const MAX_BODY_BYTES: usize = 16 << 20;
 /// When the program is asked to end, jobs have this long after the last connection has ended.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Where to listen, and what to do then.
+/// The address to listen at, and what to do then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Listen {
     /// Address of the interface: loopback unless somebody asks for more.
@@ -66,9 +66,9 @@ pub enum ServeError {
     /// The address cannot be bound.
     #[error("cannot listen on {address}: {source}; choose another port with --port, or 0 for any that is free")]
     Bind {
-        /// What was asked for.
+        /// The requested address.
         address: SocketAddr,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// No threads, no randomness, or the network has gone.
@@ -76,10 +76,10 @@ pub enum ServeError {
     Run(String),
 }
 
-/// Serves `app` and its page until the process is asked to end (Ctrl-C or SIGTERM); requests that are being answered are finished if
-/// that takes a moment.
+/// Serves `app` and its page until the process is asked to end (Ctrl-C or SIGTERM); requests in progress are finished if that does not take
+/// long.
 ///
-/// `started` is told the addresses of the page, once they can be opened.
+/// `started` receives the addresses of the page once they can be opened.
 ///
 /// # Errors
 /// When the address cannot be bound or the server cannot run.
@@ -91,7 +91,7 @@ pub fn serve(app: Router, page: Page, listen: &Listen, started: impl FnOnce(&Add
         let listener = tokio::net::TcpListener::bind(address).await.map_err(|source| ServeError::Bind { address, source })?;
         let bound = listener.local_addr().map_err(run)?;
         let guard = Guard::new(bound.ip(), listen.token).map_err(|e| ServeError::Run(format!("no random numbers for a token: {e}")))?;
-        // Before the addresses are told, so that nobody can ask for the end and not be heard.
+        // Before the addresses are announced, so that no request to end is missed.
         let end = asked_to_end();
         let addresses = Addresses::of(bound, |host| guard.url(host, page.address));
         started(&addresses);
@@ -115,7 +115,7 @@ pub fn guarded(app: Router, page: Page, guard: Guard) -> Router {
         .layer(axum::middleware::from_fn_with_state(Arc::new(guard), guard::check))
 }
 
-/// What returns when the process is asked to end. Signals are heard from this call on.
+/// A future that completes when the process is asked to end. Signals are received from this call on.
 fn asked_to_end() -> impl Future<Output = ()> {
     #[cfg(unix)]
     let terminate = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate());

@@ -1,4 +1,4 @@
-//! What is known of one connection: when a byte last moved on it, and whether a request is being answered.
+//! State of one connection: when a byte last moved on it, and whether a request is being answered.
 
 use axum::body::{Body, Bytes};
 use hyper::body::{Body as HttpBody, Frame, SizeHint};
@@ -45,7 +45,7 @@ impl Line {
         self.close.notify_one();
     }
 
-    /// Returns when the end was asked for.
+    /// Returns when the end was requested.
     pub async fn closed(&self) {
         self.close.notified().await;
     }
@@ -99,7 +99,7 @@ impl HttpBody for Answer {
     }
 }
 
-/// A stream that tells its line when bytes move.
+/// A stream that notifies its line when bytes move.
 pub(super) struct Watched {
     stream: TcpStream,
     line: Arc<Line>,

@@ -10,7 +10,7 @@ use serde_json::json;
 pub struct ApiProblem {
     /// 4xx where the request must change, 5xx where something here failed.
     pub status: StatusCode,
-    /// What was found and what was expected.
+    /// The problem found, and what was expected.
     pub error: String,
     /// What to do.
     pub help: String,
@@ -22,17 +22,17 @@ impl ApiProblem {
         Self { status: StatusCode::BAD_REQUEST, error: error.into(), help: help.into() }
     }
 
-    /// What is asked for does not exist: 404.
+    /// The requested thing does not exist: 404.
     pub fn not_found(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { status: StatusCode::NOT_FOUND, error: error.into(), help: help.into() }
     }
 
-    /// What is asked for is not allowed: 403.
+    /// The request is not allowed: 403.
     pub fn forbidden(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { status: StatusCode::FORBIDDEN, error: error.into(), help: help.into() }
     }
 
-    /// What is asked for cannot be done in the current state: 409.
+    /// The request cannot be done in the current state: 409.
     pub fn conflict(error: impl Into<String>, help: impl Into<String>) -> Self {
         Self { status: StatusCode::CONFLICT, error: error.into(), help: help.into() }
     }

@@ -44,7 +44,7 @@ fn body(bytes: Vec<u8>, kind: &'static str, gzip: bool, level: i32) -> Response 
     (headers, bytes).into_response()
 }
 
-/// The bytes as gzip at a level of 1 to 12; `None` when that saves less than a twentieth, or a packet holds them anyway.
+/// The bytes as gzip at a level of 1 to 12; `None` if that saves less than a twentieth, or if they fit into one packet anyway.
 pub(super) fn pack(bytes: &[u8], level: i32) -> Option<Vec<u8>> {
     if bytes.len() < MIN_COMPRESSED_BYTES {
         return None;
@@ -68,7 +68,7 @@ pub fn has(asked: &HeaderMap, tag: &HeaderValue) -> bool {
     known.is_some_and(|known| known.split(',').map(str::trim).any(is_it))
 }
 
-/// The entity tag of what these bytes tell of.
+/// The entity tag of content that these bytes describe.
 pub fn tag_of(bytes: &[u8]) -> HeaderValue {
     tag(&blake3::hash(bytes).to_hex()[..32])
 }

@@ -1,4 +1,4 @@
-//! The server on real sockets: what it sends twice, and how it bears clients that say nothing.
+//! The server on real sockets: what it sends twice, and how it copes with silent clients.
 
 use super::connections::{Limits, answer};
 use super::{ApiProblem, Guard, Page, guarded};
@@ -34,7 +34,7 @@ struct Server {
     ended: JoinHandle<()>,
 }
 
-/// Two answers in JSON, a stream that says nothing, a body that is counted, and more bytes than sockets hold.
+/// Two answers in JSON, a silent stream, a body that is counted, and more bytes than socket buffers can take.
 fn app() -> Router {
     let long = || async { Json(vec!["the same"; 1000]) };
     let silent = || async { Sse::new(futures_util::stream::pending::<Result<Event, Infallible>>()) };

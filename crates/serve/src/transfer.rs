@@ -1,7 +1,7 @@
-//! What every answer gets on its way to the browser: compression, and a tag by which it is not sent twice.
+//! Added to every answer on its way to the browser: compression, and a tag so that it is not sent twice.
 //!
-//! An answer that is made of files has a tag already, of their lengths and times ([`reply::tag_of`]), and passes as it is. The tag of any
-//! other is a digest of the bytes that are sent and of what describes them. A page that asks again for what it has is answered by 304.
+//! An answer made of files already has a tag, of their lengths and times ([`reply::tag_of`]), and passes unchanged. The tag of any other is
+//! a digest of the bytes sent and of their headers. A page that asks again for content that it has is answered by 304.
 
 use super::ApiProblem;
 use super::jobs::beside;
@@ -62,7 +62,7 @@ fn unchanged(response: Response) -> Response {
     Response::from_parts(head, Body::empty())
 }
 
-/// The bytes, as gzip where they are text and that makes them smaller; the headers say which.
+/// The bytes, as gzip if they are text and that makes them smaller; the headers state which.
 fn packed(headers: &mut HeaderMap, bytes: Bytes, takes_gzip: bool) -> Bytes {
     let kind = headers.get(header::CONTENT_TYPE).and_then(|kind| kind.to_str().ok()).unwrap_or("");
     if headers.contains_key(header::CONTENT_ENCODING) || !reply::is_text(kind) {

@@ -13,15 +13,15 @@ pub enum ShapesError {
         action: &'static str,
         /// Which file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A file is not what its name says.
+    /// A file does not have the format that its name states.
     #[error("{}: {problem}", path.display())]
     File {
         /// Which file.
         path: PathBuf,
-        /// What was found, what was expected, what to do.
+        /// The problem found, what was expected, and what to do.
         problem: String,
     },
     /// Values that no shape can have.

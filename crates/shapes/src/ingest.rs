@@ -14,7 +14,7 @@ pub const MISMATCHED: [&str; 2] = ["img/table/1749.jpg", "img/table/0045.png"];
 /// Width of the sensor in millimetres that Pix3D's focal lengths are for.
 const SENSOR_MM: f64 = 32.0;
 
-/// One object of `pix3d.json`; Pix3D's README says what the fields are.
+/// One object of `pix3d.json`; Pix3D's README describes the fields.
 #[derive(Deserialize)]
 struct Entry {
     img: String,
@@ -29,7 +29,7 @@ struct Entry {
     bbox: [f64; 4],
 }
 
-/// What was read of a split of Mesh R-CNN.
+/// The fields read from a split of Mesh R-CNN.
 #[derive(Deserialize)]
 struct Split {
     images: Vec<SplitImage>,
@@ -52,8 +52,8 @@ pub struct Ingested {
     pub outside_split: usize,
 }
 
-/// Reads `pix3d.json` in the folder `root`. With `split`, one of Mesh R-CNN's files (`pix3d_s1_train.json` and so on), only the images
-/// that it names, under its ids. Every file that is named must be there, and masks must have the size that is said of their images.
+/// Reads `pix3d.json` in the folder `root`. With `split`, one of Mesh R-CNN's files (`pix3d_s1_train.json` and so on), only the images that
+/// it names, under its ids. Every named file must exist, and masks must have the stated size of their images.
 ///
 /// The focal length in pixels is focal_length / 32 mm · width, and the principal point is the middle of the image.
 ///

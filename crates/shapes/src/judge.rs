@@ -1,7 +1,7 @@
 //! Which detections of an image are hits, after Mesh R-CNN's `evaluate_for_pix3d`.
 //!
-//! Pix3D has one object per image, and the original asserts it. Here an image may have several: a detection is judged by the object whose box
-//! its own overlaps most. With one object per image the results are the original's.
+//! Pix3D has one object per image, and the original asserts it. Here an image may have several: a detection is judged by the object whose
+//! box overlaps the detection's box most. With one object per image the results are the original's.
 
 use crate::ShapesError;
 use crate::surface::{CompareConfig, Surface, compare};
@@ -45,7 +45,7 @@ pub struct Found {
     pub surface: Surface,
 }
 
-/// What makes a hit.
+/// Conditions of a hit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rules {
     /// Detections whose box overlaps none by more than this are not looked at; 0.3.
@@ -58,7 +58,7 @@ pub struct Rules {
     pub f1_distance: f64,
     /// Points drawn from either surface; 10 000.
     pub samples: usize,
-    /// Where the points lie.
+    /// Seed of the points.
     pub seed: u64,
 }
 

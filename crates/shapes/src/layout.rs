@@ -8,7 +8,7 @@ use std::path::Path;
 /// A data set in one file. Paths in it begin at its folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Document {
-    /// What it is.
+    /// Description of the document.
     #[serde(default)]
     pub info: Info,
     /// In the order of their ids.
@@ -22,7 +22,7 @@ pub struct Document {
     pub categories: Vec<Category>,
 }
 
-/// Where a document comes from.
+/// Source of a document.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Info {
     /// In words.
@@ -80,12 +80,12 @@ pub struct Annotation {
     pub rot_mat: [[f64; 3]; 3],
     /// The model's origin in camera space, in the model's unit.
     pub trans_mat: [f64; 3],
-    /// What is known of a rendered object.
+    /// Further data of a rendered object.
     #[serde(flatten)]
     pub rendered: Option<Rendered>,
 }
 
-/// What is known of a rendered object beyond Pix3D.
+/// Data of a rendered object beyond Pix3D's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rendered {
     /// Number of the instance in its scene.
@@ -117,7 +117,7 @@ pub struct Excluded {
     pub nyu40: i16,
     /// Left border, upper border, width and height of what is seen, pixels.
     pub bbox: [f64; 4],
-    /// What it would have been, where its class takes part and its mesh is known.
+    /// The annotation it would have had, if its class takes part and its mesh is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub annotation: Option<Box<Annotation>>,
 }

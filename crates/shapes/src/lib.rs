@@ -1,9 +1,9 @@
 //! 3D shape prediction, the task of Mesh R-CNN (Gkioxari et al., ICCV 2019) on Pix3D (Sun et al., CVPR 2018): the layout of its files,
 //! and its metrics.
 //!
-//! Camera space is Pix3D's and PyTorch3D's: x left, y up, z forward. A model's vertices v lie in the camera at R v + t, and there
-//! a point falls on the image at (w/2 − f x/z, h/2 − f y/z), counted from the upper left corner of the image. Nothing in the task
-//! depends on the unit of length.
+//! Camera space is Pix3D's and PyTorch3D's: x left, y up, z forward. A model's vertices v are at R v + t in camera space, and a point there
+//! is projected to (w/2 − f x/z, h/2 − f y/z), counted from the upper left corner of the image. Nothing in the task depends on the unit of
+//! length.
 //!
 //! [`Document`] is the JSON that Mesh R-CNN reads; [`ingest_pix3d`] makes it from Pix3D as it is published. [`Voxels`] are its `.mat`
 //! files. [`compare`] and [`judge`] follow Mesh R-CNN's evaluation.

@@ -1,4 +1,4 @@
-//! MATLAB's files of version 5, as far as one array of numbers goes. "MAT-File Format", The MathWorks, R2024a.
+//! MATLAB's files of version 5, limited to one array of numbers. "MAT-File Format", The MathWorks, R2024a.
 
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
@@ -8,7 +8,7 @@ use std::io::{Read, Write};
 /// Bytes of the header.
 const HEADER: usize = 128;
 
-/// What one element may grow to when it is inflated: a grid of 512³ doubles and a little more.
+/// Largest size of one inflated element: a grid of 512³ doubles and a little more.
 const MAX_INFLATED: u64 = 1 << 30;
 
 const INT8: u32 = 1;
@@ -56,7 +56,7 @@ fn put(bytes: &mut Vec<u8>, kind: u32, data: &[u8]) {
     bytes.resize(bytes.len().next_multiple_of(8), 0);
 }
 
-/// The array of that name. `Err` says what is wrong with the file.
+/// The array of that name. `Err` is the problem with the file.
 pub(crate) fn read(bytes: &[u8], name: &str) -> Result<Array, String> {
     if bytes.starts_with(b"\x89HDF") || bytes.get(..20).is_some_and(|head| head.starts_with(b"MATLAB 7.3")) {
         return Err("it is a MATLAB file of version 7.3; save it with '-v7'".into());
@@ -133,7 +133,7 @@ impl<'b> Elements<'b> {
     /// Type and bytes of the next one.
     fn next(&mut self) -> Result<(u32, &'b [u8]), String> {
         let tag = self.word(0)?;
-        // Up to four bytes stand in the tag itself, whose upper half is then their number.
+        // Up to four bytes are stored in the tag itself, whose upper half is then their number.
         let (kind, from, length) = if tag >> 16 != 0 { (tag & 0xffff, 4, (tag >> 16) as usize) } else { (tag, 8, self.word(4)? as usize) };
         let data = self.bytes.get(from..).and_then(|rest| rest.get(..length)).ok_or("it ends within an element")?;
         let padded = if from == 4 {

@@ -78,13 +78,13 @@ impl Surface {
 /// How surfaces are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompareConfig {
-    /// Points drawn from either surface; 10 000 unless said otherwise.
+    /// Points drawn from either surface; 10 000 by default.
     pub samples: usize,
     /// Longest edge of the true surface's box after scaling; 10. `None`: as they are.
     pub longest_edge: Option<f64>,
     /// Distances within which a point counts as met; 0.1 to 0.5.
     pub thresholds: Vec<f64>,
-    /// Where the points lie.
+    /// Seed of the points.
     pub seed: u64,
 }
 
@@ -197,7 +197,8 @@ pub(crate) mod tests {
 
     #[test]
     fn a_shifted_plane_has_the_shift_as_its_distance() {
-        // 10 long after scaling, so a shift of 0.025 becomes 0.25; points that lie apart in the plane add what they add at no shift.
+        // 10 long after scaling, so a shift of 0.025 becomes 0.25; the contribution of points that are apart in the plane does not change
+        // with the shift.
         let config = CompareConfig { samples: 20_000, ..CompareConfig::default() };
         let same = compare(&square(0.0), &square(0.0), &config).unwrap().chamfer_l2;
         let found = compare(&square(0.025), &square(0.0), &config).unwrap();

@@ -67,7 +67,7 @@ fn touches(corners: [DVec3; 3]) -> bool {
     axes.into_iter().chain([edges[0].cross(edges[1])]).chain(crossed).all(|axis| {
         let reach = 0.5 * axis.abs().element_sum();
         let along = corners.map(|corner| corner.dot(axis));
-        // Cells share their borders, so what lies on one touches both sides; rounding may not open a gap.
+        // Cells share their borders, so a point on one touches both sides; rounding may not open a gap.
         let slack = 1e-9 * (reach + along[0].abs());
         along.into_iter().fold(f64::INFINITY, f64::min) <= reach + slack
             && along.into_iter().fold(f64::NEG_INFINITY, f64::max) >= -reach - slack
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn a_box_takes_its_share_of_the_cube() {
         let cells = solid(&block(DVec3::ZERO, DVec3::new(1.0, 0.5, 0.25)), 16).unwrap();
-        // 16 x 8 x 4 cells inside; a face that lies between two cells is the upper one's, and the cube ends at its own faces.
+        // 16 x 8 x 4 cells inside; a face between two cells belongs to the upper one, and the cube ends at its own faces.
         assert_eq!(count(&cells), 16 * 9 * 5);
     }
 

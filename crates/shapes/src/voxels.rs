@@ -38,8 +38,8 @@ impl Voxels {
 
     /// The cells of a cube around the surface that it touches or encloses; `None` when it has no extent.
     ///
-    /// The cube's middle is that of the surface's box, and its edge is the box's longest. What no way through free cells joins to the outside
-    /// counts as enclosed.
+    /// The cube has the centre of the surface's box, and its edge is the box's longest. Cells that no path through free cells connects to
+    /// the outside count as enclosed.
     pub fn of(surface: &Surface, side: usize) -> Option<Self> {
         let occupied = voxelize::solid(surface, side)?;
         Some(Self { side, occupied })
@@ -80,7 +80,7 @@ impl Voxels {
         mat::write(NAME, [side; 3], &values)
     }
 
-    /// The voxels of a MATLAB file; `path` stands in messages.
+    /// The voxels of a MATLAB file; `path` is for messages.
     ///
     /// # Errors
     /// When it is no MATLAB file of version 5, or has no cube `voxel` with an occupied cell.

@@ -1,21 +1,21 @@
-//! How a picture is shown to people, as a photographer would: exposed for the room, balanced to its light, and without hard white.
+//! Display of a picture for people, as a photographer would: exposed for the room, balanced to its light, and without hard white.
 //!
 //! Hypersim's tone map cuts every channel off at white, so that sunlit floors lose their texture and lamps change their hue, and keeps the
 //! colour of the light, which eyes and cameras take back. Here the highlights are compressed by Khronos' PBR Neutral tone mapper
-//! (2024, "Khronos PBR Neutral Tone Mapper", constants as published), which leaves what is darker as it is, except for the 4 % that it
+//! (2024, "Khronos PBR Neutral Tone Mapper", constants as published), which does not change darker values, except for the 4 % that it
 //! takes for reflections. Then comes the same gamma.
 
 use enfilade_frame::tonemap::{BLACK, ToneMap, encode};
 
-/// Linear brightness that the median of the room is shown at, where the next two leave it so.
+/// Linear brightness that the median of the room is shown at, unless the next two limits change it.
 const MIDDLE: f64 = 0.25;
-/// Linear brightness that the bright end of the room, its 90th percentile, is shown at: at least as bright as by Hypersim's tone map, lest
-/// a white room be grey, and at most what the curve keeps apart.
+/// Linear brightness that the bright end of the room, its 90th percentile, is shown at: at least as bright as by Hypersim's tone map, so
+/// that a white room is not grey, and at most what the curve can still distinguish.
 const BRIGHT: [f64; 2] = [0.612, 1.2];
-/// How much of the light's colour is taken back: a lamp stays warm, and the sky at dusk blue.
+/// Share of the light's colour that white balance removes: a lamp stays warm, and the sky at dusk blue.
 const BALANCED: f64 = 0.5;
 
-/// Where compression starts, what is taken for reflections, and how fast highlights lose their colour; as published.
+/// Start of the compression, the share taken for reflections, and how fast highlights lose their colour; as published.
 const START: f64 = 0.8 - REFLECTION;
 const REFLECTION: f64 = 0.04;
 const DESATURATION: f64 = 0.15;

@@ -1,24 +1,24 @@
 //! One exposure for a whole trajectory, for people.
 //!
 //! Hypersim's rule looks at all of one picture, so that a window or a lamp that fills a tenth of it leaves the room in the dark, and
-//! an animation flickers. Here the surfaces decide that send mostly diffusely reflected light, in all frames of the trajectory
-//! together: lamps, windows, panes and mirrors have no say. The median of their brightness sets the exposure, the mean colour of what
-//! falls on them the white balance.
+//! an animation flickers. Here the exposure follows from surfaces that show mostly diffusely reflected light, in all frames of the
+//! trajectory together: lamps, windows, panes and mirrors are excluded. The median of their brightness sets the exposure, the mean colour
+//! of their illumination the white balance.
 
 use crate::display::Display;
 use enfilade_frame::tonemap::{ToneMap, brightness, percentile, valid_brightness};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::quantile;
 
-/// The least share of diffuse light in a pixel that has a say.
+/// Least share of diffuse light in a pixel that counts.
 const LEAST_DIFFUSE: f64 = 0.5;
-/// With a smaller share of such pixels all valid ones have a say.
+/// With a smaller share of such pixels, all valid ones count.
 const LEAST_PIXELS: f64 = 0.05;
 
 /// The exposures of a frame's pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exposure {
-    /// Hypersim's: of the frame alone.
+    /// Hypersim's: only of the frame.
     pub frame: ToneMap,
     /// Exposure of the trajectory.
     pub display: Display,
@@ -38,16 +38,16 @@ impl From<Display> for Exposure {
     }
 }
 
-/// What a frame says about exposure.
+/// Brightness of a frame, for the exposure.
 #[derive(Clone, Debug, Default)]
 pub struct Brightness {
     /// Hypersim's percentile of the frame.
     pub percentile: Option<f64>,
     /// Luminances of some of the valid pixels.
     valid: Vec<f64>,
-    /// Luminances of those that send mostly diffusely reflected light.
+    /// Luminances of the pixels that show mostly diffusely reflected light.
     diffuse: Vec<f64>,
-    /// Logarithms of the red, green and blue that fall on those, added up, and on how many.
+    /// Sums of the logarithms of red, green and blue of the light on those, and their number.
     light: ([f64; 3], usize),
 }
 

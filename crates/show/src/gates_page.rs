@@ -5,18 +5,18 @@ use enfilade_dataset::ViewVerdict;
 use enfilade_verify::view_gates::{GateConfig, VIEW_GATES, ViewGate, ViewMeasures};
 use maud::{Markup, html};
 
-/// A view as it was judged.
+/// A judged view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
     /// Name of the camera.
     pub camera: String,
     /// Frame number.
     pub frame: u32,
-    /// What was measured.
+    /// The measures.
     pub measures: ViewMeasures,
     /// The worst fault.
     pub fault: Option<ViewGate>,
-    /// What became of it: a view with a fault is rejected or reported.
+    /// The verdict: a view with a fault is rejected or reported.
     pub verdict: ViewVerdict,
     /// The picture of a view with a fault, relative to the page.
     pub thumbnail: Option<String>,

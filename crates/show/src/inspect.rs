@@ -1,4 +1,4 @@
-//! What is this pixel? Every layer's value at one place, with units and names.
+//! Inspection of a pixel: every layer's value at one place, with units and names.
 
 use enfilade_frame::vector;
 use enfilade_frame::{Frame, LAYERS, Layer};
@@ -23,7 +23,7 @@ pub struct PixelReport {
     pub x: u32,
     /// Row, from 0 at the top.
     pub y: u32,
-    /// Number of the part that the pixel's centre sees, -1 where nothing was hit; `None` where the frame does not tell.
+    /// Number of the part that the pixel's centre sees, -1 where nothing was hit; `None` if the frame has no such layer.
     pub entity: Option<i16>,
     /// Name of the part, where it is known.
     pub part: Option<String>,
@@ -33,9 +33,9 @@ pub struct PixelReport {
     pub class: Option<String>,
     /// Number of the instance.
     pub instance: Option<i16>,
-    /// Where the ray through the pixel's centre starts and goes (unit length), in the world; `None` where the picture shows nothing.
+    /// Origin and direction (unit length) of the ray through the pixel's centre, in the world; `None` where the picture shows nothing.
     pub ray: Option<([f64; 3], [f64; 3])>,
-    /// Where the stored position projects to, in pixels from the upper left corner; a pixel's centre is at + 0.5.
+    /// Projection of the stored position, in pixels from the upper left corner; a pixel's centre is at + 0.5.
     pub projects_to: Option<(f64, f64)>,
     /// The stored values, in the order of the layers.
     pub layers: Vec<LayerValue>,
@@ -56,9 +56,9 @@ pub struct LayerValue {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("pixel ({x}, {y}) is outside of the image, which has columns 0 to {last_x} and rows 0 to {last_y}", last_x = width - 1, last_y = height - 1)]
 pub struct OutsideError {
-    /// Column asked for.
+    /// Requested column.
     pub x: u32,
-    /// Row asked for.
+    /// Requested row.
     pub y: u32,
     /// Columns.
     pub width: u32,

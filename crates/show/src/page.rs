@@ -30,7 +30,7 @@ th.number { white-space: normal; vertical-align: bottom; }
 .verdict { font-size: 1.15rem; font-weight: 600; }
 ";
 
-/// A whole page: a heading, a line about it, and what stands below.
+/// A whole page: a heading, a line about it, and the body.
 pub fn page(title: &str, about: &Markup, body: &Markup) -> String {
     html! {
         (DOCTYPE)

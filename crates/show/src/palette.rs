@@ -41,7 +41,7 @@ pub struct LabelPalette {
 }
 
 impl LabelPalette {
-    /// What scenes have whose tables are not there: NYU40's colours, and those that our tables of instances begin with.
+    /// The palette of scenes without tables: NYU40's colours, and the first colours of our tables of instances.
     pub fn usual() -> &'static Self {
         static USUAL: LazyLock<LabelPalette> = LazyLock::new(|| LabelPalette {
             classes: semantic_colors().into_iter().map(rgb8).collect(),
@@ -130,7 +130,7 @@ pub fn traits_color(bits: u8) -> [u8; 3] {
     if bits & traits::PARTIAL == 0 { base } else { base.map(|v| v / 2 + 127) }
 }
 
-/// The colour of a direction in the image (radians, from x towards y) and of how far it goes, on `[0,1]`: hue and saturation.
+/// The colour of a direction in the image (radians, from x towards y) and a length in `[0,1]`: hue and saturation.
 pub fn direction_color(angle_rad: f64, share: f64) -> [u8; 3] {
     hsv((angle_rad / std::f64::consts::TAU).rem_euclid(1.0), share.clamp(0.0, 1.0), 1.0)
 }

@@ -10,7 +10,7 @@ pub type Picture = image::RgbaImage;
 pub struct Preview {
     /// The picture.
     pub picture: Picture,
-    /// The range of what it shows, where values were stretched; otherwise empty.
+    /// The range of the values shown, if they were stretched; otherwise empty.
     pub note: String,
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn byte(v: f64) -> u8 {
 /// The bytes of a JPEG file; transparency is dropped.
 ///
 /// # Panics
-/// When a side is 0 or longer than 65535 pixels, which JPEG cannot hold.
+/// If a side is 0 or longer than 65535 pixels, the limit of JPEG.
 pub fn jpeg(picture: &Picture) -> Vec<u8> {
     let rgb = image::DynamicImage::ImageRgba8(picture.clone()).into_rgb8();
     let mut bytes = Vec::new();

@@ -1,9 +1,9 @@
 //! A picture of every layer, under Hypersim's names.
 //!
-//! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other; `display.jpg` alone has
-//! the exposure of the trajectory, and `color.jpg` and `gamma.jpg` are Hypersim's unscaled ones. `non_lambertian` is color − reflectance ×
-//! illumination: under that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are transparent
-//! in PNG. Wherever values are stretched over a range, the range is the preview's note, and stands in the PNG's text.
+//! Radiance-like pictures share the tone map's scale of the frame, so that they can be compared with each other; only `display.jpg` has the
+//! exposure of the trajectory, and `color.jpg` and `gamma.jpg` are unscaled, as Hypersim's. `non_lambertian` is color − reflectance ×
+//! illumination: under that name the toolkit saves the full reconstruction, which is `tonemap` once more. Pixels without a value are
+//! transparent in PNG. Where values are stretched over a range, the range is the preview's note and is written to the PNG's text.
 
 use crate::display::Display;
 use crate::exposure::Exposure;
@@ -22,11 +22,11 @@ pub struct PreviewSpec {
     pub pass: Pass,
     /// Name with extension, as in `frame.IIII.<name>`.
     pub name: &'static str,
-    /// What it shows.
+    /// Its subject.
     pub subject: Subject,
 }
 
-/// What a preview shows.
+/// The subject of a preview.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// Colour through the tone map.
@@ -41,7 +41,7 @@ pub enum Subject {
     Lambertian,
     /// Colour − reflectance × illumination through the tone map.
     NonLambertian,
-    /// |colour − (reflectance × illumination + residual)| through the tone map: black when the identity holds.
+    /// |colour − (reflectance × illumination + residual)| through the tone map: black where the identity is satisfied.
     Difference,
     /// The layer in the way that suits it.
     Layer(Layer),
@@ -107,7 +107,7 @@ pub const PREVIEWS: [PreviewSpec; 51] = [
 ];
 
 impl PreviewSpec {
-    /// True for what is exposed as its whole trajectory: all others can be made of a frame alone.
+    /// True for previews with the exposure of the whole trajectory: all others can be made from a single frame.
     pub fn of_trajectory(&self) -> bool {
         self.subject == Subject::Displayed
     }

@@ -93,7 +93,7 @@ fn in_unit(value: Option<f64>, unit: &str) -> String {
     }
 }
 
-/// Where pictures lie, as seen from the page.
+/// Paths of pictures relative to the page.
 struct Links<'a> {
     dataset: &'a Dataset,
 }
@@ -128,7 +128,7 @@ impl<'a> Links<'a> {
     }
 }
 
-/// How much of a place is `scene/camera/frame.IIII`.
+/// Length of the prefix `scene/camera/frame.IIII` of a place.
 fn frame_name_length(place: &str) -> Option<usize> {
     let word = place.find(char::is_whitespace).unwrap_or(place.len());
     let start = place[..word].find("/frame.")? + "/frame.".len();
@@ -189,7 +189,7 @@ fn scenes(report: &VerifyReport) -> Markup {
     }
 }
 
-/// What `color` holds in the frames of a scene, in words.
+/// The kind of `color` in the frames of a scene, in words.
 fn colors(frames: &[&FrameValues]) -> String {
     let kinds: BTreeSet<&str> = frames.iter().filter_map(|frame| frame.color.as_deref()).collect();
     if kinds.is_empty() { "-".into() } else { kinds.into_iter().collect::<Vec<_>>().join("; ") }
@@ -286,7 +286,7 @@ fn neighbours(report: &VerifyReport, links: &Links<'_>) -> Markup {
     }
 }
 
-/// What does not count of Hypersim's release.
+/// The violations of Hypersim's release that do not count.
 fn excused(report: &VerifyReport, links: &Links<'_>) -> Markup {
     let kind = |excuse: Excuse| if excuse == Excuse::KnownDefect { "known defect" } else { "not applicable" };
     html! {
@@ -317,7 +317,7 @@ fn laws(report: &VerifyReport, links: &Links<'_>) -> Markup {
                     td.number { (number(Some(law.bound))) }
                     td { (law.unit) }
                     td.number { (law.checks) }
-                    // Where nothing was ever found, the place says nothing.
+                    // If no violation was found, there is no place to show.
                     td { @if law.worst != Some(0.0) { (links.place(&law.place)) } }
                 }
             }

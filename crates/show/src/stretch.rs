@@ -1,6 +1,6 @@
-//! Layers whose values are stretched over a range to be seen: depth, position, flow.
+//! Layers whose values are stretched over a range to be visible: depth, position, flow.
 //!
-//! A range goes from the 1st percentile of the finite values to the 99th, of one frame, or of several for pictures that are seen one
+//! A range extends from the 1st percentile of the finite values to the 99th, of one frame, or of several for pictures that are shown one
 //! after the other.
 
 use crate::palette::{direction_color, viridis};
@@ -8,7 +8,7 @@ use crate::picture::{Preview, byte, from_pixels};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::quantile;
 
-/// What is stretched in a layer, pixel by pixel.
+/// The kind of value that is stretched in a layer, pixel by pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// One number, in colours from dark to bright.
@@ -37,7 +37,7 @@ pub const fn is_stretched(layer: Layer) -> bool {
     kind(layer).is_some()
 }
 
-/// What a stretched layer shows of every `step`-th pixel: as many lists as there are numbers, of finite values.
+/// The values that a stretched layer shows for every `step`-th pixel: one list of finite values per component.
 pub fn shown_values(layer: Layer, values: &Values, step: usize) -> Vec<Vec<f64>> {
     let pixels = (0..values.len() / layer.spec().channels).step_by(step.max(1));
     let finite = |value: &dyn Fn(usize) -> f64| pixels.clone().map(value).filter(|v| v.is_finite()).collect::<Vec<f64>>();
@@ -78,7 +78,7 @@ pub(crate) fn vectors(values: &Values, frame: &Frame, stretch: &Stretch) -> Prev
     Preview { picture, note: format!("{} m", ["x", "y", "z"].into_iter().zip(&ranges).map(axis).collect::<Vec<_>>().join(", ")) }
 }
 
-/// Hue says where to (red right, then yellow-green down, cyan left, violet up), saturation how far, up to the end of the range.
+/// Hue is the direction (red right, then yellow-green down, cyan left, violet up), saturation the length, up to the end of the range.
 pub(crate) fn flow(values: &Values, frame: &Frame, stretch: &Stretch) -> Preview {
     let Some([_, longest]) = stretch.0[0] else { return nothing(frame, "no next frame") };
     let picture = from_pixels(frame.width, frame.height, |i| {
@@ -89,7 +89,7 @@ pub(crate) fn flow(values: &Values, frame: &Frame, stretch: &Stretch) -> Preview
     Preview { picture, note: format!("0 to {longest:.1} px") }
 }
 
-/// Where a value lies on a range, 0 to 1 inside of it.
+/// Position of a value on a range, 0 to 1 inside of it.
 fn place([low, high]: [f64; 2], value: f64) -> f64 {
     (value - low) / (high - low).max(f64::MIN_POSITIVE)
 }

@@ -6,7 +6,7 @@ use enfilade_frame::{Frame, Layer};
 /// Distance at which surfaces are half as bright as at the camera, metres.
 const HALF_BRIGHT_M: f64 = 3.0;
 
-/// Side of the squares of the board that stands for nothing, pixels.
+/// Side of the squares of the checkerboard that shows transparency, pixels.
 const SQUARE: u32 = 8;
 
 /// The geometry of a look: surfaces in the colours of their normals, darker with distance; backs of things that have a front red; a dark

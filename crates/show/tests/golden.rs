@@ -1,6 +1,6 @@
 //! Tone map and label images against those that the original toolkit made of the same frames.
 //!
-//! The frames lie in `golden/post` beside the directory that ENFILADE_SCENES names.
+//! The frames are in `golden/post` beside the directory that ENFILADE_SCENES names.
 
 use enfilade_dataset::hdf5::read_array;
 use enfilade_frame::tonemap::ToneMap;

@@ -27,7 +27,7 @@ pub struct Judged {
 }
 
 impl Calibration {
-    /// The curve that leaves every score as it is.
+    /// The identity curve.
     pub fn identity() -> Self {
         Self { points: vec![(0.0, 0.0), (1.0, 1.0)] }
     }
@@ -109,7 +109,8 @@ impl Calibration {
         applied
     }
 
-    /// The confidence of a score, both from 0 to 1. Never falls with the score; outside of the curve that of its nearest end.
+    /// The confidence of a score, both from 0 to 1. Never falls with the score; outside of the curve it is the confidence at the nearest
+    /// end.
     pub fn confidence(&self, score: f32) -> f32 {
         let after = self.points.partition_point(|&(s, _)| s < score);
         match (after.checked_sub(1).map(|i| self.points[i]), self.points.get(after)) {

@@ -1,28 +1,28 @@
-//! A name among the names above it: which of them says what a part is.
+//! A name among the names above it: which of them decides what a part is.
 //!
-//! What the name of a thing says stands, whatever is around it. Other names are mixed with those around them, from the outermost inwards:
-//! with a share that depends on the inner name's [`Role`] a part is what the thing around it is, else what its own name says. So the nearer
-//! name counts more, and the more specific: a *door* in a *Nightstand* is a night stand, in a *Wall* a door; a *Table* in a *Living room* is
-//! a table. The shares were learned from Hypersim's names ([`crate::learn::learn_shares`]).
+//! If a name names a thing, it decides, regardless of the names around it. Other names are mixed with those around them, from the outermost
+//! inwards: with a share that depends on the inner name's [`Role`], a part has the class of the thing around it, else the class of its own
+//! name. So nearer and more specific names count more: a *door* in a *Nightstand* is a night stand, in a *Wall* a door; a *Table* in a
+//! *Living room* is a table. The shares were learned from Hypersim's names ([`crate::learn::learn_shares`]).
 
 use crate::roles::Role;
 use crate::table::{TableError, number, read};
 use crate::weights::CLASSES;
 
 const COLUMNS: [&str; 2] = ["inner", "share"];
-/// Confidence from which on a name counts as known although it is in no list.
+/// Confidence above which a name counts as known although it is in no list.
 pub(crate) const KNOWN: f32 = 0.6;
 
-/// What an inner name that names no thing is, as far as the share depends on it.
+/// Kinds of inner names that name no thing; the share depends on the kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Inner {
-    /// The name of a piece of such things as are around it.
+    /// The name of a piece of a thing like the one around it.
     Piece,
     /// A form, side or material.
     Filler,
-    /// Words of no list of which something is known.
+    /// Words of no list for which the model is confident.
     Known,
-    /// Words of which little is known, or none.
+    /// Words about which little is known, or no words.
     Unknown,
 }
 
@@ -54,7 +54,7 @@ impl Inner {
     }
 }
 
-/// How often a part is what the thing around it is, by what its own name is.
+/// Shares of parts that have the class of the thing around them, by the kind of their own name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shares([f32; Inner::ALL.len()]);
 
@@ -113,7 +113,7 @@ impl Level {
         best(&self.probabilities)
     }
 
-    /// Whether a name around others says anything about what is in it.
+    /// Whether a name around others gives information about its contents.
     pub(crate) fn speaks(&self) -> bool {
         match self.role {
             Role::Thing(_) | Role::Piece { alone: Some(_), .. } => true,

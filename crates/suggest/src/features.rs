@@ -1,4 +1,4 @@
-//! What a name is judged by: its words, their place, their beginnings and ends, pairs, and what the word list says of them.
+//! The features by which a name is judged: its words, their place, their beginnings and ends, pairs, and their classes in the word list.
 
 use crate::lexicon::Lexicon;
 use enfilade_scene::NYU40;
@@ -9,9 +9,8 @@ const AFFIXES: [usize; 2] = [3, 5];
 
 /// The features of a name's words, sorted, each once. None when there are no words.
 ///
-/// `word chair` stands for a word anywhere, `last chair` for the last one, `pair table lamp` for two in a row, `starts cha` and
-/// `ends hair` for parts of words, `means chair` for a class that the word list gives to one of the words, and `head chair` for the last
-/// such class.
+/// `word chair` means a word anywhere, `last chair` the last one, `pair table lamp` two in a row, `starts cha` and `ends hair` parts of
+/// words, `means chair` a class that the word list gives to one of the words, and `head chair` the last such class.
 pub fn features(words: &[String], lexicon: &Lexicon) -> Vec<String> {
     let mut found = BTreeSet::new();
     for word in words {

@@ -35,10 +35,10 @@ impl Lexicon {
         Self::parse(BUILTIN, FILE)
     }
 
-    /// Reads a list. `file` is what errors call it.
+    /// Reads a list. `file` is its name in errors.
     ///
     /// # Errors
-    /// The first row that is no word and class, is written otherwise than names are taken apart, or comes twice.
+    /// The first row that is not a word and a class, is not written in the form of split names, or is a duplicate.
     pub fn parse(text: &str, file: &str) -> Result<Self, TableError> {
         let mut classes = HashMap::new();
         for (line, [word, class]) in read(text, file, ["word", "class"])? {
@@ -72,7 +72,7 @@ impl Lexicon {
         found
     }
 
-    /// The class of a word or phrase that is in the list as it stands.
+    /// The class of a word or phrase that is in the list exactly.
     pub(crate) fn class(&self, phrase: &str) -> Option<i16> {
         self.classes.get(phrase).copied()
     }
@@ -83,7 +83,7 @@ impl Lexicon {
         sorted.into_iter().map(|(word, class)| (words(word), class)).collect()
     }
 
-    /// What the longest end of a word that is in the list means.
+    /// The class of the longest ending of a word that is in the list.
     fn of_compound(&self, word: &str) -> Option<i16> {
         let ends = word.char_indices().skip(1).map(|(i, _)| &word[i..]);
         let long_enough = |end: &&str| !end.is_ascii() || end.len() >= MIN_END;

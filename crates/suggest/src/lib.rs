@@ -8,9 +8,10 @@
 //! assert!(suggester.suggest(&PartNames { part: "Mesh.017", ..PartNames::default() }).is_none());
 //! ```
 //!
-//! [`words`](mod@words) takes a name apart, [`features`](mod@features) says what it is judged by, [`weights`](mod@weights) adds up what each
-//! feature speaks for, and [`calibration`] turns the result into a probability. The tables in `data/` were learned ([`mod@learn`]) from the
-//! names of Hypersim's objects and their labels; `words.csv` is a word list of ours. `docs/suggest.md` says how good it is.
+//! [`words`](mod@words) takes a name apart, [`features`](mod@features) lists what it is judged by, [`weights`](mod@weights) adds up what
+//! each feature speaks for, and [`calibration`] turns the result into a probability. The tables in `data/` were learned ([`mod@learn`])
+//! from the names of Hypersim's objects and their labels; `words.csv` is a word list of ours. `docs/suggest.md` has measurements of its
+//! quality.
 
 pub mod calibration;
 pub mod chain;

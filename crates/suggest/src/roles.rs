@@ -1,9 +1,9 @@
-//! What a word is to the things around it: a piece of some (*leg*, *drawer*), a place that holds them (*kitchen*), or a filler that says
-//! neither (*Cube*, *left*, *wood*).
+//! Relation of a word to the things around it: a piece of some (*leg*, *drawer*), a place that contains them (*kitchen*), or a filler
+//! (*Cube*, *left*, *wood*).
 //!
-//! `roles.csv` has the columns `word` and `role`. A word may be a phrase of up to three words, all written as names are taken apart. A role
-//! is `place`, `filler`, `side` (a filler that tells things of one kind apart: *left*, *small*, *black*), `piece of anything`, or `piece of` and
-//! the classes of the wholes.
+//! `roles.csv` has the columns `word` and `role`. A word may be a phrase of up to three words, all written in the form of split names. A
+//! role is `place`, `filler`, `side` (a filler that distinguishes things of one kind: *left*, *small*, *black*), `piece of anything`, or
+//! `piece of` and the classes of the wholes.
 
 use crate::lexicon::{Lexicon, MAX_PHRASE};
 use crate::table::{TableError, class_number, read};
@@ -15,23 +15,23 @@ const BUILTIN: &str = include_str!("../roles.csv");
 /// Letters that the end of a compound needs to count, as in the word list.
 const MIN_END: usize = 4;
 
-/// What a name says about its place in a hierarchy.
+/// The role of a name in a hierarchy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The name of a thing of this class.
     Thing(i16),
-    /// The name of a piece of things of these classes, or of anything where there are none; and its class where it stands alone.
+    /// The name of a piece of things of these classes, or of anything where there are none; and its class when alone.
     Piece {
         /// Classes of the wholes; none where it may be of anything.
         wholes: Vec<i16>,
         /// Class of the piece by itself, if it has one.
         alone: Option<i16>,
     },
-    /// A form, a material or a program's word: nobody knows of what.
+    /// A form, a material or a program's word, of an unknown thing.
     Filler,
-    /// A side, a size or a colour: the same, but it may tell things of one kind apart.
+    /// A side, a size or a colour: the same, but it may distinguish things of one kind.
     Side,
-    /// A place or a collection, which says nothing about what is in it.
+    /// A place or a collection, which gives no information about its contents.
     Place,
     /// Words of no list.
     Unlisted,
@@ -49,10 +49,10 @@ impl Roles {
         Self::parse(BUILTIN, FILE)
     }
 
-    /// Reads a list. `file` is what errors call it.
+    /// Reads a list. `file` is its name in errors.
     ///
     /// # Errors
-    /// The first row that is no word and role, is written otherwise than names are taken apart, or comes twice.
+    /// The first row that is not a word and a role, is not written in the form of split names, or is a duplicate.
     fn parse(text: &str, file: &str) -> Result<Self, TableError> {
         let mut listed = HashMap::new();
         for (line, [word, role]) in read(text, file, ["word", "role"])? {
@@ -84,14 +84,14 @@ impl Roles {
         }
     }
 
-    /// True for a name that says both what a piece is and of what: `chair leg`, `table_wood`. Others of its kind may be of the same thing.
+    /// True for a name that states both the piece and its whole: `chair leg`, `table_wood`. Others of its kind may be of the same thing.
     pub(crate) fn is_piece_of_named(&self, words: &[String], lexicon: &Lexicon) -> bool {
         let phrases = self.phrases(words, lexicon);
         let piece = matches!(phrases.last(), Some(Role::Piece { .. } | Role::Filler));
         piece && phrases.iter().any(|role| matches!(role, Role::Thing(_)))
     }
 
-    /// Whether the list has a phrase as it stands.
+    /// Whether the list has exactly this phrase.
     pub(crate) fn lists(&self, phrase: &str) -> bool {
         self.listed.contains_key(phrase)
     }
@@ -112,7 +112,7 @@ impl Roles {
         found
     }
 
-    /// The role of one phrase: that of this list, else the thing that it is in the word list.
+    /// The role of one phrase: from this list, else the thing that it is in the word list.
     fn phrase(&self, phrase: &str, lexicon: &Lexicon) -> Option<Role> {
         let thing = lexicon.class(phrase);
         match self.listed.get(phrase) {

@@ -1,5 +1,4 @@
-//! A suggester goes the whole way from a part's names to a suggestion: words, features, weights, probabilities, confidence, and the names
-//! around it.
+//! The suggester computes a suggestion from a part's names: words, features, weights, probabilities, confidence, and the names around it.
 
 use crate::calibration::{Calibration, Thresholds};
 use crate::chain::{Level, Shares, mix};
@@ -19,16 +18,16 @@ const SHARES: (&str, &str) = ("data/shares.csv", include_str!("../data/shares.cs
 const AROUND: (&str, &str) = ("data/around.csv", include_str!("../data/around.csv"));
 /// Alternatives that a suggestion may have.
 const MAX_ALTERNATIVES: usize = 3;
-/// What a material's name counts beside a part's: half, because it says what a thing is made of more often than what it is.
+/// Weight of a material's name relative to a part's: half, because it names what a thing is made of more often than what it is.
 const MATERIAL_SHARE: f32 = 0.5;
 /// Names around a part that are looked at, from the inside.
 const MAX_LEVELS: usize = 8;
-/// Classes of things in it, beside its own, from which on a name stands for a collection.
+/// Number of classes of things in it, beside its own, from which a name counts as a collection.
 const COLLECTION: usize = 4;
 /// Wall, floor and ceiling: only places have them.
-const STRUCTURE: [i16; 3] = [1, 2, 22];
+const SHELL: [i16; 3] = [1, 2, 22];
 
-/// Knows which classes names stand for. The same names always get the same suggestion; nothing is read or kept.
+/// Finds the classes of names. The same names always get the same suggestion; no files are read and no state is kept.
 ///
 /// ```
 /// use enfilade_suggest::{PartNames, Suggester};
@@ -50,29 +49,29 @@ pub struct Suggester {
 /// The names by which a part is judged. Any may be empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PartNames<'a> {
-    /// The part's own name; what stands before a slash is around it, as in `object/part`.
+    /// The part's own name; text before a slash names the object around it, as in `object/part`.
     pub part: &'a str,
     /// Name of the part's material.
     pub material: &'a str,
-    /// What it is part of and in, outermost first, with slashes between: parents in a hierarchy, groups.
+    /// What it belongs to, outermost first, separated by slashes: parents in a hierarchy, groups.
     pub group: &'a str,
 }
 
-/// A class that a name may stand for.
+/// A class that a name may have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
     /// NYU40 class, 1 to 40.
     pub class: i16,
-    /// Probability that it is right, from 0 to 1: of names with this confidence in scenes that were held out, that share was.
+    /// Probability that it is right, from 0 to 1: among names with this confidence in held-out scenes, this share was right.
     pub confidence: f32,
-    /// What the part is a part of, where the name of that decided: all parts with the same are one thing. Only [`Suggester::suggest_scene`]
-    /// knows.
+    /// The object that the part belongs to, if that object's name decided: all parts with the same are one thing. Set only by
+    /// [`Suggester::suggest_scene`].
     pub whole: Option<ObjectId>,
     /// Up to three other classes, the likeliest first, with their probabilities, none above `confidence`.
     pub alternatives: Vec<(i16, f32)>,
 }
 
-/// The levels of names that stood around others.
+/// The levels of names that were around others.
 type Known = HashMap<String, Option<Level>>;
 
 impl Suggester {
@@ -102,8 +101,8 @@ impl Suggester {
         })
     }
 
-    /// With weights that were learned, before anything is known of their precision: the confidence is the model's own probability, and
-    /// names around a part say nothing.
+    /// With weights that were learned, before their precision is measured: the confidence is the model's own probability, and names around
+    /// a part are not used.
     ///
     /// # Panics
     /// When the crate's list of roles is damaged, which its tests exclude.
@@ -125,14 +124,14 @@ impl Suggester {
         self.thresholds.min_confidence(precision)
     }
 
-    /// What a part of these names is; `None` when they have no word of which anything is known.
+    /// The suggestion for a part with these names; `None` if they have no known word.
     pub fn suggest(&self, names: &PartNames<'_>) -> Option<Suggestion> {
         let (own, around) = split(names);
         Some(self.suggest_knowing(own, names.material, &around, &mut HashMap::new())?.0)
     }
 
-    /// What a part of this name is among the names around it, from the inside, and which of these decided, if one did. `known` are names
-    /// that stood around others, which scenes repeat.
+    /// The suggestion for a part with this name among the names around it, from the inside, and which of these decided, if one did. `known`
+    /// caches names that were around others, because scenes repeat them.
     fn suggest_knowing(&self, own: &str, material: &str, around: &[&str], known: &mut Known) -> Option<(Suggestion, Option<usize>)> {
         let evidence = self.evidence(own, material);
         let levels = self.levels(&evidence, own, material, around, known);
@@ -147,7 +146,7 @@ impl Suggester {
         Some((found, by[decided]))
     }
 
-    /// What in these names speaks for a class (above 0) or against it, the strongest first: features as
+    /// The evidence in these names for a class (above 0) or against it, the strongest first: features as
     /// [`features`](crate::features::features) writes them, and their weights, in natural logarithms of odds, as far as their name counts.
     pub fn reasons(&self, names: &PartNames<'_>, class: i16) -> Vec<(String, f32)> {
         let (own, around) = split(names);
@@ -187,8 +186,8 @@ impl Suggester {
         softmax(&sums)
     }
 
-    /// The levels of a part and which name around it each is of, its own first: a part whose own names say nothing has one where names
-    /// around it speak.
+    /// The levels of a part and the index of the surrounding name of each, its own first. A part whose own names are unknown still has one
+    /// if names around it are known.
     fn levels(
         &self,
         evidence: &[(Vec<String>, f32)],
@@ -226,7 +225,7 @@ impl Suggester {
         std::iter::once((None, Level { role, probabilities })).chain(outer).collect()
     }
 
-    /// The level of a name around others, if it says anything about them.
+    /// The level of a name around others, if it gives information about them.
     fn level_around(&self, name: &str) -> Option<Level> {
         self.level(&words(name)).map(|(role, p)| Level { role, probabilities: self.calibration.apply(&p) }).filter(Level::speaks)
     }
@@ -245,7 +244,8 @@ impl Suggester {
         Some([within, self.level(outer)?])
     }
 
-    /// What every part of a scene is, in the order of `Scene::parts`, by its name, its material's, and the names of what it lies in.
+    /// The suggestion for every part of a scene, in the order of `Scene::parts`, by its name, its material's name, and the names of its
+    /// parents.
     ///
     /// # Panics
     /// When a part's material does not exist; a valid scene has none such.
@@ -257,7 +257,7 @@ impl Suggester {
             let objects: Vec<ObjectId> =
                 scene.objects_around(part).filter(|&object| !collections[object as usize]).take(MAX_LEVELS).collect();
             let lineage: Vec<&str> = objects.iter().map(|&object| scene.objects[object as usize].name.as_str()).collect();
-            // What only the part's name says is farther out than what the file says it lies in.
+            // A path in the part's name is used only if the file gives no parents.
             let path = if part.object.is_none() { path } else { Vec::new() };
             let around = [lineage, path].concat();
             let (suggestion, by) = self.suggest_knowing(own, &scene.materials[part.material as usize].name, &around, &mut known)?;
@@ -267,8 +267,8 @@ impl Suggester {
         scene.parts.iter().map(suggestion).collect()
     }
 
-    /// Which objects of a scene are collections: what holds walls, floors or ceilings, or things of several other classes, is no thing
-    /// itself, whatever it is called (`coffee table scene`).
+    /// Which objects of a scene are collections: an object that contains walls, floors or ceilings, or things of several other classes, is
+    /// not a thing itself, whatever its name (`coffee table scene`).
     fn collections(&self, scene: &Scene) -> Vec<bool> {
         let thing = |name: &str| match self.roles.of(&words(name), &self.lexicon) {
             Role::Thing(class) => Some(class),
@@ -280,7 +280,7 @@ impl Suggester {
             let name = part.name.rsplit('/').next().unwrap_or_default();
             part.object.into_iter().for_each(|object| held[object as usize].extend(thing(name)));
         }
-        // Parents stand before what lies in them.
+        // Parents come before their children.
         for (i, object) in scene.objects.iter().enumerate().rev() {
             if let Some(parent) = object.parent {
                 let inside: Vec<i16> = held[i].iter().copied().chain(own[i]).collect();
@@ -289,7 +289,7 @@ impl Suggester {
         }
         let collection = |(held, own): (&BTreeSet<i16>, &Option<i16>)| {
             let others = held.iter().filter(|class| Some(**class) != *own);
-            others.clone().count() >= COLLECTION || others.clone().any(|class| STRUCTURE.contains(class))
+            others.clone().count() >= COLLECTION || others.clone().any(|class| SHELL.contains(class))
         };
         held.iter().zip(&own).map(collection).collect()
     }
@@ -421,7 +421,7 @@ mod tests {
             ("Bookshelf/book_3", "books"),
             ("Picture/frame", "picture"),
             ("Table/Vase", "otherprop"),
-            // What holds it is no thing of which it could be a piece, or a place.
+            // Its parent is a place, or a thing that it cannot be a piece of.
             ("Wall_0_grp/Door2", "door"),
             ("Wall_0_grp/Door2/Handle", "door"),
             ("Living room/Table", "table"),

@@ -1,4 +1,4 @@
-//! The tables of the crate as CSV: their header, rows with line numbers, and what is said of damage.
+//! The tables of the crate as CSV: their header, rows with line numbers, and the errors for damage.
 
 use enfilade_scene::NYU40;
 
@@ -10,7 +10,7 @@ pub struct TableError {
     pub file: String,
     /// Line from 1.
     pub line: u64,
-    /// What was found, what was expected.
+    /// The problem found, and what was expected.
     pub problem: String,
 }
 

@@ -74,7 +74,7 @@ impl Weights {
         (self.features.len(), self.features.values().map(Vec::len).sum::<usize>() + self.bias.len())
     }
 
-    /// Whether the table has anything to say of one of these features.
+    /// Whether the table has a weight for one of these features.
     pub(crate) fn knows(&self, features: &[String]) -> bool {
         features.iter().any(|feature| self.features.contains_key(feature))
     }

@@ -1,12 +1,12 @@
 //! Names taken apart: `AI53_005_armchairMetal_2917` is *armchair, metal*.
 //!
-//! Words end at anything that is no letter, and where `camelCase` says so. They are lower case; accents are dropped and Cyrillic
-//! letters are written in Latin ones, so that one table serves *étagère*, *etagere*, *лампа* and *lampa*. Numbers and words that
-//! only tell which program or archive a thing comes from are left out.
+//! Words end at anything that is not a letter, and at the capitals of `camelCase`. They are lower case; accents are dropped and Cyrillic
+//! letters are written in Latin ones, so that one table serves *étagère*, *etagere*, *лампа* and *lampa*. Numbers and words that only name
+//! the program or archive of a thing are left out.
 
-/// Letters of a word that are looked at; what is longer was not written by a person.
+/// Letters of a word that are looked at; longer words were not written by a person.
 const MAX_LETTERS: usize = 32;
-/// Words of a name that are looked at, from its end: that is where the thing itself stands in a path.
+/// Words of a name that are looked at, from its end: a path ends with the thing itself.
 const MAX_WORDS: usize = 12;
 
 /// Words that name no thing: makers of models, programs, and kinds of node.
@@ -123,7 +123,8 @@ fn singular(word: &str) -> String {
     word.strip_suffix('s').filter(|_| !keeps).unwrap_or(word).to_string()
 }
 
-/// Letters whose accents are characters of their own, as in names of macOS's files, with those that [`fold`] tells apart, and without others.
+/// Letters from names whose accents are separate characters, as in file names of macOS, combined where [`fold`] distinguishes them, and
+/// without other accents.
 fn composed(letters: impl Iterator<Item = char>) -> Vec<char> {
     let mut composed: Vec<char> = Vec::new();
     for letter in letters {

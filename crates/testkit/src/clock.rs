@@ -12,7 +12,7 @@ pub fn thread_cpu_s() -> f64 {
     seconds(ClockId::ThreadCPUTime)
 }
 
-/// Time on the wall, which never goes back.
+/// Wall-clock time, which never decreases.
 pub fn wall_s() -> f64 {
     seconds(ClockId::Monotonic)
 }

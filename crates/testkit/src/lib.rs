@@ -25,7 +25,7 @@ use std::fmt::Write as _;
 /// Family-wise level: the probability that a correct suite of tests fails at all.
 const LEVEL: f64 = 1e-3;
 
-/// Cells with fewer expected counts are pooled, because the statistic's distribution holds only for well-filled ones.
+/// Cells with fewer expected counts are pooled, because the statistic's distribution is valid only for well-filled ones.
 const MIN_EXPECTED: f64 = 5.0;
 
 /// The outcome of a chi-square test of goodness of fit.
@@ -88,7 +88,8 @@ impl ChiSquare {
         Self::cells(samples, SIDE * SIDE, draw, cell_mass)
     }
 
-    /// Tests a sampler of cells against their probabilities. What neither covers is one more cell: "gave up".
+    /// Tests a sampler of cells against their probabilities. One more cell, "gave up", counts the samples and the probability outside of
+    /// all cells.
     fn cells(samples: u32, count: usize, mut draw: impl FnMut([f32; 3]) -> Option<usize>, mass: impl Fn(usize) -> f64) -> Self {
         let mut rng = Rng::new(0x5eed);
         let mut observed = vec![0.0; count + 1];

@@ -50,7 +50,7 @@ impl Mean {
     /// Fails unless `expected` is credible as the true mean at the family-wise level, as one of `tests` in its suite.
     ///
     /// # Panics
-    /// When it is not, or the samples cannot say; the numbers are then in `target/evidence/<name>.txt`.
+    /// If it is not, or the samples are not enough to decide; the numbers are then in `target/evidence/<name>.txt`.
     pub fn assert_is(&self, name: &str, expected: f64, tests: usize) {
         self.judge(name, self.p_value(expected), tests, &format!("expected {expected}"));
     }

@@ -12,7 +12,7 @@ fn directions_follow_their_densities() {
     sphere.assert("uniform sphere", TESTS);
     let cosine = ChiSquare::directions(SAMPLES, |u| Some(warp::cosine_hemisphere([u[0], u[1]])), |w| warp::cosine_hemisphere_pdf(w.z));
     cosine.assert("cosine hemisphere", TESTS);
-    // The cone's border lies between rows of cells: 1 − cosθ = 0.5 = 6 rows of 24.
+    // The cone's border is between rows of cells: 1 − cosθ = 0.5 = 6 rows of 24.
     let cone =
         ChiSquare::directions(SAMPLES, |u| Some(warp::cone([u[0], u[1]], 0.5)), |w| if w.z > 0.5 { warp::cone_pdf(0.5) } else { 0.0 });
     cone.assert("cone", TESTS);

@@ -1,4 +1,4 @@
-//! The dataset that the analytic frame is of, and what it holds beside frames.
+//! The dataset of the analytic frame, and its contents beside frames.
 
 use crate::{frame, intrinsics, labels, pose, scene, store};
 use enfilade_dataset::{BoxKind, Covisibility, CovisibleFrame, Dataset, Fixture, FrameInfo, FramePair, FrameTime, HiddenBy};
@@ -6,9 +6,9 @@ use enfilade_dataset::{InstanceRelation, InstanceView, ManifestInfo, PartitionRo
 use enfilade_frame::{DENOISED, Frame, Layer, Pass, f16, vector};
 use enfilade_geometry::{OccupancyTree, Voxel};
 use enfilade_math::{DMat3, DVec2, DVec3, OrientedBox, Vec3};
-use enfilade_scene::{Pose, Structure, StructureRoom, Trajectory};
+use enfilade_scene::{Pose, RoomOutline, Rooms, Trajectory};
 
-/// What lights the room.
+/// The fixtures that light the room.
 pub fn fixtures() -> Vec<Fixture> {
     let fixture = |id, kind: &str, place: Option<Vec3>| Fixture {
         id,
@@ -22,14 +22,14 @@ pub fn fixtures() -> Vec<Fixture> {
     vec![fixture(1, "sky", None), fixture(2, "lamp", Some(Vec3::new(0.0, 0.0, 2.4)))]
 }
 
-/// What the frame from `pose` shows of the mirror, all of which is visible.
+/// The mirror as the frame from `pose` shows it, all of it visible.
 fn instance_views(pose: &Pose) -> Option<InstanceView> {
     let area = enfilade_label::instances::visible_areas(frame(pose).get(Layer::SemanticInstance)?, intrinsics().width).remove(&1)?;
     let (visible, full, inside_pixels) = (area, area, area.pixels);
     Some(InstanceView { frame: pose.frame, instance: 1, semantic: 19, visible, full, inside_pixels })
 }
 
-/// What the plan of a walk that begins at `first` says of itself.
+/// The plan report of a walk that begins at `first`.
 fn plan_report(first: &Pose) -> serde_json::Value {
     let bounds = serde_json::json!({ "step_m": [1.5, 1.5, 0.25], "height_range_m": 0.25 });
     let (position, world_from_camera) = (first.position, first.world_from_camera);
@@ -44,7 +44,7 @@ fn plan_report(first: &Pose) -> serde_json::Value {
     })
 }
 
-/// What two frames see of each other: everything that lies in the image, since nothing hides anything here.
+/// The covisibility of two frames: everything that is in the image, since nothing hides anything here.
 fn covisibility(poses: [&Pose; 2]) -> Covisibility {
     let (k, frames) = (intrinsics(), poses.map(frame));
     let points = |i: usize| {
@@ -110,13 +110,13 @@ fn tracks(poses: [&Pose; 2]) -> Tracks {
     tracks
 }
 
-/// The layout that the floor and the wall belong to: a room of 16 by 10 metres behind the camera.
-pub fn structure() -> Structure {
+/// The rooms that the floor and the wall belong to: one of 16 by 10 metres behind the camera.
+pub fn rooms() -> Rooms {
     let polygon = vec![[-8.0, -8.0], [8.0, -8.0], [8.0, 2.0], [-8.0, 2.0]];
-    let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
-    let mut structure = Structure::default();
-    structure.push_room(room, &[(0.3, true); 4]);
-    structure
+    let room = RoomOutline { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+    let mut rooms = Rooms::default();
+    rooms.push_room(room, &[(0.3, true); 4]);
+    rooms
 }
 
 /// The surfaces along the rays of a frame: what it shows, and 1 m behind it the back of the same part.
@@ -143,8 +143,8 @@ pub fn surfaces(frame: &Frame) -> Surfaces {
     }
 }
 
-/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, layout, fixtures, covisibility, flow, tracks,
-/// surfaces along rays, split, free space and manifest.
+/// A complete dataset of one scene "room" with camera `cam_00` and two frames, labelled, with boxes, rooms, fixtures, covisibility, flow,
+/// tracks, surfaces along rays, split, free space and manifest.
 pub fn dataset(root: &std::path::Path) -> Dataset {
     let dataset = Dataset::create(root).unwrap();
     dataset.write_scene("room", &scene()).unwrap();
@@ -197,7 +197,7 @@ pub fn dataset(root: &std::path::Path) -> Dataset {
     BoxKind::ALL.iter().for_each(|&kind| dataset.write_boxes("room", kind, &[None, Some(mirror)]).unwrap());
     let views: Vec<InstanceView> = trajectory.poses.iter().filter_map(instance_views).collect();
     dataset.write_instance_views("room", "cam_00", &views).unwrap();
-    dataset.write_structure("room", &structure()).unwrap();
+    dataset.write_rooms("room", &rooms()).unwrap();
     dataset.write_fixtures("room", &fixtures()).unwrap();
     let hangs = InstanceRelation { subject: 1, kind: RelationKind::HangsFrom, object: -1, object_semantic: 1, distance_m: 0.0 };
     dataset.write_instance_relations("room", &[hangs]).unwrap();

@@ -5,7 +5,7 @@
 
 mod dataset;
 
-pub use dataset::{dataset, fixtures, structure, surfaces};
+pub use dataset::{dataset, fixtures, rooms, surfaces};
 use enfilade_frame::{Dtype, FixtureLayers, Frame, LAYERS, Layer, Validity, Values, f16, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec2, DVec3, Rgb, Vec3};
@@ -19,18 +19,18 @@ pub fn intrinsics() -> Intrinsics {
     Intrinsics::from_fov_x(64, 48, 70f64.to_radians())
 }
 
-/// Where the camera of the first frame stands: before the wall, looking at the mirror.
+/// Pose of the camera of the first frame: in front of the wall, looking at the mirror.
 pub fn pose() -> Pose {
     Pose::look_at(0, DVec3::new(0.3, -3.0, 1.5), DVec3::new(-0.2, 1.0, 1.4), DVec3::new(0.02, 0.0, 1.0)).unwrap()
 }
 
-/// What the parts are: a floor, a wall, and a mirror, which is instance 1.
+/// Labels of the parts: a floor, a wall, and a mirror, which is instance 1.
 pub fn labels() -> Labels {
     let label = |semantic, instance| PartLabel { semantic, instance };
     Labels { parts: vec![label(2, -1), label(1, -1), label(19, 1)] }
 }
 
-/// What a ray meets: distance along it, part, normal toward the camera, texture coordinates.
+/// The hit of a ray: distance along it, part, normal toward the camera, texture coordinates.
 fn meet(origin: DVec3, direction: DVec3) -> Option<(f64, i16, DVec3, DVec2)> {
     let to_floor = -origin.z / direction.z;
     let to_wall = (2.0 - origin.y) / direction.y;

@@ -17,7 +17,7 @@ pub enum Weave {
 }
 
 impl Weave {
-    /// True where the warp (along v) lies on top, at the crossing of warp `i` and weft `j`.
+    /// True if the warp (along v) is on top at the crossing of warp `i` and weft `j`.
     fn warp_on_top(self, i: i32, j: i32) -> bool {
         match self {
             Self::Plain => (i + j).rem_euclid(2) == 0,

@@ -1,6 +1,6 @@
 //! Procedural textures: what the surfaces of a home look like up close.
 //!
-//! Every picture is a function of a seed. [`Paint`] says how many metres a picture covers, so that shapes, whose texture
+//! Every picture is a function of a seed. [`Paint`] states how many metres a picture covers, so that shapes, whose texture
 //! coordinates are metres, show it at its true size.
 
 mod books;
@@ -39,7 +39,7 @@ pub fn paint(name: &str, width: u32, height: u32, color: impl Fn(Vec2) -> Rgb + 
     Image { name: name.into(), width, height, pixels: Pixels::Rgba8 { srgb: true, texels } }
 }
 
-/// What a surface is like at one point.
+/// Properties of a surface at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
     /// Linear reflectance, or a factor of one.
@@ -104,7 +104,7 @@ impl Paint {
         TextureRef { uv_transform: [[u, 0.0, 0.0], [0.0, v, 0.0]], ..TextureRef::new(self.image) }
     }
 
-    /// The opacity, which holds the roughness of a [`Skin`], multiplied by `factor`.
+    /// The opacity, which has the roughness of a [`Skin`], multiplied by `factor`.
     pub fn alpha(self, factor: f32) -> ScalarParam {
         ScalarParam { factor, texture: Some((self.texture(), 3)) }
     }

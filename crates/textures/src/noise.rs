@@ -7,7 +7,7 @@ pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
     uniform(x, row(y, seed))
 }
 
-/// What the lattice points of a row have in common.
+/// The hash that the lattice points of a row share.
 fn row(y: i32, seed: u32) -> u32 {
     hash_u32((y as u32).wrapping_add(seed.wrapping_mul(0x85eb_ca6b)))
 }

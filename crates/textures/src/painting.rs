@@ -5,7 +5,7 @@ use super::paint;
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::Image;
 
-/// What a picture shows.
+/// Subject of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaintingStyle {
     /// Hills behind hills under a pale sky.

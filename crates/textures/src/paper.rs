@@ -28,7 +28,7 @@ pub fn leaf(name: &str, blade: Rgb, vein: Rgb, seed: u32) -> Skin {
     })
 }
 
-/// What is on a screen.
+/// Contents of a screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Display {
     /// A landscape, as on an idle television.
@@ -46,7 +46,7 @@ impl Display {
     pub const ALL: [Self; 4] = [Self::Landscape, Self::Desktop, Self::Text, Self::Cards];
 }
 
-/// What a screen shows over the unit square, 512 × 288 pixels, as radiance relative to its white.
+/// Picture of a screen over the unit square, 512 × 288 pixels, as radiance relative to its white.
 pub fn display(name: &str, shown: Display, colors: &[Rgb; 5], seed: u32) -> Image {
     if shown == Display::Landscape {
         return painting(name, PaintingStyle::Hills, colors, seed);

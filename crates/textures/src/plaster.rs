@@ -1,4 +1,4 @@
-//! What walls are covered with: paint on plaster, bare plaster, wallpaper.
+//! Coverings of walls: paint on plaster, bare plaster, wallpaper.
 
 use super::noise::{Field, fbm, lattice, noise, smoothstep};
 use super::{Grain, Skin, skin};
@@ -91,7 +91,7 @@ fn fans(uv: Vec2) -> [f32; 2] {
     /// Rows of scales up the picture.
     const ROWS: f32 = 16.0;
     let p = Vec2::new(uv.x * ACROSS, uv.y * ROWS);
-    // The lowest row whose scale covers the point lies in front.
+    // The lowest row whose scale covers the point is in front.
     let mut radius = 1.0f32;
     for back in [1.0, 0.0] {
         let row = p.y.floor() - back;

@@ -4,7 +4,7 @@ use super::noise::{fbm, lattice, noise, smoothstep};
 use super::{Grain, Skin, skin};
 use enfilade_math::{Rgb, Vec2};
 
-/// What a tile shows.
+/// Pattern of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileFigure {
     /// One glaze.
@@ -30,7 +30,7 @@ pub struct TileLook {
     pub colors: [Rgb; 2],
     /// Joints.
     pub grout: Rgb,
-    /// What they show.
+    /// Their pattern.
     pub figure: TileFigure,
     /// GGX roughness of the glaze.
     pub alpha: f32,

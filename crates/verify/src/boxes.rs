@@ -25,7 +25,7 @@ pub(super) fn there<T>(read: Result<T, DatasetError>) -> Option<Result<T, Datase
     (!read.as_ref().is_err_and(DatasetError::is_not_found)).then_some(read)
 }
 
-/// Checks what concerns the boxes alone; `boxes` has one entry per kind that the dataset has, in the order of [`BoxKind::ALL`].
+/// Checks the laws that concern only the boxes; `boxes` has one entry per kind that the dataset has, in the order of [`BoxKind::ALL`].
 pub(super) fn check_boxes(boxes: &[(BoxKind, Boxes)], scene: &str, card: &mut Card) {
     for (kind, instance, shape) in boxes.iter().flat_map(|(kind, boxes)| present(boxes).map(move |(i, b)| (kind, i, b))) {
         let at = || format!("{scene}: {} box of instance {instance}", kind.name());
@@ -49,7 +49,7 @@ fn present(boxes: &Boxes) -> impl Iterator<Item = (usize, &OrientedBox)> {
     boxes.iter().enumerate().filter_map(|(i, shape)| Some((i, shape.as_ref()?)))
 }
 
-/// Checks that what a frame shows of each instance lies within its boxes.
+/// Checks that the visible points of each instance in a frame are within its boxes.
 pub(super) fn check_positions(boxes: &[(BoxKind, Boxes)], frame: &Frame, view: &View<'_>, place: &str, card: &mut Card) {
     let (Some(positions), Some(instances)) = (frame.get(Layer::Position), frame.get(Layer::SemanticInstance)) else { return };
     let center = view.camera.pose().position;

@@ -99,7 +99,8 @@ fn row_error(array: &Array, camera: &Camera, trajectory: &Trajectory, positions:
         .fold(0.0, |worst, off| if off.is_nan() { f64::INFINITY } else { worst.max(off) })
 }
 
-/// The partner stands where the record says, frame by frame, looks the same way, and says the same of this camera.
+/// Checks frame by frame that the partner is where the record states and looks in the same direction, and that its record of this camera
+/// agrees.
 fn check_stereo(dataset: &Dataset, scene: &str, trajectory: &Trajectory, stereo: &StereoRecord, card: &mut Card) {
     let (name, partner) = (&trajectory.name, &stereo.partner);
     let other = dataset.read_trajectory(scene, partner).map(|t| t.poses).unwrap_or_default();

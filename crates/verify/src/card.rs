@@ -59,18 +59,18 @@ impl Card {
         self.findings.remove(&law)
     }
 
-    /// Takes a finding off the card if the law does not hold.
+    /// Takes a finding off the card if the law is not satisfied.
     pub(super) fn take_failure(&mut self, law: Law) -> Option<Finding> {
         let fails = self.findings.get(&law).is_some_and(|finding| finding.value > law.spec().bound);
         fails.then(|| self.take(law)).flatten()
     }
 
-    /// What was found of a law, if it was checked.
+    /// The finding for a law, if it was checked.
     pub(super) fn finding(&self, law: Law) -> Option<&Finding> {
         self.findings.get(&law)
     }
 
-    /// The laws that do not hold.
+    /// The laws that are not satisfied.
     pub fn failures(&self) -> Vec<Law> {
         self.findings.iter().filter(|(law, finding)| finding.value > law.spec().bound).map(|(&law, _)| law).collect()
     }

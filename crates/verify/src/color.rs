@@ -6,7 +6,7 @@ use super::scan::Scan;
 use enfilade_frame::{DENOISED, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer, Validity, Values, f16};
 use enfilade_math::Rgb;
 
-/// Where a colour is this large, one of its parts may have been beyond float16.
+/// Above this value of a colour, one of its parts may have been beyond float16.
 const NEAR_LIMIT: f64 = 65_000.0;
 /// The largest float16 but one: what a colour beyond the largest becomes where no residual makes A * S + R that.
 const BELOW_LIMIT: f64 = 65_472.0;
@@ -60,7 +60,7 @@ fn recomposition(scan: &mut Scan<'_>, parts: [Layer; 3]) {
     scan.broken(Law::Recomposition, &what, (0..color.len()).filter(differs).map(|i| i / 3));
 }
 
-/// Checks the sum for four layers that were rounded each on its own: only what is beyond that differs. Overflown values say nothing.
+/// Checks the sum for four layers that were rounded separately: only differences beyond rounding count. Overflown values are skipped.
 fn rounded_recomposition(scan: &mut Scan<'_>, layers: [&Values; 4]) {
     let differs = |i: &usize| {
         let [color, a, s, r] = layers.map(|layer| layer.get(*i));

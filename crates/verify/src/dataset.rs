@@ -16,20 +16,20 @@ use super::two_views::{self, PairValues, Sight};
 use super::walk::{self, Walls};
 use super::whole;
 use super::worth;
-use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, plane_ids, structure, surfaces};
+use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, plane_ids, rooms, surfaces};
 use enfilade_dataset::{
     BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Structure, Trajectory};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Rooms, Trajectory};
 use std::collections::BTreeMap;
 
-/// Checks every law of a scene; [`join_reports`](super::join_reports) adds those of the dataset as a whole. What cannot be read counts as a
-/// violation, not as an error.
+/// Checks every law of a scene; [`join_reports`](super::join_reports) adds the laws of the dataset as a whole. Unreadable files count as
+/// violations, not as errors.
 ///
-/// Frames are read in parallel, no more than two per thread at a time; the report is the same for every number of threads.
+/// Frames are read in parallel, at most two per thread at a time; the report is the same for every number of threads.
 ///
 /// # Errors
 /// When the manifest cannot be read.
@@ -37,7 +37,8 @@ pub fn verify_scene(dataset: &Dataset, scene: &str, cx: &dyn Cx) -> Result<Verif
     Ok(verify_listed_scene(dataset, dataset.read_manifest()?.as_ref(), scene, &NotJudged::default(), cx))
 }
 
-/// [`verify_scene`] with the dataset's manifest, which that of many scenes takes long to read, and without files that are `not_judged`.
+/// [`verify_scene`] with the dataset's manifest, which takes long to read if there are many scenes, and without files that are
+/// `not_judged`.
 pub fn verify_listed_scene(
     dataset: &Dataset,
     manifest: Option<&Manifest>,
@@ -84,7 +85,7 @@ fn note_of_what_is_gone(dataset: &Dataset, values: &[FrameValues]) -> Option<Str
     })
 }
 
-/// Checks the laws about single frames as they are finished, on a machine that has only these.
+/// Checks the laws about single frames as soon as they are finished, on a machine that has no other data.
 pub struct FrameVerifier(SceneFacts);
 
 impl FrameVerifier {
@@ -101,7 +102,7 @@ impl FrameVerifier {
     }
 }
 
-/// What was found about one frame.
+/// The findings about one frame.
 #[derive(Default)]
 struct Found {
     card: Card,
@@ -116,12 +117,12 @@ struct SceneFacts {
     /// True for Hypersim's release.
     released: bool,
     meters_per_unit: f64,
-    /// By entity: those that show what lies behind them.
+    /// By entity: true if it is partly transparent.
     partly_there: Vec<bool>,
     labels: Option<SceneLabels>,
     boxes: Vec<(BoxKind, boxes::Boxes)>,
-    /// Structure of scenes with a layout whose classes are NYU40's.
-    structure: Option<Structure>,
+    /// Rooms of scenes that have them and whose classes are NYU40's.
+    rooms: Option<Rooms>,
     filmed: Vec<Filmed>,
     /// Files of products that are out of date.
     not_judged: NotJudged,
@@ -131,11 +132,11 @@ struct SceneFacts {
 struct Filmed {
     /// With rotations as orientations.
     trajectory: Trajectory,
-    /// The trajectory with orientations as they are stored.
+    /// The trajectory with the stored orientations.
     stored: Trajectory,
     frames: Vec<u32>,
     camera: Option<Camera>,
-    /// What its frames show of instances, where there is a table of it.
+    /// What its frames show of instances, if there is a table of it.
     views: Option<Vec<InstanceView>>,
     /// Record of the other camera of a stereo rig.
     stereo: Option<StereoRecord>,
@@ -143,7 +144,7 @@ struct Filmed {
 }
 
 impl SceneFacts {
-    /// Reads them. What cannot be read goes on the card.
+    /// Reads them. Unreadable files are added to the card.
     fn read(dataset: &Dataset, name: &str, not_judged: &NotJudged, card: &mut Card) -> Self {
         let nodes = dataset.read_nodes(name);
         // Parts of archives are often downloaded without tables.
@@ -152,14 +153,14 @@ impl SceneFacts {
         card.observe(Law::Nodes, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
         let nodes = nodes.unwrap_or_default();
         let labels = read_labels(dataset, name, &nodes, card);
-        let is_judged = !not_judged.has(&dataset.layout().structure(name));
-        let structure = if is_judged { readable(card, dataset.read_structure(name)).flatten() } else { None };
+        let is_judged = !not_judged.has(&dataset.layout().rooms(name));
+        let rooms = if is_judged { readable(card, dataset.read_rooms(name)).flatten() } else { None };
         Self {
             name: name.to_string(),
             released: dataset.is_released(name),
             meters_per_unit: readable(card, dataset.meters_per_asset_unit(name)).unwrap_or(1.0),
             partly_there: nodes.iter().map(|node| node.is_partly_there).collect(),
-            structure: structure.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
+            rooms: rooms.filter(|_| labels.as_ref().is_some_and(|labels| labels.last_class == NYU40.len() as i16)),
             labels,
             boxes: boxes::read_boxes(dataset, name, card),
             filmed: read_filmed(dataset, name, card),
@@ -229,7 +230,7 @@ impl SceneFacts {
         worth::check_views(name, planned, &faults, card);
     }
 
-    /// What Hypersim's loaders make of the cameras; its own are as they expect them.
+    /// Notes on how Hypersim's loaders treat the cameras; they expect its own cameras.
     fn camera_notes(&self) -> impl Iterator<Item = String> {
         let cameras = self.filmed.iter().filter(|_| !self.released).filter_map(|filmed| filmed.camera.as_ref());
         cameras.filter_map(loader_problem)
@@ -249,7 +250,7 @@ impl SceneFacts {
         }
     }
 
-    /// What relates frames to each other, and instances.
+    /// Checks the relations between frames, and between instances.
     fn check_relations(&self, dataset: &Dataset, card: &mut Card) {
         let cameras: Vec<&str> = self.filmed.iter().map(|filmed| filmed.trajectory.name.as_str()).collect();
         if !self.not_judged.has(&dataset.layout().instance_relations(&self.name)) {
@@ -259,7 +260,7 @@ impl SceneFacts {
         relations::check(dataset, (&self.name, &cameras), &self.not_judged, &listed, card);
     }
 
-    /// What sensors have made of frames; tells what could not be checked.
+    /// Checks the readings of sensors; returns notes on what could not be checked.
     fn check_sensed(&self, dataset: &Dataset, card: &mut Card) -> Vec<String> {
         let cameras = self.filmed.iter().filter_map(|filmed| Some((filmed.trajectory.name.as_str(), filmed.camera.as_ref()?)));
         sensed::check(dataset, &self.name, &cameras.collect::<Vec<_>>(), &self.not_judged, card)
@@ -271,7 +272,7 @@ impl SceneFacts {
         let poses = &filmed.trajectory.poses;
         let index = poses.iter().position(|pose| pose.frame == number && filmed.frames.contains(&pose.frame))?;
         let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
-        // What cannot be read is reported where that frame itself is checked.
+        // Unreadable files are reported where that frame itself is checked.
         let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
         let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
         Some(Listed::new(view, distances))
@@ -334,10 +335,10 @@ impl SceneFacts {
             found.card.merge(scan.card);
         }
         boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
-        if let Some(structure) = &self.structure {
-            structure::check(structure, &frame, &place, &mut found.card);
+        if let Some(rooms) = &self.rooms {
+            rooms::check(rooms, &frame, &place, &mut found.card);
             if !self.not_judged.has(&dataset.layout().plane_ids(&self.name, name, number)) {
-                plane_ids::check(dataset, [&self.name, name], number, structure, &frame, &mut found.card);
+                plane_ids::check(dataset, [&self.name, name], number, rooms, &frame, &mut found.card);
             }
         }
         if let Some(views) = &filmed.views {
@@ -375,7 +376,7 @@ impl SceneFacts {
         pairs.into_iter().flatten().filter(there)
     }
 
-    /// Compares a frame of camera `name` with that of pose `index` of `other`.
+    /// Compares a frame of camera `name` with the frame of pose `index` of `other`.
     fn compare(
         &self,
         dataset: &Dataset,
@@ -385,7 +386,7 @@ impl SceneFacts {
     ) -> Option<PairValues> {
         let (partner, poses) = (&other.trajectory.name, &other.trajectory.poses);
         let number = poses[index].frame;
-        // What cannot be read is reported where that frame itself is checked.
+        // Unreadable files are reported where that frame itself is checked.
         let (frame, rounding) = read_frame(self.stored(dataset), partner, number, &two_views::COMPARED, &mut Card::default())?;
         let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
         let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];
@@ -403,7 +404,7 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let camera = readable(card, dataset.read_camera(scene, &name));
         let views = boxes::there(dataset.read_instance_views(scene, &name)).and_then(|read| readable(card, read));
         let stereo = dataset.read_stereo(scene, &name).ok().flatten();
-        // The plan of a rig is that of its left camera.
+        // The plan of a rig is its left camera's.
         let second = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
         let planned = dataset.layout().plan_report(scene, second.map_or(&name, |stereo| &stereo.partner));
         let rules = PlanRules { is_second: second.is_some(), ..PlanRules::of(&planned) };
@@ -419,7 +420,7 @@ mod tests {
     use enfilade_dataset::{Array, Elements, FrameInfo, FrameTime, JudgedView, ManifestInfo, Side, ViewFault, ViewVerdict, write_bytes};
     use enfilade_frame::f16;
     use enfilade_geometry::Voxel;
-    use enfilade_label::structure::write_planes;
+    use enfilade_label::rooms::write_planes;
     use enfilade_scene::Intrinsics;
     use enfilade_testroom as testroom;
 
@@ -447,7 +448,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testroom::dataset(folder.path());
         sensed(&dataset);
-        write_planes(&dataset, ["room", "cam_00"], &testroom::structure(), &[0, 1], &enfilade_scene::Quiet).unwrap();
+        write_planes(&dataset, ["room", "cam_00"], &testroom::rooms(), &[0, 1], &enfilade_scene::Quiet).unwrap();
         let report = verified(&dataset);
         assert!(report.passed, "{}", report.to_text());
         assert_eq!((report.frames, report.scenes), (2, 1));
@@ -513,14 +514,14 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_that_is_of_another_scene_is_found() {
+    fn rooms_of_another_scene_are_found() {
         let (laws, text) = failures(|dataset| {
-            let mut structure = testroom::structure();
-            structure.walls[2].from[1] += 0.1;
-            dataset.write_structure("room", &structure).unwrap();
+            let mut rooms = testroom::rooms();
+            rooms.walls[2].from[1] += 0.1;
+            dataset.write_rooms("room", &rooms).unwrap();
         });
         assert_eq!(laws, [Law::LayoutPlanes], "{text}");
-        let (laws, _) = failures(|dataset| write_bytes(&dataset.layout().structure("room"), "{}").unwrap());
+        let (laws, _) = failures(|dataset| write_bytes(&dataset.layout().rooms("room"), "{}").unwrap());
         assert!(laws.contains(&Law::Readable), "{laws:?}");
     }
 

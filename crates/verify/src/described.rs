@@ -1,5 +1,5 @@
-//! The law of relations between instances: what is said to touch does, by nearest points instead of rays; what is said to be in another has its
-//! middle there, and what is under another lies below it.
+//! The law of relations between instances: things recorded as touching do touch, checked by nearest points instead of rays; a thing
+//! recorded as inside another has its middle there, and a thing recorded as under another is below it.
 
 use super::boxes::there;
 use super::card::Card;
@@ -7,12 +7,12 @@ use super::law::Law;
 use super::read::readable;
 use enfilade_dataset::{Dataset, DatasetError, InstanceRelation, RelationKind};
 use enfilade_geometry::NearestTriangle;
-use enfilade_label::structure::{LabelledTriangle, labelled_triangles};
+use enfilade_label::rooms::{LabelledTriangle, labelled_triangles};
 use enfilade_math::{Bounds3, DVec3, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Distances are looked for from points so far apart, metres, but of no more than so many to an edge.
+/// Spacing of the points from which distances are searched, metres, and their largest number along an edge.
 const SPACING_M: f64 = 0.05;
 const STEPS: f64 = 100.0;
 
@@ -26,7 +26,7 @@ struct Surface {
 /// Instance and, where that is −1, class.
 type Key = (i16, i16);
 
-/// Checks what is said of a scene, where anything is.
+/// Checks the recorded relations of a scene, if there are any.
 pub(super) fn check(dataset: &Dataset, scene: &str, card: &mut Card) {
     let Some(relations) = there(dataset.read_instance_relations(scene)).and_then(|read| readable(card, read)) else { return };
     // A copy without the mesh has nothing to measure.
@@ -46,7 +46,7 @@ pub(super) fn check(dataset: &Dataset, scene: &str, card: &mut Card) {
     }
 }
 
-/// How far two surfaces are from what is said of them, metres.
+/// Deviation of two surfaces from their recorded relation, metres.
 fn off_m(relation: &InstanceRelation, a: &Surface, b: &Surface) -> f64 {
     let outside = |p: Vec3, bounds: &Bounds3| f64::from(p.distance(p.clamp(bounds.min, bounds.max)));
     match relation.kind {

@@ -1,4 +1,4 @@
-//! The law of the layers that a frame has where they were asked for: material, what lies behind glass, flow.
+//! The law of the optional layers of a frame: material, surfaces behind glass, flow.
 
 use super::law::Law;
 use super::scan::Scan;

@@ -8,10 +8,11 @@ use super::scan::Scan;
 use enfilade_dataset::Dataset;
 use enfilade_frame::Layer;
 
-/// What rounding to a float16 below 2⁻¹⁴ adds to each of a fixture's two layers, at most.
+/// Largest error that rounding to a float16 below 2⁻¹⁴ adds to each of a fixture's two layers.
 const SUBNORMAL: f64 = 1.0 / (1 << 25) as f64;
 
-/// Checks the light of each of `count` fixtures in a frame, of which one is held at a time. Nothing is checked where what was rendered is gone.
+/// Checks the light of each of `count` fixtures in a frame, with one in memory at a time. Nothing is checked if the rendered layers were
+/// not kept.
 pub(super) fn check(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, count: u32, scan: &mut Scan<'_>) -> Card {
     let mut card = Card::default();
     let place = format!("{scene}/{camera}/frame.{number:04}");
@@ -48,7 +49,7 @@ mod tests {
     use enfilade_scene::Quiet;
     use enfilade_testroom as testroom;
 
-    /// What fails where the layers of the lamp in the first frame have the values of the sky's.
+    /// The laws that fail if the layers of the lamp in the first frame have the values of the sky's.
     fn failures(changed: &[Layer]) -> Vec<Law> {
         let folder = tempfile::tempdir().unwrap();
         let dataset = testroom::dataset(folder.path());

@@ -10,10 +10,10 @@ use enfilade_frame::{Frame, LAYERS, Pass};
 
 /// Checks every law about one frame. `place` names the frame.
 ///
-/// Laws about layers that the frame lacks are not checked, beyond the one that asks for all layers.
+/// Laws about layers that the frame lacks are not checked, except the one that requires all layers.
 pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let mut scan = Scan::new(frame, view, place);
-    // Optional layers are there where they were asked for, and then all of their kind.
+    // Optional layers exist if they were requested, and then all of their kind.
     let has = |pass: Pass| LAYERS.iter().any(|spec| spec.pass == pass && frame.get(spec.layer).is_some());
     let expected = LAYERS.iter().filter(|spec| match view.released {
         true => RELEASED_LAYERS.contains(&spec.layer),

@@ -1,4 +1,4 @@
-//! What the report card keeps of each frame: its gates, noise, exposure, labels, and how many pixels are of what use.
+//! The values that the report card keeps of each frame: its gates, noise, exposure, labels, and numbers of pixels by use.
 
 use crate::frame_gates::{Gate, gate_values};
 use enfilade_dataset::FrameRecord;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The largest finite half float.
 const LARGEST_HALF: f64 = 65_504.0;
 
-/// Values of one frame. `None` and absent entries stand for layers that the frame lacks; shares are of 1.
+/// Values of one frame. `None` and absent entries mean that the frame lacks a layer; shares are from 0 to 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameValues {
     /// Name of the scene.
@@ -20,19 +20,19 @@ pub struct FrameValues {
     pub camera: String,
     /// Frame number.
     pub frame: u32,
-    /// What each gate measured; `None` where that is no number.
+    /// The value of each gate; `None` if it is not a number.
     pub gates: BTreeMap<Gate, Option<f64>>,
-    /// What `color` holds: `rendered`, or `denoised by PROGRAM`.
+    /// Kind of `color`: `rendered`, or `denoised by PROGRAM`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<String>,
-    /// Noise of color as it was rendered: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x
+    /// Noise of the rendered color: the root mean square over the image of each pixel's standard error over (its luminance + 0.2 x
     /// the image's mean).
     pub noise: Option<f64>,
-    /// The noise at which rendering was to stop, where that was asked for.
+    /// The noise at which rendering was to stop, if a target was set.
     pub noise_target: Option<f32>,
     /// Mean samples per pixel.
     pub samples: Option<f64>,
-    /// What radiance is multiplied with before the gamma curve of the tone map.
+    /// Factor of radiance before the gamma curve of the tone map.
     pub tone_map_scale: Option<f64>,
     /// Mean luminance of the pixels that see the scene, W/(sr m²); those beyond float16 count as its largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,11 +51,11 @@ pub struct FrameValues {
 }
 
 impl FrameValues {
-    /// The values of a frame; `filmed_with` is its camera, where that is known, and `record` that of its rendering, where there is one.
+    /// The values of a frame; `filmed_with` is its camera, if known, and `record` the record of its rendering, if there is one.
     pub fn new([scene, camera]: [&str; 2], number: u32, frame: &Frame, filmed_with: Option<&Camera>, record: Option<&FrameRecord>) -> Self {
         let sampling = record.and_then(|record| record.sampling);
         let denoised = record.and_then(|record| record.denoised.as_ref());
-        // Where what was rendered is not kept, its record is what is left to tell.
+        // If the rendered layers were not kept, the noise is only in the record.
         let is_gone = denoised.is_some() && frame.get(Layer::ColorRendered).is_none();
         let noise = if is_gone { sampling.and_then(|sampling| sampling.noise) } else { frame.noise() };
         let color = record.map(|_| denoised.map_or_else(|| "rendered".into(), |by| format!("denoised by {}", by.denoiser)));
@@ -102,7 +102,7 @@ fn seeing(frame: &Frame, camera: Option<&Camera>) -> usize {
     (0..frame.height).map(|y| (0..frame.width).filter(|x| sees(*x, y)).count()).sum()
 }
 
-/// Share of `all` for which `holds`.
+/// Share of `all` for which `holds` is true.
 fn share(all: usize, holds: impl Fn(usize) -> bool) -> f64 {
     (0..all).filter(|&i| holds(i)).count() as f64 / all.max(1) as f64
 }

@@ -8,10 +8,10 @@ use enfilade_frame::{Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
 
-/// Fewer lines than this say nothing about flatness.
+/// Least number of lines for a statement about flatness.
 const FLATNESS_LINES: usize = 100;
-/// Three points lie on a line when the sine of the angle between their steps is less than this: more than float32 makes of it, and
-/// so little that points of three planes hardly ever do.
+/// Three points are on a line if the sine of the angle between their steps is less than this: more than the error of float32, and so small
+/// that points of three planes hardly ever satisfy it.
 const STRAIGHT: f64 = 1e-3;
 /// Normals that differ by less than this are of one plane.
 const SAME_NORMAL: f64 = 1e-6;
@@ -44,7 +44,7 @@ fn finite_where_seen(scan: &mut Scan<'_>) {
     for layer in [Layer::DepthMeters, Layer::DepthZMeters, Layer::Position].into_iter().chain(NORMALS) {
         let Some(values) = scan.layer(layer) else { continue };
         let channels = layer.spec().channels;
-        // Beyond float16's largest number stands infinity, which is no gap.
+        // Values beyond float16's largest number are infinite, which is no gap.
         let overflows = layer == Layer::Position && scan.view.rounding.position.is_some();
         let number = |v: f64| v.is_finite() || (overflows && !v.is_nan());
         let finite = |pixel: usize| (channels * pixel..channels * (pixel + 1)).all(|i| number(values.get(i)));
@@ -87,8 +87,7 @@ fn distances(scan: &mut Scan<'_>, seen: &[usize]) {
     }
 }
 
-/// Error of `found` against `expected`, as far as it is more than rounding leaves open; a distance that is not positive is infinitely
-/// wrong.
+/// Error of `found` against `expected`, minus the uncertainty `open` from rounding; a distance that is not positive is infinitely wrong.
 fn relative(found: f64, expected: f64, open: f64) -> f64 {
     if expected > 0.0 && found > 0.0 { beyond((found - expected).abs(), open) / expected.max(TINY) } else { f64::INFINITY }
 }
@@ -107,7 +106,7 @@ fn projection(scan: &mut Scan<'_>, seen: &[usize]) {
     scan.worst(Law::Projection, "position projects elsewhere", errors.into_iter());
 }
 
-/// How far the image of a position moves, in pixels, when each of its coordinates is off by as much as rounding may do.
+/// Movement of a position's image, in pixels, if each of its coordinates is off by the largest rounding error.
 fn rounding_px(scan: &Scan<'_>, p_world: DVec3, centre: (f64, f64)) -> f64 {
     let (view, step) = (scan.view.camera, scan.view.rounding.of_position(p_world));
     if step == DVec3::ZERO {
@@ -121,7 +120,7 @@ fn rounding_px(scan: &Scan<'_>, p_world: DVec3, centre: (f64, f64)) -> f64 {
         }
     };
     let sum: f64 = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| moved(axis * step)).iter().sum();
-    // Where the steps are no numbers, neither is their image.
+    // If the steps are not numbers, the sum is not either.
     if sum.is_nan() { f64::INFINITY } else { sum }
 }
 
@@ -146,12 +145,12 @@ fn normals(scan: &mut Scan<'_>, seen: &[usize]) {
     }
 }
 
-/// Three neighbours in a row, of one part and with one normal, whose positions lie on a straight line: the line lies in the plane of that
-/// normal.
+/// Checks three neighbours in a row, of one part and with one normal, whose positions are on a straight line: the line must be in the plane
+/// of that normal.
 ///
-/// A plane shows such lines at every size of a pixel. Two neighbours alone would do for pixels that are small against everything that
-/// is seen; but the more of the scene a pixel covers, the more of them lie on different planes with one normal, as two steps of a
-/// staircase do, or on different facets of what is shaded smoothly.
+/// A plane shows such lines at every size of a pixel. Two neighbours would be enough if pixels were small compared to everything visible.
+/// But the more of the scene a pixel covers, the more neighbours are on different planes with one normal, such as two steps of a staircase,
+/// or on different facets of a smoothly shaded surface.
 fn flatness(scan: &mut Scan<'_>, seen: &[usize]) {
     let (Some(ids), Some(position), Some(normal)) =
         (scan.layer(Layer::RenderEntityId), scan.layer(Layer::Position), scan.layer(Layer::NormalWorld))
@@ -177,8 +176,8 @@ fn flatness(scan: &mut Scan<'_>, seen: &[usize]) {
     scan.observe_at(Law::Flatness, percentile, first, "position and normal_world disagree");
 }
 
-/// Sine of the angle between the line through three pixels' positions and their common plane; `None` when their normals differ or the
-/// positions lie on no line.
+/// Sine of the angle between the line through three pixels' positions and their common plane; `None` if their normals differ or the
+/// positions are not on a line.
 fn out_of_plane(position: &Values, normal: &Values, line: [usize; 3]) -> Option<f64> {
     let [a, n, c] = line.map(|i| vector(normal, i));
     let differ = |other: DVec3| (n - other).abs().max_element() >= SAME_NORMAL;

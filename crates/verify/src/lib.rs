@@ -26,10 +26,10 @@ mod read;
 mod relations;
 mod release;
 mod report;
+mod rooms;
 mod rounding;
 mod scan;
 mod sensed;
-mod structure;
 mod surfaces;
 #[cfg(test)]
 mod tests;

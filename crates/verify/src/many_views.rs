@@ -1,9 +1,9 @@
-//! The law of covisibility: what is stored lies between what the frames' distances leave open.
+//! The law of covisibility: stored shares are within the bounds that follow from the frames' distances.
 //!
-//! The stored grid of each listed frame is carried into each other one. A point is seen for sure where none of the sixteen pixels around
-//! its image shows anything nearer, or where they all show one plane that the point lies in; it is hidden for sure where all of them show
-//! something clearly nearer, and outside of the image it is not seen. Between these a ray through the scene has decided, which nothing
-//! that is stored can repeat.
+//! The stored grid of each listed frame is carried into each other one. A point is certainly seen if none of the sixteen pixels around its
+//! image shows anything nearer, or if they all show one plane that contains the point. It is certainly hidden if all of them show something
+//! clearly nearer, and outside of the image it is not seen. In all other cases a ray through the scene has decided, which stored data
+//! cannot repeat.
 
 use super::card::Card;
 use super::law::Law;
@@ -13,38 +13,39 @@ use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
 use std::sync::OnceLock;
 
-/// A surface hides a point for sure when it is nearer than this share of the point's distance.
+/// A surface certainly hides a point if it is nearer than this share of the point's distance.
 const HIDES: f64 = 0.98;
-/// A surface is before a point at most when it is nearer than this share of its distance: half of what rays leave before their end.
+/// A surface may be in front of a point only if it is nearer than this share of its distance: half of the gap that rays leave before their
+/// end.
 const BEFORE: f64 = 0.9995;
-/// Pixels show one plane, and a point lies in it, when they are off it along the way to them by no more than this share of the distance: half
-/// of what rays leave before their end. The far side of a lampshade is farther off.
+/// Pixels show one plane, and a point is in it, if their distance from it along the ray is at most this share of the ray's length: half of
+/// the gap that rays leave before their end. The far side of a lampshade is farther off.
 const PLANE: f64 = 5e-4;
-/// Cosine of the angle between a plane's normal and the way to it, from which on what it shows counts: 87 degrees.
+/// Least cosine of the angle between a plane's normal and the ray to it at which it counts: 87 degrees.
 const GRAZING: f64 = 0.05;
 /// Pixels on each side of a point's image, in both directions, that are looked at.
 const AROUND: u32 = 2;
 
-/// Number of points that may lie behind something, or before it, that is thinner than a pixel. It matters where few are counted.
+/// Number of points that may be behind something, or in front of it, that is thinner than a pixel. It matters if few points are counted.
 pub(super) const BETWEEN_SAMPLES: usize = 2;
 
-/// A frame as it is stored.
+/// A stored frame.
 pub(super) struct Listed<'a> {
     pub view: CameraView<'a>,
     /// Metres, by pixel of the view; NaN where nothing was hit.
     pub distances: Values,
-    /// The surface points of all pixels, once they are asked for; NaN where there is none.
+    /// The surface points of all pixels, computed on first use; NaN where there is none.
     shown: OnceLock<Vec<DVec3>>,
 }
 
-/// How many points of a frame another one sees for sure, and how many it does not.
+/// Numbers of points of a frame that another one certainly sees, and certainly does not see.
 #[derive(Default)]
 struct Certain {
     seen: usize,
     unseen: usize,
 }
 
-/// Checks the matrix of a scene; `read` gives a listed frame, or `None` where it is not there any more.
+/// Checks the matrix of a scene; `read` returns a listed frame, or `None` if it no longer exists.
 pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&CovisibleFrame) -> Option<Listed<'a>> + Sync, card: &mut Card) {
     check_range(scene, stored, card);
     let grid = |frame: &CovisibleFrame| read(frame).map(|listed| listed.points(frame.grid_step_px));
@@ -78,7 +79,7 @@ pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&Covis
     cards.into_iter().for_each(|found| card.merge(found));
 }
 
-/// Shares lie on [0, 1], and a frame sees what it shows.
+/// Checks that shares are in [0, 1], and that a frame sees its own surfaces.
 fn check_range(scene: &str, stored: &Covisibility, card: &mut Card) {
     for (of, frame) in stored.frames.iter().enumerate() {
         let at = || format!("{scene}/{}", name(frame));
@@ -115,12 +116,12 @@ impl<'a> Listed<'a> {
         Some(ray.origin + ray.direction * distance)
     }
 
-    /// Whether a point that is said to be seen in this frame, or not to be, is hidden or seen there for sure.
+    /// Whether the recorded visibility `is_seen` of a point in this frame is certainly wrong.
     pub(super) fn contradicts(&self, p_world: DVec3, is_seen: bool) -> bool {
         self.surely_seen(p_world) == Some(!is_seen)
     }
 
-    /// How many of the points this frame sees for sure, and how many not.
+    /// Numbers of the points that this frame certainly sees, and certainly does not see.
     fn certain(&self, points: &[DVec3]) -> Certain {
         let mut certain = Certain::default();
         for seen in points.iter().filter_map(|&p| self.surely_seen(p)) {
@@ -152,7 +153,7 @@ impl<'a> Listed<'a> {
         (near >= BEFORE * distance || self.is_plane(block(), p_world, eye)).then_some(true)
     }
 
-    /// Whether the surface points of a block of pixels lie in one plane with a point, which is not seen from its edge.
+    /// Whether the surface points of a block of pixels are in one plane with a point, and the plane is not seen edge-on.
     fn is_plane(&self, block: impl Iterator<Item = usize>, p_world: DVec3, eye: DVec3) -> bool {
         let shown = self.shown.get_or_init(|| self.all_points());
         let points: Vec<DVec3> = block.map(|pixel| shown[pixel]).collect();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Files of products that are out of date, which are left out of verification until they are made again.
 ///
-/// Whoever made them knows which these are; a dataset does not tell.
+/// The caller has to know which these are; a dataset does not record it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NotJudged {
     files: BTreeSet<PathBuf>,

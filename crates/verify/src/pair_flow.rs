@@ -1,5 +1,5 @@
-//! The laws of flow between any two frames: it leads to where the second frame's camera sees the surface that the first shows, and is
-//! visible there where distances tell so.
+//! The laws of flow between any two frames: it leads to the place where the second frame's camera sees the surface that the first shows,
+//! and the visibility agrees with distances where these decide it.
 
 use super::card::Card;
 use super::law::Law;
@@ -9,8 +9,8 @@ use enfilade_frame::{Values, vector};
 use enfilade_math::{DVec2, DVec3};
 use enfilade_scene::CameraView;
 
-/// Flow is compared where it ends at most so many images beyond the second one's borders: close to the plane of a camera the rounding of a
-/// distance moves the image of a point by any number of pixels.
+/// Flow is compared if it ends at most this many image sizes beyond the second one's borders: close to the plane of a camera, rounding of a
+/// distance can move the image of a point by any number of pixels.
 const BEYOND: f64 = 1.0;
 
 /// The layers that lead from the first frame of a pair to the second; images of the first.

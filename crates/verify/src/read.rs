@@ -1,4 +1,4 @@
-//! Reading what is verified. What cannot be read goes on the card.
+//! Reading of the files to verify. Unreadable files are added to the card.
 
 use super::card::Card;
 use super::check_labels;
@@ -10,7 +10,7 @@ use enfilade_frame::{Dtype, Frame, Layer, LayerSpec, Values, f16};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Labels, PartLabel};
 
-/// The value of a read; what cannot be read goes on the card.
+/// The value of a read; an error is added to the card.
 pub(super) fn readable<T>(card: &mut Card, read: Result<T, DatasetError>) -> Option<T> {
     let problem = read.as_ref().err().map(ToString::to_string);
     card.observe(Law::Readable, if problem.is_some() { 1.0 } else { 0.0 }, || problem.unwrap_or_default());
@@ -28,8 +28,8 @@ pub(super) struct Stored<'d> {
     pub released: bool,
 }
 
-/// Reads those of the layers that are there as they are stored, but positions in metres, and how they were rounded. Other types or sizes
-/// than the table's go on the card.
+/// Reads the existing layers as stored, except that positions are in metres, and how they were rounded. Types or sizes that differ from the
+/// table's are added to the card.
 pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: &[Layer], card: &mut Card) -> Option<(Frame, Rounding)> {
     let Stored { dataset, scene, .. } = stored;
     let mut frame: Option<Frame> = None;
@@ -40,7 +40,7 @@ pub(super) fn read_frame(stored: Stored<'_>, camera: &str, number: u32, layers: 
         let shape = array.shape.clone();
         let size = image_size(&shape, spec);
         let values = array.values.into_values().ok();
-        // Only Hypersim's may be: ours are held to float32.
+        // Only Hypersim's may be: ours must be float32.
         let is_half = stored.released && values.as_ref().is_some_and(|values| values.dtype() == Dtype::F16) && spec.dtype == Dtype::F32;
         if is_half {
             match spec.layer {
@@ -86,7 +86,7 @@ fn image_size(shape: &[usize], spec: &LayerSpec) -> Option<(u32, u32)> {
     }
 }
 
-/// What a scene's label images are checked against.
+/// Data that a scene's label images are checked against.
 pub(super) struct SceneLabels {
     /// By render entity.
     pub labels: Labels,

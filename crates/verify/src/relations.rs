@@ -1,5 +1,4 @@
-//! What relates frames of a scene to each other, as it is stored: the matrix of covisibility, layers that lead from frame to frame, and
-//! tracks.
+//! The stored relations between frames of a scene: the matrix of covisibility, layers that lead from frame to frame, and tracks.
 
 use super::boxes::there;
 use super::card::Card;
@@ -12,10 +11,10 @@ use super::tracks;
 use enfilade_dataset::{Dataset, FramePair, Tracks};
 use enfilade_frame::Layer;
 
-/// Gives a frame by camera and number; `None` where it is not there.
+/// Returns a frame by camera and number; `None` if it does not exist.
 type Listing<'l, 'a> = &'l (dyn Fn(&str, u32) -> Option<Listed<'a>> + Sync);
 
-/// Checks what a scene has of these; only frames that are there are compared. What cannot be read goes on the card.
+/// Checks the relations that a scene has; only existing frames are compared. Unreadable files are added to the card.
 pub(super) fn check(
     dataset: &Dataset,
     (scene, cameras): (&str, &[&str]),

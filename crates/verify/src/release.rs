@@ -1,6 +1,6 @@
-//! Laws that Hypersim's own release is not held to, and defects of it that its makers know of.
+//! Laws that do not apply to Hypersim's own release, and its known defects.
 //!
-//! The numbers with # are issues of github.com/apple/ml-hypersim. Everything else is held to the same laws as our datasets, within the
+//! The numbers with # are issues of github.com/apple/ml-hypersim. Everything else is checked by the same laws as our datasets, within the
 //! rounding of float16 ([`super::rounding`]).
 
 use super::card::{Card, Finding};
@@ -28,13 +28,13 @@ pub struct Excused {
     pub statement: String,
     /// The worst value; `None` when it was not checked, is infinite or not a number.
     pub worst: Option<f64>,
-    /// Where the worst value is; empty when the law was not checked.
+    /// Place of the worst value; empty if the law was not checked.
     pub place: String,
     /// Why it does not count.
     pub reason: String,
 }
 
-/// What the release does not claim.
+/// Laws that do not apply to the release.
 const NOT_APPLICABLE: [(Law, &str); 6] = [
     (Law::Manifest, "the release has no manifest"),
     (Law::Checksums, "the release has no checksums"),
@@ -44,7 +44,7 @@ const NOT_APPLICABLE: [(Law, &str); 6] = [
     (Law::TwoViewReflectance, "V-Ray filters reflectance over random samples that differ between frames"),
 ];
 
-/// What is broken in a way that is known.
+/// Laws with known defects in the release.
 const KNOWN: [(Law, &str); 14] = [
     (
         Law::FramesComplete,

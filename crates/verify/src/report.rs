@@ -10,10 +10,10 @@ use enfilade_dataset::counted;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
-/// What verification found.
+/// The results of verification.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerifyReport {
-    /// True when every law that was checked holds, and a frame was checked.
+    /// True if every checked law is satisfied, and a frame was checked.
     pub passed: bool,
     /// True when moreover no gate rejects a frame.
     pub accepted: bool,
@@ -23,10 +23,10 @@ pub struct VerifyReport {
     pub frames: usize,
     /// One entry per law that was checked, in the order of [`LAWS`].
     pub laws: Vec<LawResult>,
-    /// Laws that Hypersim's release is not held to, and known defects of it; empty for datasets of ours.
+    /// Laws that do not apply to Hypersim's release, and its known defects; empty for our datasets.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excused: Vec<Excused>,
-    /// What users of the data should know that is no fault; each once, whatever the number of scenes.
+    /// Notes for users of the data that are not faults; each once, for any number of scenes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// One entry per gate that was measured, in the order of [`GATES`].
@@ -37,7 +37,7 @@ pub struct VerifyReport {
     pub pairs: Vec<PairValues>,
 }
 
-/// What verification found about one law.
+/// The results for one law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LawResult {
     /// Which one.
@@ -54,18 +54,18 @@ pub struct LawResult {
     pub unit: String,
     /// Scene, camera, frame and pixel of the worst value, and what was found there.
     pub place: String,
-    /// What a violation may mean, and what to do.
+    /// Possible causes of a violation, and what to do.
     pub meaning: String,
     /// How often it was checked.
     pub checks: u64,
 }
 
-/// What one gate came to.
+/// The results of one gate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GateResult {
     /// Which one.
     pub gate: Gate,
-    /// What is measured.
+    /// The measure.
     pub measure: String,
     /// Which side of the bound is good.
     pub limit: Limit,
@@ -119,7 +119,7 @@ impl VerifyReport {
         self
     }
 
-    /// The laws that do not hold.
+    /// The laws that are not satisfied.
     pub fn failures(&self) -> impl Iterator<Item = &LawResult> {
         self.laws.iter().filter(|law| !law.holds)
     }
@@ -129,7 +129,7 @@ impl VerifyReport {
         self.frame_values.iter().filter(|frame| frame.rejected_by().next().is_some())
     }
 
-    /// One line: whether all laws hold, over what.
+    /// One line: whether all laws are satisfied, and for what data.
     pub fn verdict(&self) -> String {
         let over = format!("over {} of {}", counted(self.frames, "frame"), counted(self.scenes, "scene"));
         match (self.frames, self.failures().count()) {
@@ -294,10 +294,10 @@ mod tests {
     fn text_puts_failures_first_and_lines_up() {
         let card = card(&[(Law::Readable, 0.0, "x"), (Law::Roll, 2.25, "room/cam_00/frame.0003"), (Law::Projection, 1.5e-5, "y")]);
         let expected = "\
-FAIL        2.25  of 1.0e-6  degrees   roll stays within the limit of the plan, where that has one (degrees beyond it)
+FAIL        2.25  of 1.0e-6  degrees   roll is within the limit of the plan, if it has one (degrees beyond it)
         at  room/cam_00/frame.0003
         may mean: poses were edited after planning: plan again
-ok                                     every file can be read and has the shape and type its name promises
+ok                                     every file can be read, and has the shape and type that its name implies
 ok        1.5e-5  of 0.02    px        position projects to the centre of its own pixel
 1 of 3 laws fail over 4 frames of 1 scene
 no gate was measured

@@ -1,4 +1,4 @@
-//! What the rounding of stored values leaves open.
+//! The uncertainty from rounding of stored values.
 //!
 //! Our distances and positions are float32, which the bounds of the laws allow for. Hypersim's are float16: a distance is off by up to
 //! half a unit in its last place (3.9 mm from 8 m on), and each coordinate of a position too, in asset units (0.25 units from 512 on). Laws
@@ -31,7 +31,7 @@ impl Rounding {
 
 /// Half a unit in the last place of float16 at `value`: the most that rounding changes it. What is not finite is off by any amount.
 pub(super) fn half_step(value: f64) -> f64 {
-    // Above the largest float16 stands infinity.
+    // Above the largest float16 the value is infinity.
     if value.is_nan() || value.abs() > f16::MAX.to_f64() {
         return f64::INFINITY;
     }
@@ -39,7 +39,7 @@ pub(super) fn half_step(value: f64) -> f64 {
     (value.abs().max(f16::MIN_POSITIVE.to_f64()).log2().floor() - 11.0).exp2()
 }
 
-/// How much of `error` is beyond what rounding explains.
+/// The part of `error` beyond rounding.
 pub(super) fn beyond(error: f64, rounding: f64) -> f64 {
     if rounding == f64::INFINITY { 0.0 } else { (error - rounding).max(0.0) }
 }

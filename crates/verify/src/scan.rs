@@ -31,7 +31,7 @@ impl<'a> Scan<'a> {
         self.frame.get(layer)
     }
 
-    /// What was rendered of a layer that denoising replaces; `None` where it is denoised and what was rendered was not kept.
+    /// The rendered version of a layer that denoising replaces; `None` if it is denoised and the rendered version was not kept.
     pub fn rendered(&self, layer: Layer) -> Option<&'a Values> {
         let kept = DENOISED.into_iter().find(|(plain, _)| *plain == layer).and_then(|(_, kept)| self.layer(kept));
         kept.or_else(|| self.layer(layer).filter(|_| !self.view.denoised))

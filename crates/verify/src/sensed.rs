@@ -1,4 +1,4 @@
-//! What sensors have made of frames is what their settings say, bit by bit: every reading that is there is made again.
+//! The law of sensors: readings follow from frames and settings, bit by bit. Every existing reading is made again.
 
 use super::card::Card;
 use super::law::Law;
@@ -8,7 +8,8 @@ use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_scene::Camera;
 use enfilade_sensors::{Data, Sensor};
 
-/// Checks the readings of a scene's cameras. What cannot be read goes on the card; notes tell of what could not be checked.
+/// Checks the readings of a scene's cameras. Unreadable files are added to the card; the returned notes are about readings that could not
+/// be checked.
 pub(super) fn check(dataset: &Dataset, scene: &str, cameras: &[(&str, &Camera)], not_judged: &NotJudged, card: &mut Card) -> Vec<String> {
     let mut notes = Vec::new();
     for name in readable(card, dataset.sensors()).unwrap_or_default() {

@@ -33,7 +33,7 @@ pub(super) fn check(dataset: &Dataset, [scene, camera]: [&str; 2], number: u32, 
     });
 }
 
-/// What is wrong with a pixel, if anything.
+/// The problem with a pixel, if any.
 fn problem(surfaces: &Surfaces, pixel: usize, frame: &Frame, view: &View<'_>) -> Option<&'static str> {
     let own = pixel * surfaces.count..(pixel + 1) * surfaces.count;
     let mut last_m = 0.0;

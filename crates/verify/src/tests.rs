@@ -1,4 +1,4 @@
-//! Each law is broken in a frame that is otherwise true, and no other law fails for it.
+//! Each law is broken in an otherwise correct frame, and no other law fails for it.
 
 use super::*;
 use enfilade_frame::{Frame, Layer, Pass, Values, compose, f16};
@@ -41,7 +41,7 @@ impl Case {
         enfilade_frame::vector(self.frame.get(layer).unwrap(), pixel)
     }
 
-    /// Drops the split layers, and says that pixel `p` has no error: for tests that change its colour.
+    /// Drops the layers of light parts, and sets the error of pixel `p` to none: for tests that change its colour.
     fn forget_parts_and_error(&mut self, p: usize) {
         let mut frame = Frame::new(self.frame.width, self.frame.height);
         let kept = self.frame.iter().filter(|(layer, _)| layer.spec().pass != Pass::LightParts);
@@ -56,7 +56,7 @@ impl Case {
     }
 }
 
-/// What fails after `change`, which gets a pixel of the floor.
+/// The laws that fail after `change`, which receives a pixel of the floor.
 fn failures(change: impl Fn(&mut Case, usize)) -> Vec<Law> {
     let mut case = Case::new();
     let floor = pixel_of(&case.frame, 1);
@@ -140,7 +140,7 @@ fn pixels_brighter_than_float16_hold_to_every_law() {
             for (value, layers) in values {
                 layers.into_iter().for_each(|layer| c.set(layer, p, &[value.to_f64(); 3]));
             }
-            // The error is that of the light before it was cut.
+            // The error belongs to the light before it was clipped.
             c.set(Layer::ColorStandardError, p, &[60_000.0]);
             c.set(Layer::Valid, p, &[2.0]);
         };
@@ -149,7 +149,7 @@ fn pixels_brighter_than_float16_hold_to_every_law() {
             too_bright(c, p);
             c.set(Layer::Valid, p, &[1.0]);
         };
-        // Where rounding leaves the colour below the limit, either code may stand.
+        // If rounding leaves the colour below the limit, either code is valid.
         let expected: &[Law] = if illumination == 32.0 { &[] } else { &[Law::ReasonCodes] };
         assert_eq!(failures(unmarked), expected, "{illumination}, {residual}");
     }
@@ -233,7 +233,7 @@ fn colour_laws_are_checked() {
     for part in [Layer::DiffuseIndirect, Layer::Transmission, Layer::LightDistant] {
         assert_eq!(failures(|c, p| c.set(part, p, &[0.002; 3])), [Law::LightParts], "{part:?}");
     }
-    // The parts of light are those of what was rendered.
+    // The parts of light belong to the rendered layers.
     let rendered = |c: &mut Case, p: usize| c.set(Layer::ResidualRendered, p, &[0.5; 3]);
     assert_eq!(failures(rendered), [Law::Recomposition, Law::LightParts]);
     let denoised = |c: &mut Case, p: usize| c.set(Layer::Residual, p, &[0.5; 3]);
@@ -296,7 +296,7 @@ fn normals_that_do_not_fit_the_positions_are_found() {
 
 #[test]
 fn steps_of_one_normal_are_flat() {
-    // A staircase: every other row of the floor lies higher, in steps of three rows each.
+    // A staircase: every other row of the floor is higher, in steps of three rows each.
     let stairs = |c: &mut Case, _| {
         let ids = c.frame.get(Layer::RenderEntityId).unwrap().clone();
         for pixel in (0..c.frame.pixels()).filter(|&i| ids.get(i) == 1.0) {

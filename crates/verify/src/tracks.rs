@@ -1,4 +1,4 @@
-//! The laws of tracks: points are where the cameras have them, and occluded where distances tell so.
+//! The laws of tracks: points are at their projections by the cameras, and occlusion agrees with distances where these decide it.
 
 use super::card::Card;
 use super::law::Law;
@@ -6,11 +6,11 @@ use super::many_views::Listed;
 use enfilade_dataset::Tracks;
 use enfilade_math::DVec2;
 
-/// Points are compared where they lie at most so many images beyond the borders: farther out, float32 is coarser than the bound.
+/// Points are compared if they are at most this many image sizes beyond the borders: farther out, float32 is coarser than the bound.
 const BEYOND: f64 = 1.0;
 
-/// Checks where the tracks of a camera have their points in one of their frames, the `place`-th. Gives the number of points that are said
-/// to be occluded or not against what distances tell for sure.
+/// Checks the points of a camera's tracks in one of their frames, the `place`-th. Returns the number of points whose occlusion certainly
+/// contradicts the distances.
 pub(super) fn check(name: &str, tracks: &Tracks, place: usize, frame: &Listed<'_>, card: &mut Card) -> usize {
     let [width, height] = frame.view.camera().size().map(f64::from);
     let mut contradictions = 0;

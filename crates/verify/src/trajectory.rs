@@ -9,10 +9,10 @@ use enfilade_scene::{Pose, Trajectory};
 use serde::Deserialize;
 use std::path::Path;
 
-/// The roll that was the limit of every plan before plans said what theirs is, degrees.
+/// The limit of roll of all plans before plans recorded their own, degrees.
 const USUAL_ROLL_LIMIT_DEG: f64 = 5.0;
 
-/// What a plan keeps to, by its report; the default is that of poses that were not planned here.
+/// The rules of a plan, from its report; the default is for poses that were not planned here.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub struct PlanRules {
     /// Name of the mode; empty where it is not known.
@@ -21,13 +21,13 @@ pub struct PlanRules {
     /// The greatest roll, degrees; `None` where it has no limit.
     #[serde(default = "usual")]
     pub roll_limit_deg: Option<f64>,
-    /// The boxes of a walk; `None` for other modes, and where the plan does not say.
+    /// The boxes of a walk; `None` for other modes, and if the plan does not record them.
     #[serde(default)]
     pub walk: Option<WalkBoxes>,
-    /// The camera that it begins with; `None` where the plan does not say.
+    /// The camera that it begins with; `None` if the plan does not record it.
     #[serde(default)]
     pub start: Option<PlannedStart>,
-    /// True for the second camera of a rig, which stands beside the one that was planned.
+    /// True for the second camera of a rig, which is beside the planned one.
     #[serde(skip)]
     pub is_second: bool,
 }
@@ -42,12 +42,12 @@ impl PlanRules {
         std::fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
     }
 
-    /// Whether the camera of this frame may stand in such a voxel: in a free one, and the artist's own in one that a surface touches, too,
-    /// which carving takes for free because of it. Poses made by hand are kept wherever they stand, and so is the artist's by Hypersim's
-    /// preset, which looks for no room for the second camera of a rig either.
+    /// Whether the camera of this frame may be in such a voxel: in a free one, or, for the artist's own camera, also in one that a surface
+    /// touches, which carving treats as free because of the camera. Poses made by hand are kept at any place, and so is the artist's by
+    /// Hypersim's preset, which does not check the space for the second camera of a rig either.
     pub(super) fn may_stand_in(&self, voxel: Voxel, frame: u32) -> bool {
         let anywhere = self.mode == "keyframes" || (self.is_preset() && (self.is_second || frame == 0));
-        // Beside the artist's camera, the second one of a rig may stand in anything.
+        // The second camera of a rig beside the artist's camera may be in any voxel.
         anywhere || voxel == Voxel::Free || (self.is_given(frame) && (self.is_second || voxel == Voxel::Occupied))
     }
 
@@ -56,12 +56,12 @@ impl PlanRules {
         !self.is_given(frame) || self.start.as_ref().is_some_and(|start| start.looks_along_axis)
     }
 
-    /// Whether this frame is the artist's pose. Before plans said so, it was in Hypersim's preset.
+    /// Whether this frame is the artist's pose. Before plans recorded this, it was so in Hypersim's preset.
     fn is_given(&self, frame: u32) -> bool {
         frame == 0 && self.start.as_ref().map_or(self.is_preset(), |start| start.is_kept)
     }
 
-    /// Hypersim's preset alone walks without a limit of roll.
+    /// Only Hypersim's preset walks without a limit of roll.
     fn is_preset(&self) -> bool {
         self.mode == "walk" && self.roll_limit_deg.is_none()
     }

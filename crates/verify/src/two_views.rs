@@ -1,17 +1,17 @@
 //! Two views of one scene must show the same surfaces where both see them.
 //!
-//! Each pixel of one frame is carried into the other by distance, calibration and pose. There it lies between four pixel centres,
-//! which a smooth surface passes at the distances that they hold. Three things can be: it lies beyond them, and something hides it;
-//! it lies between them, and then part, instance and diffuse reflectance must be the same; or it lies before them, so that the second
-//! frame looks through a surface that the first one sees. Seen in both directions, that is all that can contradict.
+//! Each pixel of one frame is carried into the other by distance, calibration and pose. There it is between four pixel centres, which a
+//! smooth surface passes at their stored distances. There are three cases. It is beyond them, and something hides it. It is between them,
+//! and then part, instance and diffuse reflectance must be the same. Or it is in front of them, so that the second frame looks through a
+//! surface that the first one sees. Checked in both directions, these are all possible contradictions.
 //!
-//! Nothing is tolerated beyond what the samples leave open: the span of the four distances is the slope of the surface over a pixel,
-//! its curvature follows from the neighbours that were carried along, relief that is finer than a pixel may, where the normals turn at all,
-//! be half a pixel deep and as near as the pixels around show it, and the rest is float32. Pixels are compared where both frames
-//! resolve the surface: the pixels around are of one part, their normals turn by less than 30 degrees, their images lie evenly, and a
-//! pixel of the second frame covers at most two of the first, which excludes edges, pleats and things that fall between the samples. What
-//! turns its back to the second frame may be another part there: the other side of something thin, such as the lid behind a screen. What
-//! opacity or holes let one see through has no reflectance of its own, for a part of it is that of what lies behind.
+//! The tolerance is only the uncertainty of the samples. The span of the four distances is the slope of the surface over a pixel, and its
+//! curvature follows from the neighbours that were carried along. Relief finer than a pixel may, where the normals turn at all, be half a
+//! pixel deep and as near as the pixels around show it. The rest is float32. Pixels are compared where both frames resolve the surface: the
+//! pixels around are of one part, their normals turn by less than 30 degrees, their images are evenly spaced, and a pixel of the second
+//! frame covers at most two of the first, which excludes edges, pleats and things that fall between the samples. A surface that is seen
+//! from behind in the second frame may be another part there: the other side of something thin, such as the lid behind a screen. Surfaces
+//! with opacity or holes have no reflectance of their own, because a part of it belongs to the surfaces behind.
 
 use super::card::Card;
 use super::law::Law;
@@ -30,9 +30,9 @@ pub(super) const COMPARED: [Layer; 5] =
 const REACH: usize = 2;
 /// Depth of relief that may fall between the samples, pixels: pleats, grooves, leaves.
 const RELIEF_PX: f64 = 0.5;
-/// Images of pixels in a row lie evenly when the middle one is off by less than half a pixel.
+/// Images of pixels in a row are evenly spaced if the middle one is off by less than half a pixel.
 const EVEN_PX: f64 = 0.5;
-/// Cosine of the angle that normals of pixels beside each other turn at most where no fold lies between them: 30 degrees.
+/// Cosine of the largest angle between normals of adjacent pixels without a fold between them: 30 degrees.
 const UNFOLDED: f64 = 0.866;
 /// Cosine of that angle where the surface is flat: one degree.
 const FLAT: f64 = 0.99985;
@@ -40,26 +40,26 @@ const FLAT: f64 = 0.99985;
 const ROUNDING: f64 = 1e-6;
 /// Reflectances are stored as float16, and averages over pixels are sums of a few samples.
 const REFLECTANCE_ROUNDING: f64 = 1.0 / 512.0;
-/// Pairs with fewer pixels to compare say nothing.
+/// Least number of compared pixels for a statement about a pair.
 const FEWEST: u64 = 256;
 /// Number of pixels of a pair that may disagree because a leaf or a fold is finer than a pixel though all samples around are of one part.
-/// It matters for small pictures alone, where the bounds are a pixel or two.
+/// It matters only for small pictures, where the bounds are a pixel or two.
 const BETWEEN_SAMPLES: u64 = 12;
-/// A point that lies at most this share farther away than what the other frame shows there counts as seen by it.
+/// A point counts as seen by the other frame if the surface shown there is at least at this share of its distance.
 const SEEN: f64 = 0.99;
 
-/// A frame as it is compared with others.
+/// A frame for comparison with others.
 pub(super) struct Sight<'a> {
     pub frame: &'a Frame,
-    /// What it was taken with, and where that stood.
+    /// Its camera and pose.
     pub view: CameraView<'a>,
     /// How its distances were rounded.
     pub rounding: Rounding,
-    /// By part: those whose reflectance is partly that of what lies behind them, which each view shows at another place.
+    /// By part: true if its reflectance partly belongs to the surfaces behind it, which each view shows at another place.
     pub partly_there: &'a [bool],
 }
 
-/// What the comparison of two frames came to.
+/// Result of the comparison of two frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PairValues {
     /// Name of the scene.
@@ -139,7 +139,7 @@ pub(super) fn compare(scene: &str, names: [(&str, u32); 2], sights: [&Sight<'_>;
     Some(PairValues { scene: scene.into(), first, second, overlap, distance: sum.distance, ids: sum.ids, reflectance: sum.reflectance })
 }
 
-/// One frame as it is compared.
+/// One frame of a comparison.
 struct Raster<'a> {
     width: usize,
     height: usize,
@@ -157,7 +157,7 @@ struct Raster<'a> {
     partly_there: &'a [bool],
 }
 
-/// What one direction came to.
+/// Result of one direction.
 #[derive(Clone, Default)]
 struct Direction {
     distance: Compared,
@@ -177,7 +177,7 @@ struct Image {
     distance: f64,
 }
 
-/// A pixel's image with what the pixels around it tell.
+/// A pixel's image with data derived from the pixels around it.
 struct Carried {
     image: Image,
     /// How far the surface may leave the plane between the images: second differences of the distance, and relief.
@@ -230,7 +230,7 @@ impl<'a> Raster<'a> {
         found
     }
 
-    /// Where the other camera sees the surface point of each pixel.
+    /// The image of each pixel's surface point in the other camera.
     fn images(&self, other: &Raster<'_>) -> Vec<Option<Image>> {
         let image = |pixel: usize| {
             let (x, y) = ((pixel % self.width) as f64 + 0.5, (pixel / self.width) as f64 + 0.5);
@@ -257,7 +257,7 @@ impl<'a> Raster<'a> {
         Some([first, first + 1, first + self.width, first + self.width + 1])
     }
 
-    /// What the pixels around `pixel` tell of the image of its surface; `None` where they do not all show one even surface.
+    /// The image of the surface of `pixel` with data derived from the pixels around; `None` if they do not all show one even surface.
     fn carried(&self, images: &[Option<Image>], pixel: usize) -> Option<Carried> {
         if !self.is_of_one_part(pixel) {
             return None;
@@ -281,8 +281,8 @@ impl<'a> Raster<'a> {
         (resolved && alike >= UNFOLDED).then_some(Carried { image, bend, jacobian })
     }
 
-    /// How near the surface of a pixel comes among those around that show it too, because a pleat may lie between any two; infinite where it is
-    /// flat.
+    /// Least distance of a pixel's surface among the pixels around that show it too, because a pleat may be between any two; infinite where
+    /// it is flat.
     fn nearest_relief(&self, pixel: usize) -> f64 {
         let around = || self.around(pixel).filter(|&k| self.shown[k] == self.shown[pixel]);
         let turns = |k: usize| self.normals.as_ref().is_some_and(|normals| normals[pixel].dot(normals[k]) < FLAT);
@@ -362,8 +362,8 @@ impl<'a> Raster<'a> {
         self.normals.as_ref().is_some_and(|normals| normals[pixel].dot(to_other) < 0.0)
     }
 
-    /// The least and greatest reflectance around a pixel and around its image, by channel. Each of the two regions holds a pixel of
-    /// the other frame whole, so its mean there lies between its extremes here. `None` where one is not of one part.
+    /// The least and greatest reflectance around a pixel and around its image, by channel. Each of the two regions contains a whole pixel
+    /// of the other frame, so the mean there is between the extremes here. `None` if a region is not of one part.
     fn reflectances(&self, other: &Raster<'_>, pixel: usize, at: DVec2) -> Option<[[[f64; 2]; 3]; 2]> {
         let (mine, others) = (self.reflectance?, other.reflectance?);
         let there = at.y as usize * other.width + at.x as usize;
@@ -382,7 +382,7 @@ impl<'a> Raster<'a> {
     }
 }
 
-/// How far a step of one pixel in both directions leads at most in one.
+/// Largest change of one coordinate by a step of one pixel in both directions.
 fn largest_row(m: &DMat2) -> f64 {
     (m.x_axis.abs() + m.y_axis.abs()).max_element()
 }
@@ -394,7 +394,7 @@ mod tests {
     use enfilade_scene::{Camera, Pose, Shutter};
     use enfilade_testroom as testroom;
 
-    /// Two views of the analytic corner, and what they are said to be taken with.
+    /// Two views of the analytic corner, and their stated cameras.
     struct Case {
         frames: [Frame; 2],
         poses: [Pose; 2],
@@ -451,7 +451,7 @@ mod tests {
     #[test]
     fn wrong_poses_units_and_axes_are_found() {
         assert_eq!(failures(|c| c.poses[1].position.y += 0.1), [Law::TwoViewDistance]);
-        // Along the wall nothing but the mirror tells.
+        // Along the wall only the mirror reveals a shift.
         assert_eq!(failures(|c| c.poses[1].position.x += 0.8), [Law::TwoViewIds]);
         assert_eq!(failures(|c| c.poses[1].world_from_camera *= DMat3::from_rotation_y(0.05)), [Law::TwoViewDistance]);
         let axis = |c: &mut Case| c.poses[1].world_from_camera *= DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0));
@@ -482,7 +482,7 @@ mod tests {
         assert_eq!(failures(of_nets), [], "what is behind a net is another thing in every view");
     }
 
-    /// What a camera sees of a wall in pleats of that width and depth, metres.
+    /// The frame of a camera before a wall in pleats of that width and depth, metres.
     fn pleats(pose: &Pose, camera: &Camera, [width, depth]: [f64; 2]) -> Frame {
         let (turn, height) = (std::f64::consts::TAU / width, 0.5 * depth);
         let (mut distances, mut normals) = (Vec::new(), Vec::new());
@@ -513,7 +513,7 @@ mod tests {
         }
     }
 
-    /// What a camera sees of a plate 2 mm thick, whose front is part 1 and whose back is part 2, or the other way around.
+    /// The frame of a camera before a plate 2 mm thick, whose front is part 1 and whose back is part 2, or the other way around.
     fn plate(pose: &Pose, camera: &Camera, in_order: bool) -> Frame {
         let (mut distances, mut normals, mut ids) = (Vec::new(), Vec::new(), Vec::new());
         let is_front = pose.position.y < 0.0;
@@ -546,7 +546,7 @@ mod tests {
         assert_eq!(case.compare().1.failures(), [Law::TwoViewIds]);
     }
 
-    /// What a view shows of an empty room of 6 × 6 × 3 m, whose sides are its parts.
+    /// The frame of a view of an empty room of 6 × 6 × 3 m, whose sides are its parts.
     fn room(view: &CameraView<'_>) -> Frame {
         let (low, high) = (DVec3::new(-3.0, -3.0, 0.0), DVec3::new(3.0, 3.0, 3.0));
         let (mut distances, mut ids) = (Vec::new(), Vec::new());

@@ -1,16 +1,17 @@
-//! What a frame is checked against: its camera, its labels, how its values were stored.
+//! The reference of a frame's checks: its camera, its labels, how its values were stored.
 
 use crate::rounding::Rounding;
 use enfilade_scene::{CameraView, Labels, PartLabel};
 
-/// What a frame is checked against.
+/// The reference of a frame's checks.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// What it was taken with, and where that stood.
+    /// Its camera and pose.
     pub camera: CameraView<'a>,
     /// How its distances and positions, which are in metres, were rounded when they were stored.
     pub rounding: Rounding,
-    /// True where the colour layers are denoised. What was rendered, to which noise and the parts of light belong, has layers of its own then.
+    /// True where the colour layers are denoised. The rendered versions, to which noise and the parts of light belong, have separate layers
+    /// then.
     pub denoised: bool,
     /// True for frames of Hypersim's release, which has fewer layers.
     pub released: bool,

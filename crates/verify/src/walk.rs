@@ -8,7 +8,7 @@ use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_math::{DVec3, Ray, Vec3};
 use enfilade_scene::{Pose, Trajectory};
 
-/// A way is looked along up to this share of it: its end may lie on a surface that has moved by a rounding.
+/// Lines of sight are checked up to this share of their length: the end may be on a surface that has moved by rounding.
 const SIGHT_SHARE: f64 = 1.0 - 1e-4;
 
 /// The surfaces among which a walk was planned.
@@ -31,7 +31,7 @@ impl Walls {
     }
 }
 
-/// Checks the laws of a walk. Without `walls` or `tree` nobody can tell what it sees or what is free.
+/// Checks the laws of a walk. Without `walls` or `tree`, visibility or free space cannot be checked.
 pub(super) fn check(trajectory: &Trajectory, boxes: &WalkBoxes, walls: Option<&Walls>, tree: Option<&OccupancyTree>, place: &str) -> Card {
     let mut card = Card::default();
     let finite = |pose: &&Pose| pose.position.is_finite() && pose.look_at.is_finite();
@@ -55,7 +55,7 @@ pub(super) fn check(trajectory: &Trajectory, boxes: &WalkBoxes, walls: Option<&W
     card
 }
 
-/// How far a point lies beyond its box, metres.
+/// Distance of a point beyond its box, metres.
 fn beyond(bounds: &WalkBox, first: DVec3, last: DVec3, point: DVec3) -> f64 {
     let step = (point - last).abs() - DVec3::from(bounds.step_m);
     let height = bounds.height_range_m.map_or(0.0, |range| (point.z - first.z).abs() - range);
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn each_broken_rule_fails_its_law() {
-        // Beyond the box around the last position, around that of the first, and the same for targets.
+        // Beyond the box around the last position, around the first position, and the same for targets.
         assert_eq!(failures(|t| t.poses[4].position.x += 0.6), [Law::WalkBox]);
         assert_eq!(failures(|t| t.poses[3..].iter_mut().zip([0.2, 0.4]).for_each(|(pose, z)| pose.position.z += z)), [Law::WalkBox]);
         assert_eq!(failures(|t| t.poses[4].look_at.y += 1.6), [Law::WalkBox, Law::FreeTarget]);

@@ -1,4 +1,4 @@
-//! What concerns the dataset as a whole: its manifest, its split, and the report card beside it.
+//! Checks of the dataset as a whole: its manifest, its partition, and the report card beside it.
 
 use super::boxes;
 use super::card::Card;
@@ -25,7 +25,7 @@ pub fn write_report_json(dataset: &Dataset, report: &VerifyReport) -> Result<(),
     write_changed(&dataset.layout().verify_report(), &json)
 }
 
-/// What the manifest says of a scene, and whether its files are what it says.
+/// Checks the manifest's entry of a scene, and whether its files agree with it.
 pub(super) fn check_manifest(card: &mut Card, dataset: &Dataset, manifest: Option<&Manifest>, scene: &str) {
     let Some(manifest) = manifest else {
         return card.observe(Law::Manifest, 1.0, || format!("{}: there is none", dataset.layout().manifest().display()));

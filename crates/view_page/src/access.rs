@@ -1,4 +1,4 @@
-//! Which files of the dataset requests may read: those of existing scenes and cameras that lie in its folder.
+//! The files of the dataset that requests may read: files of existing scenes and cameras, inside of its folder.
 
 use super::place::problem;
 use super::viewer::Viewer;
@@ -18,12 +18,12 @@ impl Viewer {
         inside.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
     }
 
-    /// Checks that a file or folder lies in the dataset's folder once symbolic links are followed, as far as it exists.
+    /// Checks that a file or folder is in the dataset's folder once symbolic links are followed, as far as it exists.
     ///
     /// # Errors
-    /// 403 when it lies elsewhere.
+    /// 403 if it is elsewhere.
     pub(super) fn allow(&self, path: &Path) -> Result<(), ApiProblem> {
-        // A path that does not exist is harmless; reading it will say that it is missing.
+        // A path that does not exist is harmless; reading it will report that it is missing.
         let Ok(real) = std::fs::canonicalize(path) else { return Ok(()) };
         if real.starts_with(&self.root) {
             return Ok(());
@@ -38,10 +38,10 @@ impl Viewer {
         paths.into_iter().try_for_each(|path| self.allow(path.as_ref()))
     }
 
-    /// Checks a scene's name and that it is there.
+    /// Checks a scene's name and that the scene exists.
     ///
     /// # Errors
-    /// 400 for a name that cannot be part of a path, 404 for a scene that is not there, 403 for one that lies elsewhere.
+    /// 400 for a name that cannot be part of a path, 404 for a scene that does not exist, 403 for one that is elsewhere.
     pub(super) fn check_scene(&self, scene: &str) -> Result<(), ApiProblem> {
         check_name("scene name", scene).map_err(problem)?;
         if !self.layout().detail_dir(scene).is_dir() && !self.layout().images_dir(scene).is_dir() {

@@ -37,7 +37,7 @@ struct Entry<V> {
     slot: Slot<V>,
 }
 
-/// Holds the value. Locked while the value is being made.
+/// Slot of a value. Locked while the value is being made.
 type Slot<V> = Arc<Mutex<Option<(Stamp, Arc<V>)>>>;
 
 /// Length and time of change of the file that a value was made from.
@@ -52,7 +52,7 @@ impl<K: Eq + Hash + Clone, V: Weight> Cache<K, V> {
     /// The value of `key` for a file with this stamp; `make` makes it if it is not here.
     ///
     /// # Errors
-    /// Those of `make`; then nothing is kept.
+    /// The errors of `make`; then nothing is kept.
     pub fn get<E>(&self, key: &K, stamp: Stamp, make: impl FnOnce() -> Result<V, E>) -> Result<Arc<V>, E> {
         let slot = {
             let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);

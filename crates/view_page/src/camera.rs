@@ -48,7 +48,7 @@ struct View {
 }
 
 impl Viewer {
-    /// What the page is told of a camera, and which files could not be read.
+    /// Facts about a camera for the page, and the files that could not be read.
     fn camera_facts(&self, scene: &str, camera: &str) -> Result<(Value, Problems), ApiProblem> {
         let layout = self.layout();
         self.allow_all([layout.camera_parameters(), layout.metadata_camera(scene, camera)])?;

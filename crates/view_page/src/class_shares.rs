@@ -1,5 +1,5 @@
-//! How much of each class the frames of a scene show. No table has that of things without an instance, such as walls, so the layer
-//! `semantic` is counted, when somebody asks for a class and not before.
+//! The share of each class in the frames of a scene. No table has it for things without an instance, such as walls, so the layer `semantic`
+//! is counted, on the first request for a class.
 
 use super::place::{FramePlace, problem, stamp};
 use super::problems::Problems;

@@ -12,7 +12,7 @@ impl Viewer {
     /// Number, name and colour of each class of a scene.
     ///
     /// # Errors
-    /// 403 when a file lies outside of the dataset, 500 when the list is damaged.
+    /// 403 if a file is outside of the dataset, 500 if the list is damaged.
     pub(super) fn classes(&self, scene: &str) -> Result<Vec<Value>, ApiProblem> {
         let files = self.dataset.mesh_files(scene);
         self.allow_all([files.file(CLASS_LIST), files.file(mesh_names::SEMANTIC_COLORS)])?;
@@ -30,7 +30,7 @@ impl Viewer {
     }
 }
 
-/// The scene's own colours: row `i` is that of class `i`, -1 where there is none. Empty if it has no table of them.
+/// The scene's own colours: row `i` is for class `i`, -1 where there is none. Empty if it has no table of them.
 fn colors_of_classes(files: &MeshFiles) -> Vec<[i64; 3]> {
     match read_array(&files.file(mesh_names::SEMANTIC_COLORS)).map(|array| array.values) {
         Ok(Elements::I64(values)) => values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),

@@ -1,4 +1,4 @@
-//! Which pictures a camera's frames have beside layers: the light of fixtures and mixes of them, surfaces along rays, planes of the layout,
+//! Pictures of a camera's frames beside layers: the light of fixtures and mixes of them, surfaces along rays, planes of the rooms,
 //! layers that lead to other frames, readings of sensors. They are found by the names of their files.
 
 use super::derived_files::{FIRST_SURFACES, MOST_SURFACES, PLANE, READINGS, REFRACTED, SURFACES};
@@ -14,20 +14,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// What the frames of a camera have beside layers.
+/// The pictures that the frames of a camera have beside layers.
 pub(super) struct Derived {
     /// Each picture that any frame has.
     pub specs: Vec<PictureSpec>,
-    /// The places in `specs` of those that a frame has.
+    /// Indices into `specs` of the pictures that a frame has.
     pub of_frames: BTreeMap<u32, Vec<usize>>,
 }
 
 type Found = BTreeMap<FramePicture, BTreeSet<u32>>;
-/// Tells the pictures that are in a file, by the frame's number and what follows it in the file's name.
+/// Lists the pictures in a file, by the frame's number and the text after it in the file's name.
 type Reader<'a> = &'a dyn Fn(u32, &str) -> Result<Vec<FramePicture>, ApiProblem>;
 
 impl Viewer {
-    /// What the frames of a camera have beside layers. A folder that cannot be read costs what is in it.
+    /// The pictures that the frames of a camera have beside layers. If a folder cannot be read, its contents are missing.
     pub(super) fn derived(&self, scene: &str, camera: &str, lost: &mut Problems) -> Derived {
         let layout = self.layout();
         let mut found = Found::new();
@@ -63,8 +63,8 @@ impl Viewer {
         Derived { specs: found.keys().map(|picture| picture.spec(&fixtures)).collect(), of_frames }
     }
 
-    /// Adds the pictures that `pictures` finds in the files `frame.IIII.<file>` of a folder. A folder that is not there has none, and a file
-    /// that cannot be read costs its own; the first of these is told.
+    /// Adds the pictures that `pictures` finds in the files `frame.IIII.<file>` of a folder. A missing folder has none. If a file cannot be
+    /// read, its pictures are missing; the first such file is reported.
     fn find(&self, folder: &Path, pictures: Reader<'_>, found: &mut Found) -> Result<(), ApiProblem> {
         self.allow(folder)?;
         let cannot = |source| problem(DatasetError::Io { action: "read the folder", path: folder.to_path_buf(), source });
@@ -96,7 +96,7 @@ impl Viewer {
         Ok((1..=count).flat_map(|nth| (0..SURFACES.len()).map(move |what| FramePicture::Surface { nth, what })).collect())
     }
 
-    /// What is in a folder whose name can be part of an address, by name.
+    /// Subfolders of a folder whose names can be part of an address, by name.
     fn subfolders(&self, folder: &Path) -> Result<BTreeMap<String, PathBuf>, ApiProblem> {
         self.allow(folder)?;
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
@@ -104,7 +104,7 @@ impl Viewer {
         Ok(named.filter(|(name, path)| check_name("name", name).is_ok() && path.is_dir()).collect())
     }
 
-    /// What lights a scene, where frames have the light of each thing apart.
+    /// The fixtures of a scene, if frames have the light of each one separately.
     fn fixtures(&self, scene: &str) -> Result<Vec<Fixture>, ApiProblem> {
         self.allow(&self.layout().metadata_fixtures(scene))?;
         self.dataset.read_fixtures(scene).map_err(problem)

@@ -1,4 +1,4 @@
-//! What files of surfaces along rays, of planes and of sensors hold: tables that the names and descriptions of their pictures come from.
+//! Contents of the files of surfaces along rays, of planes and of sensors: tables with the names and descriptions of their pictures.
 
 use enfilade_frame::Layer;
 
@@ -6,11 +6,11 @@ use enfilade_frame::Layer;
 pub struct SurfaceFile {
     /// Name of the layer, as in `frame.IIII.<name>.hdf5`.
     pub name: &'static str,
-    /// What the page calls it.
+    /// Title on the page.
     pub title: &'static str,
     /// The layer that has the same numbers of the surface that is seen; `None`: the side.
     pub like: Option<Layer>,
-    /// What it says of a surface.
+    /// Its meaning for a surface.
     pub description: &'static str,
 }
 
@@ -48,7 +48,7 @@ pub const SURFACES: [SurfaceFile; 5] = [
     },
 ];
 
-/// The file that says how many surfaces a frame has per pixel.
+/// The file with the number of surfaces per pixel of a frame.
 pub const FIRST_SURFACES: &str = SURFACES[0].name;
 /// No more surfaces per pixel are listed.
 pub const MOST_SURFACES: usize = 64;
@@ -70,7 +70,7 @@ pub const REFRACTED: [SurfaceFile; 3] = [
     },
 ];
 
-/// The file of the planes of a layout that pixels show.
+/// The file of the planes of rooms that pixels show.
 pub const PLANE: &str = "plane_id";
 
 /// A reading of a sensor that is shown as a picture.
@@ -79,11 +79,11 @@ pub struct Reading {
     pub name: &'static str,
     /// Name in files, as in `frame.IIII.<file>`.
     pub file: &'static str,
-    /// What it holds.
+    /// Kind of its contents.
     pub kind: ReadingKind,
 }
 
-/// What a reading holds.
+/// Contents of a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReadingKind {
     /// The numbers of a layer.
@@ -115,5 +115,5 @@ pub const READINGS: [Reading; 9] = [
 
 /// All that a lidar has seen of a frame.
 pub const SCAN: &str = "scan.npz";
-/// What an inertial unit has read from a frame to the next: a table, which the page links to.
+/// Readings of an inertial unit from one frame to the next: a table, which the page links to.
 pub const INERTIAL: &str = "imu.csv";

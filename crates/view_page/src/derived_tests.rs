@@ -1,4 +1,4 @@
-//! The routes, asked for what is derived from frames or stored apart.
+//! The routes for pictures that are derived from frames or stored separately.
 
 use super::tests::{HEIGHT, WIDTH, ask, bytes, dataset, json, layer_values};
 use axum::http::StatusCode;
@@ -361,9 +361,8 @@ async fn words_and_relations_are_told_with_scene_and_frame() {
     relate(&dataset);
     let (root, layout) = (folder.path(), dataset.layout());
     let room = value!({ "name": "living_1", "kind": "living_room", "polygon": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], "floor_z_m": 0.0, "ceiling_z_m": 2.5 });
-    let structure =
-        enfilade_scene::Structure { rooms: vec![serde_json::from_value(room).unwrap()], ..enfilade_scene::Structure::default() };
-    write_bytes(&layout.structure("room"), serde_json::to_string(&structure).unwrap()).unwrap();
+    let rooms = enfilade_scene::Rooms { outlines: vec![serde_json::from_value(room).unwrap()], ..enfilade_scene::Rooms::default() };
+    write_bytes(&layout.rooms("room"), serde_json::to_string(&rooms).unwrap()).unwrap();
     let described = &json(root, "/api/view/scene/room").await["described"];
     let sofa = &described["instances"][0];
     assert_eq!((&sofa["noun"], &sofa["color"], &sofa["size_m"]), (&"sofa".into(), &"blue".into(), &value!([2.0, 1.0, 0.75])));
@@ -379,7 +378,7 @@ async fn words_and_relations_are_told_with_scene_and_frame() {
     assert_eq!(of_all, [&Value::Bool(true), &Value::Bool(false)]);
     let text = std::fs::read_to_string(layout.questions("room", "cam_00")).unwrap();
     std::fs::write(layout.questions("room", "cam_00"), format!("{text}{{\n")).unwrap();
-    std::fs::write(layout.structure("room"), "{").unwrap();
+    std::fs::write(layout.rooms("room"), "{").unwrap();
     let told = json(root, "/api/view/frame/room/cam_00/2").await;
     let said = told["problems"][0]["error"].as_str().unwrap();
     assert!(said.contains("questions.jsonl: line 4: ") && told["words"]["caption"] == "A sofa in frame 2.", "{told}");

@@ -1,23 +1,23 @@
-//! What is said of a scene and its frames: words, colours, materials, sizes and relations of instances, rooms, captions and questions.
+//! Descriptions of a scene and its frames: words, colours, materials, sizes and relations of instances, rooms, captions and questions.
 
 use super::derived_files::INERTIAL;
 use super::place::{FramePlace, optional, problem};
 use super::problems::Problems;
 use super::viewer::Viewer;
 use enfilade_dataset::{Caption, DatasetError, DescribedInstance, InstanceRelation, Question};
-use enfilade_scene::{LayoutPlane, Structure};
+use enfilade_scene::{RoomPlane, Rooms};
 use enfilade_serve::ApiProblem;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use std::path::Path;
 
 impl Viewer {
-    /// What the instances of a scene are, how they stand to each other, its rooms and the names of their planes; empty lists where nobody
-    /// has said it.
+    /// Descriptions and relations of a scene's instances, its rooms and the names of their planes; empty lists where there are no such
+    /// files.
     pub(super) fn described(&self, scene: &str, lost: &mut Problems) -> Value {
         let instances = lost.or_nothing("objects", self.described_instances(scene));
         let relations = lost.or_nothing("objects", self.instance_relations(scene));
-        let structure = lost.or_nothing("frame", self.structure(scene));
+        let rooms = lost.or_nothing("frame", self.rooms(scene));
         let instance = |one: &DescribedInstance| {
             json!({ "instance": one.instance, "name": one.name, "noun": one.noun, "room": one.room, "color": one.color,
                 "material": one.material, "size_m": one.size_m.to_array() })
@@ -26,15 +26,15 @@ impl Viewer {
             json!({ "subject": one.subject, "kind": one.kind.name(), "object": one.object, "object_semantic": one.object_semantic,
                 "distance_m": one.distance_m })
         };
-        let plane = |all: &Structure| {
-            let name = |plane: &LayoutPlane| format!("{} of {}", plane.kind.name(), all.rooms[plane.room].name);
+        let plane = |all: &Rooms| {
+            let name = |plane: &RoomPlane| format!("{} of {}", plane.kind.name(), all.outlines[plane.room].name);
             all.planes().iter().map(name).collect::<Vec<_>>()
         };
         json!({
             "instances": instances.iter().map(instance).collect::<Vec<_>>(),
             "relations": relations.iter().map(relation).collect::<Vec<_>>(),
-            "rooms": structure.iter().flat_map(|all| &all.rooms).map(|room| json!({ "name": room.name, "kind": room.kind })).collect::<Vec<_>>(),
-            "planes": structure.as_ref().map(plane).unwrap_or_default(),
+            "rooms": rooms.iter().flat_map(|all| &all.outlines).map(|room| json!({ "name": room.name, "kind": room.kind })).collect::<Vec<_>>(),
+            "planes": rooms.as_ref().map(plane).unwrap_or_default(),
         })
     }
 
@@ -48,12 +48,12 @@ impl Viewer {
         Ok(optional(self.dataset.read_instance_relations(scene))?.unwrap_or_default())
     }
 
-    fn structure(&self, scene: &str) -> Result<Option<Structure>, ApiProblem> {
-        self.allow(&self.layout().structure(scene))?;
-        self.dataset.read_structure(scene).map_err(problem)
+    fn rooms(&self, scene: &str) -> Result<Option<Rooms>, ApiProblem> {
+        self.allow(&self.layout().rooms(scene))?;
+        self.dataset.read_rooms(scene).map_err(problem)
     }
 
-    /// What is said of a frame, and what is asked about it.
+    /// Captions of a frame, and questions about it.
     pub(super) fn words(&self, place: &FramePlace, lost: &mut Problems) -> Value {
         let FramePlace { scene, camera, frame } = place;
         let captions: Vec<Caption> = lost.or_nothing("frame", self.lines(&self.layout().captions(scene, camera)));
@@ -78,7 +78,7 @@ impl Viewer {
         Ok(there.map(|(sensor, path)| json!({ "sensor": sensor, "path": self.in_dataset(&path) })).collect())
     }
 
-    /// What the lines of a file say, each in JSON; none where there is no file.
+    /// The lines of a file, each in JSON; none if there is no file.
     fn lines<T: DeserializeOwned>(&self, path: &Path) -> Result<Vec<T>, ApiProblem> {
         self.allow(path)?;
         let text = std::fs::read_to_string(path).map_err(|source| DatasetError::Io { action: "read", path: path.to_path_buf(), source });

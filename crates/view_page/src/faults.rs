@@ -1,4 +1,4 @@
-//! What speaks against a frame: the gates of planning, and those of verification. Whatever counts rejected frames counts these.
+//! Faults of a frame: the gates of planning and of verification that it does not pass. Counts of rejected frames are made from these.
 
 use super::place::{FramePlace, problem, stamp};
 use super::report::{Report, ReportFile};
@@ -17,13 +17,13 @@ pub struct Fault {
     by: &'static str,
     /// The gate's name.
     gate: String,
-    /// What is measured; empty where the name says it.
+    /// The measure; empty if the name states it.
     measure: &'static str,
-    /// What was measured; `None` where that is no number.
+    /// The value measured; `None` if it is not a number.
     value: Option<f64>,
     /// The last good value.
     limit: f64,
-    /// `at least` or `at most`; empty where the dataset does not say.
+    /// `at least` or `at most`; empty if the dataset does not state it.
     side: &'static str,
     /// Unit of value and limit; empty for pure numbers.
     unit: &'static str,
@@ -56,7 +56,7 @@ impl Viewer {
     /// The report of the last verification; `None` without one, and for a report of another version.
     ///
     /// # Errors
-    /// 403 when it lies outside of the dataset, 500 when it cannot be read.
+    /// 403 if it is outside of the dataset, 500 if it cannot be read.
     pub(super) fn report(&self) -> Result<Option<Arc<Report>>, ApiProblem> {
         let path = self.layout().verify_report();
         self.allow(&path)?;

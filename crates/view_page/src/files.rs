@@ -14,7 +14,7 @@ use std::io::{ErrorKind, Read, Take};
 use std::path::Component;
 use std::sync::Arc;
 
-/// What may be sent: file extensions and their media types.
+/// Files that may be sent: extensions and their media types.
 const KINDS: [(&str, &str); 10] = [
     ("html", "text/html; charset=utf-8"),
     ("css", "text/css; charset=utf-8"),
@@ -28,7 +28,7 @@ const KINDS: [(&str, &str); 10] = [
     ("csv", "text/csv; charset=utf-8"),
 ];
 
-/// Text is compressed, for which it is held in memory; larger files are sent as they are.
+/// Text is compressed, for which it is kept in memory; larger files are sent uncompressed.
 const MOST_TEXT_BYTES: u64 = 64 << 20;
 /// Bytes of a file that are in memory while it is sent.
 const CHUNK_BYTES: u64 = 256 << 10;
@@ -65,7 +65,7 @@ pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -
     })
 }
 
-/// What is sent of a file: text is held to be compressed, anything else is read while it is sent.
+/// Contents of a file to send: text is kept in memory to be compressed, anything else is read while it is sent.
 enum Content {
     Text(Vec<u8>),
     File { file: File, length: u64, tag: HeaderValue },
@@ -93,7 +93,7 @@ fn content(viewer: &Viewer, path: &str, kind: &str) -> Result<Content, ApiProble
     Ok(Content::Text(if is_page { frames_open_the_page(&String::from_utf8_lossy(&bytes)).into_bytes() } else { bytes }))
 }
 
-/// What a file holds, a chunk at a time.
+/// The contents of a file, a chunk at a time.
 fn chunks(file: Take<File>) -> impl Stream<Item = std::io::Result<Vec<u8>>> {
     unfold(Some(file), |file| async move {
         let mut file = file?;

@@ -1,5 +1,5 @@
-//! The frames of a scene, each with what is known of it, to sort and to choose by. Nothing is computed of pixels: the numbers are those of
-//! the report of verification, of the frames' records and of the tables.
+//! The frames of a scene, each with its numbers, to sort and to choose by. Nothing is computed from pixels: the numbers come from the
+//! report of verification, the frames' records and the tables.
 
 use super::faults::Fault;
 use super::place::{FramePlace, optional, problem, version};
@@ -36,13 +36,13 @@ struct Entry {
     version: Option<String>,
     /// The path of planning's picture of a view that it rejected.
     picture: Option<String>,
-    /// Noise of color as it was rendered.
+    /// Noise of the rendered color.
     noise: Option<f64>,
     /// Share of the pixels that the tone map shows as white.
     clipped: Option<f64>,
     /// Share of the pixels that the tone map shows as black.
     black: Option<f64>,
-    /// What radiance is multiplied with before the gamma curve of the tone map.
+    /// Factor of radiance before the gamma curve of the tone map.
     exposure: Option<f64>,
     /// Largest minus smallest planar depth, metres.
     depth_range: Option<f64>,
@@ -57,7 +57,7 @@ struct Entry {
     laws: Vec<String>,
 }
 
-/// What the tables say of a camera's frames.
+/// Tables about a camera's frames.
 struct Tables {
     report: Option<Arc<Report>>,
     exposures: HashMap<u32, f64>,

@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// With a larger step a picture would have only a few pixels.
 const MAX_STEP: usize = 64;
 
-/// What is asked for of a layer.
+/// The query of a request for a layer.
 #[derive(Debug, Default, Deserialize)]
 pub struct LayerQuery {
     /// Distance between kept pixels and between kept rows; 1 when absent.
@@ -73,7 +73,7 @@ pub async fn layer(
         if planes {
             headers.push(("x-enfilade-packing", "planes".to_string()));
         }
-        // The tag tells of the file and of what was asked for: a digest of megabytes would cost more than it saves.
+        // The tag is made from the file's stamp and the request: a digest of megabytes would cost more than it saves.
         let tag = reply::tag_of(format!("{source:?} {step} {compact} {gzip} {headers:?}").as_bytes());
         let mut response = reply::array(bytes, gzip, &headers);
         response.headers_mut().insert(header::ETAG, tag);
@@ -87,7 +87,7 @@ impl Viewer {
     /// stored is computed from the distances.
     ///
     /// # Errors
-    /// 404 when there is no such file, 403 when it lies outside of the dataset, 500 when it is damaged or no such layer.
+    /// 404 if there is no such file, 403 if it is outside of the dataset, 500 if it is damaged or another layer.
     pub(super) fn layer(&self, place: &FramePlace, layer: Layer) -> Result<Arc<DecodedLayer>, ApiProblem> {
         let FramePlace { scene, camera, frame } = place;
         let path = self.dataset.layer_source(scene, camera, *frame, layer);

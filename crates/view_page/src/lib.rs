@@ -1,7 +1,7 @@
-//! The page on which people look at a dataset: what it holds as JSON, its layers as raw arrays, its space as points and cubes.
+//! The page on which people look at a dataset: its contents as JSON, its layers as raw arrays, its space as points and cubes.
 //!
 //! Everything is read at the moment of the request, so a dataset that is still being rendered can be watched. Nothing is ever
-//! written. Layers go to the page as they are stored and are coloured there, on the graphics card: only the page knows names and colours of
+//! written. Layers are sent to the page as stored and are coloured there, on the graphics card: only the page knows names and colours of
 //! values, and changing the exposure needs no request.
 //!
 //! Names in addresses are checked before they become paths (`place.rs`), and a path that leads out of the dataset's folder by a symbolic

@@ -1,4 +1,4 @@
-//! Which frames of a scene show the surfaces that a frame shows: from the matrix of `enfilade make OUT pairs`, its list, and the poses.
+//! The frames of a scene that show the same surfaces as a frame: from the matrix of `enfilade make OUT pairs`, its list, and the poses.
 
 use super::pairs_of_scene::PairsOfScene;
 use super::place::{FramePlace, problem, stamp};
@@ -30,7 +30,7 @@ pub async fn pairs(
 }
 
 impl Viewer {
-    /// What is known of the pairs of a scene, from memory while its files do not change.
+    /// The pairs of a scene, from memory while its files do not change.
     fn pairs_of_scene(&self, scene: &str) -> Result<Arc<PairsOfScene>, ApiProblem> {
         let layout = self.layout();
         let files = [layout.covisibility(scene), layout.covisibility_frames(scene), layout.pairs()];

@@ -1,4 +1,4 @@
-//! The pairs of a scene in memory, and what is told of those of one frame.
+//! The pairs of a scene in memory, and the answer about the pairs of one frame.
 
 use super::cache::Weight;
 use super::place::FramePlace;
@@ -12,7 +12,7 @@ use std::collections::HashSet;
 /// A frame is sent at most this many partners, those with the largest overlap.
 const MOST_PARTNERS: usize = 200;
 
-/// What is known of the pairs of a scene.
+/// The pairs of a scene.
 pub struct PairsOfScene {
     pub covisibility: Covisibility,
     /// The pose of each frame of the matrix, where it is known.

@@ -1,5 +1,5 @@
-//! What is shown as a picture of a frame: a layer, or an array that was derived from the frame later or is stored apart. Each has a name in
-//! addresses, a file, and a description in the terms of the table of layers, so that whatever can be done with a layer can be done with it.
+//! The pictures of a frame: a layer, or an array that was derived from the frame later or is stored separately. Each has a name in
+//! addresses, a file, and a description in the terms of the table of layers, so that the page can treat it like a layer.
 
 use super::derived_files::{PLANE, READINGS, REFRACTED, SURFACES};
 use enfilade_dataset::check_name;
@@ -13,7 +13,7 @@ pub const MIXED: [Layer; 3] = [Layer::Color, Layer::DiffuseIllumination, Layer::
 pub const LEADING: [(Layer, &str); 3] =
     [(Layer::OpticalFlow, "optical flow"), (Layer::SceneFlow, "scene flow"), (Layer::FlowVisibility, "visibility")];
 
-/// A picture of a frame; in the order in which the page lists those of a kind.
+/// A picture of a frame; in the order in which the page lists pictures of one kind.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FramePicture {
     /// A layer.
@@ -26,7 +26,7 @@ pub enum FramePicture {
     Surface { nth: usize, what: usize },
     /// One of [`REFRACTED`].
     Refracted { what: usize },
-    /// Which plane of the scene's layout is seen.
+    /// The visible plane of the scene's rooms.
     Plane,
     /// A layer that leads to another frame of the scene.
     To { camera: String, frame: u32, layer: Layer },

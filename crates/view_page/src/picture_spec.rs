@@ -1,4 +1,4 @@
-//! What is told of a picture: its name, and in the terms of the table of layers what its numbers are.
+//! The description of a picture: its name, and its numbers in the terms of the table of layers.
 
 use super::derived_files::{READINGS, REFRACTED, ReadingKind, SURFACES, SurfaceFile};
 use super::picture::{FIXTURE_PARTS, FramePicture, LEADING};
@@ -6,14 +6,14 @@ use enfilade_dataset::Fixture;
 use enfilade_frame::{Dtype, Layer, Pass};
 use serde::Serialize;
 
-/// A picture as the page is told of it.
+/// The description of a picture that is sent to the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct PictureSpec {
     /// Name of the picture in addresses.
     name: String,
     /// For people.
     title: String,
-    /// Where the page lists it.
+    /// Group in the page's list.
     pass: Group,
     /// The layer, or kind of number that no layer has, that has the colours and names of its numbers.
     like: &'static str,
@@ -28,7 +28,7 @@ pub struct PictureSpec {
     description: String,
 }
 
-/// Where the page lists a picture: with the layers of a pass, or with what was derived in one way.
+/// Group of a picture in the page's list: the layers of a pass, or the pictures derived in one way.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(untagged)]
 enum Group {
@@ -55,7 +55,7 @@ impl From<Layer> for PictureSpec {
 }
 
 impl FramePicture {
-    /// What is told of it; `fixtures` are those of the scene, as far as they are known.
+    /// The description of the picture; `fixtures` are the scene's, as far as they are known.
     pub fn spec(&self, fixtures: &[Fixture]) -> PictureSpec {
         let derived = |group, title: String, description: String, spec: PictureSpec| PictureSpec {
             name: self.name(),
@@ -96,7 +96,7 @@ impl FramePicture {
             }
             Self::Plane => {
                 let what = "Floor, ceiling or wall of layout.json that the pixel shows, by its row in metadata_planes.csv; -1: none.";
-                derived("layout", "plane".into(), what.into(), number("plane", Dtype::I16, "-1"))
+                derived("rooms", "plane".into(), what.into(), number("plane", Dtype::I16, "-1"))
             }
             Self::To { camera, frame, layer } => {
                 let (description, like) = match layer {
@@ -130,7 +130,7 @@ fn of_surface(file: &SurfaceFile) -> PictureSpec {
     }
 }
 
-/// Title and description of what a reading holds, and what its numbers are.
+/// Title, description and numbers of a reading.
 fn of_reading(kind: ReadingKind) -> (&'static str, &'static str, PictureSpec) {
     match kind {
         ReadingKind::Layer(layer) => {

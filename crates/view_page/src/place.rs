@@ -52,7 +52,7 @@ pub fn optional<T>(result: Result<T, DatasetError>) -> Result<Option<T>, ApiProb
     }
 }
 
-/// Length and modification time of a file; zero and `None` if it cannot be read, in which case reading it will say why.
+/// Length and modification time of a file; zero and `None` if it cannot be read, in which case reading it will report the reason.
 pub fn stamp(path: &Path) -> Stamp {
     std::fs::metadata(path).map_or((0, None), |data| (data.len(), data.modified().ok()))
 }

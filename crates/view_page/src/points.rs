@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Points of a reply without `?most=N`.
 const MAX_POINTS: usize = 200_000;
 
-/// What is asked for of the points.
+/// The query of a request for points.
 #[derive(Debug, Deserialize)]
 pub struct PointsQuery {
     /// Maximum number of points, evenly spread over the image.

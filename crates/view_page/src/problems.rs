@@ -3,7 +3,7 @@
 use enfilade_serve::ApiProblem;
 use serde::Serialize;
 
-/// What could not be read.
+/// Files that could not be read.
 #[derive(Debug, Default, Serialize)]
 pub struct Problems(Vec<Loss>);
 
@@ -16,7 +16,7 @@ struct Loss {
 }
 
 impl Problems {
-    /// What was read, or what stands for nothing; the problem is kept for the panel that needs it.
+    /// The value read, or the default on failure; the problem is kept for the panel that needs it.
     pub fn or_nothing<T: Default>(&mut self, panel: &'static str, read: Result<T, ApiProblem>) -> T {
         read.unwrap_or_else(|problem| {
             self.0.push(Loss { panel, error: problem.error, help: problem.help });

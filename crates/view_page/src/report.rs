@@ -1,4 +1,4 @@
-//! What the last verification found: the report, and where each frame stands in it.
+//! The results of the last verification: the report, and the index of each frame in it.
 
 use super::cache::Weight;
 use super::place::FramePlace;
@@ -14,7 +14,7 @@ pub struct Report {
     bytes: usize,
 }
 
-/// What a file of a report comes to: nothing, where another version wrote it.
+/// The report in a file: nothing if another version wrote it.
 pub struct ReportFile(pub Option<Arc<Report>>);
 
 impl Weight for ReportFile {
@@ -32,7 +32,7 @@ impl Report {
         Some(Self { report, by_place, bytes: text.len() })
     }
 
-    /// What was measured in a frame.
+    /// The values measured in a frame.
     pub fn frame(&self, place: &FramePlace) -> Option<&FrameValues> {
         self.by_place.get(place).map(|&at| &self.report.frame_values[at])
     }

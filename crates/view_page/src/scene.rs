@@ -42,7 +42,7 @@ pub async fn scene(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>,
 }
 
 impl Viewer {
-    /// What the page is told of a scene, and which files could not be read.
+    /// Facts about a scene for the page, and the files that could not be read.
     fn scene_facts(&self, scene: &str) -> Result<(Value, Problems), ApiProblem> {
         let layout = self.layout();
         let mesh = |name: &str| layout.mesh_file(scene, name);
@@ -60,7 +60,7 @@ impl Viewer {
         let pages = [
             ("Rejected views", layout.gates_page(scene)),
             ("Plans", layout.plan_preview_dir(scene).join("index.html")),
-            ("Floor plan", layout.structure_plan(scene)),
+            ("Floor plan", layout.rooms_drawing(scene)),
         ];
         let pages =
             pages.iter().filter(|(_, path)| path.is_file()).map(|(title, path)| json!({ "title": title, "path": self.in_dataset(path) }));
@@ -105,7 +105,7 @@ impl Viewer {
         rows.map(Some).map_err(|e| ApiProblem::failed(format!("{}: {e}", path.display()), "fix or delete the file that is named"))
     }
 
-    /// Metres per asset unit; 1 if the dataset does not say.
+    /// Metres per asset unit; 1 if the dataset does not state it.
     pub(super) fn meters_per_unit(&self, scene: &str) -> Result<f64, ApiProblem> {
         Ok(optional(self.dataset.meters_per_asset_unit(scene))?.unwrap_or(1.0))
     }

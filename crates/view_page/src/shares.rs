@@ -1,4 +1,4 @@
-//! How much of each class a frame shows.
+//! The share of each class in a frame.
 
 use super::cache::Weight;
 use serde::Serialize;

@@ -31,7 +31,7 @@ pub async fn space(State(viewer): State<Arc<Viewer>>, Path(scene): Path<String>,
     .await
 }
 
-/// The buffer of a tree whose unit is so many metres.
+/// The buffer of a tree whose unit is this many metres.
 fn cubes(tree: &OccupancyTree, metres: f64) -> Vec<u8> {
     let edge = tree.resolution_m() * metres;
     let of = |state: Voxel| tree.leaves().filter(move |leaf| leaf.state == state);

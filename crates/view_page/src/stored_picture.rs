@@ -33,7 +33,7 @@ impl Viewer {
         }
     }
 
-    /// A picture of a frame, from memory or from its file: a layer as [`Viewer::layer`] reads it, anything else as it is stored.
+    /// A picture of a frame, from memory or from its file: a layer as [`Viewer::layer`] reads it, anything else as stored.
     ///
     /// # Errors
     /// As [`Viewer::layer`].
@@ -56,10 +56,10 @@ impl Viewer {
     }
 }
 
-/// Height, width and values of an image of so many channels.
+/// Height, width and values of an image of this number of channels.
 ///
 /// # Errors
-/// When the file is missing, damaged, or holds something else.
+/// If the file is missing, damaged, or has other contents.
 pub(super) fn stored_image(path: &Path, channels: usize) -> Result<([usize; 2], Elements), ApiProblem> {
     let array = read_array(path).map_err(problem)?;
     let size = image_size(path, &array, channels)?;
@@ -81,7 +81,7 @@ fn image_size(path: &Path, array: &Array, channels: usize) -> Result<[usize; 2],
     }
 }
 
-/// What a file of surfaces says of one of them, from 1 on.
+/// The values of one surface in a file of surfaces, counted from 1.
 fn one_surface(path: &Path, nth: usize, channels: usize) -> Result<([usize; 2], Elements), ApiProblem> {
     let array = read_array(path).map_err(problem)?;
     let all = array.shape.get(2).copied().unwrap_or(0);
@@ -130,7 +130,7 @@ fn decoded(path: &Path, pixels: impl Fn(DynamicImage) -> Elements) -> Result<([u
     seen(path, size, (size, pixels(image)))
 }
 
-/// What was read, unless it has no pixels.
+/// The picture that was read, unless it has no pixels.
 fn seen<T>(path: &Path, [height, width]: [usize; 2], read: T) -> Result<T, ApiProblem> {
     if height.min(width) > 0 {
         return Ok(read);

@@ -241,7 +241,7 @@ async fn the_gallery_tells_of_every_frame_and_rejected_view() {
     assert_eq!((numbers, &first["laws"]), ([0.125, 0.5, 2.0, 0.25, 0.75], &serde_json::json!(["numbers are finite"])));
     assert_eq!((&first["faults"][0]["gate"], &first["faults"][0]["limit"]), (&"depth range".into(), &0.5.into()));
     assert_eq!((&second["frame"], &second["version"], &second["faults"][0]["gate"]), (&1.into(), &Value::Null, &"blocked".into()));
-    // The camera says the same of the frame.
+    // The camera's data of the frame agree.
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     assert_eq!((&camera["frames"][0]["faults"], &camera["frames"][1]["faults"]), (&first["faults"], &second["faults"]));
     assert_eq!(json(folder.path(), "/api/view/dataset").await["verify"]["rejected"], 1);
@@ -443,7 +443,7 @@ async fn hypersims_own_pictures_are_shown() {
         (&depth.headers()["x-enfilade-shape"], &depth.headers()["x-enfilade-dtype"]),
         (&"768,1024,1".parse().unwrap(), &"float16".parse().unwrap())
     );
-    // Planar depth is computed, and the page is told that it can be had.
+    // Planar depth is computed, and the page's list of layers includes it.
     assert!(camera["frames"][0]["layers"].as_array().unwrap().contains(&Value::from(Layer::DepthZMeters as usize)));
     let planar = ask(&root, "/api/view/layer/ai_037_002/cam_00/0/depth_z_meters", &[]).await;
     assert_eq!((planar.status(), &planar.headers()["x-enfilade-dtype"]), (StatusCode::OK, &"float32".parse().unwrap()));

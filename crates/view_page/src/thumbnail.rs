@@ -16,10 +16,10 @@ use std::sync::Arc;
 /// Width of a thumbnail, pixels.
 const WIDTH: usize = 160;
 
-/// What is asked for of a thumbnail.
+/// The query of a request for a thumbnail.
 #[derive(Debug, Default, Deserialize)]
 pub struct ThumbnailQuery {
-    /// The version that the gallery told: while it is that of the file, browsers keep the picture without asking again.
+    /// The version from the gallery: while the file has it, browsers keep the picture without asking again.
     v: Option<String>,
 }
 

@@ -21,7 +21,7 @@ impl Viewer {
             return Ok(None);
         }
         let radiance = |i: usize| [0, 1, 2].map(|c| color.number(3 * i + c));
-        // A table that cannot be read is told where it is shown; the picture is exposed by itself.
+        // A table that cannot be read is reported where it is shown; here the picture is exposed by itself.
         let rows = self.tone_maps(&place.scene, &place.camera).unwrap_or_default();
         let row = rows.into_iter().find(|row| row.frame == place.frame);
         let tone = match row {

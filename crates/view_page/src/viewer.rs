@@ -14,11 +14,11 @@ use std::sync::Arc;
 
 /// Memory that decoded layers may take: about a hundred layers of color at Hypersim's size.
 const LAYER_CACHE_BYTES: usize = 512 << 20;
-/// Memory that geometry and free space may take: those of a few scenes.
+/// Memory that geometry and free space may take: enough for a few scenes.
 const SCENE_CACHE_BYTES: usize = 512 << 20;
-/// Memory that small pictures may take: those of ten thousand frames.
+/// Memory that small pictures may take: enough for ten thousand frames.
 const THUMBNAIL_CACHE_BYTES: usize = 64 << 20;
-/// Memory that shares of classes may take: those of a hundred thousand frames.
+/// Memory that shares of classes may take: enough for a hundred thousand frames.
 const SHARE_CACHE_BYTES: usize = 32 << 20;
 
 /// An open dataset, which is only read.

@@ -7,11 +7,11 @@ use enfilade_dataset::{CameraRecord, Dataset, read_ray_grid};
 use enfilade_scene::{Camera, Intrinsics, Pose, Projection};
 use std::path::PathBuf;
 
-/// The field of view and size of Hypersim's images, where nothing says another.
+/// The field of view and size of Hypersim's images, used as defaults.
 const FOV_X_DEG: f64 = 60.0;
 const SIZE: [u32; 2] = [1024, 768];
 
-/// What is asked for in place of the dataset's own camera.
+/// A camera that is requested in place of the dataset's own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CameraWish {
     /// Horizontal field of view of a plain pinhole, degrees.
@@ -22,20 +22,20 @@ pub struct CameraWish {
     pub rays: Option<PathBuf>,
 }
 
-/// A camera on its way through a scene.
+/// A camera with its path through a scene.
 #[derive(Clone, Debug)]
 pub struct FilmedCamera {
-    /// For the scene. Its `lens` is `None`: where [`FilmedCamera::lens`] lies is the caller's to say.
+    /// For the scene. Its `lens` is `None`: the caller decides where [`FilmedCamera::lens`] is written.
     pub path: CameraPath,
-    /// What V-Ray needs where the camera is no plain pinhole.
+    /// The lens picture for V-Ray, if the camera is not a plain pinhole.
     pub lens: Option<LensPicture>,
-    /// What V-Ray's images will not show, in words.
+    /// Effects that V-Ray's images will not show, in words.
     pub left_out: Vec<&'static str>,
 }
 
 /// The camera `name` of a dataset's scene with its trajectory in units of `meters_per_unit`.
 ///
-/// It is the dataset's own camera, but for what is asked for in `wish`; where the dataset describes none, Hypersim's pinhole. Pinholes
+/// It is the dataset's own camera with the changes in `wish`; Hypersim's pinhole if the dataset describes none. Pinholes
 /// with a centred principal point and square pixels are V-Ray's own; every other camera with an image plane becomes a [`LensPicture`].
 ///
 /// # Errors
@@ -90,7 +90,7 @@ pub fn filmed_camera(
     Ok(FilmedCamera { path, lens, left_out })
 }
 
-/// The dataset's camera, but for what is asked for.
+/// The dataset's camera with the requested changes.
 pub(crate) fn wished_camera(dataset: &Dataset, scene: &str, name: &str, wish: &CameraWish) -> Result<Camera, VrayError> {
     let own = match dataset.read_camera(scene, name) {
         Err(error) if error.is_not_found() => None,

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// Raised when the same images give other frames.
 const VERSION: u32 = 2;
 
-/// Which images become frames of which camera.
+/// The images that become frames of a camera.
 #[derive(Clone, Debug)]
 pub struct CollectConfig {
     /// Name of the scene in the dataset.
@@ -42,11 +42,11 @@ pub struct CollectConfig {
     pub wish: CameraWish,
     /// A camera in an image's header that is not the trajectory's, or positions that are not on its rays, are a warning.
     pub ignore_camera: bool,
-    /// Read images again whose frames are there.
+    /// Read images again whose frames exist.
     pub force: bool,
 }
 
-/// What became of the images.
+/// Result of collecting images.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Collected {
     /// Frames that were written.
@@ -89,7 +89,7 @@ pub fn collect(root: &Path, config: &CollectConfig, cx: &dyn Cx) -> Result<Colle
     Ok(done)
 }
 
-/// What the images of a camera are read with.
+/// Everything needed to read the images of a camera.
 struct Source {
     camera: Camera,
     /// Field of view of the pinhole in V-Ray's scene.
@@ -199,7 +199,7 @@ impl Source {
     }
 }
 
-/// What the frame's record tells of where it is from. No program renders it again.
+/// The origin of the frame, for its record. No program can render it again from that.
 fn recipe(config: &CollectConfig, [geometry, beauty]: &[String; 2], version: Option<&str>) -> Recipe {
     Recipe {
         program: format!("V-Ray {}", version.unwrap_or("of unknown version")),
@@ -264,7 +264,7 @@ fn alone(path: &Path, pass: &str, folder: &Path) -> VrayError {
     )
 }
 
-/// The manifest tells of the new frames; a card of how the dataset was before is untrue.
+/// Updates the manifest for the new frames, and removes the verification report and its page, which described the dataset before.
 fn refresh(dataset: &Dataset, scene: &str) -> Result<(), VrayError> {
     let old = dataset.read_manifest()?;
     let mut info = ManifestInfo::default();

@@ -22,9 +22,9 @@ const RESIDUAL: [&str; 8] = [
 ];
 /// No radiance is larger: a value above becomes this, so that sums stay finite.
 const MAX_RADIANCE: f32 = 1e9;
-/// A reflectance or a difference of light beyond this share is worth telling; less is noise and rounding.
+/// A reflectance or a difference of light beyond this share is reported; less is noise and rounding.
 const SHARE: f32 = 0.01;
-/// Mean difference of the two residuals, relative to the mean image, that is worth telling.
+/// Mean difference of the two residuals, relative to the mean image, above which it is reported.
 const SUMS_DIFFER: f64 = 0.02;
 
 /// How many values were fixed, by reason.
@@ -61,7 +61,7 @@ pub(crate) fn add_colors(frame: &mut Frame, image: &VrayImage, notes: &mut Notes
     frame.insert(Layer::DiffuseIllumination, halves(|p| p.illumination));
     frame.insert(Layer::DiffuseReflectance, halves(|p| p.reflectance));
     frame.insert(Layer::Residual, halves(|p| p.residual));
-    // V-Ray does not tell how much noise is left.
+    // V-Ray does not report how much noise is left.
     frame.insert(Layer::ColorStandardError, Values::F16(vec![f16::NAN; pixels.len()]));
     let codes = match frame.get(Layer::RenderEntityId) {
         Some(Values::I16(ids)) => ids.iter().zip(&pixels).map(|(&id, pixel)| validity(id, pixel) as u8).collect(),
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn the_parts_are_the_images() {
         assert_eq!(stored(1.5, 0.5, 2.0).0, [0.5, 2.0, 0.5, 1.5]);
-        // Without reflectance the light stands alone, and the image is residual.
+        // Without reflectance the light is kept by itself, and the image is residual.
         assert_eq!(stored(0.25, 0.0, 2.0).0, [0.0, 2.0, 0.25, 0.25]);
         // A filter above 1 keeps its light.
         let (found, fixed) = stored(4.5, 2.0, 2.0);

@@ -5,14 +5,14 @@ use enfilade_dataset::{Dataset, Node, read_node_table};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// What a number in `VRayRenderEntityID` is in the dataset.
+/// The meaning of numbers in `VRayRenderEntityID` in the dataset.
 #[derive(Debug)]
 pub(crate) struct Entities {
     /// Value of `render_entity_id` of node i + 1; `None` where the node is no part of the dataset.
     parts: Vec<Option<i16>>,
 }
 
-/// What a pixel shows.
+/// The entity that a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Entity {
     /// Nothing.
@@ -21,15 +21,15 @@ pub(crate) enum Entity {
     Part(i16),
     /// A node that is no part of the dataset.
     Stranger,
-    /// A light, or whatever has a number beyond the nodes.
+    /// A light, or anything else with a number beyond the nodes.
     Light,
 }
 
 impl Entities {
-    /// For the images of a scene whose nodes are those of the table `nodes`: a `metadata_nodes.csv` that `enfilade vray entities` wrote;
-    /// without one, the dataset's own is it.
+    /// For the images of a scene whose nodes are in the table `nodes`: a `metadata_nodes.csv` that `enfilade vray entities` wrote; without
+    /// one, the dataset's own table is used.
     ///
-    /// A dataset without that table is given it. One with the same table keeps V-Ray's numbers. Else the nodes are found by their
+    /// A dataset without a table receives this one. With the same table, V-Ray's numbers are kept. Otherwise the nodes are matched by their
     /// objects: a pixel gets the number of the dataset's node that belongs to the same object.
     ///
     /// # Errors
@@ -94,7 +94,7 @@ impl Entities {
         &self.parts
     }
 
-    /// What the number stands for.
+    /// The entity of a number.
     pub fn of(&self, id: i64) -> Entity {
         match usize::try_from(id).ok().and_then(|id| id.checked_sub(1)) {
             None => Entity::Void,

@@ -8,7 +8,7 @@ pub enum VrayError {
     /// A request, a scene or an image that cannot be used as it is.
     #[error("{message}")]
     Usage {
-        /// What was found, and what was expected.
+        /// The problem found, and what was expected.
         message: String,
         /// What to do.
         hint: String,

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 const MAX_CHANNELS: usize = 512;
 /// Images whose channels take more bytes than this when they are decoded are refused: 4 GiB, which is 129 channels of floats at 3840x2160.
 const MAX_BYTES: u64 = 1 << 32;
-/// The part that holds the image itself, as writers call it.
+/// Names that writers use for the part with the image itself.
 const IMAGE_PARTS: [&str; 4] = ["", "rgba", "rgb color", "beauty"];
 
 /// An image with its render elements.
@@ -120,7 +120,7 @@ impl VrayImage {
 const CONVERT: &str = "render it whole with the scene that `enfilade vray layers` and `pass` made, and convert it with all channels: \
     vrimg2exr FILE.vrimg FILE.exr";
 
-/// A channel's name, with that of its part where it does not say it.
+/// A channel's name, preceded by its part's name unless it already has that.
 fn full_name(part: &str, channel: &str) -> String {
     let is_image = IMAGE_PARTS.contains(&part.to_ascii_lowercase().as_str());
     if is_image || channel.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')) {

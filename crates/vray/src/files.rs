@@ -26,9 +26,9 @@ pub(crate) fn damaged(path: &Path, error: &SceneTextError) -> VrayError {
     VrayError::usage(format!("{}:{error}", path.display()), "export the scene again, or correct it at this place")
 }
 
-/// The scene in `path` with what its included files hold in place of the `#include` lines.
+/// The scene in `path` with the contents of its included files in place of the `#include` lines.
 ///
-/// An included file is looked for as it is written, then beside the including file.
+/// An included file is looked for at the path as written, then beside the including file.
 ///
 /// # Errors
 /// As [`read_scene`], and when an included file is not found or includes itself.
@@ -43,7 +43,7 @@ pub fn inline_scene(scene: Document, path: &Path) -> Result<Document, VrayError>
     })
 }
 
-/// A file that must lie on the machine that renders.
+/// A file that must exist on the machine that renders.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Asset {
     /// The path as it is written in the scene.
@@ -74,7 +74,7 @@ pub fn scene_assets(scene: &Document, path: &Path) -> Result<(Vec<Asset>, Vec<St
     Ok((assets.into_iter().collect(), unseen.into_iter().collect()))
 }
 
-/// Where an included file lies on this machine.
+/// Path of an included file on this machine.
 fn included_file(from: &Path, include: &Include) -> Result<PathBuf, VrayError> {
     let written = String::from_utf8_lossy(include.path()).into_owned();
     let folder = from.parent().unwrap_or(Path::new(""));
@@ -92,8 +92,7 @@ fn included_file(from: &Path, include: &Include) -> Result<PathBuf, VrayError> {
     })
 }
 
-/// A path that is the same for a file however it is written, to notice files that include each other; the path as it is where the system
-/// does not tell.
+/// The canonical path of a file, to notice files that include each other; the path as written if the system cannot resolve it.
 fn known(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }

@@ -8,10 +8,10 @@ use enfilade_frame::{F16_LIMIT, Frame, Layer, Values, f16};
 use enfilade_math::DVec3;
 use enfilade_scene::Pose;
 
-/// Shorter than this a normal says nothing.
+/// Length below which a normal is meaningless.
 const SHORT: f64 = 1e-6;
 
-/// What is known about the camera and the units of an image.
+/// The camera, units and entities of an image.
 pub(crate) struct Placed<'a> {
     pub pose: &'a Pose,
     /// Metres per unit of V-Ray's scene.

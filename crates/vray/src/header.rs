@@ -1,4 +1,4 @@
-//! What V-Ray writes into the header of an image about its camera, checked against the trajectory.
+//! The camera data that V-Ray writes into the header of an image, checked against the trajectory.
 //!
 //! `cameraTransform` has the camera's axes as rows and its centre as the fourth, in the scene's units. V-Ray 4 writes the axes as right,
 //! backward, down; a writer that keeps the scene's own order (right, up, backward) is understood as well. `cameraFov` is the
@@ -63,7 +63,7 @@ impl Header {
         ))
     }
 
-    /// What is wrong with the camera.
+    /// The problem with the camera, if any.
     fn problem(&self, expected: &Expected<'_>) -> Option<String> {
         let Expected { pose, fov_x_deg, meters_per_unit } = *expected;
         if let Some(transform) = &self.transform {
@@ -90,7 +90,7 @@ impl Header {
     }
 }
 
-/// What the header should say.
+/// The values expected in the header.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected<'a> {
     pub pose: &'a Pose,

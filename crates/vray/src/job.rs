@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The names are Hypersim's, and so are sampling and indirect light, unless the scene's own are kept. Paths within the scenes and
-//! commands are those of the machine that renders, where the folder is copied to.
+//! commands are for the machine that renders, to which the folder is copied.
 
 use crate::camera::{CameraWish, check_described, filmed_camera};
 use crate::edit::{GiCaches, GiFiles, LensTexture, Pass, gi_files, hypersim_quality, make_pass, meters_per_asset_unit, set_camera};
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 const JOB: &str = "job.json";
 const NODES: &str = "metadata_nodes.csv";
 
-/// What is to be rendered, and where.
+/// The cameras to render, and where.
 #[derive(Clone, Debug)]
 pub struct JobConfig {
     /// Name of the scene in the dataset.
@@ -42,14 +42,14 @@ pub struct JobConfig {
     /// Table of the scene's nodes, as `metadata_nodes.csv`.
     pub nodes: PathBuf,
     /// Keeps the scene's own settings of sampling and indirect light; otherwise it gets Hypersim's ([`hypersim_quality`]), so that the
-    /// pictures of all scenes are of one quality.
+    /// pictures of all scenes have the same quality.
     pub keep_quality: bool,
 }
 
-/// What the cameras of a job have in common.
+/// Data that the cameras of a job share.
 struct Common<'a> {
     scene: &'a Document,
-    /// What the scene keeps of indirect light.
+    /// Files of indirect light that the scene makes.
     gi: GiFiles,
     meters_per_unit: f64,
     dataset: &'a Dataset,
@@ -142,7 +142,7 @@ fn with_quality(mut scene: Document, keep_quality: bool) -> Document {
     scene
 }
 
-/// What a scene keeps of indirect light; everything where only an included file can say it.
+/// Files of indirect light that a scene makes; all if the setting may be in an included file.
 fn gi_of(scene: &Document) -> Result<GiFiles, SceneTextError> {
     match (scene.of_kind("SettingsGI").next(), scene.includes().next()) {
         (None, Some(_)) => Ok(GiFiles { light_cache: true, irradiance_map: true }),

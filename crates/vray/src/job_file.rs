@@ -5,7 +5,7 @@ use crate::files::Asset;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// What a job calls itself.
+/// Name of the job's format.
 pub(crate) const FORMAT: &str = "enfilade V-Ray job 1";
 
 /// A job, as `job.json` has it.
@@ -34,13 +34,13 @@ pub struct Job {
 pub struct JobCamera {
     /// Name of the camera in the dataset.
     pub camera: String,
-    /// What was asked for in place of the dataset's own camera.
+    /// Horizontal field of view in degrees that was requested in place of the dataset's camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fov_x_deg: Option<f64>,
-    /// Width and height in pixels that were asked for in place of the dataset's.
+    /// Width and height in pixels that were requested in place of the dataset's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<[u32; 2]>,
-    /// Grid of rays that was asked for in place of the dataset's camera, by its path when the job was written.
+    /// Grid of rays that was requested in place of the dataset's camera, by its path when the job was written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rays: Option<PathBuf>,
     /// The frames that are rendered.
@@ -50,7 +50,7 @@ pub struct JobCamera {
     /// Folder of the images of the final pass, relative to the job's.
     #[serde(rename = "final")]
     pub beauty: String,
-    /// What to do, in this order. Steps of one name may be cut into frames and spread over machines; the next one needs all of them.
+    /// The steps, in this order. Steps of one name may be divided by frames over several machines; the next step needs all of them.
     pub steps: Vec<JobStep>,
 }
 
@@ -63,7 +63,7 @@ pub struct JobStep {
     pub folders: Vec<String>,
     /// The program, `vray`, `imapviewer` or `vrimg2exr`, and its arguments.
     pub command: Vec<String>,
-    /// The further argument that says which frames; absent where the command is for all frames at once.
+    /// The further argument that selects the frames; absent if the command is for all frames at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<String>,
 }

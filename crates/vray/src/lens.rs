@@ -8,7 +8,7 @@
 use crate::error::VrayError;
 use enfilade_scene::Projection;
 
-/// What the field of view is wider by.
+/// Margin of the field of view.
 const MARGIN_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
 /// Decimals of a number in a scene.
 const DECIMALS: f64 = 1e7;

@@ -1,8 +1,8 @@
-//! V-Ray in place of our own renderer: edits of its scenes, jobs that render a dataset's cameras, and its images as frames.
+//! V-Ray in place of the built-in renderer: edits of its scenes, jobs that render a dataset's cameras, and its images as frames.
 //!
-//! [`edit`] changes a scene in memory, as Hypersim's toolkit does; the format is that of `enfilade-vrscene`. [`write_job`] makes the scenes
-//! of the three passes and the commands that render them, [`collect`] reads what they made. What V-Ray writes is in its own units
-//! ([`edit::meters_per_asset_unit`]); what a dataset gets is in the dataset's. [`verbs`] is `enfilade vray`, which the command line
+//! [`edit`] changes a scene in memory, as Hypersim's toolkit does; `enfilade-vrscene` reads and writes the format. [`write_job`] makes the
+//! scenes of the three passes and the commands that render them, [`collect`] reads the resulting images. V-Ray's files are in its own units
+//! ([`edit::meters_per_asset_unit`]); a dataset's files are in the dataset's. [`verbs`] is `enfilade vray`, which the command line
 //! includes.
 
 mod camera;

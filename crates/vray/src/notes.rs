@@ -1,9 +1,9 @@
-//! Things that should be known about images and happen many times: each is reported once, with how often and where first.
+//! Notes about images that occur many times: each is reported once, with its number of occurrences and the first place.
 
 use enfilade_scene::{Cx, Warning};
 use std::collections::BTreeMap;
 
-/// What was noticed, by message.
+/// The notes, by message.
 #[derive(Debug, Default)]
 pub(crate) struct Notes(BTreeMap<String, Noted>);
 
@@ -33,7 +33,7 @@ impl Notes {
         noted.pixels += pixels;
     }
 
-    /// Tells all of it.
+    /// Reports all notes.
     pub fn tell(&self, cx: &dyn Cx) {
         for (message, Noted { first, images, pixels }) in &self.0 {
             let often = if *pixels > 0 { format!("{pixels} pixels of {images} images") } else { format!("{images} images") };

@@ -1,6 +1,6 @@
-//! Checks that what an image shows lies on the rays of the dataset's camera.
+//! Checks that the positions in an image are on the rays of the dataset's camera.
 //!
-//! A camera of V-Ray may shift its picture or stretch its pixels, and no header tells. Positions do.
+//! A camera of V-Ray may shift its picture or stretch its pixels, and no header states it. Positions reveal it.
 
 use crate::error::VrayError;
 use crate::notes::Notes;
@@ -25,7 +25,7 @@ impl Sight<'_> {
     /// Checks the positions of a frame; `place` names the image.
     ///
     /// # Errors
-    /// When they lie off the rays; with `lenient` that is a note.
+    /// If they are off the rays; with `lenient` that is only a note.
     pub fn check(&self, frame: &Frame, place: &str, lenient: bool, notes: &mut Notes) -> Result<(), VrayError> {
         let Some(off_px) = self.offset_px(frame).filter(|off_px| *off_px > FAR_PX) else { return Ok(()) };
         let problem = format!("its positions lie {off_px:.1} pixels off the rays of the dataset's camera, in the median");

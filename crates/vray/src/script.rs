@@ -1,4 +1,4 @@
-//! A job's steps as a script for one machine. Where the programs are, the variables VRAY, IMAPVIEWER and VRIMG2EXR say.
+//! A job's steps as a script for one machine. The variables VRAY, IMAPVIEWER and VRIMG2EXR have the paths of the programs.
 
 use crate::edit::Platform;
 use crate::job_file::{Job, JobStep};
@@ -53,12 +53,12 @@ fn windows_step(step: &JobStep) -> Vec<String> {
     folders.chain([command]).collect()
 }
 
-/// The variable that says where a program is.
+/// The variable with the path of a program.
 fn variable(step: &JobStep) -> String {
     step.command.first().map_or(String::new(), |program| program.to_ascii_uppercase())
 }
 
-/// An argument that the shell leaves as it is.
+/// An argument that the shell does not change.
 fn unix(argument: &str) -> String {
     format!("'{}'", argument.replace('\'', r"'\''"))
 }

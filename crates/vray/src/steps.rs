@@ -15,10 +15,10 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Checks that scenes and scripts can hold the path.
+    /// Checks that the path can be written in scenes and scripts.
     ///
     /// # Errors
-    /// When they cannot, or it is not absolute.
+    /// If it cannot, or is not absolute.
     pub fn new(folder: &str) -> Result<Self, VrayError> {
         let platform = Platform::of(folder);
         let bytes = folder.as_bytes();
@@ -55,7 +55,7 @@ const MAX_COMMAND: usize = 7000;
 /// `"-load" ""` and blanks.
 const LOAD_LENGTH: usize = 12;
 
-/// What is to be done for a camera, whose scene makes the files `gi` of indirect light; without any, `pre` has nothing to do.
+/// The steps for a camera, whose scene makes the files `gi` of indirect light; without any, `pre` has nothing to do.
 pub(crate) fn steps(name: &str, shared: &str, frames: &[u32], gi: GiFiles, there: &Place) -> Vec<JobStep> {
     let images = |pass: &str| format!("images/scene_{name}_{pass}");
     let render = |pass: &str, extension: &str| JobStep {
@@ -92,7 +92,7 @@ pub(crate) fn steps(name: &str, shared: &str, frames: &[u32], gi: GiFiles, there
     steps
 }
 
-/// Merges files into one, in as many commands as it takes: each goes on from what the one before has merged.
+/// Merges files into one, in as many commands as necessary: each continues from the result of the one before.
 fn merge(step: &str, files: &[String], merged: &str) -> Vec<JobStep> {
     let mut steps = Vec::new();
     let mut rest = files;

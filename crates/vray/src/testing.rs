@@ -1,4 +1,4 @@
-//! What the tests of this crate share: a trajectory in a dataset, and OpenEXR files of given channels.
+//! Fixtures for the tests of this crate: a trajectory in a dataset, and OpenEXR files of given channels.
 
 use enfilade_dataset::Dataset;
 use enfilade_math::DVec3;

@@ -6,7 +6,7 @@ use crate::scan::Scanner;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Something of a file.
+/// An item of a file.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// `#include "path"`.
@@ -17,7 +17,7 @@ pub enum Item {
     Plugin(Plugin),
 }
 
-/// Another file that belongs here.
+/// An included file.
 #[derive(Clone, Debug)]
 pub struct Include {
     pub(crate) before: Text,
@@ -35,7 +35,7 @@ impl Include {
         Self { before: made("\n"), opening: made("#include \""), path: made(path), closing: made("\"") }
     }
 
-    /// The path as it is written: of the machine that wrote the file.
+    /// The path as written: valid on the machine that wrote the file.
     pub fn path(&self) -> &[u8] {
         self.path.bytes()
     }
@@ -45,7 +45,7 @@ impl Include {
         self.path = Text::Made(path.as_bytes().to_vec());
     }
 
-    /// Where it stands in the file that was read.
+    /// Position in the file that was read: line and column.
     pub fn place(&self) -> Place {
         self.opening.place()
     }
@@ -60,7 +60,7 @@ pub struct Time {
 }
 
 impl Time {
-    /// Where it stands in the file that was read.
+    /// Position in the file that was read: line and column.
     pub fn place(&self) -> Place {
         self.text.place()
     }
@@ -86,7 +86,7 @@ impl Time {
 /// assert!(scene.to_bytes().ends_with(b"SettingsGI gi {\n}\n"));
 /// ```
 ///
-/// What cannot be read is an error with line and column:
+/// Unreadable text is an error with line and column:
 ///
 /// ```
 /// # use enfilade_vrscene::Document;
@@ -95,9 +95,9 @@ impl Time {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// What it is made of, in order. Plugins may refer to later ones.
+    /// The items of the file, in order. Plugins may refer to later ones.
     pub items: Vec<Item>,
-    /// What stands after the last item.
+    /// The text after the last item.
     pub(crate) end: Text,
 }
 
@@ -248,7 +248,7 @@ impl Reader<'_> {
         })
     }
 
-    /// A word, as the place where it stands.
+    /// A word, as its range of bytes.
     fn word(&mut self, expected: &str) -> Result<Range<usize>, SceneTextError> {
         let length = self.scanner.word(expected)?.len();
         Ok(self.scanner.at - length..self.scanner.at)

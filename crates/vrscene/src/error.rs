@@ -1,4 +1,4 @@
-//! Errors of text: where it stands, what was expected there, and what was found.
+//! Errors of text: the place, what was expected there, and what was found.
 
 use std::fmt;
 
@@ -27,20 +27,20 @@ impl fmt::Display for Place {
     }
 }
 
-/// Text that is not a scene description, or a value that is not what it says.
+/// Text that is not a scene description, or a value that is not of its stated type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: expected {expected}, found {found}")]
 pub struct SceneTextError {
-    /// Where.
+    /// Place of the error.
     pub place: Place,
-    /// What should have stood there.
+    /// What was expected there.
     pub expected: String,
-    /// What stands there, shortened.
+    /// The text found there, shortened.
     pub found: String,
 }
 
 impl SceneTextError {
-    /// The error in a text that stands at `origin` of its file.
+    /// The error in a text that begins at `origin` of its file.
     pub(crate) fn moved_to(mut self, origin: Place) -> Self {
         if self.place.line == 1 {
             self.place.column += origin.column - 1;
@@ -50,7 +50,7 @@ impl SceneTextError {
     }
 }
 
-/// What was found at byte `at`, for people: a few bytes of it.
+/// The text found at byte `at`, for people: a few bytes of it.
 pub(crate) fn shown(text: &[u8], at: usize) -> String {
     const SHOWN_BYTES: usize = 24;
     match text.get(at..) {

@@ -37,13 +37,13 @@ pub fn add_include(scene: &mut Document, path: &str) {
     scene.items.push(Item::Include(Include::new(path)));
 }
 
-/// The scene with what its included files hold in place of the lines, so that edits reach all of it.
+/// The scene with the contents of its included files in place of the `#include` lines, so that edits reach all of it.
 ///
-/// `at` is where the scene lies; `load` is given where the including file lies and the path as it is written there, and returns the
-/// document and where it lies. Comments and blanks of the files are kept.
+/// `at` is the scene's location. `load` is called with the including file's location and the path as written there, and returns the
+/// document and its location. Comments and blanks of the files are kept.
 ///
 /// # Errors
-/// Those of `load`, and circles of files.
+/// The errors of `load`, and circular includes.
 pub fn inline_includes<P: PartialEq + Clone, E>(
     scene: Document,
     at: P,

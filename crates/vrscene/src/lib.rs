@@ -1,9 +1,9 @@
 //! V-Ray's scene description, the text of `.vrscene` files, as a document that is read, edited and written without loss.
 //!
-//! A file is a run of plugins, `#include` and `#time` lines, and what stands between them. [`Document::parse`] finds where each begins
-//! and ends and keeps the bytes; what is not edited is written back as it was, byte for byte, unknown plugins and comments included. The
-//! value of a parameter is decoded when somebody asks for it ([`Parameter::value`]), so that a file of hundreds of megabytes of packed
-//! meshes opens in the time that it takes to look at its bytes once.
+//! A file is a sequence of plugins, `#include` and `#time` lines, and the text between them. [`Document::parse`] finds where each begins
+//! and ends and keeps the bytes; unedited parts are written back byte for byte, including unknown plugins and comments. The value of a
+//! parameter is decoded on request ([`Parameter::value`]), so that a file with hundreds of megabytes of packed meshes opens in the time of
+//! one pass over its bytes.
 //!
 //! ```text
 //! #include "materials.vrscene"

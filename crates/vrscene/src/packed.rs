@@ -66,7 +66,7 @@ fn unpacked(scanner: &mut Scanner) -> Result<Vec<u8>, SceneTextError> {
     Ok(bytes)
 }
 
-/// What stands behind `ZIPC`. Says what was expected where it is something else.
+/// Decodes the text after `ZIPC`; the error is what was expected there.
 fn inflated(text: &[u8]) -> Result<Vec<u8>, String> {
     let header = text.get(..16).and_then(from_hex).ok_or("two sizes of 8 hexadecimal digits after ZIPC")?;
     let (sizes, _) = header.as_chunks::<4>();

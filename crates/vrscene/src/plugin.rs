@@ -20,7 +20,7 @@ impl Text {
         }
     }
 
-    /// Where it is in its file; the beginning for bytes that were made.
+    /// Position in its file: line and column; the beginning for bytes that were made.
     pub fn place(&self) -> Place {
         match self {
             Self::Read { file, range } => Place::of(file, range.start),
@@ -38,7 +38,7 @@ impl From<&[u8]> for Text {
 /// One `name=value;` of a plugin.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Everything from the end of what came before to the value: blanks, comments, the name, the sign.
+    /// Everything from the end of the item before to the value: blanks, comments, the name, the sign.
     pub(crate) before: Text,
     pub(crate) name: Text,
     pub(crate) value: Text,
@@ -71,12 +71,12 @@ impl Parameter {
         Value::parse(self.value.bytes()).map_err(|error| error.moved_to(self.value.place()))
     }
 
-    /// Gives it another value. What stands around it stays.
+    /// Gives it another value. The text around it stays.
     pub fn set(&mut self, value: &Value) {
         self.value = Text::Made(value.to_bytes());
     }
 
-    /// Where it stands in the file that was read.
+    /// Position in the file that was read: line and column.
     pub fn place(&self) -> Place {
         self.name.place()
     }
@@ -113,7 +113,7 @@ impl Plugin {
         }
     }
 
-    /// What it is, such as `GeomStaticMesh`.
+    /// Kind of the plugin, such as `GeomStaticMesh`.
     pub fn kind(&self) -> &[u8] {
         self.kind.bytes()
     }
@@ -141,7 +141,7 @@ impl Plugin {
         self.parameter(name).map(Parameter::value).transpose()
     }
 
-    /// Sets a parameter, where it stands or, if there is none, at the end.
+    /// Sets a parameter in place or, if there is none, at the end.
     pub fn set(&mut self, name: &str, value: &Value) {
         match self.parameters.iter_mut().rev().find(|p| p.name() == name.as_bytes()) {
             Some(parameter) => parameter.set(value),
@@ -166,7 +166,7 @@ impl Plugin {
         self.name = Text::Made(name.as_bytes().to_vec());
     }
 
-    /// Where it stands in the file that was read.
+    /// Position in the file that was read: line and column.
     pub fn place(&self) -> Place {
         self.kind.place()
     }

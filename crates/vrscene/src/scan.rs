@@ -48,10 +48,10 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Passes `byte`, after what is blank.
+    /// Passes `byte`, after blanks.
     ///
     /// # Errors
-    /// When another stands there; `expected` says what it is.
+    /// If there is another byte; `expected` describes the right one.
     pub fn expect(&mut self, byte: u8, expected: &str) -> Result<(), SceneTextError> {
         self.skip_blank()?;
         if self.peek() != Some(byte) {
@@ -61,7 +61,7 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    /// Passes `byte`, after what is blank, if it stands there.
+    /// Passes `byte`, after blanks, if it is next.
     ///
     /// # Errors
     /// When a comment has no end.
@@ -72,10 +72,10 @@ impl<'a> Scanner<'a> {
         Ok(found)
     }
 
-    /// A run of bytes that a name or a number is made of. Names of plugins may hold nearly anything but blanks and brackets.
+    /// A run of bytes that a name or a number is made of. Names of plugins may contain nearly anything except blanks and brackets.
     ///
     /// # Errors
-    /// When there is none; `expected` says what it would be.
+    /// If there is none; `expected` describes it.
     pub fn word(&mut self, expected: &str) -> Result<&'a [u8], SceneTextError> {
         self.skip_blank()?;
         let rest = &self.text[self.at..];
@@ -87,7 +87,7 @@ impl<'a> Scanner<'a> {
         Ok(&rest[..length])
     }
 
-    /// Passes a string and returns what stands between its quotes, escapes as they are written.
+    /// Passes a string and returns the text between its quotes, with escapes as written.
     ///
     /// # Errors
     /// When it does not begin here or has no end.

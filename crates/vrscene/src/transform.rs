@@ -11,6 +11,6 @@ pub type Matrix = [Vector; 3];
 pub struct Transform {
     /// Linear part of the transform.
     pub matrix: Matrix,
-    /// Where it takes the origin, asset units.
+    /// Image of the origin, asset units.
     pub offset: [f64; 3],
 }

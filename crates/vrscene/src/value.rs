@@ -28,7 +28,7 @@ pub enum Value {
     Int(i64),
     /// A number with a point or an exponent.
     Float(f64),
-    /// What stands between quotes, as it is written: paths keep their backslashes.
+    /// The text between quotes, as written: paths keep their backslashes.
     Text(Vec<u8>),
     /// The name of a plugin, or `name::output` for one of its outputs.
     Name(Vec<u8>),
@@ -63,10 +63,10 @@ const MAX_DEPTH: usize = 32;
 const MAX_PLAIN: usize = 16;
 
 impl Value {
-    /// Reads a value that stands alone.
+    /// Reads a text that is a single value.
     ///
     /// # Errors
-    /// When it is none, with line and column from 1.
+    /// If it is not a value, with line and column from 1.
     pub fn parse(text: &[u8]) -> Result<Self, SceneTextError> {
         let mut scanner = Scanner::new(text);
         let value = read(&mut scanner, 0)?;

@@ -100,7 +100,7 @@ fn moments_are_kept_where_they_stand() {
     assert_eq!((read.items.len(), read.plugins().count(), read.to_bytes()), (6, 3, text.as_bytes().to_vec()));
     let Item::Time(time) = &read.items[2] else { panic!("{:?}", read.items[2]) };
     assert_eq!((time.place().line, time.place().column), (3, 1));
-    // The number ends where it did, whatever goes away behind it.
+    // The number ends where it did when the text after it is removed.
     read.items.retain(|item| !matches!(item, Item::Plugin(plugin) if plugin.kind() == b"FilterArea"));
     read.push(Plugin::new("Node", "b"));
     assert_eq!(document(std::str::from_utf8(&read.to_bytes()).unwrap()).plugins().count(), 3);

@@ -33,9 +33,9 @@ def markdown(found: dict[str, Any]) -> str:
     lines = [
         "# Do homes help on photographs?",
         "",
-        "Made by `python -m enfilade_training.study training/studies/nyuv2.toml --report docs/benchmarks`; [real.md](../real.md) says what is",
-        f"compared and what it means. NYUv2 at half size: {counts['train']} photographs to learn from, scores on {counts['test']}. Mean over seeds, and their standard",
-        "deviation where there are several; 0 % of the photographs is zero-shot. [nyuv2.json](nyuv2.json) has each seed.",
+        "Made by `python -m enfilade_training.study training/studies/nyuv2.toml --report docs/benchmarks`; [real.md](../real.md) explains what is",
+        f"compared and what it means. NYUv2 at half size has {counts['train']} photographs for training; scores are on {counts['test']}. Values are means over seeds, with the",
+        "standard deviation where there are several; 0 % of the photographs is zero-shot. [nyuv2.json](nyuv2.json) has every seed.",
         "",
         "![scores by share of the photographs, and losses](nyuv2.svg)",
     ]
@@ -79,7 +79,7 @@ def _mean_and_spread(name: str, values: Sequence[float]) -> str:
 def _differences(rows: list[dict[str, Any]]) -> list[str]:
     if not rows:
         return []
-    lines = ["", "With homes minus without, and 95 % intervals of the bootstrap over photographs and seeds; percentages in points:", ""]
+    lines = ["", "With homes minus without, with 95 % bootstrap intervals over photographs and seeds; percentages in points:", ""]
     lines += ["| start | photographs | score | difference | |", "|---|---|---|---|---|"]
     for row in rows:
         title, factor, digits, more = SCORES[row["score"]]
@@ -104,7 +104,7 @@ def _classes(runs: list[dict[str, Any]]) -> list[str]:
         lines.append(f"| {name} | {' | '.join(cells)} |")
     for arm, fraction in columns[:1] + columns[-1:] if len(columns) > 1 else columns:
         counts = sum(np.array(row["confusion"]) for row in runs if (row["arm"], row["fraction"]) == (arm, fraction))
-        lines += ["", f"What pixels of a class are taken for, %, {arm}, {100 * fraction:g} % of the photographs:", "", *confusion(counts)]
+        lines += ["", f"Predicted classes of the pixels of each class, %, {arm}, {100 * fraction:g} % of the photographs:", "", *confusion(counts)]
     return lines
 
 

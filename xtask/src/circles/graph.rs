@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What each file or module imports from each other one: (from, to) and the names.
+/// Imports between files or modules: (from, to) and the names.
 pub type Imports<Node = usize> = BTreeMap<(Node, Node), BTreeSet<String>>;
 
 /// The sets of two and more nodes that all reach each other, each in order.

@@ -1,9 +1,9 @@
-//! Circles: within a crate, no file imports another that imports it back, by whatever way round, and no module does, taken with all files
+//! Circles: within a crate, no file imports another that imports it back, directly or indirectly, and no module does, taken with all files
 //! below it.
 //!
-//! A file imports another where it names an item that the other defines, in a `use` or in a path. Names are followed through
-//! re-exports to the file that defines them, so a parent that re-exports its children imports nothing by that, and who takes a
-//! child's item by way of its parent imports the child. Tests are not looked at, and neither are methods, whose file no path names.
+//! A file imports another if it names an item that the other defines, in a `use` or in a path. Names are followed through
+//! re-exports to the file that defines them, so a parent that re-exports its children imports nothing by that, and a file that takes a
+//! child's item by way of its parent imports the child. Tests are not looked at, and neither are methods, because no path names their file.
 
 mod graph;
 mod modules;
@@ -34,7 +34,7 @@ pub fn check(house: &House) -> Result<String, String> {
     if found.is_empty() { Ok(format!("{files} files, {} circles kept", KEPT.len())) } else { Err(found.join("\n  ")) }
 }
 
-/// The circles of a crate in words: those of its files, then those of its modules that no circle of files makes.
+/// The circles of a crate in words: circles of files, then circles of modules that do not follow from circles of files.
 fn circles_of(modules: &Crate) -> Vec<String> {
     let imports = modules.imports();
     let files = graph::circles(&imports);

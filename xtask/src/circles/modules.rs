@@ -1,4 +1,4 @@
-//! The modules of a crate: which file each lies in, what it defines, what it takes from elsewhere.
+//! The modules of a crate: the file of each, the items that it defines, and the items that it takes from elsewhere.
 
 use super::graph::Imports;
 use crate::house::House;
@@ -23,13 +23,13 @@ pub struct Crate {
 #[derive(Default)]
 struct Module {
     file: usize,
-    /// Items that stand here.
+    /// Items defined here.
     defined: BTreeSet<String>,
     /// Names that `use` brings, with the path that it gives.
     taken: BTreeMap<String, Path>,
     /// Modules of which `use` brings everything.
     globs: Vec<Path>,
-    /// Paths that are named here; those of a `use` that others see are followed from them and are not among these.
+    /// Paths that are named here, except the paths of a re-exporting `use`, which are followed from the importing module.
     named: Vec<Path>,
 }
 
@@ -55,7 +55,7 @@ impl Crate {
         Ok(all)
     }
 
-    /// Reads a file; its children lie in `folder`.
+    /// Reads a file; its children are in `folder`.
     fn add_file(&mut self, path: String, folder: String, module: Path, text: &dyn Fn(&str) -> Option<String>) -> Result<(), String> {
         let source = text(&path).ok_or_else(|| format!("cannot read {path}"))?;
         let parsed = syn::parse_file(&source).map_err(|error| format!("{path}: {error}"))?;
@@ -98,7 +98,7 @@ impl Crate {
         Ok(())
     }
 
-    /// What each file imports from each other.
+    /// Imports between files.
     pub fn imports(&self) -> Imports {
         let mut imports = Imports::new();
         for (at, module) in &self.modules {
@@ -116,9 +116,9 @@ impl Crate {
         imports
     }
 
-    /// What the modules within each module import from each other, each taken as one with all that is below it, by the `imports` of files.
+    /// Imports between the modules within each module, each taken as one with everything below it, from the `imports` of files.
     ///
-    /// A module and what is below it are not compared here: their files are, by [`Crate::imports`].
+    /// A module and the modules below it are not compared here: their files are, by [`Crate::imports`].
     pub fn imports_within(&self, imports: &Imports) -> BTreeMap<Path, Imports<Path>> {
         let (begins, mut within) = (self.modules_of_files(), BTreeMap::<Path, Imports<Path>>::new());
         for (&(from, to), names) in imports {
@@ -172,7 +172,7 @@ impl Crate {
         None
     }
 
-    /// The module from which a path goes on, and what is left of it.
+    /// The module in which a path continues, and the rest of the path.
     fn start<'a>(&self, from: &Path, path: &'a [String]) -> Option<(Path, &'a [String])> {
         let (first, rest) = path.split_first()?;
         match first.as_str() {

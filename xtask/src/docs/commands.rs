@@ -1,4 +1,4 @@
-//! What `enfilade VERB --help` says, for all verbs.
+//! The output of `enfilade VERB --help`, for all verbs.
 
 use crate::house::House;
 use std::path::Path;

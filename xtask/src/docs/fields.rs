@@ -11,7 +11,7 @@ pub struct Declared {
     pub of: Type,
     /// Doc comment of the field, on one line.
     pub doc: String,
-    /// Default of an option, where it is a number, true, false or none.
+    /// Default of an option, where it is a number, true, false, none, or the variant of a word.
     pub default: Option<String>,
 }
 
@@ -57,7 +57,7 @@ pub fn text(expression: &Expr) -> Option<String> {
 pub fn serde_word(attributes: &[Attribute], key: &str) -> Option<String> {
     let mut found = None;
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("serde")) {
-        // What else serde is told has other forms, and is of no interest.
+        // Other attributes of serde have other forms and are not needed.
         let _ = attribute.parse_nested_meta(|meta| {
             if meta.path.is_ident(key) {
                 found = Some(meta.value()?.parse::<syn::LitStr>()?.value());

@@ -1,7 +1,7 @@
 //! The tables of all keys of `dataset.toml`.
 //!
-//! Names, types and sentences are read from the code. Defaults and ranges are what the program itself says: it is given a file without
-//! the key, and files with values that may be wrong, and its messages tell what it expects.
+//! Names, types and sentences are read from the code. Defaults and ranges come from the program itself: it reads a file without the key,
+//! and files with values that may be wrong, and its messages state what it expects.
 
 use super::fields::Declared;
 use super::sources::{Sources, sentence};
@@ -10,10 +10,10 @@ use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Lines, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 
-/// Keys that stand beside each other.
+/// Keys of one table.
 struct Group {
     heading: &'static str,
-    /// What is said above the table.
+    /// The text above the table.
     about: &'static str,
     /// The struct that declares them.
     of: &'static str,
@@ -21,9 +21,9 @@ struct Group {
     with: &'static [&'static str],
     /// Not in the table.
     without: &'static [&'static str],
-    /// A file in which `§` stands for the key; [`SCENE`] is added where it has no scene.
+    /// A file in which `§` is replaced by the key; [`SCENE`] is added if it has no scene.
     file: &'static str,
-    /// Where the resolved configuration has them: JSON pointers without the first slash, in which `§` is the key.
+    /// Their places in the resolved configuration: JSON pointers without the first slash, in which `§` is the key.
     at: &'static [&'static str],
 }
 
@@ -181,16 +181,16 @@ impl Group {
         Ok(keys)
     }
 
-    /// What a key means.
+    /// The meaning of a key.
     ///
     /// # Errors
-    /// When nothing is said about it.
+    /// If it is not documented.
     fn sentence(&self, key: &Declared) -> Result<String, String> {
         let found = Some(key.doc.as_str()).filter(|doc| !doc.is_empty());
         found.map(sentence).ok_or_else(|| format!("`{}` of {} has no doc comment", key.name, self.of))
     }
 
-    /// The file with the key; or without it, but for what it cannot be without.
+    /// The file with the key, or without it except for required lines.
     fn with(&self, key: &str, value: Option<&str>) -> String {
         let given = value.map_or(String::new(), |value| format!("{key} = {value}"));
         let needed = |line: &&str| value.is_none() || !line.starts_with(&format!("{key} = "));
@@ -224,7 +224,7 @@ pub fn tables(house: &House) -> Result<String, String> {
     Ok(page)
 }
 
-/// The example `resolve` of the pipeline, which says what becomes of a file.
+/// The example `resolve` of the pipeline, which resolves a file.
 struct Program {
     child: Child,
     questions: Option<ChildStdin>,
@@ -269,7 +269,7 @@ impl Program {
         Ok("none".into())
     }
 
-    /// What the program expects, where it refuses values that a type could have.
+    /// The range that the program expects, if it refuses values that the type allows.
     fn range(&mut self, group: &Group, key: &Declared, of: &str) -> Result<String, String> {
         let mut ranges: Vec<String> = Vec::new();
         for value in doubtful(of) {

@@ -9,7 +9,7 @@ struct Page {
     links: Vec<String>,
 }
 
-/// Follows the links of all pages below `site`, but for those to other sites.
+/// Follows the links of all pages below `site`, except links to other sites.
 ///
 /// # Errors
 /// With every link that leads nowhere.
@@ -66,7 +66,7 @@ fn joined(folder: &Path, path: &str) -> PathBuf {
     whole
 }
 
-/// The values of an attribute, wherever it stands in a tag.
+/// The values of an attribute, at any position in a tag.
 fn values(html: &str, attribute: &str) -> Vec<String> {
     let begins = format!(" {attribute}=\"");
     let tags = html.split('<').filter_map(|tag| tag.split_once(&begins)).filter_map(|(_, rest)| rest.split('"').next());

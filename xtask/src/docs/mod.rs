@@ -1,7 +1,8 @@
 //! `cargo xtask docs`: the documentation site, from `docs/`, the code and the notebooks, by mdBook, below `target/docs/site`.
 //!
-//! What is generated is not kept in the repository, so it cannot be old: keys of `dataset.toml`, layers, the Python module and the command
-//! line are described from the code, and by the program that is built for it. mdBook and nbconvert are installed below the target folder.
+//! Generated pages are not kept in the repository, so they cannot be out of date: keys of `dataset.toml`, layers, the Python module and the
+//! command line are described from the code, and by the program that is built for it. mdBook and nbconvert are installed below the target
+//! folder.
 
 mod commands;
 mod fields;
@@ -20,7 +21,7 @@ use crate::step::{Step, choose, finish};
 use pages::{Site, place, stem};
 use std::path::PathBuf;
 
-/// mdBook's version: pages look and behave as they were looked at.
+/// mdBook's version, with which the pages were checked.
 const MDBOOK: &str = "0.5.4";
 const NBCONVERT: &str = "nbconvert==7.17.2";
 

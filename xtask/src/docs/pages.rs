@@ -1,7 +1,8 @@
-//! The pages of the site, made from those of the repository: generated tables put in, and links led to where the site has their targets.
+//! The pages of the site, made from the repository's: generated tables are inserted, and links changed to the places of their targets in
+//! the site.
 //!
-//! `docs/SUMMARY.md` lists the pages. It and all of them are read on forges too, so links are those of the repository's files. A listed
-//! page outside of `docs/` becomes one of the site; another file that is linked is copied beside the pages as text.
+//! `docs/SUMMARY.md` lists the pages. It and all of them are read on forges too, so links refer to the repository's files. A listed page
+//! outside of `docs/` becomes a page of the site; other linked files are copied beside the pages as text.
 
 use super::{commands, keys, layers, python_api};
 use crate::house::House;
@@ -16,10 +17,10 @@ const SUMMARY: &str = "docs/SUMMARY.md";
 /// Files of `docs/` that are mdBook's.
 const SETTINGS: [&str; 2] = ["docs/book.toml", "docs/site.css"];
 
-/// What makes a text from the code.
+/// A function that makes a text from the code.
 type Maker = fn(&House) -> Result<String, String>;
 
-/// What stands in the place of a line `<!-- cargo xtask docs: NAME -->`.
+/// The texts that replace lines `<!-- cargo xtask docs: NAME -->`.
 const GENERATED: [(&str, Maker); 4] =
     [("keys", keys::tables), ("layers", layers::tables), ("python", python_api::page), ("commands", commands::help)];
 
@@ -45,7 +46,7 @@ impl<'h> Site<'h> {
         Ok(Self { house, folder: house.target()?.join("docs"), chapters, linked: RefCell::default() })
     }
 
-    /// Makes the sources of the site anew, but for notebooks.
+    /// Makes the sources of the site anew, except for notebooks.
     ///
     /// # Errors
     /// With the pages that cannot be made, and the links that lead nowhere.
@@ -119,7 +120,7 @@ impl<'h> Site<'h> {
         if failures.is_empty() { Ok(led) } else { Err(failures.join("\n")) }
     }
 
-    /// Where a link of `file` leads in the site.
+    /// The target of a link of `file` in the site.
     fn target(&self, file: &str, link: &str) -> Result<String, String> {
         let (path, fragment) = link.split_at(link.find('#').unwrap_or(link.len()));
         if path.is_empty() || path.contains(':') || path.starts_with(&format!("{}_files/", stem(file))) {
@@ -140,7 +141,7 @@ impl<'h> Site<'h> {
     }
 }
 
-/// Where the site has a file of the repository, relative to its own sources. mdBook would rename a README.
+/// Path in the site of a file of the repository, relative to the site's sources. mdBook would rename a README.
 pub fn place(file: &str) -> String {
     match (file.strip_prefix("docs/"), file.rsplit_once('.')) {
         (Some(page), _) => page.into(),

@@ -1,4 +1,4 @@
-//! The Python module: signatures from its stubs, and what is said about them where they are written, in Rust or in Python.
+//! The Python module: signatures from its stubs, and documentation from their source, in Rust or in Python.
 
 use super::fields::doc_lines;
 use super::signatures::{options_of, without_marks};
@@ -7,13 +7,13 @@ use crate::house::House;
 use std::collections::HashMap;
 use syn::{Attribute, ImplItem, Item, LitStr, Type};
 
-/// A module, its stub, and where what is written in Python stands.
+/// A module, its stub, and the file with its part in Python.
 const MODULES: [(&str, &str, &str); 2] = [
     ("enfilade", "crates/python/enfilade/__init__.pyi", "crates/python/enfilade/_frames.py"),
     ("enfilade.farm", "crates/python/enfilade/farm.pyi", "crates/python/enfilade/farm.py"),
 ];
 
-/// Where the rest is written.
+/// Folder of the part in Rust.
 const RUST: &str = "crates/python/src";
 
 /// A class, function or constant of a stub.
@@ -29,7 +29,7 @@ impl Declared<'_> {
     }
 }
 
-/// The page's headings, each with a signature and what is said about it.
+/// The page's headings, each with a signature and its documentation.
 ///
 /// # Errors
 /// When a file cannot be read.
@@ -91,7 +91,7 @@ fn with_options(mut lines: Vec<String>, stub: &str, function: &str, sources: &So
     Ok(lines)
 }
 
-/// What a stub declares, but for names of types that are only abbreviations.
+/// The declarations of a stub, except names of types that are only abbreviations.
 fn declarations(stub: &str) -> Vec<Declared<'_>> {
     let mut found: Vec<Declared> = Vec::new();
     for line in stub.lines() {

@@ -1,13 +1,13 @@
-//! `cargo xtask signatures`: options in the signatures of the Python module's stub, from their declarations.
+//! `cargo xtask signatures`: options in the signatures of the Python module's stubs, from their declarations.
 //!
-//! They are the lines from `# options: STRUCT` to `# end of options`; the rest of the stub is written by hand.
+//! They are the lines from `# options: STRUCT` to `# end of options`; the rest of the stubs is written by hand.
 
 use super::fields::{Declared, last_name};
 use super::sources::Sources;
 use crate::house::House;
 use syn::Type;
 
-const STUB: &str = "crates/python/enfilade/__init__.pyi";
+const STUBS: [&str; 2] = ["crates/python/enfilade/__init__.pyi", "crates/python/enfilade/farm.pyi"];
 const BEGINS: &str = "# options: ";
 const ENDS: &str = "# end of options";
 
@@ -16,8 +16,11 @@ const ENDS: &str = "# end of options";
 /// # Errors
 /// When the stub cannot be read or written, or an option has a type without a word in Python.
 pub fn write(house: &House) -> Result<(), String> {
-    let text = renewed(&house.read(STUB)?, &Sources::read(house)?)?;
-    std::fs::write(house.root.join(STUB), text).map_err(|error| format!("cannot write {STUB}: {error}"))
+    let sources = Sources::read(house)?;
+    STUBS.iter().try_for_each(|stub| {
+        let text = renewed(&house.read(stub)?, &sources).map_err(|error| format!("{stub}: {error}"))?;
+        std::fs::write(house.root.join(stub), text).map_err(|error| format!("cannot write {stub}: {error}"))
+    })
 }
 
 /// Compares the lines with the declarations.
@@ -25,20 +28,26 @@ pub fn write(house: &House) -> Result<(), String> {
 /// # Errors
 /// With the first line that differs.
 pub fn check(house: &House) -> Result<String, String> {
-    let text = house.read(STUB)?;
-    let expected = renewed(&text, &Sources::read(house)?)?;
+    let sources = Sources::read(house)?;
+    let counts = STUBS.iter().map(|stub| check_stub(stub, &house.read(stub)?, &sources)).collect::<Result<Vec<_>, _>>()?;
+    Ok(format!("{} signatures", counts.iter().sum::<usize>()))
+}
+
+/// The number of signatures with options in a stub whose lines are as they should be.
+fn check_stub(stub: &str, text: &str, sources: &Sources) -> Result<usize, String> {
+    let expected = renewed(text, sources).map_err(|error| format!("{stub}: {error}"))?;
     let differs = text.lines().zip(expected.lines()).position(|(found, expected)| found != expected);
     match differs {
         Some(line) => {
-            let [found, expected] = [&text, &expected].map(|text| text.lines().nth(line).unwrap_or_default().trim());
-            Err(format!("{STUB}:{}: found `{found}`, expected `{expected}`", line + 1))
+            let [found, expected] = [text, &expected].map(|text| text.lines().nth(line).unwrap_or_default().trim());
+            Err(format!("{stub}:{}: found `{found}`, expected `{expected}`", line + 1))
         }
-        None if text != expected => Err(format!("{STUB} ends otherwise than it should")),
-        None => Ok(format!("{} signatures", text.matches(BEGINS).count())),
+        None if text != expected => Err(format!("{stub} ends otherwise than it should")),
+        None => Ok(text.matches(BEGINS).count()),
     }
 }
 
-/// The structs whose options the function or method `name` of a stub takes; those of a class are those of `__new__`.
+/// The structs whose options the function or method `name` of a stub takes; a class takes those of `__new__`.
 pub fn options_of<'s>(stub: &'s str, name: &str) -> Vec<&'s str> {
     let begins = [format!("def {name}("), "def __new__(".into()];
     let from = begins.iter().find_map(|begin| stub.find(begin.as_str()));
@@ -69,16 +78,17 @@ fn renewed(text: &str, sources: &Sources) -> Result<String, String> {
             }
         }
     }
-    if inside { Err(format!("{STUB}: a line `{ENDS}` is missing")) } else { Ok(renewed) }
+    if inside { Err(format!("a line `{ENDS}` is missing")) } else { Ok(renewed) }
 }
 
 /// `name: type = default,`.
 fn keyword(option: &Declared, sources: &Sources) -> Result<String, String> {
     let of = python_type(option, sources)?;
-    let (of, default) = match option.default.as_deref() {
+    let word = option.default.as_deref().and_then(|variant| sources.word(&option.of, variant));
+    let (of, default) = match word.as_deref().or(option.default.as_deref()) {
         Some("true") => (of, "True"),
         Some("false") => (of, "False"),
-        Some(number) if number != "None" => (of, number),
+        Some(value) if value.starts_with(|c: char| c == '"' || c.is_ascii_digit()) => (of, value),
         _ => (format!("{of} | None"), "None"),
     };
     Ok(format!("{}: {of} = {default},", option.name))
@@ -88,15 +98,17 @@ fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
     if let Some(values) = sources.values(&option.of) {
         return Ok(format!("Literal[{}]", values.join(", ")));
     }
-    if let Type::Array(_) = option.of {
-        return Ok("Sequence[int]".into());
+    if let Type::Array(array) = &option.of {
+        let of = if let Type::Tuple(_) = *array.elem { "Sequence[tuple[str, int] | str]" } else { "Sequence[int]" };
+        return Ok(of.into());
     }
     let of = match last_name(&option.of).as_deref() {
         Some("bool") => "bool",
-        Some("u32" | "u64") => "int",
+        Some("u32" | "u64" | "i64" | "Whole") => "int",
         Some("f32" | "f64") => "float",
         Some("String") => "str",
-        Some("EnvironmentOverride") => "Path",
+        Some("EnvironmentOverride" | "PathBuf") => "Path",
+        Some("Interval") => "Sequence[float]",
         Some("Vec") => "Names",
         other => {
             return Err(format!(

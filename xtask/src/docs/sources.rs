@@ -1,4 +1,4 @@
-//! What doc comments in the code say of structs and enums that are read from files: names, types in words, and sentences.
+//! Documentation of the structs and enums that are read from files, from doc comments in the code: names, types in words, and sentences.
 
 use super::fields::{Declared, argument, declared, last_name, serde_word, text};
 use super::tables::{self, Tables};
@@ -6,7 +6,7 @@ use crate::house::House;
 use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
-/// Where what `dataset.toml` consists of is declared.
+/// Files that declare the contents of `dataset.toml`.
 const FILES: [&str; 18] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
@@ -28,11 +28,15 @@ const FILES: [&str; 18] = [
     "crates/import/src/options.rs",
 ];
 /// More of them, whose crates are not about configuration.
-const OTHERS: [&str; 4] = [
+const OTHERS: [&str; 8] = [
     "crates/python/src/dataset_options.rs",
     "crates/python/src/render_options.rs",
     "crates/scene/src/camera/lens.rs",
     "crates/dataset/src/record.rs",
+    "crates/pipeline/src/request/options.rs",
+    "crates/export/src/options.rs",
+    "crates/farm/src/plan.rs",
+    "crates/farm/src/submit.rs",
 ];
 
 /// Structs and enums by name.
@@ -46,7 +50,9 @@ pub struct Sources {
 struct Variants {
     /// Names of the variants as files have them.
     names: Vec<String>,
-    /// True where variants hold values, so that files have a table with a `kind`.
+    /// Names of the variants in Rust.
+    idents: Vec<String>,
+    /// True if variants have values, so that files have a table with a `kind`.
     hold_values: bool,
 }
 
@@ -77,7 +83,7 @@ impl Sources {
         Ok(())
     }
 
-    /// What the macros of `options` declare.
+    /// Takes the structs that the macros of `options` declare.
     fn take_structs(&mut self, found: &Macro) -> syn::Result<()> {
         let Tables(tables) = match found.path.get_ident().map(ToString::to_string).as_deref() {
             Some("options") => found.parse_body_with(tables::options)?,
@@ -99,8 +105,9 @@ impl Sources {
             self.structs.insert(format!("{}::{name}", item.ident), fields);
             names.push(name);
         }
+        let idents = item.variants.iter().map(|variant| variant.ident.to_string()).collect();
         let hold_values = item.variants.iter().any(|variant| !variant.fields.is_empty());
-        self.enums.insert(item.ident.to_string(), Variants { names, hold_values });
+        self.enums.insert(item.ident.to_string(), Variants { names, idents, hold_values });
     }
 
     /// The fields of a struct.
@@ -116,12 +123,18 @@ impl Sources {
 
     /// Every value of an enum, as TOML; `None` for other types.
     pub fn values(&self, of: &Type) -> Option<Vec<String>> {
-        let Variants { names, hold_values } = self.enums.get(&last_name(of)?)?;
+        let Variants { names, hold_values, .. } = self.enums.get(&last_name(of)?)?;
         let value = |name: &String| if *hold_values { format!("{{ kind = \"{name}\" }}") } else { format!("\"{name}\"") };
         Some(names.iter().map(value).collect())
     }
 
-    /// What to write for a type, in words.
+    /// The value of an enum whose variant has this name in Rust, as TOML; `None` for other types.
+    pub fn word(&self, of: &Type, variant: &str) -> Option<String> {
+        let Variants { names, idents, .. } = self.enums.get(&last_name(of)?)?;
+        idents.iter().position(|ident| ident == variant).map(|place| format!("\"{}\"", names[place]))
+    }
+
+    /// A type in words.
     pub fn in_words(&self, of: &Type) -> String {
         if let Some(values) = self.values(of) {
             return values.iter().map(|value| format!("`{value}`")).collect::<Vec<_>>().join(", ");

@@ -7,10 +7,10 @@ use syn::{Attribute, Expr, Field, Ident, Lit, Token, Visibility, braced};
 /// Structs by name.
 pub struct Tables(pub Vec<(String, Vec<Declared>)>);
 
-/// `struct Name { field: Type, … } with { field: Type, … }`: a struct with its own fields alone.
+/// `struct Name { field: Type, … } with { field: Type, … }`: a struct with only its own fields.
 ///
 /// # Errors
-/// When it is written otherwise.
+/// If it has another form.
 pub fn keys(input: ParseStream) -> syn::Result<Tables> {
     let name = struct_name(input)?;
     let fields = named_fields(input)?;
@@ -21,10 +21,10 @@ pub fn keys(input: ParseStream) -> syn::Result<Tables> {
     Ok(Tables(vec![(name, fields)]))
 }
 
-/// `struct Name { option, … }`, or with `keys Keys` after the name: structs with the options alone.
+/// `struct Name { option, … }`, or with `keys Keys` after the name: structs with only the options.
 ///
 /// # Errors
-/// When it is written otherwise.
+/// If it has another form.
 pub fn options(input: ParseStream) -> syn::Result<Tables> {
     let mut names = vec![struct_name(input)?];
     if input.parse::<Option<Ident>>()?.is_some() {
@@ -64,10 +64,14 @@ fn option(input: ParseStream) -> syn::Result<Option<Declared>> {
     Ok(declared(&field).map(|option| Declared { name, default: literal(&default), ..option }))
 }
 
-/// A number, true, false or none.
+/// A number, true, false, none, or the variant of a word.
 fn literal(expression: &Expr) -> Option<String> {
     match expression {
         Expr::Path(path) if path.path.is_ident("None") => Some("None".into()),
+        // `Enum::Variant`.
+        Expr::Path(path) if path.path.segments.len() == 2 => path.path.segments.last().map(|segment| segment.ident.to_string()),
+        // `Whole::new(8)`.
+        Expr::Call(call) => call.args.first().and_then(literal),
         Expr::Lit(literal) => match &literal.lit {
             Lit::Bool(value) => Some(value.value.to_string()),
             Lit::Int(number) => Some(number.base10_digits().into()),
@@ -86,12 +90,19 @@ mod tests {
     #[test]
     fn options_are_read_with_types_and_defaults() {
         let text = "/// A file.\npub struct Source keys pub(super) Keys {\n/// The file.\npub file: String = String::new() => fixed,\n\
-            /// Metres.\npub unit: f64 = 1.0 => named(\"X\"),\n/// Names.\npub panes: Vec<String> = Vec::new(),\n}";
+            /// Metres.\npub unit: f64 = 1.0 => named(\"X\"),\n/// Names.\npub panes: Vec<String> = Vec::new(),\n\
+            /// Points.\npub points: Whole<1> = Whole::new(9),\n/// Words.\npub word: Word = Word::AsIs,\n}";
         let Tables(tables) = options.parse_str(text).unwrap();
         assert_eq!(tables.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["Source", "Keys"]);
         let options: Vec<_> =
             tables[1].1.iter().map(|option| (option.name.as_str(), option.doc.as_str(), option.default.as_deref())).collect();
-        assert_eq!(options, [("unit", "Metres.", Some("1.0")), ("panes", "Names.", None)]);
+        let expected = [
+            ("unit", "Metres.", Some("1.0")),
+            ("panes", "Names.", None),
+            ("points", "Points.", Some("9")),
+            ("word", "Words.", Some("AsIs")),
+        ];
+        assert_eq!(options, expected);
     }
 
     #[test]

@@ -1,12 +1,11 @@
-//! `cargo xtask fuzz [--seconds N] [--seed N] [--quick | --as-tested] [TARGET...]`: searches for bytes that break what reads them.
+//! `cargo xtask fuzz [--seconds N] [--seed N] [--quick | --as-tested] [TARGET...]`: searches for bytes that break their readers.
 //!
-//! libFuzzer on the stable toolchain: LLVM's coverage pass is asked for by flags of the compiler that need no `-Z`. The program is built
-//! below `target/fuzz/build`, each target's files lie in `target/fuzz/<target>/`. What was learned there (the corpus) is kept, so that a
-//! longer search goes on where a shorter one ended. Two targets are searched at a time. With `--seed` chance repeats itself: from the same
-//! corpus the same inputs are tried, as far as the time goes. `--quick` leaves out the readers of datasets and
-//! of the whole program, without which the program that searches builds much faster. `--as-tested` searches with the program that
-//! `cargo xtask test` has built on unattended machines: without coverage, so seeds are only varied and nothing is learned, but nothing is
-//! built either.
+//! libFuzzer on the stable toolchain: LLVM's coverage pass is enabled by flags of the compiler that need no `-Z`. The program is built
+//! below `target/fuzz/build`, each target's files are in `target/fuzz/<target>/`. The corpus there is kept, so that a longer search
+//! continues where a shorter one ended. Two targets are searched at a time. With `--seed` the random choices repeat: from the same corpus
+//! the same inputs are tried, as far as the time permits. `--quick` leaves out the readers of datasets and of the whole program; without
+//! them the searching program builds much faster. `--as-tested` searches with the program that `cargo xtask test` has built on unattended
+//! machines: without coverage, so seeds are only varied and nothing is learned, but nothing is built either.
 
 mod report;
 mod search;
@@ -21,7 +20,7 @@ use std::str::FromStr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How long each target is searched unless something else is said, seconds.
+/// Default time of the search of each target, seconds.
 const SECONDS: u64 = 60;
 /// Targets at a time.
 const AT_A_TIME: usize = 2;
@@ -37,13 +36,13 @@ const FLAGS: [&str; 6] = [
     "--cfg=fuzzing",
 ];
 
-/// What was asked for.
+/// The parsed arguments.
 #[derive(Debug, PartialEq)]
 struct Asked {
     seconds: u64,
-    /// Seed of chance; another one every time where none is given.
+    /// Random seed; a new one every time if none is given.
     seed: Option<u32>,
-    /// Importers and V-Ray alone.
+    /// Only importers and V-Ray.
     quick: bool,
     /// With the program that the tests have built, without coverage.
     as_tested: bool,
@@ -103,7 +102,7 @@ pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
     if found.is_empty() { Ok(()) } else { Err(found.join("\n")) }
 }
 
-/// Builds the program that searches, and says where it is.
+/// Builds the program that searches, and returns its path.
 fn build(house: &House, target: &Path, quick: bool) -> Result<PathBuf, String> {
     let arguments = ["build", "--locked", "--profile", "fuzz", "--package", "enfilade-fuzz", "--features", "libfuzzer", "--bin", "fuzz"];
     let mut command = house.cargo(&arguments);

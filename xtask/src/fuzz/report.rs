@@ -3,31 +3,31 @@
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// What guards stand between our readers and mistakes of the libraries behind them.
+/// The guards that protect our readers from mistakes of the libraries they use.
 const NOTES: &str = "\
-## Where libraries are guarded
+## Guards around libraries
 
-- `rust-hdf5`: the file's length is compared with what its superblock says, and the shape of an array with what deflate can make of the
-  file; chunks without an extent are not read by our own way. Trees of chunks of version 1 are walked first, and refused where they lead
-  to a node twice or out of the file; so are more chunks than 32 per byte. Where the library panics all the same, that becomes an error.
-- `image`, `exr`: width and height are read first, and pictures of more than 2^27 pixels or a gigabyte of channels are refused; so are
-  EXRs, V-Ray's too, with blocks of more than 128 MiB, for which room is made before they are read, and with a table that does not lead
-  to each block once.
-- `png`, in scene packages: the size must be the one that the package says, and no more than deflate can make of the file.
-- `draco-core`: has limits of its own on vertices, triangles and bytes, which are set by the size of the stream; so is what meshopt unpacks.
-- `basisu`: width and height are read first; where its decoder of ETC1S panics, as at sums beyond 32 bits, that becomes an error.
-- `ruzstd`: no more is unpacked than the picture's size calls for.
-- `flate2`, `zip`: what is unpacked is counted, and refused beyond a bound: vertices of a mesh, bytes of a list, of a model.
-- `postcard`: blends within blends are read 128 deep, since the library has no bound of its own.
+- `rust-hdf5`: the file's length is compared with its superblock, and the shape of an array with the most that deflate can produce from the
+  file; our own reader does not read chunks without an extent. Trees of chunks of version 1 are walked first, and refused where they lead
+  to a node twice or out of the file; so are more than 32 chunks per byte. If the library panics nevertheless, that becomes an error.
+- `image`, `exr`: width and height are read first; pictures of more than 2^27 pixels or a gigabyte of channels are refused. So are
+  EXRs, V-Ray's included, with blocks of more than 128 MiB, since memory for these is allocated before reading, or with a table that does
+  not list each block once.
+- `png`, in scene packages: the size must be the one that the package states, and no more than deflate can produce from the file.
+- `draco-core`: its own limits on vertices, triangles and bytes are set by the size of the stream, as is the limit on what meshopt unpacks.
+- `basisu`: width and height are read first; a panic of its ETC1S decoder, as at sums beyond 32 bits, becomes an error.
+- `ruzstd`: no more is unpacked than the picture's size requires.
+- `flate2`, `zip`: unpacked data are counted, and refused beyond a bound: the vertices of a mesh, the bytes of a list or a model.
+- `postcard`: blends within blends are read to a depth of 128, since the library has no bound of its own.
 ";
 
-/// What is known of a target after a search.
+/// The results of a target after a search.
 pub struct Row {
     pub name: String,
     pub about: String,
     executions: f64,
     per_second: f64,
-    /// Edges of the control flow that were gone along.
+    /// Edges of the control flow that were covered.
     edges: f64,
     /// Inputs that lead to different places.
     corpus: f64,
@@ -41,14 +41,14 @@ pub struct Row {
 
 /// An input that broke a target.
 pub struct Found {
-    /// What the program said.
+    /// Message of the program.
     pub problem: String,
-    /// Where it lies.
+    /// Path of the input.
     pub input: PathBuf,
 }
 
 impl Found {
-    /// What was found and what to do.
+    /// The message: the problem and what to do.
     pub fn message(&self, target: &str) -> String {
         format!(
             "{target}: {}\n  the input is {}; fix what reads it, and keep the input in crates/fuzz/regressions/{target}/ by a name that \
@@ -60,7 +60,7 @@ impl Found {
 }
 
 impl Row {
-    /// Reads what libFuzzer said of a target.
+    /// Reads libFuzzer's output for a target.
     pub fn new(name: &str, about: &str, said: &str, found: Option<Found>) -> Self {
         let stat = |name: &str| {
             let line = said.lines().find_map(|line| line.strip_prefix("stat::")?.strip_prefix(name)?.strip_prefix(':'));
@@ -133,11 +133,12 @@ pub fn write(folder: &Path, seconds: u64, rows: &[Row]) -> Result<(), String> {
 
 fn intro(seconds: u64) -> String {
     format!(
-        "# Fuzzing: everything that reads bytes from outside\n\n\
-         Made by `cargo xtask fuzz --seconds {seconds}`, two targets at a time. libFuzzer searches by coverage, from the files of the tests; \
-         the program has every\ncheck of the debug build. A panic, an input that takes longer than 20 s, and more than 1.5 GB of memory at a \
-         time end a search and are\nmistakes. Edges are those of the whole program's control flow that inputs went along; the corpus is the \
-         inputs that lead to different\nplaces; times are of the program with coverage. Targets and what was found before: `crates/fuzz/`."
+        "# Fuzzing: everything that reads untrusted bytes\n\n\
+         Made by `cargo xtask fuzz --seconds {seconds}`, two targets at a time. libFuzzer searches by coverage, starting from the files of \
+         the tests;\nthe program has every check of the debug build. A panic, an input that takes longer than 20 s, and more than 1.5 GB of \
+         memory at a time\nend a search and count as defects. Edges are those of the whole program's control flow that inputs reached; the \
+         corpus is the set of\ninputs that reach different code; times are of the program with coverage. `crates/fuzz/` describes the \
+         targets and what was found before."
     )
 }
 

@@ -1,4 +1,4 @@
-//! One search: libFuzzer with a target's seeds and bounds, and what it said in the end.
+//! One search: libFuzzer with a target's seeds and bounds, and its final output.
 
 use super::report::{Found, Row};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 
-/// Memory of the process, MB. The program itself refuses more than 1.5 GB of allocations, so this holds for what C libraries take.
+/// Memory of the process, MB. The program itself refuses more than 1.5 GB of allocations, so the rest is for C libraries.
 const MOST_MEMORY_MB: u32 = 2560;
 /// An input that takes longer is a hang, seconds: the program is slowed by coverage, and the machine may be busy.
 const PATIENCE_S: u32 = 20;
@@ -44,7 +44,7 @@ pub fn targets(program: &Path, folder: &Path) -> Result<Vec<Target>, String> {
     table.iter().map(|row| target(row).ok_or_else(|| wrong(format!("{row} is no target")))).collect()
 }
 
-/// Searches a target for so many seconds, by chance of this seed where one is given.
+/// Searches a target for this number of seconds, with this random seed if one is given.
 ///
 /// # Errors
 /// When the program cannot be run, or ends without having searched.
@@ -76,7 +76,7 @@ pub fn search(program: &Path, target: &Target, seconds: u64, seed: Option<u32>) 
     Ok(row)
 }
 
-/// What ended a search before its time: the input, made smaller.
+/// The finding that ended a search before its time, with a reduced input.
 fn found(program: &Path, target: &Target, scratch: &Scratch, before: &[String], said: &str, status: ExitStatus) -> Result<Found, String> {
     let folder = target.folder.join("found");
     let new = names(&folder).into_iter().find(|name| !before.contains(name));
@@ -96,7 +96,7 @@ fn found(program: &Path, target: &Target, scratch: &Scratch, before: &[String], 
     Ok(Found { problem, input: if small.is_file() { small } else { input } })
 }
 
-/// What the program said was wrong.
+/// The problem in the program's output.
 fn problem(said: &str) -> Option<String> {
     let telling = |line: &&str| {
         line.starts_with("panicked at")
@@ -115,7 +115,7 @@ fn names(folder: &Path) -> Vec<String> {
     entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }
 
-/// Where a search keeps small files that change with every input: in memory where the system has a folder there.
+/// Folder for small files that change with every input: in memory if the system has such a folder.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -155,7 +155,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What cannot be removed lies among temporary files.
+        // If it cannot be removed, it is only a temporary file.
         drop(std::fs::remove_dir_all(&self.0));
     }
 }

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 /// Runs of everything.
 const RUNS: usize = 5;
 
-/// What one room gave.
+/// The measurements of one room.
 pub struct Measured {
     pub name: &'static str,
     pub triangles: usize,

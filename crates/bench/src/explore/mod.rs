@@ -1,7 +1,7 @@
-//! What carving and walking cost, beside Hypersim's own programs: `cargo xtask bench explore`
+//! Compares the costs of carving and walking with those of Hypersim's own programs: `cargo xtask bench explore`
 //!
-//! The rooms, the programs' results and their times lie in the folder that `ENFILADE_GOLDEN` names (`golden` beside the folder that
-//! `ENFILADE_SCENES` names, if that is unset). The programs themselves are not run: their times are those recorded with their results.
+//! The rooms, the programs' results and their times are in the folder that `ENFILADE_GOLDEN` names (`golden` beside the folder that
+//! `ENFILADE_SCENES` names, if that is unset). The programs themselves are not run: their times were recorded with their results.
 //! Ours are CPU seconds of one thread with the programs' parameters, everything counted: the hierarchy is built for every run, and an
 //! octree is written or read. A figure is the median of several runs. Writes `docs/benchmarks/explore.md` and `explore.json`.
 

@@ -52,18 +52,18 @@ impl Report {
 
     pub fn markdown(&self) -> String {
         let mut page = format!(
-            "# Exploring: our carving and walking beside Hypersim's programs\n\n\
-             Made by `cargo xtask bench explore` on {}. CPU seconds of one thread, the median of five runs, with the programs'\n\
+            "# Exploring: our carving and walking against Hypersim's programs\n\n\
+             Made by `cargo xtask bench explore` on {}. Values are CPU seconds of one thread, medians of five runs, with the programs'\n\
              parameters (voxels of 0.1 m in a cube of 30 m, 262,144 rays from five positions per start; 100 frames, 20 candidates, test images of\n\
-             256x192). Everything is counted: each of our runs builds its hierarchy and writes or reads its octree. The programs' times were\n\
-             recorded with their results on the same kind of processor, in another run; that of carving has its Python part in it.\n\n\
+             256x192). Everything is included: each of our runs builds its hierarchy and writes or reads its octree. The programs' times were\n\
+             recorded with their results on the same kind of processor, in another run; the time of carving includes its Python part.\n\n\
              | case | ours, s | theirs, s | theirs / ours |\n|---|---|---|---|\n",
             processor()
         );
         for row in self.rows() {
             let _ = writeln!(page, "| {} | {:.2} | {:.2} | **{:.1}** |", row.case, row.ours_s, row.peer_s, row.peer_s / row.ours_s);
         }
-        page += "\nWhat is in them, and what the `default` preset takes for the same work:\n\n\
+        page += "\nThe parts of these times, and the times of the `default` preset for the same work:\n\n\
                  | room | triangles | hierarchy, s | carve, `hypersim` | carve, `default` | walks, `hypersim` | walks, `default` | faster on all cores: carve, walk |\n\
                  |---|---|---|---|---|---|---|---|\n";
         for room in &self.rooms {
@@ -80,7 +80,7 @@ impl Report {
                 walks(1)
             );
         }
-        page += "\nHow the results of preset `hypersim` agree with the programs' own:\n\n\
+        page += "\nAgreement of the results of preset `hypersim` with those of the programs:\n\n\
                  | room | free voxels, ours / theirs | free, intersection over union | occupied | positions carved from, farthest | frames at the same positions |\n\
                  |---|---|---|---|---|---|\n";
         for room in &self.rooms {
@@ -98,11 +98,11 @@ impl Report {
         let walk_s = median(self.rooms.iter().flat_map(|room| room.walks_s.iter().map(|walk| walk.0[0] - room.hierarchy_s)));
         format!(
             "\n## The limit\n\n\
-             A walk asks what {:.1} million rays see. Cast in packets of sixteen by Embree they take 2.9 to 4.1 s in these rooms (measured apart),\n\
-             5.6 million a second in the program. The score needs only the set of triangles in view, so ours draws the triangles into tiles of\n\
-             16x16 pixels by way of the hierarchy and casts none of those rays: {:.0} million pixels a second, everything else of the walk counted in.\n\n\
-             Carving casts 1.3 million rays per start through some fifty to a hundred voxels each; walking all of them on a flat bit grid takes 1.0 to 2.9 s.\n\
-             Ours leaps through what is known to be free, and asks for the mesh only where sampling has left a surface's voxel open.\n",
+             A walk needs to know what {:.1} million rays see. Embree, in packets of sixteen, takes 2.9 to 4.1 s for them in these rooms (measured\n\
+             separately); the program casts 5.6 million a second. The score needs only the set of triangles in view, so we draw the triangles into tiles\n\
+             of 16x16 pixels by means of the hierarchy and cast none of these rays: {:.0} million pixels a second, including everything else in the walk.\n\n\
+             Carving casts 1.3 million rays per start through fifty to a hundred voxels each; traversing all of them on a flat bit grid takes 1.0 to\n\
+             2.9 s. We skip what is known to be free, and test the mesh only where sampling has not decided a surface's voxel.\n",
             WALK_RAYS / 1e6,
             WALK_RAYS / walk_s / 1e6
         )

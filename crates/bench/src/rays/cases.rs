@@ -1,4 +1,4 @@
-//! The rays of the measurement, made from what a camera sees.
+//! The rays of the measurement, made from camera views.
 
 use enfilade_geometry::Bvh;
 use enfilade_math::{DMat3, Distribution1, Onb, Ray, Rng, Vec3, offset_origin, warp};
@@ -10,7 +10,7 @@ const WIDTH: u32 = 1024;
 const HEIGHT: u32 = 768;
 const TILE: u32 = 16;
 
-/// What is asked about a ray.
+/// The question asked about a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
     /// The first hit.
@@ -26,7 +26,7 @@ pub struct Case {
     pub rays: Vec<Ray>,
 }
 
-/// Where the rays of a room come from and go to.
+/// A room, and the origins and directions of its rays.
 pub struct Room {
     pub name: String,
     pub triangles: Vec<Triangle>,

@@ -85,7 +85,7 @@ impl Library {
         // SAFETY: a loaded library and a string that ends in zero.
         let found = unsafe { dlsym(self.0, name.as_ptr()) };
         assert!(!found.is_null(), "Embree has no function {name:?}");
-        // SAFETY: the caller says so, and functions are as large as pointers.
+        // SAFETY: the caller vouches for the type, and functions are as large as pointers.
         unsafe { std::mem::transmute_copy(&found) }
     }
 }

@@ -1,6 +1,6 @@
 //! How many rays a second does the hierarchy trace, and how many does Embree? `cargo xtask bench rays`
 //!
-//! On one thread, in CPU time, because wall time on a shared machine says nothing. All engines trace the same rays in turns; a figure
+//! On one thread, in CPU time, because wall time on a shared machine is unreliable. All engines trace the same rays in turns; a figure
 //! is the median over the turns. The rooms are read from the folder that `ENFILADE_SCENES` names; without it, or with the word
 //! `furnished`, a generated room is measured. `ENFILADE_EMBREE` names a `libembree4` to compare with. With both, and without words that
 //! choose rooms, the table is also written to `docs/benchmarks/rays.md` and `rays.json`.

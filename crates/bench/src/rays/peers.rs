@@ -1,4 +1,4 @@
-//! What our hierarchy is compared with.
+//! The libraries that our hierarchy is compared with.
 
 #[cfg(unix)]
 use super::embree;

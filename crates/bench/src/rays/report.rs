@@ -62,10 +62,10 @@ impl Report {
         let version = self.version.as_deref().unwrap_or("?");
         let mut page = format!(
             "# Rays: our hierarchy and Embree {version}\n\n\
-             Made by `cargo xtask bench rays` on {}. Millions of single rays per core-second on one thread; every figure is the\n\
-             median of interleaved runs over the same rays. Embree: `rtcIntersect1` and `rtcOccluded1`, medium build quality. Its default\n\
-             triangle test is not watertight; ours is, and so is Embree's *robust* mode. The run checks that the numbers of hits agree to a ten\n\
-             thousandth of the rays and the sums of their distances to a thousandth.\n\n\
+             Made by `cargo xtask bench rays` on {}. Values are millions of single rays per core-second on one thread; each is the\n\
+             median of interleaved runs over the same rays. Embree uses `rtcIntersect1` and `rtcOccluded1` with medium build quality. Its default\n\
+             triangle test is not watertight; ours is, and so is Embree's *robust* mode. The run checks that the numbers of hits agree to one part in\n\
+             ten thousand, and the sums of their distances to one part in a thousand.\n\n\
              | room | rays | ours | Embree | ours / Embree | Embree robust | ours / robust |\n|---|---|---|---|---|---|---|\n",
             processor(),
         );

@@ -9,7 +9,7 @@ use enfilade_testkit::thread_cpu_s;
 /// Odd, so that there is a median.
 const TURNS: usize = 9;
 
-/// What one engine found: to be compared with the others'.
+/// The results of one engine, to be compared with the others'.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub struct Answers {
     pub hits: usize,
@@ -119,7 +119,7 @@ fn print(row: &Row) {
     println!("{:>24}  {}  Mrays/core-s   {}   {} hits{}", row.case, speeds.join(" "), ratios.join(" "), ours.hits, differences(row));
 }
 
-/// By how much the others' answers differ from ours.
+/// The differences between the others' answers and ours.
 fn differences(row: &Row) -> String {
     let ours = row.engines[0].answers;
     let other = |engine: &Measured| {

@@ -1,4 +1,4 @@
-//! What one home is made of, and what it cost to make.
+//! The contents of one home, and the cost of making it.
 
 use enfilade_furniture::{family_of, object_of};
 use enfilade_home::check::faults;
@@ -16,7 +16,7 @@ pub struct Measured {
     pub seed: u64,
     pub wall_s: f64,
     pub cpu_s: f64,
-    /// The most memory that the process has held until the home was finished.
+    /// Peak memory of the process when the home was finished, megabytes.
     pub peak_mb: f64,
     pub package_mb: f64,
     /// Triangles that are seen, those of shared meshes once for every part.
@@ -28,7 +28,7 @@ pub struct Measured {
     pub unlabelled_parts: usize,
     pub rooms: Vec<Room>,
     pub objects: Vec<Object>,
-    /// What [`enfilade_home::check`] finds wrong.
+    /// The faults that [`enfilade_home::check`] finds.
     pub faults: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What homes cost and what is in them, beside published numbers: `cargo xtask bench homes [COUNT] [FIRST]`
+//! Costs and contents of homes, compared with published numbers: `cargo xtask bench homes [COUNT] [FIRST]`
 //!
 //! `statistics measure ROWS [COUNT] [FIRST]` makes homes of consecutive seeds with the defaults, each in a process of its own, and
 //! writes what it finds to ROWS, a line of JSON for each. `statistics report ROWS FOLDER` makes `homes.md` and `homes.json` of them.
@@ -33,7 +33,7 @@ pub fn run() -> Result<(), Box<dyn std::error::Error>> {
     }
 }
 
-/// Measures homes one after the other. One that fails is told and left out, and makes the whole fail at the end.
+/// Measures homes one after the other. A home that fails is reported and left out, and the run fails at the end.
 fn all(rows: &str, count: u64, first: u64) -> Result<(), Box<dyn std::error::Error>> {
     use std::io::Write as _;
     let own = std::env::current_exe()?;

@@ -1,4 +1,4 @@
-//! What others have published, and where.
+//! Numbers that others have published, with their sources.
 
 /// Instances of each NYU40 class, by id from 1, that at least one of Hypersim's images shows: `metadata_unique_objects_per_class_hist`
 /// of its statistics, all volumes together. 58,094 in 460 scenes.
@@ -22,7 +22,7 @@ pub const HYPERSIM_VOLUMES_M3: [f64; 3] = [1.1e-4, 2.1e-3, 1.14];
 /// A kind of room in housing statistics.
 pub struct PublishedRoom {
     pub kind: &'static str,
-    /// What is known of its area, and by whom.
+    /// The published area, and its source.
     pub area: &'static str,
     /// Why ours differ.
     pub comment: &'static str,
@@ -33,12 +33,12 @@ pub const ROOMS: [PublishedRoom; 10] = [
     PublishedRoom {
         kind: "living",
         area: "mean 17.1 m² built since 2010, 24.9 m² of the 1970s [1]",
-        comment: "Like the larger ones: the smaller homes have no dining room, so people eat here too.",
+        comment: "Like the larger ones, since the smaller homes have no dining room and people eat here too.",
     },
     PublishedRoom {
         kind: "kitchen",
         area: "mean 12.3 m² of the 1930s, larger in all later decades [1]",
-        comment: "Smaller, because the published ones often hold the dining table, for which our homes have a room or the living room.",
+        comment: "Smaller: the published ones often contain the dining table, which in our homes is in a dining or living room.",
     },
     PublishedRoom { kind: "dining", area: "none found", comment: "By the furniture plans of Neufert." },
     PublishedRoom {
@@ -49,18 +49,18 @@ pub const ROOMS: [PublishedRoom; 10] = [
     PublishedRoom {
         kind: "childrens",
         area: "at least 7.5 m² for one person [2]",
-        comment: "Above the least, so that a desk and toys find room.",
+        comment: "Above the minimum, so that there is room for a desk and toys.",
     },
     PublishedRoom { kind: "study", area: "at least 7.5 m² as a single bedroom [2]", comment: "As a single bedroom." },
     PublishedRoom {
         kind: "bathroom",
         area: "mean 9.1 m², 21 % below 6 m², 53 % between 6 and 10 m² [3]",
-        comment: "Smaller: the published mean is drawn up by the bathrooms of houses (10.3 m²; rented flats 8.2 m²), and ours are of flats.",
+        comment: "Smaller: the bathrooms of houses raise the published mean (10.3 m²; rented flats 8.2 m²), and ours are in flats.",
     },
     PublishedRoom {
         kind: "toilet",
         area: "mean 3.4 m² [3]",
-        comment: "Smaller: the least of Neufert's plans; not in the usual programmes.",
+        comment: "Smaller: the smallest of Neufert's plans; not in the usual programmes.",
     },
     PublishedRoom { kind: "hall", area: "none found", comment: "What the plan leaves between the rooms." },
     PublishedRoom { kind: "laundry", area: "none found", comment: "Not in the usual programmes." },
@@ -124,11 +124,11 @@ pub const SIZES: [PublishedSize; 17] = [
         Some([0.75, 1.2]),
         Some([0.71, 0.76]),
         "[1] [2]",
-        "The round and square ones, for two to four; as published.",
+        "Round and square ones, for two to four; as published.",
     ),
     size("long_table", Some([1.5, 2.6]), Some([0.9, 0.91]), Some([0.71, 0.76]), "[1] [2]", "As published, up to eight seats."),
     size("chair", Some([0.45, 0.46]), Some([0.45, 0.46]), None, "[1] [2]", "As published."),
-    size("upholstered_chair", Some([0.45, 0.46]), Some([0.45, 0.46]), None, "[1] [2]", "Deeper by the lean of its back; with arms wider."),
+    size("upholstered_chair", Some([0.45, 0.46]), Some([0.45, 0.46]), None, "[1] [2]", "Deeper, because the back leans; wider with arms."),
     size("bookshelf", None, Some([0.23, 0.36]), Some([1.22, 2.13]), "[2]", "As published, the tall ones."),
     size("desk", Some([1.5, 1.5]), Some([0.75, 0.75]), None, "[1]", "Smaller ones too, for studies of 8 m²."),
     size(
@@ -137,7 +137,7 @@ pub const SIZES: [PublishedSize; 17] = [
         Some([1.9, 2.03]),
         None,
         "[2], mattresses",
-        "Larger by the frame and the headboard; mattresses are published.",
+        "Larger by the frame and the headboard; published sizes are of mattresses.",
     ),
     size("nightstand", None, Some([0.46, 0.46]), None, "[2]", "Shallower, as is usual in Europe."),
     size("dresser", None, Some([0.46, 0.46]), None, "[2]", "As published."),
@@ -148,7 +148,7 @@ pub const SIZES: [PublishedSize; 17] = [
         Some([0.6, 0.6]),
         Some([0.9, 0.9]),
         "[5]",
-        "Without the worktop, so 0.04 m lower; fillers at the ends of a row are units too.",
+        "Without the worktop, so 0.04 m lower; fillers at the ends of a row also count as units.",
     ),
     size(
         "refrigerator",
@@ -156,7 +156,7 @@ pub const SIZES: [PublishedSize; 17] = [
         None,
         Some([0.85, 1.76]),
         "[5]",
-        "Built-in ones are tall units, 2 m high with their plinth; those that stand free are as published.",
+        "Built-in ones are tall units, 2 m high with their plinth; free-standing ones are as published.",
     ),
     size(
         "bathtub",
@@ -164,7 +164,7 @@ pub const SIZES: [PublishedSize; 17] = [
         Some([0.7, 0.7]),
         Some([0.56, 0.56]),
         "[6]",
-        "Higher by taps, hand shower and screen, which belong to it; up to 0.1 m to either side.",
+        "Higher by taps, hand shower and screen, which are part of it; up to 0.1 m to either side.",
     ),
 ];
 

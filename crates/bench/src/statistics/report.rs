@@ -23,7 +23,7 @@ fn page(homes: &[Measured]) -> String {
     let (first, last) = (homes.first().map_or(0, |home| home.seed), homes.last().map_or(0, |home| home.seed));
     let mut page = format!(
         "# Homes: what they cost and what is in them\n\nMade by `cargo xtask bench homes` on {}: the {} homes of the seeds {first} to \
-         {last} with the\ndefaults, each in a process of its own. What is drawn from which distribution stands in [homes.md](../homes.md).\n",
+         {last} with the\ndefaults, each in a process of its own. [homes.md](../homes.md) says what is drawn from which distribution.\n",
         enfilade_testkit::processor(),
         homes.len()
     );
@@ -107,7 +107,8 @@ fn class_table(homes: &[Measured]) -> String {
 
 fn room_table(homes: &[Measured]) -> String {
     let mut text = String::from(
-        "\n## Rooms\n\nClear areas between the walls, m². The programme's range is that from which a room's area is drawn before the search.\n\n\
+        "\n## Rooms\n\nClear areas between the walls, m². The programme is the range from which a room's area is drawn before the \
+         search.\n\n\
          | room | rooms | median | 10 % to 90 % | programme | published | |\n|---|---|---|---|---|---|---|\n",
     );
     for room in &ROOMS {
@@ -128,8 +129,8 @@ fn room_table(homes: &[Measured]) -> String {
     let whole: Spread = homes.iter().map(floor_m2).collect();
     let _ = writeln!(
         text,
-        "\nA home has {:.0} m² of floor (median; 10 % have less than {:.0}, 10 % more than {:.0}). A dwelling in Germany has {DWELLING_M2} m² in \
-         the mean [4],\nwhich counts houses; ours are flats.\n\n{ROOM_SOURCES}",
+        "\nA home has {:.0} m² of floor (median; 10 % have less than {:.0}, 10 % more than {:.0}). A dwelling in Germany has \
+         {DWELLING_M2} m² on average [4],\nwhich includes houses; ours are flats.\n\n{ROOM_SOURCES}",
         whole.quantile(0.5),
         whole.quantile(0.1),
         whole.quantile(0.9)
@@ -141,7 +142,7 @@ fn floor_m2(home: &Measured) -> f64 {
     home.rooms.iter().map(|room| f64::from(room.area_m2)).sum()
 }
 
-/// A small thing: its box holds less than 30 litres and no side is longer than 0.6 m.
+/// Whether an object is small: the volume of its box is below 30 litres and no side is longer than 0.6 m.
 fn small(object: &Object) -> bool {
     volume_m3(object) < 0.03 && object.size_m.iter().all(|&side| side < 0.6)
 }
@@ -166,7 +167,7 @@ fn clutter(homes: &[Measured], kind: &str) -> [Spread; 2] {
 
 fn clutter_table(homes: &[Measured]) -> String {
     let mut text = String::from(remarks::CLUTTER);
-    text += "\n| room | small things, median | 10 % to 90 % | to the m² of surface, median |\n|---|---|---|---|\n";
+    text += "\n| room | small things, median | 10 % to 90 % | per m² of surface, median |\n|---|---|---|---|\n";
     for room in &ROOMS {
         let [things, dense] = clutter(homes, room.kind);
         if things.count() > 0 {
@@ -180,7 +181,7 @@ fn clutter_table(homes: &[Measured]) -> String {
     let [low, middle, high] = HYPERSIM_VOLUMES_M3;
     let _ = writeln!(
         text,
-        "\nThe boxes of our instances hold {:.2} litres in the median (5 % less than {:.2}, 5 % more than {:.0}), those of Hypersim's {:.1} \
+        "\nThe boxes of our instances have {:.2} litres in the median (5 % less than {:.2}, 5 % more than {:.0}), those of Hypersim {:.1} \
          ({:.2}, {:.0}).\n{}",
         1e3 * ours_middle,
         1e3 * ours_low,
@@ -198,8 +199,8 @@ fn truth(homes: &[Measured]) -> String {
     let unlabelled: usize = homes.iter().map(|home| home.unlabelled_parts).sum();
     let sound = homes.iter().filter(|home| home.faults.is_empty()).count();
     format!(
-        "\n## Labels and faults\n\n{} of {parts} parts have a class ({:.2} %); of Hypersim's pixels 88.35 % have one. {sound} of {} homes are \
-         without a fault by the\nchecks of [homes.md](../homes.md#checks).\n",
+        "\n## Labels and faults\n\n{} of {parts} parts have a class ({:.2} %); of Hypersim's pixels 88.35 % have one. {sound} of {} homes \
+         have no fault by the\nchecks of [homes.md](../homes.md#checks).\n",
         parts - unlabelled,
         percent(parts - unlabelled, parts),
         homes.len()

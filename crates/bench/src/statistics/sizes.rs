@@ -22,7 +22,7 @@ fn cell(spread: &Spread) -> String {
 /// Tables of sizes as Markdown.
 pub fn tables(homes: &[Measured]) -> String {
     let mut text = String::from(
-        "\n## Sizes\n\nWidth, depth and height in metres of the box around a thing, turned as the thing is: median (10 %–90 %).\n\n\
+        "\n## Sizes\n\nWidth, depth and height, in metres, of the box around an object, aligned with the object: median (10 %–90 %).\n\n\
          | class | instances | width | depth | height |\n|---|---|---|---|---|\n",
     );
     for class in NYU40 {
@@ -31,7 +31,7 @@ pub fn tables(homes: &[Measured]) -> String {
             let _ = writeln!(text, "| {} | {} | {} |", class.name, sizes[0].count(), sizes.each_ref().map(cell).join(" | "));
         }
     }
-    text += "\nFamilies whose usual measures are published; a published measure stands below ours.\n\n\
+    text += "\nFamilies whose usual sizes are published; the published size is below ours.\n\n\
              | family | instances | width | depth | height | |\n|---|---|---|---|---|---|\n";
     for published in &SIZES {
         let ours = sizes(homes, |object| object.family == published.family);

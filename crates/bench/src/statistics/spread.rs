@@ -1,4 +1,4 @@
-//! How values are spread: mean, quantiles, largest.
+//! The distribution of values: mean, quantiles, largest.
 
 /// Values in ascending order.
 pub struct Spread(Vec<f64>);

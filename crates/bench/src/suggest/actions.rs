@@ -1,8 +1,9 @@
 //! How many actions it takes to give the labelled objects of a scene their classes.
 //!
-//! Without suggestions: what can be chosen together is one action. That is an instance, or the objects without one (walls, floors)
-//! of one name and class; where parts of one name can be chosen together, it is the objects of one name and class, if the name has a
-//! word. With suggestions: one action confirms all that are sure; what they have wrong, or do not say, takes what it took before.
+//! Without suggestions, one action labels what can be selected together: an instance, or the objects without one (walls, floors) of one
+//! name and class; where parts of one name can be chosen together, it is the objects of one name and class, if the name has a word. With
+//! suggestions: one action confirms all that are sure; objects whose suggestion is wrong, or that have none, take as many actions as
+//! without suggestions.
 
 use enfilade_suggest::Suggestion;
 use enfilade_suggest::learn::{NameGroup, NamedObject};
@@ -20,7 +21,7 @@ pub struct Actions {
     pub by_name: [f64; 2],
 }
 
-/// What is chosen in one action.
+/// The objects that one action selects.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Choice<'a> {
     Instance(i32, i16),

@@ -1,4 +1,4 @@
-//! What was measured.
+//! The measurements.
 
 use super::scores::Judgement;
 use enfilade_suggest::learn::Split;
@@ -6,9 +6,9 @@ use enfilade_suggest::learn::Split;
 /// Parts that scenes or volumes are divided into.
 pub const FOLDS: usize = 10;
 
-/// What was measured of one way to hold scenes out.
+/// The measurements for one way to hold scenes out.
 pub struct Measured {
-    /// What stayed together.
+    /// The unit that was held out together.
     pub split: Split,
     /// Our suggestions.
     pub ours: Judgement,

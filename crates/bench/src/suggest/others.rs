@@ -1,4 +1,4 @@
-//! Names that nobody of Hypersim wrote: rooms of other artists, and generated homes.
+//! Names that are not Hypersim's: rooms of other artists, and generated homes.
 
 use enfilade_home::{HomeConfig, home};
 use enfilade_import::{ImportOptions, load};

@@ -1,11 +1,11 @@
-//! Names of two, a thing and what is in it: how well the inner name alone, both joined, and the inner one among the other do.
+//! Pairs of names, of a thing and a part in it: accuracy by the inner name alone, by both joined, and by the inner one within the other.
 
 use enfilade_suggest::chain::Inner;
 use enfilade_suggest::learn::{HeldOut, NameGroup};
 
-/// What was measured of pairs of a kind.
+/// The measurements of pairs of a kind.
 pub struct OfKind {
-    /// What the inner name is; none for a thing.
+    /// Kind of the inner name; none for a thing.
     pub kind: Option<Inner>,
     /// Pairs.
     pub pairs: usize,

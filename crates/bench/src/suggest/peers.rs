@@ -5,8 +5,8 @@ use enfilade_suggest::Suggestion;
 use enfilade_suggest::learn::{NameGroup, Split};
 use std::collections::BTreeMap;
 
-/// Every name's most frequent class in the scenes that are not held out; its confidence is the share of the names that
-/// have it, with one more that has not, so that what was seen often comes before what was seen once.
+/// Every name's most frequent class in the scenes that are not held out; its confidence is the share of the names that have it, counted
+/// with one more name that does not, so that frequent names come before those seen once.
 pub fn lookup(groups: &[NameGroup], split: Split, folds: usize) -> Vec<Option<Suggestion>> {
     let mut found = vec![None; groups.len()];
     for fold in 0..folds {

@@ -47,26 +47,26 @@ impl Report<'_> {
     }
 
     fn text(&self) -> Result<String, std::fmt::Error> {
-        let mut text = String::from("# Suggestions: how good they are on scenes that were held out\n\n");
+        let mut text = String::from("# Suggestions: their quality on held-out scenes\n\n");
         let labelled = self.objects.iter().filter(|object| object.class > 0).count();
         let worded: usize = self.groups.iter().filter(|group| !group.words.is_empty()).map(NameGroup::labelled).sum();
         let ceiling = Judgement::ceiling(self.groups);
         writeln!(
             text,
             "Made by `cargo xtask bench suggest` from the {} object names of Hypersim's 482 scenes, {labelled} of them labelled. Names are judged by\n\
-            models that saw nine tenths of the scenes, or of the volumes: those of a volume were made and named by the same people, so the\n\
-            second is what to expect of a scene of somebody else. *Names* are the different names of a scene, numbers aside, that have words and\n\
-            labelled objects; {:.0} % of the labelled objects have names with words, the others are numbers like `AI41_005_0903`, which nothing\n\
-            can be made of. No suggestion counts as wrong.\n",
+            models that saw nine tenths of the scenes, or of the volumes. The scenes of a volume were made and named by the same people, so the\n\
+            second is what to expect for a scene by somebody else. *Names* are the different names of a scene, ignoring numbers, that have words and\n\
+            labelled objects; {:.0} % of the labelled objects have names with words; the others are numbers like `AI41_005_0903`, which say\n\
+            nothing. Having no suggestion counts as wrong.\n",
             self.objects.len(),
             100.0 * worded as f64 / labelled as f64,
         )?;
         self.accuracy(&mut text)?;
         writeln!(
             text,
-            "\nNo one who sees names alone can be right of more than {:.1} % of the {:.0} names that several scenes have: so often a name has the\n\
-            class that it has most often, because people label the same thing differently.\n\n\
-            {} names of curtains that Hypersim labels as blinds count as curtains here, as NYUv2 has them. By Hypersim's own labels {:.1} % of\n\
+            "\nFrom names alone, nobody can be right about more than {:.1} % of the {:.0} names that occur in several scenes. This is how often a name has\n\
+            its most frequent class, since people label the same thing differently.\n\n\
+            {} names of curtains that Hypersim labels as blinds count as curtains here, as NYUv2 has them. By Hypersim's own labels, {:.1} % of\n\
             names are right with scenes held out, {:.1} % with volumes.\n",
             100.0 * ceiling[1],
             ceiling[0],
@@ -105,11 +105,8 @@ impl Report<'_> {
     }
 
     fn reliability(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "## Whether the confidence can be trusted\n")?;
-        writeln!(
-            text,
-            "Confidences come from a curve that was fitted to other folds than the one that is judged, with volumes held out.\n"
-        )?;
+        writeln!(text, "## Calibration of the confidence\n")?;
+        writeln!(text, "Confidences come from a curve fitted to the folds other than the one that is judged, with volumes held out.\n")?;
         writeln!(
             text,
             "| confidence | names | mean confidence | right, % of names | objects | right, % of objects |\n|---|---|---|---|---|---|"
@@ -128,7 +125,7 @@ impl Report<'_> {
         let errors = [0, 1].map(|i| 100.0 * self.measured[i].0.ours.calibration_error());
         writeln!(
             text,
-            "\nExpected calibration error, of names in twenty bins: {:.1} % with scenes held out, {:.1} % with volumes.\n",
+            "\nExpected calibration error of names, in twenty bins: {:.1} % with scenes held out, {:.1} % with volumes.\n",
             errors[0], errors[1]
         )?;
         writeln!(
@@ -145,14 +142,14 @@ impl Report<'_> {
         Ok(())
     }
 
-    /// What names around a part are worth.
+    /// The value of the names around a part.
     fn names_around(&self, text: &mut String) -> std::fmt::Result {
         writeln!(
             text,
             "\n## Names around a part\n\n\
-            Hypersim's scenes have no hierarchy; its names of two stand for one: of `sofa leg`, *leg* is taken for the name of a part in a\n\
-            *sofa*. Labelled names whose first half names a thing, volumes held out. *Inner* is the part's own name alone, as glTF and FBX were\n\
-            read until names around them counted; *joined* is both as one name, as USD was read; *both* is what is done now.\n"
+            Hypersim's scenes have no hierarchy, so its two-word names replace one here: of `sofa leg`, *leg* counts as the name of a part in a\n\
+            *sofa*. These are labelled names whose first half names a thing, with volumes held out. *Inner* is the part's own name alone, as glTF and\n\
+            FBX were read before the names around a part counted; *joined* is both as one name, as USD was read; *both* is the current method.\n"
         )?;
         writeln!(
             text,
@@ -163,7 +160,7 @@ impl Report<'_> {
             let [inner, joined, both] = [row.inner, row.joined, row.both].map(|share| 100.0 * share);
             let (sure, right) = (row.sure.0, 100.0 * row.sure.1);
             let kind = match row.kind {
-                None => "a thing: it stands",
+                None => "a thing: it is kept",
                 Some(Inner::Piece) => "a piece of such things",
                 Some(Inner::Filler) => "a form, side or material",
                 Some(Inner::Known) => "in no list, but known",
@@ -175,7 +172,7 @@ impl Report<'_> {
         Ok(())
     }
 
-    /// What is said of objects that nobody labelled.
+    /// The suggestions for objects that nobody labelled.
     fn unlabelled(&self, text: &mut String) -> std::fmt::Result {
         let judgement = &self.measured[1].0.ours;
         let (mut all, mut sure) = (0, 0);
@@ -189,8 +186,8 @@ impl Report<'_> {
         let labelled: f64 = judgement.rows.iter().map(|row| row.objects()).sum();
         writeln!(
             text,
-            "\n{:.1} % of the {all} objects that nobody labelled get a suggestion with a confidence of {} or more. Many of them no camera\n\
-            sees, so that says little; if all of these are taken for wrong, and silence about the others for right, {:.1} % of all\n\
+            "\n{:.1} % of the {all} objects that nobody labelled get a suggestion with a confidence of {} or more. No camera sees many of\n\
+            them, so that says little; if all of these count as wrong, and having no suggestion for the others as right, {:.1} % of all\n\
             objects are right.\n",
             100.0 * sure as f64 / all as f64,
             self.threshold,
@@ -199,15 +196,15 @@ impl Report<'_> {
     }
 
     fn actions(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "## Actions that a scene needs\n")?;
+        writeln!(text, "## Actions per scene\n")?;
         writeln!(
             text,
-            "Simulated, with volumes held out, to give the labelled objects of each scene the classes that they have. Without suggestions one\n\
-            action does what can be chosen together: *one by one*, an instance, or the objects without one (walls, floors, ceilings) of one name\n\
-            and class; *by name*, all objects of one name and class if the name has words, else as before. With suggestions one action confirms\n\
-            all with a confidence of {} or more; what they have wrong or do not say takes what it took before. Numbering instances, and\n\
-            looking at suggestions before they are confirmed, are not counted. *Named* scenes are those where words are in the names of nine\n\
-            tenths of the labelled objects.\n",
+            "Simulated, with volumes held out: how many actions give the labelled objects of each scene their classes. Without suggestions, one\n\
+            action labels what can be selected together: *one by one*, an instance, or the objects without one (walls, floors, ceilings) of one name\n\
+            and class; *by name*, all objects of one name and class if the name has words, otherwise as before. With suggestions, one action confirms\n\
+            all with a confidence of {} or more; what is wrong or missing costs as much as before. Numbering instances, and\n\
+            looking at suggestions before they are confirmed, are not counted. *Named* scenes are those in which the names of nine\n\
+            tenths of the labelled objects have words.\n",
             self.threshold
         )?;
         writeln!(
@@ -234,11 +231,11 @@ impl Report<'_> {
     }
 
     fn strangers(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "\n## Names of others\n")?;
+        writeln!(text, "\n## Names from other sources\n")?;
         writeln!(
             text,
-            "The tables as they ship. Rooms of other artists, labelled by material in `material_to_nyu40.csv`; homes that `enfilade home` makes,\n\
-            whose names and labels are ours.\n"
+            "These use the tables as shipped. Rooms are by other artists, labelled by material in `material_to_nyu40.csv`; homes are made by\n\
+            `enfilade home`, with our names and labels.\n"
         )?;
         writeln!(
             text,
@@ -254,7 +251,7 @@ impl Report<'_> {
     }
 
     fn classes(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "\n## By class\n\nNames of scenes, volumes held out; every suggestion counts, of whatever confidence.\n")?;
+        writeln!(text, "\n## By class\n\nNames of scenes, volumes held out; every suggestion counts, whatever its confidence.\n")?;
         writeln!(text, "| class | names | precision, % | recall, % |\n|---|---|---|---|")?;
         let mut sums = [0.0; 3];
         for class in NYU40 {

@@ -1,4 +1,4 @@
-//! What suggestions are worth: shares of right ones, by name and by object.
+//! The accuracy of suggestions: shares of right ones, by name and by object.
 
 use enfilade_suggest::Suggestion;
 use enfilade_suggest::learn::NameGroup;
@@ -33,7 +33,7 @@ impl Row {
     }
 }
 
-/// What counts as one.
+/// The unit of counting.
 #[derive(Clone, Copy)]
 pub enum By {
     /// A name of a scene.
@@ -42,7 +42,7 @@ pub enum By {
 }
 
 impl By {
-    /// What was right and what there is.
+    /// Counts of the right ones and of all.
     fn count(self, row: &Row) -> [f64; 2] {
         match self {
             Self::Name => [row.right() / row.objects(), 1.0],
@@ -136,7 +136,7 @@ impl Judgement {
     }
 
     /// Share of names for which a class is right that is the most frequent one of that name in all scenes together, of names that
-    /// several scenes have: no one who sees names alone can do better.
+    /// several scenes have: nobody who has only the names can do better.
     pub fn ceiling(groups: &[NameGroup]) -> [f64; 2] {
         let mut tables: BTreeMap<&[String], (usize, BTreeMap<i16, f64>)> = BTreeMap::new();
         for group in groups.iter().filter(|group| group.labelled() > 0 && !group.words.is_empty()) {

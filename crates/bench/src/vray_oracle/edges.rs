@@ -1,4 +1,4 @@
-//! Where V-Ray's picture has the edges of the squares, measured from where the imported geometry and camera put them.
+//! The positions of the squares' edges in V-Ray's picture, relative to those that the imported geometry and camera predict.
 
 use super::picture::Picture;
 use enfilade_geometry::Bvh;
@@ -8,7 +8,7 @@ use enfilade_scene::{CameraView, Part, Scene, WorldMesh};
 /// Half the length of a profile across an edge, pixels.
 const HALF_PX: f64 = 2.5;
 
-/// The outer pixel at each end of a profile tells its two levels.
+/// Length at each end of a profile over which its level there is measured, pixels.
 const LEVEL_PX: f64 = 1.0;
 
 /// Share of a square that its white margin is wide.
@@ -28,7 +28,7 @@ pub struct EdgePoint {
     pub offset_px: f64,
 }
 
-/// What a camera sees of a scene.
+/// The view of a scene from a camera.
 pub struct Sight<'s> {
     scene: &'s Scene,
     world: WorldMesh,

@@ -1,8 +1,8 @@
 //! Imports Hypersim's empty scene with its squares, renders it and compares the picture with V-Ray's own.
 //!
-//! `vray-oracle SCENES [TAGS] [SAMPLES] [PICTURES.png]`: SCENES is the folder of the shared scenes, TAGS that of the squares' pictures
-//! (tag36h11 of github.com/AprilRobotics/apriltag-imgs; "-" for none: they are grey then). Prints where the edges are and how the radiance
-//! differs, and writes V-Ray's picture, ours, and the difference (grey: none; white: ours is a fifth brighter).
+//! `vray-oracle SCENES [TAGS] [SAMPLES] [PICTURES.png]`: SCENES is the folder of the shared scenes, TAGS the folder of the squares'
+//! pictures (tag36h11 of github.com/AprilRobotics/apriltag-imgs; "-" for none: they are grey then). Prints where the edges are and how the
+//! radiance differs, and writes V-Ray's picture, ours, and the difference (grey: none; white: ours is a fifth brighter).
 
 mod edges;
 mod picture;

@@ -1,7 +1,9 @@
 //! `farm` and what it has below it.
 
+use super::flags::{Flags, word};
 use super::rendering::SettingFlags;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
+use enfilade_farm::{EngineName, PlanOptions, SubmitOptions};
 use std::path::PathBuf;
 
 /// `farm`.
@@ -45,12 +47,9 @@ pub struct FarmPlanArgs {
     /// Where the job is to lie: a folder that all nodes see, or a URL
     #[arg(short, long, value_name = "JOB")]
     pub output: String,
-    /// How long a task is to take
-    #[arg(long, value_name = "MINUTES", default_value_t = 15.0, allow_negative_numbers = true)]
-    pub minutes: f64,
-    /// Threads of a worker
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
-    pub cpus: u32,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub options: Flags<PlanOptions>,
     /// Also report what it will cost: dollars per vCPU-hour, with further rates such as 0.0165,licence=0.00015/core-minute, or a CSV table [default: 0.0165,
     /// Hypersim's median]
     #[arg(long, value_name = "X|CSV", allow_hyphen_values = true)]
@@ -113,56 +112,22 @@ pub struct FarmCollectArgs {
 
 /// `farm submit`.
 #[derive(Args)]
+#[command(
+    mut_arg("program", |arg| arg.help("The program on the nodes [default: this one for Slurm, else enfilade]")),
+    mut_arg("image", |arg| arg.required_if_eq("engine", "kubernetes")),
+    mut_arg("queue", |arg| arg.required_if_eq("engine", "aws-batch")),
+    mut_arg("definition", |arg| arg.required_if_eq("engine", "aws-batch")),
+)]
 pub struct FarmSubmitArgs {
     /// The job, as the nodes name it
     pub job: String,
     /// What starts the workers
-    #[arg(long)]
-    pub engine: EngineArg,
-    /// Only write the files
-    #[arg(long)]
-    pub dry_run: bool,
+    #[arg(long, value_parser = word::<EngineName>())]
+    pub engine: EngineName,
     /// Folder for the files
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     pub output: PathBuf,
-    /// The program on the nodes [default: this one for Slurm, else enfilade]
-    #[arg(long, value_name = "PATH")]
-    pub program: Option<String>,
-    /// Workers at once
-    #[arg(long, value_name = "N")]
-    pub at_once: Option<u32>,
-    /// Memory of a worker, MiB [default: by the forecast]
-    #[arg(long, value_name = "MIB")]
-    pub memory: Option<u64>,
-    /// Minutes after which a worker may be ended [default: by the forecast]
-    #[arg(long, value_name = "N")]
-    pub minutes: Option<u64>,
-    /// Tasks of one array at most (Slurm: MaxArraySize - 1)
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
-    pub array_limit: u32,
-    /// Slurm: collect into this folder when the arrays have ended
-    #[arg(long, value_name = "OUT")]
-    pub collect: Option<String>,
-    /// Kubernetes: the image that holds the program
-    #[arg(long, required_if_eq("engine", "kubernetes"))]
-    pub image: Option<String>,
-    /// AWS Batch: the queue
-    #[arg(long, required_if_eq("engine", "aws-batch"))]
-    pub queue: Option<String>,
-    /// AWS Batch: the job definition
-    #[arg(long, required_if_eq("engine", "aws-batch"))]
-    pub definition: Option<String>,
-}
-
-/// `--engine`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum EngineArg {
-    /// Slurm: job arrays
-    Slurm,
-    /// Kubernetes: an Indexed Job
-    Kubernetes,
-    /// AWS Batch: array jobs
-    AwsBatch,
-    /// Open Job Description, for AWS Deadline Cloud
-    Openjd,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub options: Flags<SubmitOptions>,
 }

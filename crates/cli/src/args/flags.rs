@@ -1,9 +1,9 @@
 //! Flags of options that are declared once, made from their declaration.
 
 use crate::outcome::Problem;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, ValueHint};
 use enfilade_options::{Form, Given, Options, Spec, Unit, Value, Word};
 use std::marker::PhantomData;
 
@@ -63,17 +63,21 @@ fn given(spec: &Spec, matches: &ArgMatches) -> Option<Given> {
     }
     match spec.form {
         Form::Switch => Some(Given::Switch(true)),
-        Form::List(_) => Some(Given::List(matches.get_many::<Given>(spec.name)?.cloned().collect())),
+        Form::List(_) | Form::Two(_) => Some(Given::List(matches.get_many::<Given>(spec.name)?.cloned().collect())),
         _ => matches.get_one::<Given>(spec.name).cloned(),
     }
 }
 
 fn flag(spec: &'static Spec) -> Arg {
-    let default = spec.number().map(|number| format!(" [default: {number}]"));
-    let arg = Arg::new(spec.name).long(spec.flag()).help(spec.about() + &default.unwrap_or_default());
+    let examples = spec.examples().map(|examples| format!(": {examples}"));
+    let default = spec.told_default().map(|default| format!(" [default: {default}]"));
+    let about = [Some(spec.about()), examples, default];
+    let arg = Arg::new(spec.name).long(spec.flag()).help(about.into_iter().flatten().collect::<String>());
     let arg = match spec.form {
         Form::Switch => return arg.action(ArgAction::SetTrue),
         Form::List(element) => valued(arg.action(ArgAction::Append).value_delimiter(','), spec, element),
+        Form::Two(element) => return valued(arg, spec, element).num_args(2).value_names([spec.value_name(); 2]),
+        Form::Path => valued(arg.value_hint(ValueHint::AnyPath), spec, &spec.form),
         _ => valued(arg, spec, &spec.form),
     };
     arg.value_name(spec.value_name())
@@ -82,12 +86,14 @@ fn flag(spec: &'static Spec) -> Arg {
 /// The flag with what reads a value of `form`.
 fn valued(arg: Arg, spec: &'static Spec, form: &'static Form) -> Arg {
     let unit = spec.unit();
-    let is_number = matches!(form, Form::Number | Form::Whole { .. });
+    let is_number = matches!(form, Form::Number | Form::Integer | Form::Whole { .. });
     // A number with its unit is no plain negative number, and one that is below zero has an error that says so.
     let begins_with_minus = form.may_begin_with_minus() || unit != Unit::None;
     let arg = arg.allow_negative_numbers(is_number).allow_hyphen_values(begins_with_minus);
     match form {
         Form::Word(words) => arg.value_parser(words_parser(words).map(Given::Text)),
+        // Names of files need not be UTF-8.
+        Form::Path => arg.value_parser(PathBufValueParser::new().map(Given::Path)),
         form => arg.value_parser(move |text: &str| form.parse(text, unit)),
     }
 }

@@ -1,11 +1,13 @@
 //! `make`: one verb for everything that is made of finished frames, with a noun for each; and which flags go with which noun.
 
-use super::values::{parse_frame, parse_overlap};
+use super::flags::Flags;
 use super::{CamerasArg, FramesArg};
-use clap::builder::PossibleValue;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{ArgMatches, Args, Command, Id, ValueEnum};
-use enfilade_pipeline::Product;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+use enfilade_options::{Options, Spec};
+use enfilade_pipeline::{Product, ProductOptions};
 use std::path::PathBuf;
 
 /// `make`.
@@ -22,8 +24,8 @@ pub struct MakeArgs {
     #[arg(value_name = "OUT")]
     pub dataset: PathBuf,
     /// What to make, one or several
-    #[arg(value_name = "WHAT", required_unless_present = "stale")]
-    pub what: Vec<What>,
+    #[arg(value_name = "WHAT", required_unless_present = "stale", value_parser = product())]
+    pub what: Vec<Product>,
     /// Make again what is out of date, as it was asked for: of WHAT, or of everything
     #[arg(long, conflicts_with = "force")]
     pub stale: bool,
@@ -35,226 +37,94 @@ pub struct MakeArgs {
     pub chosen: FramesArg,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
-    pub list: ListFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub pairs: PairsFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub flow: FlowFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub tracks: TracksFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub surfaces: SurfacesFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub sensors: SensorsFlags,
-    #[command(flatten)]
-    #[allow(missing_docs, reason = "plain words")]
-    pub relit: RelitFlags,
+    pub options: ProductFlags,
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub table: CamerasArg,
 }
 
-/// What `make` makes, in the order in which it does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "`about` tells what each one is")]
-pub enum What {
-    Pairs,
-    Flow,
-    Tracks,
-    Surfaces,
-    Rooms,
-    Words,
-    Sensors,
-    Relit,
+/// Reads a noun: a product that people request by name.
+fn product() -> impl TypedValueParser<Value = Product> {
+    let values = Product::ON_REQUEST.map(|product| PossibleValue::new(product.name()).help(product.spec().about));
+    PossibleValuesParser::new(values).try_map(|name| Product::from_name(&name).ok_or("expected a product"))
 }
 
-impl What {
-    /// The noun of the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pairs => "pairs",
-            Self::Flow => "flow",
-            Self::Tracks => "tracks",
-            Self::Surfaces => "surfaces",
-            Self::Rooms => "rooms",
-            Self::Words => "words",
-            Self::Sensors => "sensors",
-            Self::Relit => "relit",
-        }
+/// A call that makes a product.
+pub fn example(product: Product) -> String {
+    let files = match product {
+        Product::Sensors => " --sensors sensors.toml",
+        Product::Relit => " --mixes mixes.csv",
+        _ => "",
+    };
+    format!("enfilade make OUT {}{files}", product.name())
+}
+
+/// The options of products, each under the nouns that it is for.
+pub struct ProductFlags(pub Flags<ProductOptions>);
+
+impl FromArgMatches for ProductFlags {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Flags::from_arg_matches(matches).map(Self)
     }
 
-    /// What the pipeline calls it.
-    pub const fn product(self) -> Product {
-        match self {
-            Self::Pairs => Product::Pairs,
-            Self::Flow => Product::Flow,
-            Self::Tracks => Product::Tracks,
-            Self::Surfaces => Product::Surfaces,
-            Self::Rooms => Product::Rooms,
-            Self::Words => Product::Words,
-            Self::Sensors => Product::Sensors,
-            Self::Relit => Product::Relit,
-        }
-    }
-
-    /// A call that makes it.
-    pub fn example(self) -> String {
-        let files = match self {
-            Self::Sensors => " --sensors sensors.toml",
-            Self::Relit => " --mixes mixes.csv",
-            _ => "",
-        };
-        format!("enfilade make OUT {}{files}", self.name())
-    }
-
-    const fn about(self) -> &'static str {
-        match self {
-            Self::Pairs => "Which frames see the same surfaces: shares, baselines and angles of all view pairs of a scene",
-            Self::Flow => "Flow between any two frames of a scene, also of different cameras, forward and backward",
-            Self::Tracks => "Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout",
-            Self::Surfaces => "Every surface along the ray of each pixel, front and back, and what is behind glass with refraction",
-            Self::Rooms => "Rooms, walls, doors and windows of scenes without a plan, and the plane that each pixel shows",
-            Self::Words => "Attributes and relations of things, captions, questions with answers",
-            Self::Sensors => "Readings of simulated cameras and depth sensors",
-            Self::Relit => "Frames with lamps switched, dimmed and tinted",
-        }
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        self.0.update_from_arg_matches(matches)
     }
 }
 
-impl ValueEnum for What {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Pairs, Self::Flow, Self::Tracks, Self::Surfaces, Self::Rooms, Self::Words, Self::Sensors, Self::Relit]
+impl Args for ProductFlags {
+    fn augment_args(command: Command) -> Command {
+        let command = ProductOptions::OPTIONS.iter().fold(Flags::<ProductOptions>::augment_args(command), |command, spec| {
+            command.mut_arg(spec.name, |flag| flag.help_heading(named(&nouns(spec), ", ")))
+        });
+        command.mut_arg("between", |flag| flag.conflicts_with("step"))
     }
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.name()).help(self.about()))
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
     }
 }
 
-/// The list of view pairs, which `pairs` writes and `flow` follows.
-#[derive(Args)]
-#[command(next_help_heading = "pairs, flow")]
-pub struct ListFlags {
-    /// The list of view pairs: `pairs` writes it, `flow` follows it there and back [default: pairs.csv in the dataset]
-    #[arg(long, value_name = "CSV")]
-    pub pairs: Option<PathBuf>,
+/// The nouns that an option is for.
+fn nouns(spec: &Spec) -> Vec<Product> {
+    Product::ON_REQUEST.into_iter().filter(|product| product.options().any(|name| name == spec.name)).collect()
 }
 
-/// The flags of `pairs`.
-#[derive(Args)]
-#[command(next_help_heading = "pairs")]
-pub struct PairsFlags {
-    /// Only pairs that see this share of each other: 0.2..0.7, 30%.. or ..0.5 [default: any at all]
-    #[arg(long, value_name = "RANGE", value_parser = parse_overlap)]
-    pub overlap: Option<[f32; 2]>,
-    /// Only pairs with this distance of the cameras, metres: 0.3..2, 0.3.. or ..2 [default: any]
-    #[arg(long, value_name = "RANGE", value_parser = parse_between)]
-    pub baseline: Option<[f64; 2]>,
-    /// Only pairs with this angle between the viewing axes, degrees: 10..90, 10.. or ..90 [default: any]
-    #[arg(long, value_name = "RANGE", value_parser = parse_between)]
-    pub angle: Option<[f64; 2]>,
-    /// Approximate number of pixels of each frame that are projected into the others [default: 3000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub pixels: Option<u32>,
+fn named(products: &[Product], separator: &str) -> String {
+    products.iter().map(|product| product.name()).collect::<Vec<_>>().join(separator)
 }
-
-/// The flags of `flow`.
-#[derive(Args)]
-#[command(next_help_heading = "flow")]
-pub struct FlowFlags {
-    /// Instead of a list: from each frame to the one N later in its trajectory; -1 is the one before
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    pub step: Option<i64>,
-    /// Instead of a list: from one frame to another, as in cam_00/3 cam_01/7
-    #[arg(long, value_names = ["CAMERA/FRAME", "CAMERA/FRAME"], num_args = 2, value_parser = parse_frame, conflicts_with = "step")]
-    pub between: Option<Vec<(String, u32)>>,
-}
-
-/// The flags of `tracks`.
-#[derive(Args)]
-#[command(next_help_heading = "tracks")]
-pub struct TracksFlags {
-    /// Points per camera, seeded evenly over its frames and over the image [default: 256]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub points: Option<u32>,
-    /// Another seed gives other points [default: 0]
-    #[arg(long)]
-    pub seed: Option<u64>,
-}
-
-/// The flags of `surfaces`.
-#[derive(Args)]
-#[command(next_help_heading = "surfaces")]
-pub struct SurfacesFlags {
-    /// Surfaces per pixel at most, from near to far [default: 8]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub layers: Option<u32>,
-}
-
-/// The flags of `sensors`.
-#[derive(Args)]
-#[command(next_help_heading = "sensors")]
-pub struct SensorsFlags {
-    /// The sensors; docs/sensors.md has the kinds and their keys
-    #[arg(long, value_name = "TOML")]
-    pub sensors: Option<PathBuf>,
-}
-
-/// The flags of `relit`.
-#[derive(Args)]
-#[command(next_help_heading = "relit")]
-pub struct RelitFlags {
-    /// The mixes: a table of mix, fixture, r, g, b
-    #[arg(long, value_name = "CSV")]
-    pub mixes: Option<PathBuf>,
-}
-
-/// The nouns that each group of flags is for: clap names a group by its struct.
-const FLAGS: [(&str, &[What]); 7] = [
-    ("ListFlags", &[What::Pairs, What::Flow]),
-    ("PairsFlags", &[What::Pairs]),
-    ("FlowFlags", &[What::Flow]),
-    ("TracksFlags", &[What::Tracks]),
-    ("SurfacesFlags", &[What::Surfaces]),
-    ("SensorsFlags", &[What::Sensors]),
-    ("RelitFlags", &[What::Relit]),
-];
 
 /// Nouns that are always of a whole scene, by the flags that would choose a part of it.
-const OF_WHOLE_SCENES: [(&str, &[What]); 2] = [("camera", &[What::Words]), ("frames", &[What::Pairs, What::Flow, What::Words])];
+const OF_WHOLE_SCENES: [(&str, &[Product]); 2] =
+    [("camera", &[Product::Words]), ("frames", &[Product::Pairs, Product::Flow, Product::Words])];
 
 /// Refuses flags of nouns that are not asked for, and choices of frames that a noun does not know.
 ///
 /// # Errors
 /// One of clap's, with its exit code.
 pub fn check_make(matches: &ArgMatches, command: &mut Command) -> Result<(), clap::Error> {
-    let asked: Vec<What> = matches.get_many::<What>("what").into_iter().flatten().copied().collect();
-    let named = |nouns: &[What]| nouns.iter().map(|noun| noun.name()).collect::<Vec<_>>().join(" and ");
+    let asked: Vec<Product> = matches.get_many::<Product>("what").into_iter().flatten().copied().collect();
     if matches.get_flag("stale") {
         return check_stale(matches, command);
     }
-    for (group, nouns) in FLAGS.iter().filter(|(_, nouns)| !nouns.iter().any(|noun| asked.contains(noun))) {
-        if let Some(flag) = matches.get_many::<Id>(group).into_iter().flatten().next() {
-            let message = format!("{} goes with {}, but {} is asked for", flag_of(flag.as_str()), named(nouns), named(&asked));
+    for spec in given(matches) {
+        let nouns = nouns(spec);
+        if !nouns.iter().any(|noun| asked.contains(noun)) {
+            let message = format!("--{} goes with {}, but {} is asked for", spec.flag(), named(&nouns, " and "), named(&asked, " and "));
             return Err(command.error(ErrorKind::ArgumentConflict, message));
         }
     }
     for (flag, nouns) in OF_WHOLE_SCENES {
-        let whole: Vec<What> = nouns.iter().copied().filter(|noun| asked.contains(noun)).collect();
+        let whole: Vec<Product> = nouns.iter().copied().filter(|noun| asked.contains(noun)).collect();
         if matches.contains_id(flag) && !whole.is_empty() {
-            let message = format!("{} does not go with {}; --scene does", flag_of(flag), named(&whole));
+            let message = format!("--{flag} does not go with {}; --scene does", named(&whole, " and "));
             return Err(command.error(ErrorKind::ArgumentConflict, message));
         }
     }
     let other = ["step", "between"].into_iter().find(|flag| matches.contains_id(flag));
-    match other.filter(|_| matches.contains_id("pairs") && !asked.contains(&What::Pairs)) {
+    match other.filter(|_| matches.contains_id("pairs") && !asked.contains(&Product::Pairs)) {
         Some(flag) => {
-            let message = format!("--pairs and {} both say between which frames flow leads; give one of them", flag_of(flag));
+            let message = format!("--pairs and --{flag} both say between which frames flow leads; give one of them");
             Err(command.error(ErrorKind::ArgumentConflict, message))
         }
         None => Ok(()),
@@ -263,26 +133,20 @@ pub fn check_make(matches: &ArgMatches, command: &mut Command) -> Result<(), cla
 
 /// Refuses flags that say how something is to be made, beside one that makes it as it was.
 fn check_stale(matches: &ArgMatches, command: &mut Command) -> Result<(), clap::Error> {
-    let of_nouns = FLAGS.iter().filter_map(|(group, _)| matches.get_many::<Id>(group)?.next().map(Id::as_str));
-    let of_frames = ["camera", "frames"].into_iter().filter(|flag| matches.contains_id(flag));
+    let of_nouns = given(matches).map(Spec::flag);
+    let of_frames = ["camera", "frames"].into_iter().filter(|flag| matches.contains_id(flag)).map(String::from);
     match of_nouns.chain(of_frames).next() {
         Some(flag) => {
-            let message = format!("--stale makes products as they were asked for, so {} does not go with it; --scene does", flag_of(flag));
+            let message = format!("--stale makes products as they were asked for, so --{flag} does not go with it; --scene does");
             Err(command.error(ErrorKind::ArgumentConflict, message))
         }
         None => Ok(()),
     }
 }
 
-fn flag_of(id: &str) -> String {
-    format!("--{}", id.replace('_', "-"))
-}
-
-/// Numbers from..to, of which one may be left out.
-fn parse_between(text: &str) -> Result<[f64; 2], String> {
-    let bound = |text: &str, default: f64| if text.trim().is_empty() { Some(default) } else { text.trim().parse().ok() };
-    let parsed = text.split_once("..").and_then(|(least, most)| Some([bound(least, 0.0)?, bound(most, f64::INFINITY)?]));
-    parsed.filter(|[least, most]| 0.0 <= *least && least <= most).ok_or_else(|| "expected two numbers, as in 0.3..2, 0.3.. or ..2".into())
+/// The options of products that are given.
+fn given(matches: &ArgMatches) -> impl Iterator<Item = &'static Spec> {
+    ProductOptions::OPTIONS.iter().filter(|spec| matches.value_source(spec.name) == Some(ValueSource::CommandLine))
 }
 
 #[cfg(test)]
@@ -298,17 +162,41 @@ mod tests {
     }
 
     #[test]
-    fn every_flag_of_a_noun_is_in_a_group_of_the_table() {
+    fn every_option_of_a_product_is_a_flag_below_its_nouns() {
         let command = Cli::command();
         let make = command.find_subcommand("make").unwrap();
-        let of_nouns = make.get_arguments().filter(|arg| arg.get_help_heading().is_some_and(|heading| !heading.contains("Hypersim")));
-        let in_groups = || make.get_groups().filter(|group| FLAGS.iter().any(|(name, _)| group.get_id() == *name));
-        let mut flags = 0;
-        for flag in of_nouns {
-            assert!(in_groups().any(|group| group.get_args().any(|id| id == flag.get_id())), "{}", flag.get_id());
-            flags += 1;
+        let below = |flag: &str| make.get_arguments().find(|arg| arg.get_long() == Some(flag)).unwrap().get_help_heading().unwrap();
+        for (flag, heading) in
+            [("pairs", "pairs, flow"), ("baseline", "pairs"), ("between", "flow"), ("seed", "tracks"), ("mixes", "relit")]
+        {
+            assert_eq!(below(flag), heading);
         }
-        assert_eq!((in_groups().count(), flags), (FLAGS.len(), 12));
+        assert!(ProductOptions::OPTIONS.iter().all(|spec| !nouns(spec).is_empty()));
+    }
+
+    #[test]
+    fn values_of_options_are_read() {
+        let read = |words: &str| {
+            let cli = Cli::of(&words.split(' ').map(Into::into).collect::<Vec<_>>()).map_err(|error| error.to_string())?;
+            let super::super::Verb::Make(args) = cli.verb else { panic!() };
+            Ok::<_, String>(args.options.0.options().unwrap())
+        };
+        let options = read("enfilade make out flow pairs --between cam_00/3 cam_01/7 --overlap 20%.. --baseline ..2").unwrap();
+        assert_eq!(options.between, Some([("cam_00".into(), 3), ("cam_01".into(), 7)]));
+        let ends = (options.overlap.unwrap().ends(), options.baseline_m.unwrap().ends());
+        assert_eq!(ends, ([0.2, 1.0], [0.0, 2.0]));
+        assert_eq!(read("enfilade make out flow --step -1").unwrap().step, Some(-1));
+        assert_eq!(read("enfilade make out tracks").unwrap(), ProductOptions::default());
+        for (words, told) in [
+            ("enfilade make out flow --step 1 --between a/1 b/2", "cannot be used with"),
+            ("enfilade make out flow --between a/1", "2 values required"),
+            ("enfilade make out surfaces --layers 65", "expected a whole number from 1 to 64"),
+            ("enfilade make out pairs --baseline -1..2", "expected two numbers from 0"),
+            ("enfilade make out depth", "[possible values: pairs, flow, tracks"),
+        ] {
+            let found = read(words).unwrap_err();
+            assert!(found.contains(told), "{words}: {found}");
+        }
     }
 
     #[test]
@@ -328,14 +216,5 @@ mod tests {
             let found = refusal(words).unwrap_or_default();
             assert!(found.contains(told), "{words}: {found}");
         }
-    }
-
-    #[test]
-    fn ranges_of_numbers_are_read() {
-        assert_eq!(
-            (parse_between("0.3..2"), parse_between("10.."), parse_between("..90")),
-            (Ok([0.3, 2.0]), Ok([10.0, f64::INFINITY]), Ok([0.0, 90.0]))
-        );
-        assert!(["3", "2..1", "-1..2", "a..b", "nan.."].iter().all(|text| parse_between(text).is_err()));
     }
 }

@@ -15,8 +15,8 @@ mod shell;
 mod stages;
 mod values;
 
-pub use farm::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
-pub use make::{MakeArgs, What};
+pub use farm::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
+pub use make::{MakeArgs, example};
 pub use outputs::{AnimateArgs, ExportArgs};
 pub use pages::{AnnotateArgs, ListenArgs, ViewArgs};
 pub use reading::{CamerasArg, FramesArg};

@@ -1,9 +1,10 @@
 //! The verbs that write a dataset in other forms.
 
-use super::values::parse_layer;
+use super::flags::Flags;
 use super::{CamerasArg, FramesArg};
 use clap::{Args, ValueEnum};
 use enfilade_animate::{AnimationFormat, Film};
+use enfilade_export::ExportOptions;
 use std::path::PathBuf;
 
 /// `export`.
@@ -24,15 +25,9 @@ pub struct ExportArgs {
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub chosen: FramesArg,
-    /// Only these layers, of those that the format supports
-    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',', value_parser = parse_layer)]
-    pub layers: Option<Vec<enfilade_frame::Layer>>,
-    /// With webdataset and huggingface: largest size of a file in megabytes
-    #[arg(long, value_name = "MB", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
-    pub shard_mb: u64,
-    /// With spatiallm: points of what the frames show, and its rooms; or of the whole mesh, and all rooms
-    #[arg(long, value_name = "FROM", default_value = "frames", value_parser = ["frames", "mesh"])]
-    pub cloud: String,
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "plain words")]
+    pub options: Flags<ExportOptions>,
     /// If OUT exists and is no export, rename it to OUT.old
     #[arg(long)]
     pub force: bool,

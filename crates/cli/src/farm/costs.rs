@@ -1,4 +1,4 @@
-//! What a job has cost, for `farm status` and `farm collect`.
+//! The costs of a job, for `farm status` and `farm collect`.
 
 use crate::outcome::{Problem, say};
 use crate::price::{dollars, paid};
@@ -6,8 +6,8 @@ use enfilade_dataset::{Price, memory_gib, tells_sizes};
 use enfilade_farm::{Costs, Feasible, Job, costs};
 use std::path::Path;
 
-/// Says what was paid at every price, for what, and on which machines it could have run; writes a row per attempt to `table` at the
-/// first price. Gives what it has read.
+/// Prints the cost of the job at every price, what it was spent on, and on which machines the job could have run. Writes a row per attempt
+/// to `table` at the first price. Returns the costs.
 pub fn say_costs(job: &Job, prices: &[Price], table: Option<&Path>) -> Result<Costs, Problem> {
     let costs = costs(job)?;
     lines(&costs).iter().for_each(|line| say(line));
@@ -51,7 +51,7 @@ fn lines(costs: &Costs) -> Vec<String> {
     lines
 }
 
-/// Where `attempts` could have run.
+/// The machines on which `attempts` could have run.
 fn machines(found: &Feasible, attempts: usize) -> Vec<String> {
     let told = attempts - found.unknown as usize;
     if told == 0 {

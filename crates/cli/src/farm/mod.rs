@@ -2,7 +2,7 @@
 
 mod costs;
 
-use crate::args::{EngineArg, FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
+use crate::args::{FarmArgs, FarmCollectArgs, FarmPlanArgs, FarmStatusArgs, FarmSubmitArgs, FarmVerb, FarmWorkArgs};
 use crate::estimate::told;
 use crate::outcome::{Problem, Verdict, say, warn};
 use crate::price::{dollars, paid, prices, told_price};
@@ -11,8 +11,8 @@ use crate::run::configuration;
 use crate::summary;
 use enfilade_dataset::{Price, quoted};
 use enfilade_farm::{
-    Assignment, Attempt, Ended, Engine, FarmError, Job, Plan, PlanOptions, PricedPlan, Store, SubmitOptions, Submitted, Work,
-    default_scratch, how_to_submit, parse_ranges, print_ranges, stop_on_signals,
+    Assignment, Attempt, Ended, Engine, EngineName, FarmError, Job, Plan, PricedPlan, Store, Submitted, Work, default_scratch,
+    how_to_submit, parse_ranges, print_ranges, stop_on_signals,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ fn open(job: &str) -> Result<Job, FarmError> {
 fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
     let prices = prices(args.price.as_deref())?;
     let config = configuration(args.config.as_deref(), &args.settings)?;
-    let options = PlanOptions { minutes: args.minutes, cpus: args.cpus };
+    let options = args.options.options()?;
     options.check()?;
     let store = Store::begin(&args.output, enfilade_farm::environment())?;
     let (result, job) = {
@@ -62,7 +62,7 @@ fn plan(args: &FarmPlanArgs, quiet: bool) -> Result<Verdict, Problem> {
     Ok(Verdict::Done)
 }
 
-/// Says how the work was divided, and what it will take and cost.
+/// Prints how the work was divided, how long it will take and what it will cost.
 fn say_plan(plan: &Plan, prices: &[Price]) {
     let told_plan = plan.statement(prices);
     let (tasks, hours) = (told_plan.tasks, told_plan.vcpu_hours.mean);
@@ -165,7 +165,7 @@ fn warn_of(unreadable: &[String]) {
     unreadable.iter().for_each(|warning| warn(warning));
 }
 
-/// What should not be: machines that make different bytes of a frame, and frames that break laws.
+/// Prints faults: machines that make different bytes of a frame, and frames that break laws.
 fn say_faults(different: u32, broken: &BTreeMap<String, u32>) {
     if different > 0 {
         say(&format!("{different} frames came out differently when they were made twice: nodes differ in program, library or settings"));
@@ -191,26 +191,11 @@ fn collect(args: &FarmCollectArgs, quiet: bool) -> Result<Verdict, Problem> {
 
 /// `farm submit`: files for engines.
 fn submit(args: &FarmSubmitArgs, program: Option<&Path>) -> Result<Verdict, Problem> {
-    let named = |option: &Option<String>, flag: &str| {
-        option.clone().ok_or_else(|| Problem::new(format!("{flag} is not given"), "see enfilade farm submit --help"))
-    };
-    let engine = match args.engine {
-        EngineArg::Slurm => Engine::Slurm { collect: args.collect.clone(), dry_run: args.dry_run },
-        EngineArg::Kubernetes => Engine::Kubernetes { image: named(&args.image, "--image")? },
-        EngineArg::AwsBatch => {
-            Engine::AwsBatch { queue: named(&args.queue, "--queue")?, definition: named(&args.definition, "--definition")? }
-        }
-        EngineArg::Openjd => Engine::Openjd,
-    };
+    let mut options = args.options.options()?;
+    let engine = Engine::of(args.engine, &options)?;
     // Nodes of Slurm see the same folders.
-    let here = || program.filter(|_| args.engine == EngineArg::Slurm).map(|path| path.display().to_string());
-    let options = SubmitOptions {
-        program: args.program.clone().or_else(here),
-        at_once: args.at_once,
-        memory_mib: args.memory,
-        minutes: args.minutes,
-        array_limit: Some(args.array_limit),
-    };
+    let here = || program.filter(|_| args.engine == EngineName::Slurm).map(|path| path.display().to_string());
+    options.program = options.program.or_else(here);
     let mut tell = |done: Submitted| match done {
         Submitted::File(path) => say(&path.display().to_string()),
         Submitted::Job(number) => say(&format!("submitted as job {number}")),

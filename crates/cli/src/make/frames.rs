@@ -1,4 +1,4 @@
-//! Which cameras a verb works on.
+//! The cameras that a verb works on.
 
 use crate::outcome::Problem;
 use enfilade_dataset::Dataset;

@@ -1,4 +1,4 @@
-//! Bad input gets one clear message that names file and place and says what to do; it never panics.
+//! Bad input gives one clear message that names file and place and says what to do; it never panics.
 
 use crate::common::{CAMERA, Lamp, enfilade, fail, folder, run, scene, succeed, write_config, write_room};
 use std::fs;
@@ -77,7 +77,7 @@ fn folders_that_hold_something_else_or_cannot_be_written_are_refused() {
     fs::write(dir.path().join("photos/cat.jpg"), "x").unwrap();
     fail(dir.path(), &["run", "--demo", "photos"], 2, &["photos holds something else", "cat.jpg"]);
     assert_eq!(fs::read_dir(dir.path().join("photos")).unwrap().count(), 1);
-    // Permissions do not bind every user, so a folder below a file stands for one that cannot be written.
+    // Permissions do not bind every user, so a folder below a file is used as one that cannot be written.
     fail(dir.path(), &["run", "--demo", "photos/cat.jpg/out"], 1, &["photos/cat.jpg/out", "choose another output folder"]);
 }
 
@@ -209,7 +209,7 @@ fn negative_numbers_are_values_and_not_flags() {
     }
 }
 
-/// A file that takes no bytes stands for a full disk.
+/// The full disk is simulated by a file that accepts no bytes.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_told_and_leaves_nothing_half_written() {
@@ -230,7 +230,7 @@ fn a_full_disk_is_told_and_leaves_nothing_half_written() {
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
 }
 
-/// A program that reads what a verb says must not take nothing for the answer.
+/// A program that reads a verb's output must not mistake missing output for an answer.
 #[cfg(target_os = "linux")]
 #[test]
 fn output_that_cannot_be_written_is_told() {
@@ -245,7 +245,7 @@ fn output_that_cannot_be_written_is_told() {
     }
 }
 
-/// Stacks that no memory can hold stand for a system that gives no threads.
+/// A system that gives no threads is simulated by stacks that exceed all memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn threads_that_cannot_be_started_are_told() {

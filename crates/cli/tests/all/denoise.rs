@@ -1,4 +1,4 @@
-//! What `color` holds: denoised from the first run, rendered where that is asked for, and one after the other without rendering.
+//! The contents of `color`: denoised from the first run, rendered on request, and one after the other without rendering.
 
 use crate::common::{Lamp, assert_same, contents, enfilade, fail, folder, scene, succeed, write_config, write_room};
 use std::path::{Path, PathBuf};
@@ -63,7 +63,7 @@ fn color_is_denoised_from_the_first_run_and_changes_without_rendering() {
     assert_eq!(bytes(&layer(&out, "color")), rendered[&layer(Path::new(""), "color")]);
     assert_eq!(rendered_at(&out), first);
 
-    // What was not kept is rendered again, and that is told.
+    // Rendered colour that was not kept is rendered again, and a message reports that.
     let text = std::fs::read_to_string(d.join("dataset.toml")).unwrap();
     std::fs::write(d.join("bare.toml"), text.replace("[render]\n", "[render]\nkeep_rendered = false\n")).unwrap();
     succeed(d, &["run", "bare.toml", "-o", "bare"]);

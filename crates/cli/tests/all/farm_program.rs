@@ -20,7 +20,7 @@ fn write(d: &Path, script: &str, further: &str) {
     fs::write(d.join("dataset.toml"), format!("name = \"set\"\n{QUICK}{}{program}{further}", scene("room"))).unwrap();
 }
 
-/// What programs have left in a dataset, and the rest of it.
+/// The files that programs have left in a dataset, and the rest of it.
 fn apart(root: &Path) -> [BTreeMap<PathBuf, Vec<u8>>; 2] {
     let is_left = |path: &PathBuf| path.components().any(|part| part.as_os_str() == "after_frame");
     let (left, rest) = contents(root).into_iter().partition(|(path, _)| is_left(path));
@@ -41,7 +41,7 @@ fn what_the_program_leaves_comes_with_the_frame_and_the_rest_is_as_one_machine_m
     let text = succeed(d, &[&PLAN[..], &["--price", rates]].concat());
     assert!(text.contains("dollars at 0.0165 per vCPU-hour and 0.00015 per core-minute for licence (given): "), "{text}");
     assert!(text.contains("and what \"sh\" takes after every frame") && !text.contains("warning"), "{text}");
-    // Two workers at the same tasks make the same, whoever comes first.
+    // Two workers at the same tasks make the same frames, whichever is first.
     let workers = ["a", "b"].map(|scratch| {
         let mut command = enfilade(d, &["farm", "work", "job", "--task", "0-2", "--scratch", scratch, "--threads", "1"]);
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
@@ -83,7 +83,7 @@ fn what_the_program_leaves_comes_with_the_frame_and_the_rest_is_as_one_machine_m
         }
     }
     succeed(d, &["verify", "out"]);
-    // What was left of frames that are rendered again is of others.
+    // The program's files of frames that are rendered again are outdated, so they are removed.
     succeed(d, &["run", "out", "--only", "render", "--force"]);
     assert!(apart(&d.join("out"))[0].is_empty());
 
@@ -108,14 +108,14 @@ fn a_program_that_fails_is_the_frames_failure_and_the_frame_is_not_rendered_agai
     let json = |name: &str| serde_json::from_slice::<serde_json::Value>(&fs::read(d.join("job").join(name)).unwrap()).unwrap();
     let kept = json("kept/room/cam_00/0001.json");
     fs::write(&weights, "w").unwrap();
-    // What was kept of another frame and damaged since is not taken.
+    // Kept files of another frame, damaged since, are not used.
     for end in ["json", "tar"] {
         let [from, to] = ["0001", "0002"].map(|frame| d.join(format!("job/kept/room/cam_00/{frame}.{end}")));
         fs::copy(from, to).unwrap();
     }
     fs::write(d.join("job/kept/room/cam_00/0002.tar"), "x").unwrap();
     succeed(d, &["farm", "work", "job", "--shard", "0/1", "--scratch", "a"]);
-    // The time that it took to be rendered is that of the first attempt.
+    // The recorded rendering time is the first attempt's.
     let done = json("done/room/cam_00/0001.json");
     assert!(done["wall_s"] == kept["wall_s"] && done["attempt"] != kept["attempt"] && done["after_frame_wall_s"].as_f64() > Some(0.0));
     assert_eq!(fs::read_dir(d.join("job/kept/room/cam_00")).unwrap().count(), 0, "nothing is kept of frames that are committed");

@@ -20,7 +20,7 @@ fn pairs_are_measured_filtered_and_hold_their_law_on_any_number_of_threads() {
     assert!(of_all == contents(&d.join("out")));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 
-    // What is chosen goes where it is asked for, and the matrix stays whole.
+    // The chosen pairs go to the requested file, and the matrix stays complete.
     let text = succeed(d, &["make", "out", "pairs", "--baseline", "100..", "--pairs", "far.csv"]);
     assert!(text.contains("0 of 3 pairs") && fs::read_to_string(d.join("far.csv")).unwrap().lines().count() == 1, "{text}");
     assert_eq!(fs::read_to_string(d.join("out/pairs.csv")).unwrap(), list);

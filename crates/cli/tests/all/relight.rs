@@ -69,9 +69,9 @@ fn surfaces_along_rays_hold_their_law() {
     assert!(all == contents(&folder));
     assert!(succeed(d, &["verify", "out"]).contains("laws hold over 3 frames"));
 
-    // What is another frame's is found, and made again.
+    // Files of another frame are detected, and made again.
     fs::copy(folder.join("frame.0000.surface_entity_id.hdf5"), folder.join("frame.0001.surface_entity_id.hdf5")).unwrap();
-    fail(d, &["verify", "out"], 1, &["surfaces along rays", "room/cam_00/frame.0001"]);
+    fail(d, &["verify", "out"], 1, &["surfaces along a ray", "room/cam_00/frame.0001"]);
     succeed(d, &["make", "out", "--stale"]);
     assert!(all == contents(&folder));
 }

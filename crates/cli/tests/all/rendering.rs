@@ -36,7 +36,7 @@ fn extra_layers_come_when_asked_for_and_change_nothing_else() {
         assert!(d.join(format!("more/scenes/room/images/scene_cam_00_geometry_preview/frame.0001.{name}.png")).is_file(), "{name}");
     }
     let text = succeed(d, &["verify", "more"]);
-    assert!(text.contains("extra layers lie in their ranges"), "{text}");
+    assert!(text.contains("extra layers are within their ranges"), "{text}");
     assert!(succeed(d, &["inspect", "more", "--pixel", "3,4"]).contains("optical_flow"));
     // Asked for no longer, they go.
     succeed(d, &["run", "dataset.toml", "-o", "more"]);
@@ -65,7 +65,7 @@ fn parts_of_light_come_when_asked_for_change_nothing_else_and_go_again() {
         assert!(images.join(format!("scene_cam_00_final_preview/frame.0002.{name}.jpg")).is_file(), "{name}");
     }
     let text = succeed(d, &["verify", "at-once"]);
-    assert!(text.contains("light by path and light by source sum to color"), "{text}");
+    assert!(text.contains("light by path and light by source each sum to color"), "{text}");
     assert!(succeed(d, &["inspect", "at-once", "--pixel", "3,4"]).contains("light_environment"));
     assert!(fs::read_to_string(d.join("out/manifest.json")).unwrap().contains("\"splits\": true"));
     succeed(d, &["run", "out", "--only", "label,preview"]);
@@ -157,7 +157,7 @@ fn rendering_goes_on_with_the_numbers_it_was_given() {
     }
     assert_eq!(record(&d.join("out"), 0)["stopped_by"], "noise");
     assert!(succeed(d, &["run", "out", "--only", "render"]).contains("nothing to do"));
-    // Too few samples for the noise that is asked for break no law, but nobody wants the frames.
+    // Too few samples for the requested noise violate no law, but the frames are useless.
     succeed(d, &["run", "out", "--only", "render", "--samples", "2", "--noise", "1%"]);
     succeed(d, &["label", "out"]);
     assert!(succeed(d, &["verify", "out"]).contains("of target: noise; rejects 3 of 3"));
@@ -193,7 +193,7 @@ fn a_dataset_of_black_pictures_is_not_ok_and_the_last_line_says_why() {
         );
         assert!(err.contains("hang lamps by lamps = \"ceiling\""), "{err}");
     }
-    fail(d, &["verify", "out"], 1, &["no more than half of a scene's frames are black"]);
+    fail(d, &["verify", "out"], 1, &["at most half of a scene's frames are black"]);
     write_config(d, &[format!("{}lamps = \"ceiling\"\n", scene("room"))]);
     let text = succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert!(!text.contains("NOT OK"), "{text}");

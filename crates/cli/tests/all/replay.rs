@@ -1,4 +1,4 @@
-//! A frame is rendered again from its record to the same bytes, and when it cannot be, it is said why.
+//! A frame is rendered again from its record to the same bytes, and when it cannot be, the message says why.
 
 use crate::common::{Lamp, assert_same, contents, fail, folder, scene, succeed, write_config, write_room};
 use std::fs;

@@ -113,7 +113,7 @@ fn scenes_are_imported_again_when_a_file_comes_late_or_another_one_is_meant() {
     assert!(run("b").contains("Nothing to do"));
 }
 
-/// Pictures were named by where they lay, so that a scene was another one once its folder had another name.
+/// Pictures were once named by their paths, so that a scene changed when its folder was renamed.
 #[test]
 fn sources_that_were_moved_make_the_same_bytes_and_cost_no_frame() {
     let dir = folder();
@@ -128,7 +128,7 @@ fn sources_that_were_moved_make_the_same_bytes_and_cost_no_frame() {
     succeed(d, &["run", "here/dataset.toml", "-o", "out"]);
     let (before, times) = (contents(&d.join("out")), color_times(&d.join("out")));
     fs::rename(d.join("here"), d.join("there")).unwrap();
-    // Where they lay is what the dataset knows until it is run again.
+    // The dataset knows only the old paths until it is run again.
     fail(d, &["label", "out"], 1, &["run again with the dataset.toml beside them"]);
     succeed(d, &["run", "there/dataset.toml", "-o", "out"]);
     assert_same(&before, &contents(&d.join("out")));

@@ -44,7 +44,7 @@ fn a_table_that_was_corrected_and_a_scene_file_are_not_written_over() {
     let d = dir.path();
     write_room(d, "room", Lamp::On);
     succeed(d, &["suggest", "room.obj"]);
-    // The same once more takes nothing from anyone.
+    // A second run changes nothing.
     succeed(d, &["suggest", "room.obj"]);
     let suggested = fs::read(d.join("room.labels.csv")).unwrap();
     let corrected = [suggested.as_slice(), b"box,29,box,,1.000,\n"].concat();

@@ -2,7 +2,7 @@
 
 use enfilade_frame::{Values, f16};
 
-/// How an element is stored; always little-endian.
+/// The storage type of an element; always little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Element {
@@ -70,7 +70,7 @@ impl Elements {
         self.len() == 0
     }
 
-    /// How they are stored.
+    /// Their storage type.
     pub fn element(&self) -> Element {
         match self {
             Self::F16(_) => Element::F16,
@@ -184,12 +184,12 @@ impl Array {
     }
 }
 
-/// An array whose elements lie elsewhere.
+/// An array that borrows its elements.
 #[derive(Clone, Copy)]
 pub(crate) struct ArrayView<'a> {
     /// Length of each axis, slowest first.
     pub shape: &'a [usize],
-    /// How an element is stored.
+    /// Storage type of an element.
     pub element: Element,
     /// Little-endian bytes of all elements.
     pub bytes: &'a [u8],

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// Bytes that are read at once from the beginning of a file. In Hypersim's files only the tables of chunks lie beyond.
+/// Bytes that are read at once from the beginning of a file. In Hypersim's files only the tables of chunks are further on.
 const HEAD: usize = 4096;
 
 /// A file and its first bytes.
@@ -14,7 +14,7 @@ pub(super) struct FileBytes {
     /// Bytes in the file.
     pub length: u64,
     head: Vec<u8>,
-    /// What addresses in the file count from.
+    /// Position from which addresses in the file count, in bytes.
     base: u64,
     /// Nodes of trees that were walked.
     walked: BTreeSet<u64>,

@@ -1,9 +1,9 @@
-//! Where chunks lie: B-trees of version 1 ("HDF5 File Format Specification Version 3.0", section III.A.1).
+//! Positions of chunks: B-trees of version 1 ("HDF5 File Format Specification Version 3.0", section III.A.1).
 
 use super::bytes::{FileBytes, u16_at, u32_at, u64_at, usize_at};
 use std::collections::HashSet;
 
-/// Where the bytes of a chunk lie in the file.
+/// Position and length of a chunk in the file, in bytes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ChunkSpan {
     pub offset: u64,
@@ -11,12 +11,13 @@ pub(super) struct ChunkSpan {
     pub length: usize,
 }
 
-/// Is handed a chunk's index by row of the grid of chunks, last axis fastest, where it lies, and the filters that it leaves out,
-/// a bit each. Ends the walk by `None`.
+/// Receives a chunk's index in the grid of chunks (row by row, last axis fastest), its position, and the filters that it leaves out, a bit
+/// each. `None` ends the walk.
 pub(super) type Take<'a> = dyn FnMut(usize, ChunkSpan, u32) -> Option<()> + 'a;
 
-/// Writes where all chunks of the tree at `root` lie into `places`, by row of the grid of chunks, last axis fastest. `chunk` and `grid` have the axes
-/// of the array: elements of a chunk, and chunks. `None` when the file is damaged or a chunk leaves out filters.
+/// Writes the positions of all chunks of the tree at `root` into `places`, in the order of the grid of chunks (row by row, last axis
+/// fastest). `chunk` and `grid` have the axes of the array: elements of a chunk, and chunks. `None` when the file is damaged or a chunk
+/// leaves out filters.
 pub(super) fn enter(source: &mut FileBytes, root: u64, chunk: &[usize], grid: &[usize], places: &mut [ChunkSpan]) -> Option<()> {
     walk(source, root, chunk, grid, &mut |index, place, left_out| {
         *places.get_mut(index).filter(|_| left_out == 0)? = place;
@@ -24,8 +25,8 @@ pub(super) fn enter(source: &mut FileBytes, root: u64, chunk: &[usize], grid: &[
     })
 }
 
-/// Hands all chunks of the tree at `root` to `take`. `None` when `take` gave it, or the tree is damaged: it leads to something that
-/// is no node of a lower level, or twice to the same, or a chunk lies outside of the array or the file.
+/// Hands all chunks of the tree at `root` to `take`. `None` when `take` returned it, or the tree is damaged: it leads to something that is
+/// no node of a lower level, or twice to the same node, or a chunk is outside of the array or the file.
 pub(super) fn walk(source: &mut FileBytes, root: u64, chunk: &[usize], grid: &[usize], take: &mut Take<'_>) -> Option<()> {
     /// Above all levels, which are bytes.
     const ABOVE: u16 = 256;

@@ -35,7 +35,7 @@ pub(super) fn grid(shape: [usize; 3], chunk: [usize; 3]) -> [usize; 3] {
     std::array::from_fn(|axis| shape[axis].div_ceil(chunk[axis]))
 }
 
-/// Where a chunk meets the array: its first element, and its extent inside the array.
+/// The part of a chunk inside the array: its first element, and its extent.
 fn overlap(shape: [usize; 3], chunk: [usize; 3], at: [usize; 3]) -> ([usize; 3], [usize; 3]) {
     let first = std::array::from_fn(|axis| at[axis] * chunk[axis]);
     (first, std::array::from_fn(|axis| chunk[axis].min(shape[axis] - first[axis])))

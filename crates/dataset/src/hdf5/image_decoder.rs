@@ -19,7 +19,7 @@ pub(super) fn read_image(path: &Path) -> Option<Array> {
     decode(&mut source, &map, Window { top: 0, left: 0, height, width })
 }
 
-/// The file and where its chunks lie; `None` when it is no image in the known form.
+/// The file and the positions of its chunks; `None` when it is no image in the known form.
 pub(super) fn open(path: &Path) -> Option<(FileBytes, ImageMap)> {
     let mut source = FileBytes::open(path)?;
     let map = ImageMap::read(&mut source)?;
@@ -42,7 +42,7 @@ thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
-/// The elements of a window that lies in the image; `None` when a chunk is damaged.
+/// The elements of a window in the image; `None` when a chunk is damaged.
 pub(super) fn decode(source: &mut FileBytes, map: &ImageMap, window: Window) -> Option<Array> {
     let channels = map.axes()[2];
     let mut values = Elements::zeroed(map.element, window.height * window.width * channels);
@@ -101,8 +101,8 @@ fn decode_sized<const B: usize>(
     Some(())
 }
 
-/// Reads the bytes from the first to the last of `places` and gives the offset of the first; chunks of one row lie side by side in the
-/// files that are meant here. `None` when they lie so far apart that this would be no gain.
+/// Reads the bytes from the first to the last of `places` and gives the offset of the first; chunks of one row are adjacent in the files
+/// that this is for. `None` when they are so far apart that reading them together gains nothing.
 fn fetch(source: &mut FileBytes, places: &[ChunkSpan], stored: &mut Vec<u8>) -> Option<u64> {
     let first = places.iter().map(|place| place.offset).min()?;
     let last = places.iter().map(|place| place.offset + place.length as u64).max()?;
@@ -140,7 +140,7 @@ fn inflate<const B: usize>(map: &ImageMap, places: &[ChunkSpan], base: u64, scra
     Some(())
 }
 
-/// Where the chunks of one place meet the window.
+/// The part of the window that the chunks of one place cover.
 struct Overlap {
     /// Rows and columns within the chunk.
     rows: Range<usize>,

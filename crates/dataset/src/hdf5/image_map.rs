@@ -1,4 +1,4 @@
-//! Where the chunks of an image lie in its file.
+//! Positions of the chunks of an image in its file.
 //!
 //! This walks the one form of HDF5 that images have, Hypersim's and ours: superblock 0, one dataset named `dataset` in the root
 //! group, an object header of version 1, and the values as one run or as filtered chunks in a B-tree of version 1 ("HDF5 File Format
@@ -22,7 +22,7 @@ pub(super) const MAX_DEPTH: usize = 8;
 /// Bytes that a chunk of an image takes at least in the tree: length, filters, three offsets and address.
 const CHUNK_ENTRY: u64 = 40;
 
-/// How the bytes of a chunk are compressed.
+/// The compression of a chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Codec {
     /// Deflate in zlib's framing.
@@ -166,7 +166,7 @@ pub(super) fn messages(source: &mut FileBytes, header: u64, take: &mut impl FnMu
     Some(())
 }
 
-/// What the messages of the dataset's header say.
+/// Contents of the messages of the dataset's header.
 #[derive(Default)]
 struct Description {
     shape: Option<Vec<usize>>,

@@ -1,9 +1,9 @@
-//! How long a file must be by what its head says, to find files that were cut short without decoding them.
+//! The length that a file must have by its header, to find files that were cut short without decoding them.
 
 use super::bytes::FileBytes;
 use std::path::Path;
 
-/// Where HDF5 files begin.
+/// First bytes of HDF5 files.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
 /// Bytes that an HDF5 file has and those that its superblock counts, where it has fewer: it was cut short. `None` for whole files, for

@@ -1,5 +1,5 @@
-//! LZ4 in the framing of the filter that is registered with the HDF Group as 32004: the length of all as 8 bytes, that of a block as 4,
-//! then before each block its compressed length, all big-endian. A block that does not shrink is stored as it is.
+//! LZ4 in the framing of the filter that is registered with the HDF Group as 32004: the total length in 8 bytes, the length of a block in
+//! 4, then before each block its compressed length, all big-endian. A block that does not shrink is stored as it is.
 
 /// The frame of `raw`, in one block.
 pub(super) fn compress(raw: &[u8]) -> Vec<u8> {
@@ -9,7 +9,7 @@ pub(super) fn compress(raw: &[u8]) -> Vec<u8> {
     [&(raw.len() as u64).to_be_bytes()[..], &length(raw.len()), &length(block.len()), block].concat()
 }
 
-/// Fills `out` and gives the number of bytes; `None` when the frame is damaged or holds more.
+/// Fills `out` and gives the number of bytes; `None` when the frame is damaged or contains more.
 pub(super) fn decompress(frame: &[u8], out: &mut [u8]) -> Option<usize> {
     let number = |at: usize| Some(u32::from_be_bytes(*frame.get(at..)?.first_chunk()?) as usize);
     let total = usize::try_from(u64::from_be_bytes(*frame.first_chunk()?)).ok()?;

@@ -1,18 +1,18 @@
-//! How a file stores its array: as one run of bytes, or cut into chunks that are compressed.
+//! Storage of arrays in files: as one run of bytes, or cut into chunks that are compressed.
 //!
 //! The choices for layers of images are by the kind of their values; docs/benchmarks/storage.md has the measurements behind them.
 
 use super::array::Element;
 use enfilade_frame::{Dtype, Layer};
 
-/// How a file stores its array.
+/// The storage of an array in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// One run of bytes: Hypersim's camera arrays.
     Contiguous,
     /// Chunks of h5py's shape, shuffled and deflated: meshes. Arrays of more than three axes or without elements are stored as one run.
     Compressed,
-    /// Chunks as said: images, of two axes or three. Others are stored as one run.
+    /// Chunks as given: images, of two axes or three. Other arrays are stored as one run.
     Image(Packing),
     /// An image for fast reading: one run of bytes if it has one channel of floating-point numbers, or if LZ4 would save less than a
     /// quarter; else chunks of 128x128 pixels with all channels, shuffled if they are floating-point numbers, under LZ4, for which h5py

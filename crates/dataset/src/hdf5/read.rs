@@ -17,7 +17,7 @@ use std::path::Path;
 /// Reads the array of a file, ours or Hypersim's.
 ///
 /// # Errors
-/// When the file is missing or damaged, or holds anything but one dataset named `dataset` of a known element type.
+/// When the file is missing or damaged, or contains anything but one dataset named `dataset` of a known element type.
 pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     if let Some(image) = read_image(path) {
         return Ok(image);
@@ -27,7 +27,7 @@ pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
     if has_damaged_tree(path, "dataset") {
         return Err(DatasetError::hdf5(path, format!("the index of its chunks is broken: {DAMAGED}")));
     }
-    // The library takes some of what stands in a file for granted, and panics where it is not so.
+    // The library relies on some of a file's contents without checking, and panics if they are wrong.
     let gave_up = |_| Err(DatasetError::hdf5(path, format!("the HDF5 library gave up on it: {DAMAGED}")));
     catch_unwind(|| read_dataset(path, length)).unwrap_or_else(gave_up)
 }
@@ -35,7 +35,7 @@ pub fn read_array(path: &Path) -> Result<Array, DatasetError> {
 /// Reads a rectangle of an image of two axes or three: of an image in chunks only those that it touches.
 ///
 /// # Errors
-/// When the file is missing or damaged, holds no image, or the window leaves it.
+/// When the file is missing or damaged, contains no image, or the window exceeds it.
 ///
 /// ```
 /// use enfilade_dataset::hdf5::{Array, Elements, Packing, Storage, Window, read_window, write_array};

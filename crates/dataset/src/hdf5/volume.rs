@@ -20,7 +20,7 @@ const REWRITE: &str = "write the file again in HDF5's oldest form, as MATLAB's -
 #[derive(Debug)]
 pub struct Volume {
     path: PathBuf,
-    /// Where HDF5 begins in the file.
+    /// Position of the HDF5 data in the file, in bytes.
     base: u64,
     /// Addresses of the headers of the root group's members.
     members: BTreeMap<String, u64>,
@@ -123,7 +123,7 @@ impl Volume {
     }
 }
 
-/// Where HDF5 begins: at the start of the file, or at 512 bytes, or at twice that, and so on.
+/// Position of the HDF5 data in bytes: the start of the file, or 512, or twice that, and so on.
 fn begin(source: &mut FileBytes) -> Option<u64> {
     let mut places = std::iter::once(0).chain((9..24).map(|power| 1 << power));
     places.find(|&place| source.bytes(place, 8).is_some_and(|bytes| bytes == SIGNATURE))
@@ -175,7 +175,7 @@ fn group(source: &mut FileBytes, node: u64, names: u64, depth: usize, members: &
     (0..entries).try_for_each(|entry| group(source, u64_at(&body, 8 + 16 * entry)?, names, depth + 1, members))
 }
 
-/// What the messages of an array's header say.
+/// Contents of the messages of an array's header.
 #[derive(Default)]
 struct Header {
     shape: Option<Vec<usize>>,

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// The address of what has no place in the file.
 pub(super) const NOWHERE: u64 = u64::MAX;
-/// What is wrong with a file whose pieces do not fit each other, and what to do.
+/// Message about a file whose pieces do not fit each other: the fault, and what to do.
 pub(super) const DAMAGED: &str = "the file is damaged or cut short; copy or download it again";
 
 /// The numbers that an array has; little-endian.
@@ -38,7 +38,7 @@ pub struct VolumeArray {
     pub(super) layout: Layout,
 }
 
-/// Where the elements are.
+/// The storage of the elements in the file.
 #[derive(Debug)]
 pub(super) enum Layout {
     Compact(Vec<u8>),
@@ -167,7 +167,7 @@ fn contiguous(source: &mut FileBytes, address: u64, array: &VolumeArray, first: 
     let last: Vec<usize> = count.iter().map(|count| count - 1).collect();
     let (start, end) = (whole.element(&origin), whole.element(&last) + 1);
     let run = source.bytes(address.checked_add((start * size) as u64)?, (end - start) * size)?;
-    // The run begins at the box's first element, so that of the array's places the box's own remain.
+    // The run begins at the box's first element, so positions are relative to the box.
     copy(&run, Region { shape: &array.shape, first: &origin }, out, Region { shape: count, first: &origin }, count, size);
     Some(())
 }

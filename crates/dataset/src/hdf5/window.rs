@@ -1,4 +1,4 @@
-//! Rectangles of pixels, and what of an image lies in them.
+//! Rectangles of pixels, and the part of an image inside them.
 
 use super::array::{Array, Elements};
 
@@ -16,7 +16,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// True when no pixel of it lies outside an image.
+    /// True when no pixel of it is outside an image.
     pub fn fits(&self, height: usize, width: usize) -> bool {
         let inside = |first: usize, count: usize, all: usize| first.checked_add(count).is_some_and(|end| end <= all);
         inside(self.top, self.height, height) && inside(self.left, self.width, width)
@@ -24,7 +24,7 @@ impl Window {
 }
 
 impl Array {
-    /// The elements of a rectangle of an image, which it must lie in.
+    /// The elements of a rectangle, which must be inside the image.
     pub(super) fn cut(&self, window: Window) -> Self {
         let size = self.values.element().size();
         let pixel = self.shape.get(2).map_or(size, |channels| channels * size);

@@ -114,7 +114,7 @@ fn filters(shuffled: Option<usize>, level: Option<i32>) -> FilterPipeline {
     const OPTIONAL: u16 = 1;
     let filter = |id, values: Vec<u32>| Filter { id, flags: OPTIONAL, cd_values: values };
     let shuffle = shuffled.map(|size| filter(SHUFFLE, vec![size as u32]));
-    // What stands in the file as the level is a remark; zlib's end at 9.
+    // The level in the file is only informative; zlib's levels end at 9.
     let codec = level.map_or_else(|| filter(LZ4, Vec::new()), |level| filter(DEFLATE, vec![level.clamp(1, 9) as u32]));
     FilterPipeline { filters: shuffle.into_iter().chain([codec]).collect() }
 }

@@ -16,12 +16,12 @@ const LEAST_TEXELS: usize = 32 * 32;
 /// Largest difference of shapes that count as the same; float32 vertices that were placed anew differ less.
 const SAME_SHAPE: f64 = 1e-4;
 
-/// What a scene is made of, in a form that can be compared.
+/// The assets of a scene, in a form that can be compared.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneAssets {
-    /// Each mesh that is large enough to tell, by the first part that wears it.
+    /// Each mesh that is large enough to be identified, named after the first part that uses it.
     pub meshes: Vec<MeshAsset>,
-    /// Each texture that is large enough to tell.
+    /// Each texture that is large enough to be identified.
     pub images: Vec<ImageAsset>,
 }
 
@@ -34,15 +34,15 @@ pub struct MeshAsset {
     pub triangles: usize,
     /// BLAKE3 of how its triangles are joined, which no placement changes.
     pub topology: String,
-    /// What no turn, shift or even scale changes: of the vertices' distances from their mean, in units of the root mean square, the
-    /// means of the first, third and fourth powers, and the mean change from one vertex to the next.
+    /// Descriptor that is invariant to rotation, translation and uniform scale. Of the vertices' distances from their mean, in units of the
+    /// root mean square: the means of the first, third and fourth powers, and the mean change from one vertex to the next.
     pub shape: [f64; 4],
 }
 
 /// A texture.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImageAsset {
-    /// Where it came from.
+    /// Source of the texture.
     pub name: String,
     /// BLAKE3 of its size and texels.
     pub content: String,
@@ -117,7 +117,7 @@ fn content_of(image: &Image) -> String {
     hasher.finalize().to_hex().to_string()
 }
 
-/// The assets that several scenes have, those on several sides first, then by kind and name. `side` says where a scene is.
+/// The assets that several scenes have, those on several sides first, then by kind and name. `side` returns the side of a scene.
 pub fn shared_assets(scenes: &BTreeMap<String, SceneAssets>, side: impl Fn(&str) -> Side) -> Vec<SharedAsset> {
     let mut meshes: BTreeMap<&str, Vec<(&MeshAsset, BTreeSet<&str>)>> = BTreeMap::new();
     let mut images: BTreeMap<&str, (&ImageAsset, BTreeSet<&str>)> = BTreeMap::new();

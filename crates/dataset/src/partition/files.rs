@@ -1,5 +1,5 @@
 //! `metadata_images_split_scene_v1.csv`: every image of the dataset, whether it is meant for use, and on which side of the partition.
-//! The form is that of Hypersim's file, with Python's `True` and `False`; ours lies at the dataset's root.
+//! The format is Hypersim's, with Python's `True` and `False`; our file is at the dataset's root.
 
 use crate::tables::Table;
 use crate::{Dataset, DatasetError};
@@ -50,7 +50,7 @@ pub struct PartitionRow {
     pub camera: String,
     /// Frame number.
     pub frame: u32,
-    /// Where it belongs, or why it is not meant for use.
+    /// Side of the partition, or why it is not meant for use.
     pub side: Result<Side, String>,
 }
 

@@ -15,11 +15,11 @@ use enfilade_math::hash_u64;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How scenes are divided.
+/// The settings of a partition of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartitionConfig {
-    /// Another seed is another division.
+    /// Seed of the division.
     pub seed: u64,
     /// Expected shares of train, val and test, in any unit.
     pub shares: [f64; 3],
@@ -33,7 +33,7 @@ impl Default for PartitionConfig {
 }
 
 impl PartitionConfig {
-    /// What is wrong with it, if anything is.
+    /// The fault of the settings, if any.
     pub fn problem(&self) -> Option<String> {
         let sum: f64 = self.shares.iter().sum();
         let good = self.shares.iter().all(|share| *share >= 0.0) && sum > 0.0 && sum.is_finite();

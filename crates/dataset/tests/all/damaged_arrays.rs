@@ -44,7 +44,7 @@ fn a_chunk_beyond_the_file_is_an_error_and_not_zeros() {
     let path = folder.path().join("flipped.hdf5");
     for (array, storage) in arrays() {
         let mut file = written(&path, &array, storage);
-        // The key of the first chunk lies behind the node's 24 bytes, and its address behind the key.
+        // The key of the first chunk follows the node's 24 bytes, and its address follows the key.
         let address = chunk_tree(&file) + 24 + 8 + 8 * (array.shape.len() + 1);
         file[address + 5] ^= 1;
         fs::write(&path, file).unwrap();

@@ -1,4 +1,4 @@
-//! What a dataset promises as a whole, on frames whose every value is known.
+//! The promises of a dataset as a whole, on frames whose every value is known.
 
 use crate::analytic::{CAMERA, SCENE};
 use enfilade_dataset::{ColorKind, Dataset, DatasetError, FrameStatus, FrameTime, ManifestInfo};
@@ -13,7 +13,7 @@ fn small() -> Intrinsics {
     Intrinsics { width: 97, height: 64, fx: 80.0, fy: 81.0, cx: 50.0, cy: 30.5, skew: 0.0 }
 }
 
-/// Does something whenever progress is told.
+/// Does something whenever progress is reported.
 struct Told<F>(F);
 
 impl<F: Fn() + Sync> Cx for Told<F> {
@@ -225,7 +225,7 @@ fn an_interrupted_frame_does_not_count() {
     // Killed before the record was written.
     fs::remove_file(dataset.layout().frame_record(SCENE, CAMERA, 0)).unwrap();
     assert!(!complete(0));
-    // Killed while layers were written: temporaries lie about, and a later run removes them.
+    // Killed while layers were written: temporary files are left, and a later run removes them.
     let position = dataset.layout().layer(SCENE, CAMERA, 1, Layer::Position);
     let temporary = position.with_file_name(".frame.0002.position.hdf5.partial");
     fs::write(&temporary, "half").unwrap();
@@ -383,7 +383,7 @@ fn a_change_of_color_that_is_cut_anywhere_costs_no_rendering_and_ends_as_if_it_h
     dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother 3.1", "face"], true).unwrap();
     let denoised = files(folder.path());
     let without_color = {
-        // As it lies while colour is made.
+        // The state while colour is being made.
         let mut record = dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap();
         (record.color, record.denoised) = (ColorKind::Rendered, None);
         record.files.retain(|name, _| !DENOISED.iter().any(|(plain, _)| name.ends_with(&format!(".{}.hdf5", plain.spec().name))));
@@ -404,13 +404,13 @@ fn a_change_of_color_that_is_cut_anywhere_costs_no_rendering_and_ends_as_if_it_h
     };
     let hdf5 = |layer| path(layer).strip_prefix(folder.path()).unwrap().to_path_buf();
     for denoise in [true, false] {
-        // So many layers of what earlier versions rendered have got their second name.
+        // This many of the layers that earlier versions rendered have their second name already.
         for named in 0..=3 {
             put(&rendered);
             DENOISED.into_iter().take(named).for_each(|(plain, kept)| fs::hard_link(path(plain), path(kept)).unwrap());
             end(denoise, &format!("{named} named"));
         }
-        // The record is without colour, and so many layers of the other kind have come.
+        // The record has no colour, and this many layers of the other kind are written already.
         for (from, to) in [(&linked, &denoised), (&denoised, &linked)] {
             for written in 0..=3 {
                 put(from);
@@ -445,7 +445,7 @@ fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();
     crate::analytic::write(&dataset, &small(), 2);
-    // A folder lies where a layer should go: permissions do not stop the superuser, under whom tests may run.
+    // A folder is in the place of a layer: permissions do not stop the superuser, under whom tests may run.
     let pose = &crate::analytic::trajectory(2).poses[1];
     let path = dataset.layout().layer(SCENE, CAMERA, pose.frame, Layer::Position);
     fs::create_dir_all(path.join("in the way")).unwrap();

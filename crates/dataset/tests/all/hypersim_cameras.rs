@@ -32,13 +32,13 @@ fn straight(projection: &Projection) -> (Intrinsics, DMat3) {
     }
 }
 
-/// Where a camera-space point falls by `M_proj`, from the upper left corner of the image.
+/// Image position of a camera-space point by `M_proj`, from the upper left corner of the image.
 fn by_matrix(projection: DMat4, p: DVec3, [w, h]: [f64; 2]) -> (f64, f64) {
     let clip = projection * p.extend(1.0);
     (0.5 * w * (clip.x / clip.w + 1.0), 0.5 * h * (1.0 - clip.y / clip.w))
 }
 
-/// Where it falls by OpenCV's matrix K and the turned pose.
+/// Image position of the point by OpenCV's matrix K and the turned pose.
 fn by_opencv(k: &Intrinsics, turn: DMat3, p: DVec3) -> (f64, f64) {
     let p = OPENCV * turn * p;
     let [x, y, z] = k.opencv_k().map(|row| DVec3::from(row).dot(p));
@@ -127,7 +127,7 @@ impl Row {
         )
     }
 
-    /// The aperture's distance at which the middle row of the image is as wide as the field of view says.
+    /// The aperture's distance at which the middle row of the image is as wide as the field of view requires.
     fn aperture(&self) -> f64 {
         let wide = |z: f64| {
             let rays = self.rays(z);

@@ -1,4 +1,4 @@
-//! Reading Hypersim's release: what the real files say, and what is peculiar of them.
+//! Reading Hypersim's release: the contents of the real files, and their peculiarities.
 
 use enfilade_dataset::hdf5::{Storage, write_array};
 use enfilade_dataset::{Array, Dataset, Elements, Window};
@@ -186,7 +186,7 @@ fn hypersims_own_distances_have_planar_depth() {
     };
     let dataset = Dataset::open(Path::new(&scenes).join("hypersim-real")).unwrap();
     assert!(dataset.is_released("ai_037_002"));
-    // The archive's metadata_scene.csv is not there; the table of cameras says the unit.
+    // The archive's metadata_scene.csv is missing; the unit is in the table of cameras.
     let metres = dataset.meters_per_asset_unit("ai_037_002").unwrap();
     let steps = dataset.read_trajectory("ai_037_002", "cam_00").unwrap().poses;
     let mean = steps.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum::<f64>() / 99.0;

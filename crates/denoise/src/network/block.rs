@@ -15,10 +15,10 @@ pub(super) fn zeros(count: usize) -> Vec<Block> {
     bytemuck::zeroed_vec(count)
 }
 
-/// The size of a layer's values, and where each lies: blocks of channels one after the other, each a picture row by row.
+/// The size of a layer's values, and their order in memory: blocks of channels one after the other, each a picture row by row.
 ///
-/// Around each picture lie zeros: one pixel above and to the left, and below and to the right as many as a tile of 4×4 pixels
-/// reaches beyond it, and one more. So convolutions read a border without looking where it is.
+/// Each picture has a border of zeros: one pixel above and to the left; below and to the right one more than a tile of 4×4 pixels reaches
+/// beyond it. So convolutions need no special case at the border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
     pub channels: usize,
@@ -41,7 +41,7 @@ impl Shape {
         self.height.next_multiple_of(4) + 2
     }
 
-    /// Where the pixel (`x` − 1, `y` − 1) of a block of channels lies: (0, 0) is the corner of the border.
+    /// Index of the pixel (`x` − 1, `y` − 1) of a block of channels: (0, 0) is the corner of the border.
     pub fn bordered(self, block: usize, x: usize, y: usize) -> usize {
         (block * self.rows() + y) * self.pitch() + x
     }
@@ -67,7 +67,7 @@ impl Tensor {
         &self.data[start..start + self.shape.width]
     }
 
-    /// Moves the rows from `top` − 1 up to `end` of the layer to the beginning; what lies below them is no longer of use.
+    /// Moves the rows from `top` − 1 up to `end` of the layer to the beginning; the rows below them are overwritten later.
     pub fn scroll(&mut self, top: usize, end: usize) {
         let (shape, gone, left) = (self.shape, top - self.top, end + 1 - top);
         for block in 0..shape.blocks() {

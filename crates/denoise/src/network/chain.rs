@@ -1,10 +1,10 @@
-//! Layers of one resolution after each other, in bands of rows, so that what lies between them stays in the cache.
+//! Consecutive layers of one resolution, computed in bands of rows so that intermediate values stay in the cache.
 
 use super::block::{Shape, Tensor};
 use super::convolution::{Convolution, Kept, Source, Workshop};
 
-/// Least number of tiles of 4×4 pixels in a band, whatever the number of threads: what lies between layers of 64 channels, as at the
-/// finest level, then takes 6 MB.
+/// Least number of tiles of 4×4 pixels in a band, whatever the number of threads: the values between layers of 64 channels, as at the
+/// finest level, then take 6 MB.
 const TILES: usize = 1536;
 /// Least number of rows of tiles in a band, of which two are moved from one to the next.
 const ROWS: usize = 8;

@@ -18,7 +18,7 @@ pub(super) struct Convolution {
     bias: Vec<Block>,
 }
 
-/// What a layer reads: all channels of a tensor, each pixel once, or four times (two by two).
+/// The input of a layer: all channels of a tensor, each pixel once, or four times (two by two).
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub tensor: &'a Tensor,
@@ -33,7 +33,7 @@ impl Source<'_> {
     }
 }
 
-/// What becomes of a layer's values.
+/// The treatment of a layer's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kept {
     All,
@@ -90,14 +90,14 @@ impl Convolution {
     }
 }
 
-/// What layers are computed with.
+/// The buffers and instructions that layers are computed with.
 pub(super) struct Workshop {
     instructions: Instructions,
-    /// What no thread works in at the moment.
+    /// Buffers that no thread uses at the moment.
     spare: Mutex<Vec<Scratch>>,
 }
 
-/// What a thread works in.
+/// The buffers of one thread.
 #[derive(Default)]
 struct Scratch {
     /// Per point, block of input channels and tile.
@@ -129,7 +129,7 @@ impl Workshop {
     }
 }
 
-/// What is common to the tiles of a layer that are computed at a time.
+/// Values shared by the tiles of a layer that are computed in one run.
 struct Run<'a> {
     layer: &'a Convolution,
     sources: &'a [Source<'a>],
@@ -141,7 +141,7 @@ struct Run<'a> {
     columns: usize,
     /// The tiles, counted row by row.
     tiles: Range<usize>,
-    /// How many of them a thread works on at a time.
+    /// Number of tiles that a thread works on at a time.
     share: usize,
     /// Blocks of output channels that it works on at a time.
     blocks: usize,
@@ -180,7 +180,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What a thread works on at a time: a share of the tiles, from `first` on.
+/// The unit of work of a thread: a share of the tiles, from `first` on.
 struct Part<'a> {
     run: &'a Run<'a>,
     first: usize,
@@ -256,7 +256,7 @@ impl Part<'_> {
         }
     }
 
-    /// Stores what lies within the picture of the tile in column `x` and row `y`.
+    /// Stores those pixels of the tile in column `x` and row `y` that are within the picture.
     #[inline(always)]
     fn store<S: Simd>(&self, s: S, block: usize, x: usize, y: usize, tile: &[[S::Lanes; 4]; 4]) {
         let (columns, rows) = ((self.run.width - 4 * x).min(4), (self.run.height - 4 * y).min(4));

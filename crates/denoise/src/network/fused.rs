@@ -39,7 +39,7 @@ mod tests {
             (state >> 32) as u32
         };
         for _ in 0..200_000 {
-            // Any bits; numbers of like size; and sums that nearly cancel or lie half-way between two numbers.
+            // Any bits; numbers of like size; and sums that nearly cancel or are half-way between two numbers.
             let [a, b, c] = [random(), random(), random()].map(f32::from_bits);
             assert_fused(a, b, c);
             let [a, b, c] = [a, b, c].map(|value| f32::from_bits(value.to_bits() & 0x81ff_ffff | 0x3e00_0000));

@@ -1,4 +1,4 @@
-//! Which instructions the kernels are compiled for and run with.
+//! The instruction sets that the kernels are compiled for and run with.
 
 #[cfg(target_arch = "x86_64")]
 use super::simd::{Avx2, Avx512};

@@ -108,7 +108,7 @@ impl Network {
         output
     }
 
-    /// What the network makes of its input.
+    /// The network's output for an input.
     fn values(&self, input: Tensor) -> Tensor {
         let workshop = Workshop::new(self.instructions);
         let mut passed = Vec::new();

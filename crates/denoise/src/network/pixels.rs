@@ -31,7 +31,7 @@ impl<'a> Pixels<'a> {
     pub unsafe fn set<S: Simd>(&self, s: S, block: usize, x: usize, y: usize, value: S::Lanes) {
         let index = self.shape.bordered(block, x + 1, y + 1 - self.top);
         assert!(index < self.len);
-        // SAFETY: `index` lies within the tensor, which is borrowed for as long as `self`, and the pixel is this thread's.
+        // SAFETY: `index` is within the tensor, which is borrowed for as long as `self`, and only this thread writes the pixel.
         s.store(value, unsafe { &mut *self.start.add(index) });
     }
 }

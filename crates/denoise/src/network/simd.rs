@@ -6,7 +6,7 @@
 use super::block::{Block, LANES};
 use super::fused::fma;
 
-/// A set of instructions. A value of the type stands for a processor that has them.
+/// A set of instructions. A value of the type is proof that the processor has them.
 pub(super) trait Simd: Copy + Send + Sync {
     /// Sixteen numbers in registers.
     type Lanes: Copy;
@@ -22,8 +22,8 @@ pub(super) trait Simd: Copy + Send + Sync {
     fn max(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
 }
 
-/// Plain Rust, for every processor. Where fused multiplication is an instruction that every such processor has, as on 64-bit ARM,
-/// the compiler makes vectors of it; for x86 before 2013 double precision stands in for it.
+/// Plain Rust, for every processor. Where every processor has fused multiply-add, as on 64-bit ARM, the compiler vectorises it; for x86
+/// before 2013 it is emulated in double precision.
 #[derive(Clone, Copy)]
 pub(super) struct Portable;
 

@@ -1,4 +1,4 @@
-//! What the network in the binary promises: the same bytes by any instructions and threads, tiles without seams, and sane pictures.
+//! The promises of the network in the binary: the same bytes with any instructions and threads, tiles without seams, and sane pictures.
 
 use super::*;
 

@@ -1,21 +1,21 @@
 //! Large pictures in tiles, so that memory stays bounded.
 //!
-//! A pixel depends on pixels at most 101 away. Tiles overlap by more than that, and each is kept up to where it no longer depends on
-//! what lies beyond it. They begin at multiples of 64, where pixels of the coarsest layer and its tiles of 4×4 begin as well.
+//! A pixel depends on pixels at most 101 away. Tiles overlap by more than that, and of each only the pixels that do not depend on anything
+//! outside it are kept. They begin at multiples of 64, which are also borders of the coarsest layer's pixels and of its tiles of 4×4.
 
 use std::ops::Range;
 
 /// Pixels that a tile reads beyond what is kept of it.
 const OVERLAP: usize = 128;
-/// What tiles begin at multiples of.
+/// Tiles begin at multiples of this, pixels.
 const GRID: usize = 64;
 
 /// A part of one side of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Span {
-    /// What is filtered.
+    /// The pixels that are filtered.
     pub read: Range<usize>,
-    /// What is kept of it.
+    /// Those of them that are kept.
     pub kept: Range<usize>,
 }
 

@@ -1,8 +1,8 @@
-//! How radiance becomes what the network sees, and back: exposure and a curve of perceptual uniformity.
+//! The transfer function from radiance to the network's values, and back: exposure and a curve of perceptual uniformity.
 //!
 //! The fit of the PU2 curve (Aydın et al. 2008, "Extending Quality Metrics to Full Luminance Range Images") that the published
 //! network was trained with: linear, then a power, then a logarithm. Logarithm and exponential are our own, so that every platform
-//! rounds them alike; they err by less than 10⁻¹⁰, which is far below what 32 bits hold.
+//! rounds them alike; they err by less than 10⁻¹⁰, which is far below the precision of 32 bits.
 
 use crate::Noisy;
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 const SLOPE: f64 = 1.41283765e+03;
 const POWER: [f64; 3] = [1.64593172e+00, 4.31384981e-01, -2.94139609e-03];
 const LOG: [f64; 3] = [1.92653254e-01, 6.26026094e-03, 9.98620152e-01];
-/// Where parts meet: radiance, and the value of the curve.
+/// Radiances at which the parts of the curve meet, and its values there.
 const RADIANCE: [f64; 2] = [1.57945760e-06, 3.22087631e-02];
 const VALUE: [f64; 2] = [2.23151711e-03, 3.70974749e-01];
 /// The radiance that the network sees as 1: the greatest of 16 bits.
@@ -48,7 +48,7 @@ impl Transfer {
         Self { exposure, top: curve(GREATEST) }
     }
 
-    /// The network's value for a radiance, which is brought to what 32 bits hold and is not negative; 0 for what is not a number.
+    /// The network's value for a radiance, which is first clamped to the non-negative finite range of 32 bits; 0 for NaN.
     pub fn encode(self, radiance: f32) -> f32 {
         (curve(within(radiance * self.exposure, 0.0, f32::MAX).into()) / self.top) as f32
     }
@@ -67,7 +67,7 @@ impl Transfer {
     }
 }
 
-/// A number brought to a range that holds 0; 0 for what is not a number.
+/// A number clamped to a range that contains 0; 0 for NaN.
 pub(super) fn within(value: f32, least: f32, most: f32) -> f32 {
     if value.is_nan() { 0.0 } else { value.clamp(least, most) }
 }
@@ -108,7 +108,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// The natural logarithm of a positive number that 32 bits can hold.
+/// The natural logarithm of a positive number in the range of 32 bits.
 fn log(x: f64) -> f64 {
     // x = m·2ᵉ with m within a factor √2 of 1; ln m = 2 artanh s.
     let bits = x.to_bits().wrapping_sub(std::f64::consts::FRAC_1_SQRT_2.to_bits());
@@ -120,7 +120,7 @@ fn log(x: f64) -> f64 {
     2.0 * s * series + exponent as f64 * std::f64::consts::LN_2
 }
 
-/// The exponential of a number between −700 and 700; beyond, that of the nearer of these.
+/// The exponential of a number, which is first clamped to [−700, 700].
 fn exp(x: f64) -> f64 {
     let x = x.clamp(-700.0, 700.0);
     // x = k ln 2 + r with r within ±(ln 2)/2.

@@ -1,6 +1,6 @@
 //! The file format of Open Image Denoise's weights: `.tza`, version 2.
 //!
-//! Little-endian: the magic number, major and minor version, where the table lies; the table names each tensor with its sizes, what
+//! Little-endian: the magic number, major and minor version, position of the table; the table names each tensor with its sizes, what
 //! they mean (`x`, or `oihw` for output channel, input channel, row, column), its type (`f` or `h`: 32 or 16 bits) and its place.
 
 use enfilade_frame::f16;
@@ -20,7 +20,7 @@ pub(super) struct Weights {
 /// The tensors of a file in its order.
 ///
 /// # Errors
-/// When the file is damaged or of another version, in words that say where.
+/// When the file is damaged or of another version, in words that include the place.
 pub(super) fn read(file: &[u8]) -> Result<Vec<Weights>, String> {
     let mut head = Reader { file, at: 0 };
     let magic = u16::from_le_bytes(head.take()?);

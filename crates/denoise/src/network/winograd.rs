@@ -58,7 +58,7 @@ pub(super) fn weight_points(g: [[f64; 3]; 3]) -> [f64; POINTS] {
     at
 }
 
-/// Where the six rows or columns of a tile's input lie among those that are stored: all there, or doubled by upsampling.
+/// Positions of the six rows or columns of a tile's input among the stored ones: each stored, or doubled by upsampling.
 pub(super) const STORED: [usize; 6] = [0, 1, 2, 3, 4, 5];
 /// See [`STORED`]: pixel −1 is in the pixel before, 0 and 1 are one pixel, and so on.
 pub(super) const DOUBLED: [usize; 6] = [0, 1, 1, 2, 2, 3];
@@ -92,7 +92,7 @@ pub(super) fn transform_input<S: Simd>(s: S, pixels: &[Block], pitch: usize, at:
     }
 }
 
-/// The 4×4 output pixels of a tile, from the sums at the points, which lie `stride` apart: with the bias, and 0 where negative.
+/// The 4×4 output pixels of a tile, from the sums at the points, which are `stride` apart: with the bias added, and 0 where negative.
 #[inline(always)]
 pub(super) fn transform_output<S: Simd>(s: S, sums: &[Block], stride: usize, bias: &Block) -> [[S::Lanes; 4]; 4] {
     let (bias, zero) = (s.load(bias), s.splat(0.0));
@@ -120,7 +120,7 @@ pub(super) fn transform_output<S: Simd>(s: S, sums: &[Block], stride: usize, bia
 
 /// At one point: the sums over input channels, for `TILES` tiles and `BLOCKS` blocks of output channels.
 ///
-/// `values` holds a run of at least `TILES` blocks for every block of input channels, `stride` apart; `weights` one block per input
+/// `values` contains a run of at least `TILES` blocks for every block of input channels, `stride` apart; `weights` one block per input
 /// channel for each block of output channels. The sums of a block of channels go to `out`, `out_stride` after those of the one before.
 #[inline(always)]
 pub(super) fn multiply<S: Simd, const TILES: usize, const BLOCKS: usize>(

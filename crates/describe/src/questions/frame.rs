@@ -13,7 +13,7 @@ const ASKED: f64 = 3e-3;
 /// The nearer of two things is nearer by this share and by this many metres, both at its nearest pixel and at its median one.
 const NEARER: f32 = 0.2;
 const NEARER_M: f32 = 0.3;
-/// A colour is asked for when it is that of this share of a thing's pixels, and another is wrong below this one.
+/// Least share of a thing's pixels that have its colour, if that is asked for. Another colour is a wrong answer below the next share.
 const CLEARLY: f64 = 0.6;
 const HARDLY: f64 = 0.05;
 /// Colours that people take for each other.
@@ -53,7 +53,7 @@ pub fn of_frame(asker: &mut Asker<'_>, scope: &Scope<'_>) {
     count(asker, scope, frame);
 }
 
-/// What a thing is on or in. No other answer is true, not even by way of others.
+/// Asks what a thing is on or in. No wrong answer is true, not even indirectly, by way of other things.
 fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame: u32) {
     for (thing, _, name) in meant {
         let mut carrying = scope.relations_of(thing.instance).iter().filter(|r| matches!(r.kind, RelationKind::On | RelationKind::In));
@@ -72,7 +72,7 @@ fn standing(asker: &mut Asker<'_>, scope: &Scope<'_>, meant: &[Meant<'_>], frame
     }
 }
 
-/// All that carry an instance or hold it, by way of others too.
+/// All instances that support an instance or contain it, also indirectly.
 fn carriers(scope: &Scope<'_>, instance: i16) -> BTreeSet<i16> {
     let (mut found, mut stack) = (BTreeSet::new(), vec![instance]);
     while let Some(subject) = stack.pop() {
@@ -131,7 +131,7 @@ fn sides(asker: &mut Asker<'_>, meant: &[Meant<'_>], frame: u32) {
     asker.ask(Some(frame), "image_side", question, answer, &[a.0.instance, b.0.instance]);
 }
 
-/// Where all of a name are large enough to be counted.
+/// Asks for the number of things of a name, if all of them are large enough to be counted.
 fn count(asker: &mut Asker<'_>, scope: &Scope<'_>, frame: u32) {
     let mut by_noun: BTreeMap<&str, Vec<(i16, bool)>> = BTreeMap::new();
     for (thing, sight) in scope.visible(0.0).into_iter().filter(|(thing, _)| words::is_countable(&thing.noun)) {

@@ -1,5 +1,5 @@
-//! What is asked about the frames of a camera, with answers: of all frames together as of a video, in the kinds of VSI-Bench (Yang et al.
-//! 2025, "Thinking in Space"), and of single frames.
+//! Questions about the frames of a camera, with answers: about all frames together, as a video, in the kinds of VSI-Bench (Yang et al.
+//! 2025, "Thinking in Space"), and about single frames.
 
 mod frame;
 mod place;
@@ -25,7 +25,7 @@ pub enum Answer {
     Open(String),
     /// One of several: the right one, and wrong ones. They are shuffled.
     Choice { right: String, wrong: Vec<String> },
-    /// One of several that stand in this order; the place of the right one.
+    /// Options in this fixed order; the index of the right one.
     Ordered(Vec<String>, usize),
 }
 

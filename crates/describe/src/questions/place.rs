@@ -1,4 +1,4 @@
-//! Where one thing is for someone who stands at another and looks at a third, seen from above.
+//! The direction of one thing for someone who stands at another and looks at a third, seen from above.
 
 use enfilade_math::DVec2;
 

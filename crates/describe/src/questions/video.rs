@@ -25,7 +25,7 @@ const DIRECTION_M: f64 = 0.5;
 /// A thing, with the frames in which it is first seen at all and first seen clearly.
 type First<'a> = (&'a DescribedInstance, [u32; 2]);
 
-/// What the frames show, taken together.
+/// The things that the frames show, taken together.
 struct Shown<'a> {
     things: &'a Things,
     /// Things that the frames show clearly, with none beside them that could be meant by their name.
@@ -76,7 +76,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Asks about the frames of a camera that stood at these places.
+/// Asks about the frames of a camera that were taken from these positions.
 pub fn of_video(asker: &mut Asker<'_>, things: &Things, described: &[DescribedInstance], seen: &[&SeenFrame], eyes: &[DVec3]) {
     let shown = Shown::new(things, described, seen);
     counting(asker, &shown);
@@ -105,13 +105,13 @@ fn sizes(asker: &mut Asker<'_>, shown: &Shown<'_>) {
     }
 }
 
-/// Where all frames are taken in one room that is known.
+/// Asks for the size of the room, if all frames were taken in one known room.
 fn room_size(asker: &mut Asker<'_>, things: &Things, eyes: &[DVec3]) {
-    let Some(structure) = &things.structure else { return };
-    let rooms: BTreeSet<Option<usize>> = eyes.iter().map(|&eye| structure.room_at(eye)).collect();
-    if let (1, Some(Some(room))) = (rooms.len(), rooms.first()) {
+    let Some(rooms) = &things.rooms else { return };
+    let seen: BTreeSet<Option<usize>> = eyes.iter().map(|&eye| rooms.room_at(eye)).collect();
+    if let (1, Some(Some(room))) = (seen.len(), seen.first()) {
         let question = "What is the floor area of the room in which these frames were taken, in square metres?".to_string();
-        asker.ask(None, "room_size_estimation", question, Answer::Open(format!("{:.1}", structure.rooms[*room].area_m2())), &[]);
+        asker.ask(None, "room_size_estimation", question, Answer::Open(format!("{:.1}", rooms.outlines[*room].area_m2())), &[]);
     }
 }
 

@@ -1,4 +1,4 @@
-//! What [`Preset::Hypersim`](crate::Preset) does in its own way: the decisions of the toolkit's `generate_octomap`.
+//! The differences of [`Preset::Hypersim`](crate::Preset): the decisions of the toolkit's `generate_octomap`.
 
 use super::CarveConfig;
 use crate::ExploreError;
@@ -23,7 +23,7 @@ pub(super) fn grid(world: &WorldMesh, min: DVec3, max: DVec3, config: &CarveConf
     Ok(grid)
 }
 
-/// Where a ray meets the mesh, in voxels; infinite when it does not.
+/// Distance at which a ray meets the mesh, in voxels; infinite when it does not.
 pub(super) fn hit(bvh: &Bvh, grid: &VoxelGrid, position: DVec3, direction: DVec3) -> f64 {
     let hit = bvh.closest(&Ray::new(position.as_vec3(), direction.as_vec3()));
     hit.map_or(f64::INFINITY, |hit| f64::from(hit.t) / grid.voxel_m())
@@ -63,7 +63,7 @@ pub(super) fn verify(bvh: &Bvh, grid: &VoxelGrid, directions: &[DVec3], index: u
 
 /// Every direction with the smallest distance among its nearest neighbours.
 fn pool(directions: &[DVec3], distances: &[f64]) -> Vec<(DVec3, f64)> {
-    // A cell is as wide as the cap with twice the neighbours needed, so that they lie in the 27 cells around.
+    // A cell is as wide as the cap with twice the neighbours needed, so that they are in the 27 cells around.
     let wide = (8.0 * NEIGHBOURS as f64 / directions.len() as f64).sqrt();
     let cell = |d: DVec3| (d / wide).floor().as_i64vec3().to_array();
     let mut cells: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();

@@ -1,11 +1,11 @@
-//! What is inside the building? Free space that rays reached through a door, a missing wall or a window without a pane is not.
+//! The inside of a building, without the free space that rays reached through a door, a missing wall or a window without a pane.
 //!
-//! A point is judged by the surfaces around it, from whichever side they are seen: in what share of the level directions is there one, and
-//! in what share of the upward ones? Inside, nearly all directions end at a surface; outside, before a wall, only half of the level ones
-//! do. The roof counts less than the walls, so that a room may lack its ceiling: space below the height of its walls is inside, space
+//! A point is judged by the surfaces around it, whichever side of them it sees: by the share of the level directions that end at a surface,
+//! and the share of the upward ones. Inside, nearly all directions end at a surface; outside, in front of a wall, only half of the level
+//! ones do. The roof counts less than the walls, so that a room may lack its ceiling: space below the height of its walls is inside, space
 //! above is not.
 //!
-//! Inside is then whatever can be reached from the start cameras through enclosed points alone. So a courtyard or a shed that
+//! The inside is then all that can be reached from the start cameras through enclosed points alone. So a courtyard or a shed that
 //! is seen through the door is not inside, however enclosed.
 
 use crate::grid::{Cube, VoxelGrid};
@@ -20,7 +20,7 @@ const LEVEL: usize = 32;
 /// Upward directions, 40 degrees and more above the horizon.
 const UPWARD: usize = 16;
 
-/// What the share of upward directions that end at a surface counts, beside 1 for the level ones.
+/// Weight of the share of upward directions that end at a surface; the share of level ones has weight 1.
 const ROOF_WEIGHT: f32 = 0.25;
 /// A place with less than this is outside. Under a roof 55 % of the level directions must end at a surface, without one 80 %.
 const ENCLOSED: f32 = 0.8;
@@ -118,7 +118,7 @@ impl Inside {
         count
     }
 
-    /// Where inside and outside meet: connected groups of cubes with faces between voxels of the two kinds, the largest first.
+    /// The leaks between inside and outside: connected groups of cubes with faces between voxels of the two kinds, the largest first.
     pub(super) fn leaks(&self, grid: &VoxelGrid) -> Vec<Leak> {
         let inside = |cube: &Cube| self.0.get(cube).copied().unwrap_or(0);
         let outside = |cube: &Cube| grid.free_in(*cube) & !inside(cube);
@@ -153,7 +153,7 @@ impl Inside {
 /// The voxels of a cube at its end and at its beginning along each axis.
 const END: [u64; 3] = [0x8888_8888_8888_8888, 0xf000_f000_f000_f000, 0xffff_0000_0000_0000];
 const BEGINNING: [u64; 3] = [0x1111_1111_1111_1111, 0x000f_000f_000f_000f, 0xffff];
-/// From a voxel's bit to that of the next one along each axis.
+/// Distance from a voxel's bit to the next voxel's along each axis.
 const STEP: [u32; 3] = [1, 4, 16];
 
 /// Number of faces that voxels of a cube share with voxels of its neighbour on this side (the index in [`neighbours`]).

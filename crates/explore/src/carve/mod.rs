@@ -27,18 +27,18 @@ const ESCAPE_WARNING: f64 = 0.01;
 
 /// Finds the free space around `starts` (positions of start cameras).
 ///
-/// A voxel is occupied when any triangle touches it, thin and large ones included, so nothing leaks through a wall that is closed.
-/// It is free when it lies on a ray from a carving position, before the first occupied voxel: since every surface lies in occupied
-/// voxels, the rays need not be tested against the triangles themselves. Everything else stays unknown. The domain is the cube of
-/// the configuration, cut down to the box around the scene and the starts; space beyond the scene is never free.
+/// A voxel is occupied when any triangle touches it, thin and large ones included, so nothing leaks through a closed wall. It is free when
+/// it is on a ray from a carving position, before the first occupied voxel: since every surface is in occupied voxels, the rays need not be
+/// tested against the triangles themselves. Everything else stays unknown. The domain is the cube of the configuration, cut down to the box
+/// around the scene and the starts; space beyond the scene is never free.
 ///
 /// Where rays leave the domain, free voxels are judged to be inside the building or outside: by the surfaces around them, and by whether
 /// they can be reached from the start cameras without going outside. Those outside become unknown again, unless `keep_outside` is set.
 ///
-/// A start that is inside a wall is skipped with a warning as long as another one serves. One around which nearly nothing is, such as a
-/// sofa under a sky, is carved from with a warning: free is then what it sees of the whole cube.
+/// A start that is inside a wall is skipped with a warning as long as another one serves. A start in the open, with almost nothing around
+/// it (a sofa under a sky), is used with a warning: all that it sees of the whole cube is then free.
 ///
-/// [`Preset`] lists what the preset of Hypersim does differently.
+/// [`Preset`] lists the differences of Hypersim's preset.
 ///
 /// # Errors
 /// A configuration out of its domain, no usable start, or a domain beyond the octree's key space or the memory for it.
@@ -61,7 +61,7 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
             continue;
         }
 
-        // The start's own position, or one nearby when it lies in an occupied voxel; a start in a bad place is skipped.
+        // The start's own position, or one nearby when it is in an occupied voxel; a start in a bad place is skipped.
         let mut position = match scene.verify(index, asked) {
             Ok(used) => {
                 report.starts.push(StartReport { asked, used: Some(used), problem: None, is_open: scene.stands_open[index] });
@@ -87,7 +87,7 @@ pub fn carve(world: &WorldMesh, bvh: &Bvh, starts: &[DVec3], config: &CarveConfi
     }
     cx.progress("carve", total, total);
 
-    // Where rays left the domain, tell inside from outside.
+    // If rays left the domain, distinguish inside from outside.
     report.escaped_share = scene.escaped as f64 / (report.positions.len() as f64 * f64::from(config.rays));
     report.sought_leaks = scene.escaped == 0;
     if scene.escaped > 0 && config.preset == Preset::Default && !scene.stands_open.contains(&true) {
@@ -118,13 +118,13 @@ struct Carving<'a> {
     random: Random,
     /// Random positions are enclosed ones where rays have left the domain, if any is soon found.
     prefers_enclosed: bool,
-    /// By start, whether nearly nothing is around it.
+    /// Whether each start has almost nothing around it.
     stands_open: Vec<bool>,
     /// Rays that left the domain so far.
     escaped: usize,
 }
 
-/// Where the random positions come from.
+/// Source of the random positions.
 enum Random {
     Default(Rng),
     Hypersim(Box<Armadillo>),

@@ -71,7 +71,7 @@ impl Rays {
 }
 
 impl Cone {
-    /// The cone around unit vectors; one that no leap fits into when they do not lie on one side.
+    /// The cone around unit vectors; one that no leap fits into when they are not all on one side of a plane.
     fn around(directions: &[DVec3]) -> Self {
         let axis = directions.iter().sum::<DVec3>().try_normalize().unwrap_or(DVec3::Z);
         let cos = directions.iter().map(|d| d.dot(axis)).fold(1.0, f64::min);

@@ -11,13 +11,13 @@ use enfilade_scene::WorldMesh;
 const RAYS: usize = 2048;
 
 /// Distances are replaced by the smallest within this angle, so that a gap between two things does not look like a way out.
-/// The original pools 50 of its 262,144 rays, a cone of 1.6 degrees; this one holds eight or so of 2048.
+/// The original pools 50 of its 262,144 rays, a cone of 1.6 degrees; this one contains about eight of 2048.
 const POOL_RAD: f64 = 0.09;
 
-/// A start stands in the open when this share of all directions meets no surface, ...
+/// A start is in the open when this share of all directions meets no surface, ...
 const OPEN_SHARE: f64 = 0.9;
 
-/// ... or, for the question whether it is in a building, this share of the level ones: before a house it is at least half.
+/// ... or, for the question whether it is in a building, this share of the level ones: in front of a house it is at least half.
 const OPEN_LEVEL_SHARE: f64 = 2.0 / 3.0;
 const LEVEL: usize = 72;
 

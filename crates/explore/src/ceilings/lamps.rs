@@ -1,4 +1,4 @@
-//! Where lamps hang from a ceiling: spread evenly over it, and away from walls.
+//! Positions of lamps on a ceiling: spread evenly over it, and away from walls.
 
 use super::{Ceiling, Piece};
 use enfilade_geometry::Bvh;

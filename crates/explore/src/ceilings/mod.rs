@@ -2,7 +2,7 @@
 //!
 //! A grid of plumb lines goes through the scene. Where one of them runs free for a metre or more below a surface, that surface is a
 //! ceiling; neighbouring pieces at about one height belong together unless a wall is between them right below the ceiling, above all
-//! doors. What is as low or as small as a cupboard is none.
+//! doors. Surfaces as low or as small as a cupboard are no ceilings.
 
 mod lamps;
 
@@ -21,7 +21,7 @@ const MIN_SPACING_M: f32 = 0.1;
 const MAX_SURFACES: usize = 64;
 /// Free heights below a ceiling, metres: over furniture, and in a hall. Under a sky of triangles it is more.
 const FREE_M: std::ops::RangeInclusive<f32> = 1.0..=15.0;
-/// Somewhere below it people can stand, metres.
+/// Free height that a ceiling has above at least one place, so that people can stand there, metres.
 const HEADROOM_M: f32 = 1.9;
 /// Neighbouring pieces of one ceiling differ in height by at most this, metres.
 const STEP_M: f32 = 0.3;
@@ -42,7 +42,7 @@ pub struct Ceiling {
 struct Piece {
     /// Column of the grid.
     column: [u32; 2],
-    /// Where the line meets the ceiling, metres.
+    /// Point where the line meets the ceiling, metres.
     at: Vec3,
     /// Free height below, metres.
     free_m: f32,
@@ -126,7 +126,7 @@ fn pieces(world: &WorldMesh, bvh: &Bvh, column: [u32; 2], grid: &Grid) -> Vec<Pi
         if let Some(at) = above.filter(|at| FREE_M.contains(&(at.z - surface.z))) {
             found.push(Piece { column, at, free_m: at.z - surface.z });
         }
-        // A wall that the line runs along is no ceiling, and what it hides is none of it.
+        // A wall that the line runs along is no ceiling, and neither is anything that it hides.
         let [a, b, c] = world.corners[hit.triangle as usize];
         above = ((b - a).cross(c - a).normalize_or_zero().z.abs() > 0.1).then_some(surface);
         from = surface - Vec3::Z * 1e-3;

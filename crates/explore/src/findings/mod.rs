@@ -1,5 +1,5 @@
-//! What a look at the geometry of a scene finds that its maker may not have meant: faces that lie twice, parts without area, rooms
-//! without a ceiling, shells seen from behind.
+//! Properties of a scene's geometry that its maker may not have intended: duplicate faces, parts without area, rooms without a ceiling,
+//! shells seen from behind.
 
 mod doubled;
 mod overlapping;
@@ -13,18 +13,18 @@ use crate::Ceiling;
 use enfilade_geometry::Bvh;
 use enfilade_scene::{PartId, WorldMesh};
 
-/// What was found.
+/// The findings of a scene.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// Triangles (of the world) with the corners of an earlier one, as `[earlier, later]`.
     pub doubled: Vec<[u32; 2]>,
-    /// Parts whose surfaces lie in each other without being doubled, those with the largest common area first.
+    /// Parts whose surfaces coincide without being duplicates, those with the largest common area first.
     pub overlapping: Vec<Overlap>,
     /// Parts all of whose triangles are without area.
     pub without_area: Vec<PartId>,
     /// Area of floors between walls with nothing above, square metres.
     pub open_floor_m2: f64,
-    /// What is seen from behind in rooms; `None` without a room.
+    /// Parts seen from behind in rooms; `None` without a room.
     pub backs: Option<Backs>,
     /// The ceilings of all rooms.
     pub ceilings: Vec<Ceiling>,

@@ -1,4 +1,4 @@
-//! Surfaces that lie in each other: which of them a ray meets is a matter of rounding.
+//! Coincident surfaces: which of them a ray meets depends on rounding.
 
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Distribution1, Ray, Rng, Vec3, warp};
@@ -8,16 +8,16 @@ use std::collections::BTreeMap;
 
 /// Points on the scene's surfaces, spread by area.
 const POINTS: usize = 16_384;
-/// Surfaces lie in each other when they are nearer than this, metres, ...
+/// Surfaces coincide when they are nearer than this, metres, ...
 const NEAR_M: f32 = 5e-5;
 /// ... and the cosine between their normals is at least this.
 const PARALLEL: f32 = 0.9999;
-/// How far from a point rays begin, metres.
+/// Distance from a point at which rays begin, metres.
 const FROM_M: f32 = 1e-3;
 /// Fewer points than these of two parts are chance: corners and edges.
 const LEAST_POINTS: usize = 4;
 
-/// Two parts, or one and itself, whose surfaces lie in each other.
+/// Two parts, or one and itself, whose surfaces coincide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// In rising order.

@@ -1,4 +1,4 @@
-//! What people in the rooms of a scene would see: backs of shells, and nothing above them.
+//! Faults that people in the rooms of a scene would see: backs of shells, and missing ceilings.
 
 use crate::Ceiling;
 use crate::surroundings::meet;
@@ -24,7 +24,7 @@ const WALLS_WITHIN_M: f32 = 12.0;
 const LEVEL: usize = 16;
 const WALLED: usize = 12;
 
-/// What is seen from behind in the rooms of a scene.
+/// Parts seen from behind in the rooms of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Backs {
     /// Share of what is seen that is the back of a face, by counter-clockwise corners.

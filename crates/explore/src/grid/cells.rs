@@ -12,7 +12,7 @@ const PER_BLOCK: usize = BLOCK / EDGE;
 pub(crate) type Cube = [i32; 3];
 
 impl VoxelGrid {
-    /// The cube that holds a point.
+    /// The cube that contains a point.
     pub(crate) fn cube_at(&self, p: DVec3) -> Cube {
         (self.cells(p) / EDGE as f64).floor().to_array().map(|c| c as i32)
     }

@@ -1,4 +1,4 @@
-//! How far a ray may leap without looking at voxels: a byte for every voxel of the blocks in which something is free.
+//! Distances that a ray may leap without looking at voxels: a byte for every voxel of the blocks in which something is free.
 //!
 //! A voxel whose neighbours up to a distance of 1, 2, 4, 8 or 16 voxels along each axis are all known to be free has a leap of that
 //! length: walking through them would change nothing. The field is a copy of what was known when it was last refreshed. Voxels freed
@@ -9,7 +9,7 @@ use enfilade_math::DVec3;
 use enfilade_parallel::map;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// What a byte says. Leaps of 2^(code − [`FREE`] − 1) follow [`FREE`].
+/// Codes of a byte. Leaps of 2^(code − [`FREE`] − 1) follow [`FREE`].
 pub(super) const UNKNOWN: u8 = 0;
 pub(super) const OCCUPIED: u8 = 1;
 pub(super) const FREE: u8 = 2;
@@ -66,7 +66,7 @@ impl Leaps {
     }
 
     /// A parameter up to which all rays from `p` (in cells) within a cone pass only voxels that are known to be free, if they do so up
-    /// to `from_t`. `tan` is that of the cone's half angle around the unit vector `axis`.
+    /// to `from_t`. `tan` is the tangent of the cone's half angle around the unit vector `axis`.
     pub(crate) fn clear_until(&self, grid: &VoxelGrid, p: DVec3, axis: DVec3, tan: f64, from_t: f64) -> f64 {
         /// Well above rounding errors, in voxels.
         const MARGIN: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! Which voxels does a surface touch?
+//! The voxels that a surface touches.
 
 use super::overlap::OverlapTest;
 use super::{BLOCK, VoxelGrid, for_each_cell};

@@ -1,4 +1,4 @@
-//! Which voxels does Hypersim's `generate_octomap` mark as occupied? It samples each triangle at points a quarter voxel apart.
+//! The voxels that Hypersim's `generate_octomap` marks as occupied. It samples each triangle at points a quarter voxel apart.
 
 use super::VoxelGrid;
 use enfilade_math::{DVec3, Vec3};
@@ -63,7 +63,7 @@ impl VoxelGrid {
     }
 }
 
-/// The test whether a point lies in a flat triangle.
+/// The test whether a point is in a flat triangle.
 struct Barycentric {
     origin: [f64; 2],
     /// Rows of the inverse of the matrix of the two edges.

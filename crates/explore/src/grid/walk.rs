@@ -6,7 +6,7 @@ use super::{BLOCK, BLOCK_LEVEL, VOLUME, VoxelGrid};
 use enfilade_math::DVec3;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// How a walk along a ray ended.
+/// The end of a walk along a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WalkEnd {
     /// Before an occupied voxel, or in the voxel of the surface.

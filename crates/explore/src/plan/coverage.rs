@@ -69,14 +69,14 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     }
     planner.progress(frames, frames);
 
-    // What was seen how often, and what no pose could have seen.
+    // The report: surfaces by number of views, and those that no pose could have seen.
     let mut reachable = vec![false; patches.len()];
     seen.iter().flatten().for_each(|patch| reachable[*patch as usize] = true);
     draft.coverage = Some(tally.report(&reachable));
     Ok(draft)
 }
 
-/// What a pose would add. Of equal gains the pose of the lower index is greater.
+/// The gain of a pose. Of equal gains the pose with the lower index is greater.
 #[derive(PartialEq)]
 struct Gain {
     area_m2: f64,
@@ -199,7 +199,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// How often each patch was seen, up to as often as it is wanted.
+    /// Number of views of each patch, up to the number wanted.
     #[cfg(test)]
     pub fn times(&self) -> impl Iterator<Item = usize> {
         self.directions.iter().map(Vec::len)

@@ -25,7 +25,7 @@ pub(super) fn pose(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &d
     if may_be_kept(rules, start) { kept(rules, start, image, cx) } else { mended(rules, start, image, cx) }
 }
 
-/// Whether frame 0 is the start camera's pose: it stands in free space, and nothing is asked for that it does not have. A video needs room
+/// Whether frame 0 is the start camera's pose: it is in free space, and satisfies the configured height, pitch and roll. A video needs room
 /// to move, so it begins where there is some.
 fn may_be_kept(rules: &Rules, start: &StartCamera) -> bool {
     let (position, axes) = (start.position, start.world_from_camera);
@@ -38,8 +38,8 @@ fn may_be_kept(rules: &Rules, start: &StartCamera) -> bool {
     !matches!(rules.config.mode, Mode::Video(_)) && !is_tilted && rules.is_at_height(position) && is_free()
 }
 
-/// The start camera's pose. Its target lies on the optical axis, as far as free space reaches before the first surface. When there is no
-/// such point, the one nearest to the image centre stands in, from which the targets of a walk continue.
+/// The start camera's pose. Its target is on the optical axis, as far as free space reaches before the first surface. When there is no such
+/// point, the one nearest to the image centre is used, from which the targets of a walk continue.
 fn kept(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
     let (position, axes) = (start.position, start.world_from_camera);
     let pose = |look_at| Pose { frame: 0, position, look_at, world_from_camera: axes };
@@ -70,8 +70,8 @@ fn nothing_to_look_at(rules: &Rules, start: &StartCamera, position: DVec3) -> Ex
 
 /// The pose near a start camera that keeps the rules, with a warning of what was changed.
 ///
-/// The target lies on the optical axis, as far as free space reaches before the first surface. When there is no such point, the view
-/// turns to the one nearest to the image centre that has a target, and when the image has none, to the longest level view.
+/// The target is on the optical axis, as far as free space reaches before the first surface. When there is no such point, the view turns to
+/// the one nearest to the image centre that has a target, and when the image has none, to the longest level view.
 fn mended(rules: &Rules, start: &StartCamera, image: &TestImage, cx: &dyn Cx) -> Result<Pose, ExploreError> {
     let warn = |message: String| cx.warn(Warning { place: format!("camera {:?}", start.name), message });
     let position = clear_position(rules, start)?;

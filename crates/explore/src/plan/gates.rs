@@ -1,4 +1,4 @@
-//! Which views are not worth taking: those from outside of a building, and those of next to nothing.
+//! The gates: tests for views that are not worth taking, such as those from outside of a building, or of almost nothing.
 
 use super::PlanConfig;
 use super::glance::{Glance, Glancer};
@@ -58,7 +58,7 @@ impl<'a> Gates<'a> {
         self.fault(pose, None).max((void > self.config.max_void_share).then_some(Fault::Void))
     }
 
-    /// Stands in the open, as outside of a building.
+    /// Whether a point is in the open, as outside of a building.
     pub fn is_open(&self, p: DVec3) -> bool {
         self.open_shares(p).iter().zip(self.max_open_shares).any(|(share, limit)| *share > limit)
     }

@@ -26,7 +26,7 @@ pub(super) struct Glancer<'a> {
     directions: Vec<DVec3>,
 }
 
-/// What one coarse look met.
+/// The surface points of one coarse look.
 pub(super) struct Glance {
     /// Rays cast.
     pub rays: usize,
@@ -49,7 +49,7 @@ impl<'a> Glancer<'a> {
         Glance { rays: self.directions.len(), points: rays.filter_map(|d| self.meet(pose.position, d)).collect() }
     }
 
-    /// Where the ray along a unit direction ends.
+    /// The surface point at which the ray along a unit direction ends.
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<SurfacePoint> {
         meet(self.world, self.rules.bvh, origin, direction)
     }
@@ -63,7 +63,7 @@ impl<'a> Glancer<'a> {
         self.frames(pose, p_world) && self.reaches(pose.position, p_world)
     }
 
-    /// Whether a point lies within the borders of the picture.
+    /// Whether a point is within the borders of the picture.
     pub fn frames(&self, pose: &Pose, p_world: DVec3) -> bool {
         let p_camera = pose.world_from_camera.transpose() * (p_world - pose.position);
         if p_camera.z >= 0.0 {

@@ -1,4 +1,4 @@
-//! Which way to face along a path: always toward free space, as near as can be to what was asked for, and turning no more than needed.
+//! The choice of headings along a path: always toward free space, as near as possible to the wanted ones, and turning no more than needed.
 
 use super::planner::Planner;
 use super::rules::posed;
@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Headings compared at every control point.
 pub(super) const HEADINGS: usize = 72;
 
-/// What it costs to turn from one control point to the next, against straying from what is asked for, both in headings squared.
+/// Weight of the turn from one control point to the next, relative to the deviation from the wanted heading, both in headings squared.
 const TURN_COST: f64 = 6.0;
 
 /// The headings that have free space before them, at every control point of a path.
@@ -48,9 +48,9 @@ impl Headings {
         Self { wanted, allowed }
     }
 
-    /// Heading, pitch and roll at every control point, headings counted on beyond a full turn; `None` when there is no sequence of
-    /// allowed headings. From each control point to the next it turns by as many headings as `strides` says at most, or by twice as
-    /// many, or four times, where it must.
+    /// Heading, pitch and roll at every control point, headings counted on beyond a full turn; `None` when there is no sequence of allowed
+    /// headings. From each control point to the next it turns by at most the number of headings in `strides`, or, if that is impossible, by
+    /// twice or four times as many, and so on.
     pub fn smoothest(&self, strides: &[usize]) -> Option<Vec<DVec3>> {
         let factors = [1, 2, 4, 8, 16, HEADINGS];
         let chosen = factors.into_iter().find_map(|factor| self.sequence(|j| (factor * strides[j]).min(HEADINGS / 2)))?;

@@ -33,7 +33,7 @@ const TRY_STEP_VOXELS: f64 = 0.25;
 /// The poses of a walk from `start`, and what each shows. The first is the start camera's own.
 ///
 /// # Errors
-/// Where the program gives up or stops with an assertion: nothing to look at from the start, or no candidate for a step.
+/// When the program would give up or stop with an assertion: nothing to look at from the start, or no candidate for a step.
 pub(super) fn walk(
     world: &WorldMesh,
     bvh: &Bvh,
@@ -165,7 +165,7 @@ impl Walker<'_> {
         let directions: Vec<DVec3> = self.image.center_first().into_iter().map(|d| start.world_from_camera * d).collect();
         for k in 0..TRIES {
             let origin = start.position + f64::from(k) * TRY_STEP_VOXELS * voxel_m * start.world_from_camera.z_axis;
-            // As in the program: the distance is measured from the moved origin, but the target lies that far from the camera itself.
+            // As in the program: the distance is measured from the moved origin, but the target is that far from the camera itself.
             let reach = |d: &DVec3| {
                 let hit = self.distance_m(origin, *d);
                 let clipped = (hit.min(self.leaves_m(origin, *d)) - TARGET_MARGIN_VOXELS * voxel_m).max(MIN_TARGET_M);
@@ -179,7 +179,7 @@ impl Walker<'_> {
         Err(ExploreError::NothingToLookAt { name: start.name.clone(), position: start.position, distance_m })
     }
 
-    /// Where a ray leaves the box of free space.
+    /// Distance at which a ray leaves the box of free space, metres.
     fn leaves_m(&self, origin: DVec3, direction: DVec3) -> f64 {
         let border = DVec3::select(direction.cmpgt(DVec3::ZERO), self.space.free_max, self.space.free_min);
         let t = (border - origin) / direction;

@@ -146,7 +146,7 @@ fn csv_rows(file: &str, text: &str) -> Result<Vec<Row>, ExploreError> {
     reader.records().filter(|record| !is_blank(record)).enumerate().map(row).collect()
 }
 
-/// What stands between the names of the first line that is no comment: a comma, a semicolon or a tab.
+/// The separator of the names in the first line that is no comment: a comma, a semicolon or a tab.
 fn separator(text: &str) -> u8 {
     let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
     if header.contains(',') { b',' } else { [b';', b'\t'].into_iter().find(|byte| header.as_bytes().contains(byte)).unwrap_or(b',') }

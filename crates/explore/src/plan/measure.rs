@@ -17,13 +17,13 @@ const SAMPLES: usize = 20_000;
 /// A view of which one plane fills more than this is bare.
 const BARE_SHARE: f64 = 0.9;
 
-/// Limits of angles are taken to be kept to within this, degrees.
+/// Tolerance of the limits of angles, degrees.
 const ROUNDING_DEG: f64 = 1e-6;
 
-/// A look-at point on the axis lies in its direction to within this.
+/// Tolerance of the direction of a look-at point on the axis.
 const ON_AXIS: f64 = 1e-9;
 
-/// Frames named in a warning; of the others it says that there are more.
+/// Most frames named in a warning; it only mentions that there are more.
 const FRAMES_NAMED: usize = 12;
 
 /// The trajectory of a draft, with its report.
@@ -76,7 +76,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
     Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, report }
 }
 
-/// The limit that poses are held to, if they are.
+/// The roll limit of poses, if they have one, degrees.
 fn roll_limit_deg(planner: &Planner) -> Option<f64> {
     let is_held = planner.config.preset != Preset::Hypersim && !matches!(planner.config.mode, Mode::Keyframes(_));
     is_held.then(|| planner.rules.roll_limit_rad().to_degrees())
@@ -98,7 +98,7 @@ fn boxes(config: &PlanConfig) -> Option<WalkBoxes> {
     }
 }
 
-/// What became of the start camera in the pose of frame 0.
+/// The start camera, and whether the pose of frame 0 keeps it.
 fn planned_start(start: &StartCamera, first: &Pose) -> PlannedStart {
     let ahead = (first.look_at - first.position).try_normalize();
     PlannedStart {
@@ -175,7 +175,7 @@ fn warn_of_faults(planner: &Planner, relaxed: &[RelaxedFrame], frames: usize) {
     }
 }
 
-/// What is wrong with frames that have a fault, and which setting may help.
+/// Description of a fault of frames, and of the setting that may help.
 fn describe(planner: &Planner, fault: Fault) -> String {
     let config = planner.config;
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);

@@ -40,14 +40,14 @@ pub use report::{
 
 /// Finds trajectory `trajectory_index` (`cam_00`, `cam_01`, …), which begins at `start`, by the configured [`Mode`].
 ///
-/// Every pose keeps these rules, whatever the mode: the camera is in free space, `clearance_m` from every surface and at the height
-/// above the floor that is asked for; its target is in free space, at least `min_look_distance_m` away, and seen; roll and pitch are
-/// within their limits; a second camera of a stereo rig has room too. Views with a [`Fault`] are taken only when nothing better is
-/// found, with a warning, and stand in the report.
+/// Every pose keeps these rules, whatever the mode: the camera is in free space, `clearance_m` from every surface and at the height above
+/// the floor that is asked for; its target is in free space, at least `min_look_distance_m` away, and seen; roll and pitch are within their
+/// limits; a second camera of a stereo rig has room too. Views with a [`Fault`] are taken only when nothing better is found; there is a
+/// warning, and the report lists them.
 ///
-/// The first pose is the start camera's, exactly, if that stands in free space: clearance, roll and gates are for poses that are chosen.
-/// Only where it stands elsewhere, or a height, a pitch or level views are asked for that it does not have, is it moved or turned, with a
-/// warning. A video moves from its first frame on, so it begins at the nearest place with room for that.
+/// The first pose is exactly the start camera's if that is in free space: clearance, roll and gates apply to poses that are chosen. It is
+/// moved or turned, with a warning, only if it is not in free space, or does not have the height, the pitch or the level view that is asked
+/// for. A video moves from its first frame on, so it begins at the nearest place with room for that.
 ///
 /// # Errors
 /// A configuration out of its domain, a start camera with no clear position near it or nothing to look at, or a mode that finds no
@@ -64,9 +64,9 @@ pub fn plan(
     plan_accepted(world, bvh, space, start, &format!("cam_{trajectory_index:02}"), trajectory_index, config, &|_| true, cx)
 }
 
-/// Plans a trajectory as [`plan`] does, but of any `name`, whose random numbers `trajectory_index` chooses, and with a last word by the
-/// caller: a view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any thread,
-/// and never about the first pose; the other presets do not ask.
+/// Plans a trajectory as [`plan`] does, but of any `name`, whose random numbers `trajectory_index` chooses, and with a final decision by
+/// the caller: a view for which `accepts` is false has [`Fault::Refused`]. It is asked about views that have no other fault, from any
+/// thread, and never about the first pose; the other presets do not ask.
 ///
 /// # Errors
 /// As [`plan`].
@@ -81,7 +81,7 @@ pub fn plan_accepted(
     accepts: &(dyn Fn(&Pose) -> bool + Sync),
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
-    // What every mode works with: the rules of a pose, the gates of a view, and what was given.
+    // The common inputs of all modes: the rules of a pose, the gates of a view, and the arguments.
     config.validate()?;
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);

@@ -1,8 +1,9 @@
 //! Hypersim's random walk as the supplement of its paper states it, and nothing else.
 //!
-//! A pose is a position p and a target t. The next one is drawn from the set of those whose p lies in the box around the last p and in that
-//! around the first (equation 2), whose t does so around the last and the first t (equation 3), with p and t in free space, p seen from the
-//! last p, t from the last t, and a roll of at most 5 degrees; in proportion to how salient the view is (equation 1 of the paper).
+//! A pose is a position p and a target t. The next one is drawn from the set of those whose p is in the box around the last p and in the
+//! box around the first (equation 2), whose t is in the boxes around the last and the first t (equation 3), with p and t in free space, p
+//! seen from the last p, t from the last t, and a roll of at most 5 degrees; in proportion to how salient the view is (equation 1 of the
+//! paper).
 
 use super::planner::{Draft, Planner, by_score};
 use super::rules::rolled;
@@ -11,7 +12,7 @@ use crate::{ExploreError, ViewStats};
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::Pose;
 
-/// How often points of one step are drawn before the set counts as empty: it is sampled by rejection, and may be small.
+/// Rounds of drawing points for one step before the set counts as empty: it is sampled by rejection, and may be small.
 const ROUNDS: u32 = 32;
 
 /// A walk from `first`.

@@ -1,4 +1,4 @@
-//! Points spread evenly over all surfaces: each stands for the same area of its part, however that is cut into triangles.
+//! Points spread evenly over all surfaces: each represents the same area of its part, however that is cut into triangles.
 
 use enfilade_math::{DVec3, Rng};
 use enfilade_scene::{PartId, WorldMesh};
@@ -6,7 +6,7 @@ use enfilade_scene::{PartId, WorldMesh};
 /// Small parts get this many points all the same.
 const MIN_PER_PART: usize = 8;
 
-/// A point of a surface, and the area that it stands for.
+/// A point of a surface, and the area that it represents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patch {
     pub p_world: DVec3,

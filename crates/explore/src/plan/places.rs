@@ -8,10 +8,11 @@ use std::collections::HashMap;
 /// More places than this are not looked for: a scene that leaks has any number of them. The nearest come first.
 const MAX_PLACES: usize = 1_000_000;
 
-/// Ways between places are clear beyond the clearance by this many voxels, so that any point on them is, and any point looked at.
+/// Additional clearance of ways between places, in voxels, so that every point on them is clear, and every point looked at.
 const MARGIN_VOXELS: f64 = 0.625;
 
-/// Where a band of heights is thinner than a voxel, places keep this share of its width to its ends, so that ways between them do too.
+/// Where a band of heights is thinner than a voxel, places keep this share of its width from its ends, so that the ways between them stay
+/// in the band too.
 const BAND_MARGIN: f64 = 0.1;
 
 /// Points of free voxels, mostly their centres, with room around them, in the order of the way from the start through their faces.
@@ -84,7 +85,7 @@ impl Places {
     }
 }
 
-/// The point that stands for a voxel: its centre, or where a band of heights is thinner than a voxel and leaves out the centre, the
+/// The point that represents a voxel: its centre, or where a band of heights is thinner than a voxel and leaves out the centre, the
 /// point above or below it in the band, if there is one in the voxel.
 fn point(rules: &Rules, key: VoxelKey) -> DVec3 {
     let (center, voxel_m) = (rules.space.tree.center(key), rules.space.tree.resolution_m());

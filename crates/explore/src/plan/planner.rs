@@ -1,4 +1,4 @@
-//! What every mode works with: the scene, the rules and the gates, and the choice among candidates in proportion to their scores.
+//! The common base of all modes: the scene, the rules and the gates, and the choice among candidates in proportion to their scores.
 
 use super::PlanConfig;
 use super::gates::Gates;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// Scores whose greatest is not between these are scaled together, because choices are made in single precision.
 const SCORES: [f64; 2] = [1e-30, 1e30];
 
-/// What every mode works with.
+/// The common inputs of all modes.
 pub(super) struct Planner<'a> {
     pub rules: &'a Rules<'a>,
     pub gates: &'a Gates<'a>,
@@ -23,16 +23,16 @@ pub(super) struct Planner<'a> {
     pub name: &'a str,
     /// The camera that the trajectory begins with; none for poses made by hand.
     pub start: Option<&'a StartCamera>,
-    /// The caller's last word.
+    /// The caller's acceptance test of a pose.
     pub accepts: &'a (dyn Fn(&Pose) -> bool + Sync),
     pub cx: &'a dyn Cx,
 }
 
-/// What a mode found.
+/// The result of a mode.
 #[derive(Default)]
 pub(super) struct Draft {
     pub poses: Vec<Pose>,
-    /// What the poses show, where the mode knows already; else empty.
+    /// Measurements of the poses' views, if the mode already has them; else empty.
     pub views: Vec<ViewStats>,
     pub rejected: RejectedCounts,
     pub coverage: Option<CoverageReport>,
@@ -45,7 +45,7 @@ impl<'a> Planner<'a> {
         Self { rules, gates, world, config, image, name, start: None, accepts: &|_| true, cx }
     }
 
-    /// What each pose shows.
+    /// Measurements of the view of each pose.
     pub fn views(&self, poses: &[Pose]) -> Vec<ViewStats> {
         let look = |sight: &mut Sight, pose: &Pose| {
             sight.look(self.rules.bvh, &self.image, pose);
@@ -54,7 +54,7 @@ impl<'a> Planner<'a> {
         poses.par_iter().map_init(|| self.image.sight(self.world), look).collect()
     }
 
-    /// What a view is worth.
+    /// The score of a view.
     pub fn score(&self, view: &ViewStats) -> f64 {
         self.config.saliency.score(view)
     }

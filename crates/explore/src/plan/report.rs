@@ -1,11 +1,11 @@
-//! What a trajectory came to: one value per frame for pictures and later tools, and what they come to together.
+//! Report of a trajectory: values per frame for pictures and later tools, and their statistics.
 
 use crate::Preset;
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{PartId, Trajectory};
 use serde::{Deserialize, Serialize};
 
-/// A trajectory and how it came out.
+/// A trajectory and its report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     /// Poses numbered from 0 without a gap.
@@ -14,14 +14,14 @@ pub struct Planned {
     pub report: PlanReport,
 }
 
-/// How a trajectory came out, in metres and degrees.
+/// Measurements of a trajectory, in metres and degrees.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanReport {
     /// Name of the trajectory: `cam_00`, `cam_01`, …
     pub trajectory: String,
     /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
     pub mode: String,
-    /// Whose rules it follows.
+    /// Preset whose rules it follows.
     #[serde(default)]
     pub preset: Preset,
     /// The greatest roll that the plan gives a camera, degrees; none where it has no limit: by Hypersim's preset, and for poses made by
@@ -37,7 +37,7 @@ pub struct PlanReport {
     pub seen_area_share: f64,
     /// Share of the parts of the scene of which some frame sees something.
     pub seen_part_share: f64,
-    /// What the frames come to.
+    /// Statistics over the frames.
     pub statistics: PlanStatistics,
     /// Candidates that were not taken, by reason.
     pub rejected: RejectedCounts,
@@ -45,42 +45,42 @@ pub struct PlanReport {
     pub relaxed: Vec<RelaxedFrame>,
     /// Frames of which a single plane fills more than nine tenths: reported, not rejected.
     pub bare_frames: Vec<u32>,
-    /// What no frame saw, where the mode plans for coverage.
+    /// The coverage reached, if the mode plans for coverage.
     pub coverage: Option<CoverageReport>,
     /// Values of every frame.
     pub per_frame: FrameValues,
 }
 
-/// The camera that a trajectory begins with, and what became of it.
+/// The camera that a trajectory begins with, and whether frame 0 keeps it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlannedStart {
     /// Name of the start camera.
     pub name: String,
-    /// Where it stands, metres.
+    /// Position of the start camera, metres.
     pub position: DVec3,
     /// Orientation of the start camera, camera to world.
     pub world_from_camera: DMat3,
     /// True where frame 0 is this pose, exactly; false where it was moved or turned.
     pub is_kept: bool,
-    /// True where the look-at point of frame 0 lies on its axis; false where nothing there is free and one beside it stands in.
+    /// True if the look-at point of frame 0 is on its axis; false if no point there is free and one beside the axis is used.
     pub looks_along_axis: bool,
 }
 
-/// The boxes in which the next pose of a walk lies: equations 2 and 3 of Hypersim's supplement.
+/// The boxes that bound the next pose of a walk: equations 2 and 3 of Hypersim's supplement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkBoxes {
-    /// The box in which the camera's position lies.
+    /// The box of the camera's position.
     pub position: WalkBox,
-    /// The box in which the camera's target lies.
+    /// The box of the camera's target.
     pub target: WalkBox,
 }
 
 /// A box that bounds the next pose of a walk.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkBox {
-    /// How far from the last one at most, along x, y and z, metres.
+    /// Greatest distance from the last one along x, y and z, metres.
     pub step_m: [f64; 3],
-    /// How far above or below that of frame 0 at most, metres; none where it goes up and down with the floor.
+    /// Greatest height above or below the one of frame 0, metres; none if it goes up and down with the floor.
     pub height_range_m: Option<f64>,
 }
 
@@ -89,7 +89,7 @@ pub struct WalkBox {
 pub struct FrameValues {
     /// Frame numbers.
     pub frame: Vec<u32>,
-    /// What the view is worth by the configured saliency.
+    /// Score of the view by the configured saliency.
     pub score: Vec<f64>,
     /// Share of the pixels that show no surface.
     pub void_share: Vec<f64>,
@@ -157,7 +157,7 @@ pub enum Fault {
     Near,
     /// Too many pixels show the back of surfaces, as from outside a room: `max_back_face_share`.
     BackFaces,
-    /// The camera stands in the open, as outside a building: `max_open_share`.
+    /// The camera is in the open, as outside a building: `max_open_share`.
     Open,
     /// The camera is in a wall, too near to one, or at another height than asked for.
     Place,
@@ -167,7 +167,7 @@ pub enum Fault {
     Tilt,
 }
 
-/// How many candidates were drawn and turned out to have a fault.
+/// Numbers of candidates that were drawn and had a fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "Fault describes each one")]
 pub struct RejectedCounts {
@@ -185,11 +185,11 @@ pub struct RejectedCounts {
 pub struct RelaxedFrame {
     /// Number of the frame.
     pub frame: u32,
-    /// What is wrong with it.
+    /// The fault of the frame.
     pub fault: Fault,
 }
 
-/// How much of the surfaces was seen how often. Areas are measured by points spread evenly over all surfaces, so they do not depend
+/// Shares of all surfaces by number of views. Areas are measured by points spread evenly over all surfaces, so they do not depend
 /// on how things are cut into triangles.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CoverageReport {
@@ -207,7 +207,7 @@ pub struct CoverageReport {
     pub parts: Vec<PartCoverage>,
 }
 
-/// How much of one part was seen how often.
+/// Shares of one part by number of views.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartCoverage {
     /// The part; its `node_id` in `metadata_nodes.csv` is one more.

@@ -1,4 +1,4 @@
-//! What a pose must satisfy, whatever it shows.
+//! Rules that a pose must satisfy, whatever it shows.
 
 use super::PlanConfig;
 use crate::FreeSpace;
@@ -66,7 +66,7 @@ impl<'a> Rules<'a> {
         self.is_free(p) && !self.space.tree.any_within(p, self.config.clearance_m, Voxel::Occupied)
     }
 
-    /// Where a camera may be: room, and the height asked for.
+    /// Whether a camera may be here: enough room, and the height asked for.
     pub fn is_position(&self, p: DVec3) -> bool {
         self.has_room(p) && self.is_at_height(p)
     }
@@ -110,7 +110,7 @@ impl<'a> Rules<'a> {
         self.bvh.closest(&Ray::new(from.as_vec3(), direction.as_vec3())).map_or(f64::INFINITY, |hit| f64::from(hit.t))
     }
 
-    /// The straight way between two points lies in free voxels, with no occupied one within the clearance of any point of it.
+    /// Whether the straight way between two points is in free voxels, with no occupied one within the clearance of any point of it.
     pub fn is_clear_way(&self, from: DVec3, to: DVec3) -> bool {
         let step_m = WAY_STEP_VOXELS * self.space.tree.resolution_m();
         let steps = (from.distance(to) / step_m).ceil().max(1.0);
@@ -151,7 +151,7 @@ impl<'a> Rules<'a> {
         }
     }
 
-    /// What a camera at `position` looks at when it is aimed at `look_at`: the point itself, or the one level with the camera where
+    /// The target of a camera at `position` that is aimed at `look_at`: the point itself, or the one level with the camera where
     /// views are level. `None` when it is too near, hidden, not free, or too high or low.
     pub fn sight(&self, position: DVec3, look_at: DVec3) -> Option<DVec3> {
         let target = if self.config.level { DVec3::new(look_at.x, look_at.y, position.z) } else { look_at };
@@ -194,7 +194,7 @@ impl<'a> Rules<'a> {
         None
     }
 
-    /// Where a ray from inside leaves the box of free space.
+    /// Distance at which a ray from inside leaves the box of free space, metres.
     fn exit_m(&self, position: DVec3, direction: DVec3) -> f64 {
         let border = DVec3::select(direction.cmpgt(DVec3::ZERO), self.space.free_max, self.space.free_min);
         let t = (border - position) / direction;

@@ -2,8 +2,8 @@
 
 use enfilade_math::DVec3;
 
-/// A uniform cubic B-spline: at parameter i it is near point i, it begins and ends in the first and last point, and each stretch of it
-/// lies in the hull of the four points around, so it never overshoots.
+/// A uniform cubic B-spline: at parameter i it is near point i, it begins and ends in the first and last point, and each segment of it is
+/// in the convex hull of the four points around, so it never overshoots.
 pub(super) struct NearSpline {
     points: Vec<DVec3>,
 }

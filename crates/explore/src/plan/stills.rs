@@ -16,8 +16,8 @@ const STEEPEST_DRAWN_DEG: f64 = 45.0;
 /// Directions drawn per candidate wanted at a place.
 const DRAWS_PER_CANDIDATE: usize = 3;
 
-/// Stills at random places that are `min_distance_m` from each other (dart throwing, so their spacing is that of blue noise), each the
-/// choice among candidates at its place in proportion to their score. The first one is the start camera's.
+/// Stills at random places that are `min_distance_m` from each other (dart throwing, so they are spaced like blue noise). Each is chosen
+/// among the candidates at its place in proportion to their scores. The first one is the start camera's.
 ///
 /// There are fewer than `frames` when no more places are left, with a warning.
 pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng: &Rng) -> Result<Draft, ExploreError> {

@@ -12,7 +12,7 @@ const AIM: f64 = 0.98;
 pub(super) struct Schedule {
     /// When each node is reached, seconds.
     times_s: Vec<f64>,
-    /// How fast, metres per second.
+    /// Speeds, metres per second.
     speeds_m_s: Vec<f64>,
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Tour {
 /// Points along straight ways, by length.
 pub(super) struct Polyline<'a> {
     corners: &'a [DVec3],
-    /// How far along each corner is, metres.
+    /// Distance along the tour of each corner, metres.
     pub reached_m: Vec<f64>,
 }
 

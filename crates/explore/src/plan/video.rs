@@ -26,7 +26,7 @@ const CLOSEST_SPACING_M: f64 = 0.02;
 /// Poses looked at between two control points.
 const SUBSTEPS: usize = 16;
 
-/// How often headings are chosen again, each time without those that turned out to have no free view.
+/// Most repeated choices of headings, each without those that turned out to have no free view.
 const REPAIRS: usize = 40;
 
 /// A smooth path of `frames` frames from near `first` on.
@@ -50,17 +50,17 @@ pub(super) fn video(planner: &Planner, first: Pose, video: &VideoConfig, rng: &R
     Ok(draft)
 }
 
-/// Where the camera goes.
+/// The path of the camera.
 struct Path {
     spline: NearSpline,
-    /// How far along the tour each control point is, metres.
+    /// Distance along the tour of each control point, metres.
     reached_m: Vec<f64>,
     /// Parameters of the spline near the waypoints, ascending.
     waypoints: Vec<f64>,
 }
 
 impl Path {
-    /// A smooth spline along the tour that has room everywhere: its control points lie as close as they must, and no closer.
+    /// A smooth spline along the tour that has room everywhere: its control points are as close as they must be, and no closer.
     fn along(planner: &Planner, tour: &Tour) -> Result<Self, ExploreError> {
         let polyline = Polyline::new(&tour.corners);
         let n = (polyline.length_m() / WIDEST_SPACING_M).ceil().max(1.0);
@@ -137,7 +137,7 @@ fn wishes(planner: &Planner, first: &Pose, path: &Path, draft: &mut Draft, rng: 
     wishes
 }
 
-/// Where the camera goes and where it looks.
+/// The path of the camera and its headings.
 struct Shot {
     path: Path,
     /// Heading, pitch and roll, radians, by the path's parameter.

@@ -94,7 +94,7 @@ struct SceneEntry {
     camera: String,
 }
 
-/// What frames of a camera show of instances, by frame and instance number.
+/// Visibility of instances in a camera's frames, by frame and instance number.
 type Known = BTreeMap<(u32, i16), InstanceView>;
 
 /// An instance as if nothing hid it.
@@ -185,7 +185,7 @@ fn write_track(
     out.write_json(&format!("{folder}/scene_gt_info.json"), &infos)
 }
 
-/// What the stage `boxes` has found; nothing in Hypersim's own data.
+/// Results of the stage `boxes`; empty for Hypersim's own data.
 fn known_instances(selected: &SelectedFrames<'_>, track: &Track) -> Result<Known, ExportError> {
     let views = match selected.dataset.read_instance_views(&track.scene, &track.name) {
         Err(error) if error.is_not_found() => Vec::new(),
@@ -298,7 +298,7 @@ fn bbox(area: PixelArea) -> [i64; 4] {
     [left, upper, right - 1 - left, lower - 1 - upper]
 }
 
-/// Writes the object's mesh, if it is known, and tells its size.
+/// Writes the object's mesh, if it is known, and returns its size.
 fn write_model(out: &ExportFolder, object: &Object) -> Result<ModelInfo, ExportError> {
     let half = 0.5 * object.shape.extents;
     let mut model = (vec![-half, half], -half, half);
@@ -314,7 +314,7 @@ fn write_model(out: &ExportFolder, object: &Object) -> Result<ModelInfo, ExportE
     Ok(ModelInfo { diameter: 1000.0 * diameter(vertices), min_x, min_y, min_z, size_x, size_y, size_z })
 }
 
-/// The largest distance between two of the points, which lie about the origin.
+/// The largest distance between two of the points, which are around the origin.
 ///
 /// Points are taken from the outermost inward, so that pairs too near the origin to matter are never looked at.
 fn diameter(mut points: Vec<DVec3>) -> f64 {

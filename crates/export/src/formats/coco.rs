@@ -2,7 +2,7 @@
 //!
 //! A mask is run-length encoded down the columns, first run of background, and stored as COCO's compressed string: differences to
 //! the run before the last in groups of five bits (`rleToString` of `maskApi.c`). Boxes are `[x, y, width, height]` in pixels from
-//! the upper left corner of the image and hold the mask exactly, as `toBbox` has them.
+//! the upper left corner of the image and fit the mask exactly, like those of `toBbox`.
 
 use crate::ExportError;
 use crate::export_folder::ExportFolder;
@@ -93,7 +93,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     out.write("annotations/instances.json", text.as_bytes())
 }
 
-/// What made the file.
+/// The program that made the file.
 pub(super) fn info() -> Info {
     Info { description: "Rendered by enfilade; see README.md", version: env!("CARGO_PKG_VERSION") }
 }
@@ -128,7 +128,7 @@ fn categories_of(selected: &SelectedFrames<'_>, scene: &str) -> Result<Vec<Categ
     Ok(classes.list().iter().map(category).collect())
 }
 
-/// The frame's picture, and what the file says of it except the ids.
+/// Writes the frame's picture; returns its entries in the file, without ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,
@@ -142,7 +142,7 @@ fn write_frame(
     Ok((image, instances(&frame).into_iter().filter_map(classed).collect()))
 }
 
-/// Writes a frame's picture; what the file says of it except the id.
+/// Writes a frame's picture; returns its entry in the file, without the id.
 pub(super) fn write_image(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>, frame: &Frame) -> Result<Image, ExportError> {
     let name = format!("{}/frame.{:04}.jpg", view.track.folder(), view.frame());
     out.write(&format!("images/{name}"), &color_jpeg(selected, view, frame)?)?;

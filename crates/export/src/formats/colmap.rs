@@ -1,10 +1,10 @@
 //! COLMAP: `<scene>/sparse/0/{cameras,images,points3D}` beside `<scene>/images/`, and the binary form of the three files.
 //!
-//! Images lie side by side and their names have no other dot: programs for Gaussian splatting take the last part of a name, up to its first
-//! dot, and VGGT takes every entry of `images/` for a picture.
+//! Images are in one folder, and their names have no other dot: programs for Gaussian splatting take the last part of a name, up to its
+//! first dot, and VGGT takes every entry of `images/` for a picture.
 //!
-//! Poses are world to camera with OpenCV's axes as quaternion (w, x, y, z) and translation in metres; the world is right-handed with z
-//! up. Image coordinates count from the upper left corner of the image, so pixel centres lie at halves, in COLMAP as here. Points lie on
+//! Poses are world to camera with OpenCV's axes as quaternion (w, x, y, z) and translation in metres; the world is right-handed with z up.
+//! Image coordinates count from the upper left corner of the image, so pixel centres are at half-integers, in COLMAP as here. Points are on
 //! the stored surfaces, and their tracks name every frame that sees them ([`crate::points`]); errors are 0.
 
 use crate::ExportError;

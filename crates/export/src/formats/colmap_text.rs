@@ -1,4 +1,4 @@
-//! COLMAP's text form of a [`Model`]; what the numbers mean stands in [`super::colmap`]. Every number comes back exactly.
+//! COLMAP's text form of a [`Model`]; [`super::colmap`] describes the numbers. Every number is read back exactly.
 
 use super::colmap::{Files, Model};
 

@@ -1,7 +1,7 @@
 //! Croissant 1.0 (MLCommons): a card of the dataset in JSON-LD, with tables of its frames, layers and classes as record sets.
 //!
 //! The files of the dataset are named by patterns relative to its root, so the export's files are meant to be put there, beside
-//! `scenes`; the tables are read wherever they lie.
+//! `scenes`; the tables can be read from any folder.
 
 use crate::ExportError;
 use crate::calibration::Calibration;

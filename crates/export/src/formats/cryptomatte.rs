@@ -1,5 +1,5 @@
-//! Cryptomatte layers after the specification 1.2.0 (Friedman and Jones, Psyop): ids are hashes of names, kept in float channels, and
-//! the manifest in the header says which name has which hash.
+//! Cryptomatte layers after the specification 1.2.0 (Friedman and Jones, Psyop): ids are hashes of names, kept in float channels, and the
+//! manifest in the header lists the hash of each name.
 
 use enfilade_frame::Values;
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ pub(crate) struct Cryptomatte {
 }
 
 impl Cryptomatte {
-    /// The layer whose pixels have the numbers `labels`; `name_of` gives a number's name, `None` for numbers that stand for nothing.
+    /// The layer whose pixels have the numbers `labels`; `name_of` gives a number's name, `None` for numbers that mean nothing.
     pub fn new(name: &'static str, labels: &Values, name_of: impl Fn(i32) -> Option<String>) -> Self {
         let mut known: BTreeMap<i32, f32> = BTreeMap::new();
         let mut manifest = BTreeMap::new();

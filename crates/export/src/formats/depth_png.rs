@@ -1,7 +1,7 @@
 //! Depth as 16-bit PNG in millimetres, and `cameras.json` with what is needed to make points of it.
 //!
 //! Depth is planar for cameras with a K and an image plane, and the distance along the ray for fisheyes, panoramas and grids of rays;
-//! `depth` in `cameras.json` says which. 0 is "no depth".
+//! `depth` in `cameras.json` states which. 0 is "no depth".
 
 use crate::ExportError;
 use crate::calibration::{Calibration, Distortion};

@@ -1,7 +1,7 @@
 //! Pairs for DUSt3R and MASt3R (Wang et al. 2024, Leroy et al. 2024), in the layout of ScanNet++ that their class `ScanNetpp`
 //! reads: `all_metadata.npz` with `<scene>/images/` and `<scene>/depth/`.
 //!
-//! Frames of all cameras of a scene stand side by side as `<camera>_<IIII>`. Poses are camera to world with OpenCV's axes, metres; K counts
+//! Frames of all cameras of a scene are in one folder as `<camera>_<IIII>`. Poses are camera to world with OpenCV's axes, metres; K counts
 //! from pixel centres. Depth is planar, 16-bit PNG, millimetres, 0 for none. The pairs are those of the dataset's `pairs.csv`.
 
 use crate::ExportError;
@@ -52,8 +52,8 @@ fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>
     out.write(&format!("{scene}/depth/{name}.png"), &grey16_png(frame.width, frame.height, &depth))
 }
 
-/// The places of both views of each pair that is listed and exported. Where there is no list, every frame goes with the next one of its
-/// camera, which is said.
+/// The indices of both views of each pair that is listed and exported. If there is no list, every frame is paired with the next one of its
+/// camera, with a warning.
 fn pairs(selected: &SelectedFrames<'_>, views: &[View<'_>]) -> Result<Vec<[usize; 2]>, ExportError> {
     let key = |view: &View<'_>| (view.track.scene.clone(), view.track.name.clone(), view.frame());
     let places: HashMap<_, usize> = views.iter().map(key).zip(0..).collect();

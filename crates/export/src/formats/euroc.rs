@@ -1,9 +1,10 @@
 //! EuRoC MAV sequences (Burri et al. 2016): `<scene>_<camera>/mav0` with the grey pictures of `cam0` (and `cam1` of a stereo rig), the inertial
 //! measurements of `imu0`, and `state_groundtruth_estimate0`.
 //!
-//! Times are nanoseconds, and frame 0 is at [`START_S`]: 19 digits as in EuRoC's own files, so that names in order of text are in order of time
-//! and programs that cut off the last nine digits find seconds before them. The body is the left camera with OpenCV's axes, and the IMU sits in it, so that T_BS of both is the
-//! identity, except for cameras with a tilted image plane, which are turned. The world is that of the dataset, z up.
+//! Times are nanoseconds, and frame 0 is at [`START_S`]: 19 digits as in EuRoC's own files, so that names in order of text are in order of
+//! time and programs that cut off the last nine digits find seconds before them. The body is the left camera with OpenCV's axes, and the
+//! IMU is at its position, so that T_BS of both is the identity, except for cameras with a tilted image plane, which are turned. The world
+//! is the dataset's, z up.
 
 use crate::ExportError;
 use crate::calibration::Calibration;
@@ -96,7 +97,7 @@ fn truth(motion: &[MotionSample]) -> String {
     text
 }
 
-/// A pose as `sensor.yaml` has it: what takes points of the sensor to the body.
+/// A pose as in `sensor.yaml`: the transform from the sensor to the body.
 fn pose_yaml(body_from_sensor: DMat3, shift_m: DVec3) -> String {
     let rows =
         DMat4::from_mat3_translation(body_from_sensor, shift_m).transpose().to_cols_array().map(|v| (v + 0.0).to_string()).join(", ");

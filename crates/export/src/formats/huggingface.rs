@@ -17,7 +17,7 @@ use enfilade_scene::Warning;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What `datasets` calls a side.
+/// The name of a side in `datasets`.
 const fn split_name(side: Side) -> &'static str {
     match side {
         Side::Train => "train",
@@ -134,7 +134,8 @@ fn numbers(labels: &Values) -> Vec<u16> {
     (0..labels.len()).map(|i| labels.get(i).max(0.0) as u16).collect()
 }
 
-/// What the library and the hub read of the card, names, frames and bytes of the splits and the features, and how to load the first split.
+/// The part of the card that the library and the hub read: names, frames and bytes of the splits, and the features; and how to load the
+/// first split.
 fn front_matter(splits: &[(&str, usize, u64)]) -> String {
     let mut text = String::from("---\npretty_name: enfilade\ntask_categories:\n- depth-estimation\n- image-segmentation\nconfigs:\n");
     text.push_str("- config_name: default\n  data_files:\n");

@@ -66,7 +66,7 @@ fn name(view: View<'_>, what: &str, ending: &str) -> String {
     format!("{}/{what}_{}_fr{:04}.{ending}", view.track.scene, view.track.name, view.frame())
 }
 
-/// What the table says of a frame, and whether its normals are there.
+/// A frame's row in the table, and whether its normals exist.
 struct Written {
     rgb_stats: String,
     depth_stats: String,

@@ -91,7 +91,7 @@ fn by_logarithm(depth_m: &[f64], infinite: &[bool]) -> (f32, f32, Vec<u16>) {
 mod tests {
     use super::*;
 
-    /// What `read_depth` of moge/utils/io.py computes.
+    /// The result of `read_depth` in moge/utils/io.py.
     fn read(near: f32, far: f32, value: u16) -> f64 {
         let d = (f64::from(value) - 1.0) / 65533.0;
         f64::from(near).powf(1.0 - d) * f64::from(far).powf(d)

@@ -1,7 +1,7 @@
 //! nerfstudio: `<scene>/transforms.json`, images, depth and a point cloud, as the `nerfstudio` data parser takes them.
 //!
 //! `transform_matrix` is camera to world with OpenGL's axes (x right, y up, z backward), metres, the world right-handed with z up.
-//! Image coordinates count from the upper left corner, so that pixel centres lie at halves, as nerfstudio's rays do. Depth is planar,
+//! Image coordinates count from the upper left corner, so pixel centres are at half-integers, like nerfstudio's rays. Depth is planar,
 //! of fisheyes the distance along the ray, 16-bit PNG in millimetres (its default unit), 0 for none. The parser takes one `camera_model`
 //! per file, so the cameras of a scene must be of one model; their calibration is given per frame.
 

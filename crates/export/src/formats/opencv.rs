@@ -1,7 +1,7 @@
 //! Cameras alone: `<scene>/<camera>/cameras_opencv.json` with K and the pose of every frame, and `intrinsics.csv` with a row per scene.
 //!
-//! Poses are camera to world with OpenCV's axes, metres; pixel centres are whole numbers. The files are those that stand beside the
-//! trajectories of our own datasets, so this is for datasets that lack them, as Hypersim's release does.
+//! Poses are camera to world with OpenCV's axes, metres; pixel centres are whole numbers. Our own datasets have these files beside their
+//! trajectories, so this is for datasets that lack them, such as Hypersim's release.
 
 use crate::ExportError;
 use crate::export_folder::ExportFolder;

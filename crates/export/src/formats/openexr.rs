@@ -1,8 +1,8 @@
 //! Multi-layer OpenEXR: `<scene>/<camera>/frame.IIII.exr` has every layer of a frame, and Cryptomatte layers of instances and classes.
 //!
-//! `color` is the file's R, G and B; every other layer has channels `<layer>.R/G/B`, `.X/Y/Z` where it is a point or direction, or
-//! `.V` where it is one number. Values, units and "nothing hit" are those of the dataset, bit by bit: float16 is half, all else float
-//! (which holds int16 and bytes exactly). Planar depth alone is along the axis of K, which a tilted image plane turns away from the
+//! `color` is the file's R, G and B; every other layer has channels `<layer>.R/G/B`, `.X/Y/Z` where it is a point or direction, or `.V`
+//! where it is one number. Values, units and "nothing hit" are those of the dataset, bit by bit: float16 is half, all else float (which
+//! represents int16 and bytes exactly). Planar depth alone is along the axis of K, which a tilted image plane turns away from the
 //! dataset's. Compression is ZIP, without loss.
 
 use crate::ExportError;

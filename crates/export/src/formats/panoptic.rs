@@ -48,12 +48,12 @@ struct Segment {
     instance: Option<i16>,
 }
 
-/// What a segment is.
+/// The meaning of a segment.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Is {
     /// All of a class without instances.
     Stuff { class: i16 },
-    /// What is of a class of things but of no instance.
+    /// Pixels of a class of things that belong to no instance.
     Crowd { class: i16 },
     /// An instance.
     Thing { instance: i16, class: i16 },
@@ -104,7 +104,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     out.write("annotations/panoptic.json", text.as_bytes())
 }
 
-/// The frame's picture and segments, and what the file says of them except the ids.
+/// Writes the frame's picture and segments; returns their entries in the file, without ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,
@@ -126,7 +126,7 @@ fn write_frame(
     Ok((image, Annotation { image_id: 0, file_name, segments_info }))
 }
 
-/// The pixels of each segment. An instance is of one class, that of most of its pixels.
+/// The pixels of each segment. An instance has one class, the most frequent of its pixels.
 fn segments(frame: &Frame, categories: &[Category]) -> BTreeMap<Is, Instance> {
     let (Some(classes), Some(numbers)) = (frame.get(Layer::Semantic), frame.get(Layer::SemanticInstance)) else {
         return BTreeMap::new();

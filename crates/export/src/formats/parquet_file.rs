@@ -1,6 +1,6 @@
 //! A Parquet file of frames as the library `datasets` of Hugging Face wants it: pictures in its layout of `Image`, matrices as lists of rows.
 //!
-//! Every value may be missing but names, numbers and poses. The file says its features itself, under the key "huggingface".
+//! Every value except names, numbers and poses may be missing. The file describes its features itself, under the key "huggingface".
 
 use crate::ExportError;
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int32Type};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The columns of pictures.
 pub(super) const PICTURES: [&str; 4] = ["image", "depth", "semantic", "instance"];
 
-/// A group of rows ends with this many bytes of pictures, so that readers need not hold more.
+/// A group of rows ends with this many bytes of pictures, so that readers need not keep more in memory.
 const GROUP_BYTES: u64 = 64 << 20;
 
 /// The bytes of a picture's file, and its name.
@@ -170,7 +170,7 @@ fn write_column(group: &mut SerializedRowGroupWriter<'_, File>, column: Column, 
     }
 }
 
-/// What one row has of a column: values, and levels of definition and repetition.
+/// The part of a column in one row: values, and levels of definition and repetition.
 struct Leaf<T> {
     values: Vec<T>,
     defined: Vec<i16>,

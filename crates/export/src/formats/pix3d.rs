@@ -1,4 +1,4 @@
-//! Pix3D as Mesh R-CNN reads it: images, masks, a model and its voxels per instance, and JSON that says where each stands in camera space.
+//! Pix3D as Mesh R-CNN reads it: images, masks, a model and its voxels per instance, and JSON with the pose of each in camera space.
 //!
 //! A model is the instance's mesh in axes like Pix3D's (x left, y up, z inward of the world: −x, z, y), moved to the middle of its box and scaled
 //! into the ball of diameter 1, as Pix3D's models are and as Mesh R-CNN scales voxels. `rot_mat` and `trans_mat` bring it to the camera,
@@ -22,10 +22,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Vertices that are nearer to the camera's plane than this leave the frustum, metres: the perspective is undefined at 0.
 const NEAR_M: f64 = 0.01;
 
-/// How far the principal point may be from the middle of the image, pixels: Mesh R-CNN takes it to be there.
+/// Tolerance of the principal point from the middle of the image, pixels: Mesh R-CNN assumes that it is there.
 const CENTRE_TOLERANCE_PX: f64 = 0.5;
 
-/// How much wider pixels may be than high: Mesh R-CNN knows one focal length.
+/// Tolerance of the aspect of pixels: Mesh R-CNN has one focal length.
 const SQUARE_TOLERANCE: f64 = 1e-3;
 
 /// World axes to those of models: x left, y up, z inward.
@@ -43,7 +43,7 @@ struct Model {
     meters_per_unit: f64,
 }
 
-/// What a frame shows.
+/// The entries of a frame: picture, annotations, excluded instances.
 type Told = (Image, Vec<Annotation>, Vec<Excluded>);
 
 pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result<(), ExportError> {
@@ -108,7 +108,7 @@ fn camera(selected: &SelectedFrames<'_>, track: &Track) -> Result<Calibration, E
     Ok(calibration)
 }
 
-/// Writes the models of a scene that take part, and tells where they stand.
+/// Writes the models of a scene that take part, and returns their poses.
 fn write_models(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,
@@ -155,7 +155,7 @@ fn obj(surface: &Surface) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What the dataset has counted of each instance, by frame and instance; nothing where it has not.
+/// Pixels of each instance as counted by the dataset, by frame and instance; empty if it has no counts.
 fn instance_views(selected: &SelectedFrames<'_>, track: &Track) -> Result<BTreeMap<(u32, i16), InstanceView>, ExportError> {
     match selected.dataset.read_instance_views(&track.scene, &track.name) {
         Err(error) if error.is_not_found() => Ok(BTreeMap::new()),
@@ -163,7 +163,7 @@ fn instance_views(selected: &SelectedFrames<'_>, track: &Track) -> Result<BTreeM
     }
 }
 
-/// The frame's picture and masks, and what the file says of it except the ids.
+/// Writes the frame's picture and masks; returns its entries in the file, without ids.
 fn write_frame(
     selected: &SelectedFrames<'_>,
     out: &ExportFolder,

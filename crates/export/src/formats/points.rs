@@ -1,7 +1,7 @@
 //! A labelled cloud of points: `<scene>.ply`, the surfaces that the frames of all cameras of a scene show, fused.
 //!
-//! A point for every cube of a centimetre that holds the surface point of some pixel: at the place of the first one, exact, with its normal
-//! and labels, and with the mean of the colours of all. Binary PLY, little-endian.
+//! One point for every cube of a centimetre that contains the surface point of some pixel: at the exact position of the first one, with its
+//! normal and labels, and with the mean of the colours of all. Binary PLY, little-endian.
 
 use crate::ExportError;
 use crate::depth::distance_m;
@@ -27,7 +27,7 @@ pub(crate) struct SurfacePoint {
     pub color: [u8; 3],
 }
 
-/// What a cube holds.
+/// The contents of a cube.
 struct Fused {
     position: DVec3,
     normal: DVec3,
@@ -53,7 +53,7 @@ pub(crate) fn fused(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<V
     Ok(cubes(selected, tracks)?.into_values().map(point).collect())
 }
 
-/// What all frames of a scene show.
+/// The cubes of all frames of a scene.
 fn cubes(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Cubes, ExportError> {
     let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
     let (mut all, counted) = (Cubes::new(), selected.counted(views.len()));
@@ -71,7 +71,7 @@ impl Fused {
     }
 }
 
-/// Adds what another frame shows in a cube.
+/// Adds the points of another frame in a cube.
 fn add(all: &mut Cubes, place: [i64; 3], cube: Fused) {
     let Some(known) = all.get_mut(&place) else {
         all.insert(place, cube);
@@ -81,7 +81,7 @@ fn add(all: &mut Cubes, place: [i64; 3], cube: Fused) {
     known.pixels += cube.pixels;
 }
 
-/// What one frame shows.
+/// The cubes of one frame.
 fn of_frame(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Cubes, ExportError> {
     let wanted = [&SHOWN[..], &[Layer::DepthMeters, Layer::NormalWorld, Layer::Semantic, Layer::SemanticInstance]].concat();
     let frame = selected.read(view, &wanted)?;

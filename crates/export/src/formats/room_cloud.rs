@@ -10,27 +10,17 @@ use crate::mesh::{SurfaceMesh, missing_mesh_file, object_meshes};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::Layer;
 use enfilade_math::DVec3;
-use enfilade_scene::{Structure, StructureRoom};
+use enfilade_scene::{RoomOutline, Rooms};
 use std::collections::BTreeMap;
 
 /// Distance of points on a mesh, and the side of the cubes of which each has one of them, metres.
 const STEP_M: f64 = 0.02;
 
-/// How far beyond a room's outline its points may lie, metres: in the wall and in its openings.
+/// Greatest distance of a room's points beyond its outline, metres: in the wall and in its openings.
 const IN_WALL_M: f64 = 0.25;
 
-/// How far above the ceiling and below the floor, metres.
+/// Greatest distance of a room's points above the ceiling and below the floor, metres.
 const IN_FLOOR_M: f64 = 0.05;
-
-/// Where a point cloud comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CloudSource {
-    /// What the frames show, one point for every cubic centimetre.
-    #[default]
-    Frames,
-    /// The scene's mesh: all surfaces, those that no frame shows too, two centimetres apart. Colours are those of the frames, or grey.
-    Mesh,
-}
 
 /// The points that the frames of a scene show.
 pub(crate) fn of_frames(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Result<Vec<SurfacePoint>, ExportError> {
@@ -38,7 +28,7 @@ pub(crate) fn of_frames(selected: &SelectedFrames<'_>, tracks: &[Track]) -> Resu
 }
 
 /// Points on the mesh of a scene, in and around its rooms.
-pub(crate) fn of_mesh(selected: &SelectedFrames<'_>, tracks: &[Track], structure: &Structure) -> Result<Vec<SurfacePoint>, ExportError> {
+pub(crate) fn of_mesh(selected: &SelectedFrames<'_>, tracks: &[Track], rooms: &Rooms) -> Result<Vec<SurfacePoint>, ExportError> {
     let scene = &tracks[0].scene;
     if let Some(missing) = missing_mesh_file(selected.dataset, scene) {
         let problem = format!("its mesh folder has no {missing}; make it (import, label), or take the points of frames (--cloud frames)");
@@ -46,7 +36,7 @@ pub(crate) fn of_mesh(selected: &SelectedFrames<'_>, tracks: &[Track], structure
     }
     let mut places: BTreeMap<[i64; 3], DVec3> = BTreeMap::new();
     for mesh in object_meshes(selected.dataset, scene)?.values() {
-        for position in samples(mesh).filter(|&p| structure.rooms.iter().any(|room| is_of_room(room, p))) {
+        for position in samples(mesh).filter(|&p| rooms.outlines.iter().any(|room| is_of_room(room, p))) {
             places.entry((position / STEP_M).round().to_array().map(|v| v as i64)).or_insert(position);
         }
     }
@@ -58,8 +48,8 @@ pub(crate) fn of_mesh(selected: &SelectedFrames<'_>, tracks: &[Track], structure
     Ok(positions.into_iter().zip(colors).map(|(position, [r, g, b, _])| SurfacePoint { position, color: [r, g, b] }).collect())
 }
 
-/// Whether a point lies in a room, or in the walls, floor and ceiling around it.
-pub(crate) fn is_of_room(room: &StructureRoom, p: DVec3) -> bool {
+/// Whether a point is in a room, or in the walls, floor and ceiling around it.
+pub(crate) fn is_of_room(room: &RoomOutline, p: DVec3) -> bool {
     (room.floor_z_m - IN_FLOOR_M..=room.ceiling_z_m + IN_FLOOR_M).contains(&p.z) && room.reaches(p.truncate(), IN_WALL_M)
 }
 

@@ -1,6 +1,6 @@
 //! WAI, the layout of MapAnything's data (Keetha et al. 2025): `<scene>/scene_meta.json` with `images/`, `depth/` and `covisibility/`.
 //!
-//! Frames of all cameras of a scene stand side by side as `<camera>_<IIII>`. Poses are camera to world with OpenCV's axes, metres; K counts
+//! Frames of all cameras of a scene are in one folder as `<camera>_<IIII>`. Poses are camera to world with OpenCV's axes, metres; K counts
 //! from pixel centres. Depth is planar, float32 OpenEXR, metres, 0 for none. The matrix of covisibility is the dataset's, where it has one.
 
 use crate::ExportError;
@@ -37,7 +37,7 @@ fn write_frame(selected: &SelectedFrames<'_>, out: &ExportFolder, view: View<'_>
     out.write(&format!("{scene}/depth/{name}.exr"), &grey_exr(selected, view, &frame, depth)?)
 }
 
-/// What is said of a scene as a whole.
+/// Writes the file about a scene as a whole.
 fn write_scene(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Track]) -> Result<(), ExportError> {
     let scene = tracks[0].scene.as_str();
     let views: Vec<View<'_>> = tracks.iter().flat_map(Track::views).collect();
@@ -87,7 +87,7 @@ fn described(selected: &SelectedFrames<'_>, view: View<'_>) -> Result<Value, Exp
     }))
 }
 
-/// What share of each view's surfaces each other one sees, 0 where nothing is known; `None`, with a warning, where that was not measured.
+/// Share of each view's surfaces that each other view sees, 0 if unknown; `None`, with a warning, where that was not measured.
 fn covisibility(selected: &SelectedFrames<'_>, scene: &str, views: &[View<'_>]) -> Result<Option<Vec<f32>>, ExportError> {
     let found = match selected.dataset.read_covisibility(scene) {
         Err(error) if error.is_not_found() => None,

@@ -1,4 +1,4 @@
-//! WebDataset: `shard-NNNNNN.tar`, in which the files of a sample stand one after the other and share all but their extension.
+//! WebDataset: `shard-NNNNNN.tar`, in which the files of a sample follow each other and differ only in their extensions.
 //!
 //! A sample is a frame; its key is `<scene>/<camera>/IIII`. Members are `color.png` (tone-mapped), `<layer>.npy` for every layer with the
 //! dataset's own values, and `json` with pose and calibration. Headers of the archive carry no time, user or group.
@@ -15,7 +15,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 
-/// What a tar file adds to a member: its header, and what fills the last block of 512 bytes.
+/// Bytes that a tar file adds to a member: its header, and the padding of the last block of 512 bytes.
 const MEMBER_OVERHEAD: u64 = 1024;
 
 #[derive(Serialize)]

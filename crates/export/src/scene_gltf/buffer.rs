@@ -6,11 +6,11 @@ use serde_json::{Value, json};
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 
-/// What a view of vertices or corners is for.
+/// The target of a buffer view of vertices or corners.
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Bytes, with lists of what lies where.
+/// Bytes, with lists of their views and accessors.
 #[derive(Default)]
 pub(super) struct Buffer {
     bytes: Vec<u8>,

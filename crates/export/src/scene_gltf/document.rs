@@ -45,7 +45,7 @@ impl<'f> Document<'f> {
     }
 }
 
-/// What a picture's bytes mean in glTF, which decides it by the place where a texture is used.
+/// The meaning of a picture's values in glTF, which depends on where the texture is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum TextureUse {
     /// Colours, sRGB-encoded.

@@ -38,7 +38,7 @@ struct Writer<'d, 'f, 's> {
     user: String,
 }
 
-/// What stands under `pbrMetallicRoughness` and `extensions`.
+/// The values under `pbrMetallicRoughness` and `extensions`.
 #[derive(Default)]
 struct Body {
     pbr: Map<String, Value>,
@@ -154,7 +154,7 @@ impl Writer<'_, '_, '_> {
     fn roughness(&mut self, body: &mut Body, p: &Principled, is_alpha: bool) {
         let mut roughness = p.roughness.factor.clamp(0.0, 1.0);
         if is_alpha {
-            // A map holds the roots already, with the factor in them.
+            // A map already contains the roots, with the factor in them.
             roughness = if p.roughness.texture.is_some() { 1.0 } else { roughness.sqrt() };
         }
         body.pbr.insert("metallicFactor".into(), json!(p.metallic.factor.clamp(0.0, 1.0)));
@@ -170,7 +170,7 @@ impl Writer<'_, '_, '_> {
         }
     }
 
-    /// Puts what is read from the picture of `texture` into the channels that glTF reads; one where nothing is read from it.
+    /// Puts the values read from the picture of `texture` into the channels that glTF reads; one in channels without a value.
     fn roughness_map(&mut self, texture: &TextureRef, p: &Principled, is_alpha: bool) -> Value {
         let channel = |param: &ScalarParam| param.texture.filter(|(t, _)| t.image == texture.image).map(|(_, channel)| channel);
         let (roughness, metallic) = (channel(&p.roughness), channel(&p.metallic));

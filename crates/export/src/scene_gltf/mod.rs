@@ -6,9 +6,9 @@
 //!   count, `"instance"` (from 1). `enfilade import` reads them back.
 //! - **Objects**: `extras.objects` of the scene lists what parts are parts of, each with its `name` and the index of its `parent`; `"object"`
 //!   in the `extras` of a part's node is an index into that list. `enfilade import` reads these back too.
-//! - **Materials** as metallic-roughness with the ratified extensions (clear coat, emissive strength, IOR, sheen, specular,
-//!   transmission, volume). glTF has no complex indices of refraction, no blends of two surfaces and no heights; what replaces them is
-//!   said in `material.rs`, and every replacement that changes the look is among the notes.
+//! - **Materials** as metallic-roughness with the ratified extensions (clear coat, emissive strength, IOR, sheen, specular, transmission,
+//!   volume). glTF has no complex indices of refraction, no blends of two surfaces and no heights; their replacements are described in
+//!   `material.rs`, and every replacement that changes the look is among the notes.
 //! - **Lights** as `KHR_lights_punctual`. The surroundings, which glTF does not have, are an OpenEXR picture inside of the file, at
 //!   `extras.environment` of the scene. Lengths are metres, radiances those of the scene.
 
@@ -27,7 +27,7 @@ use serde_json::{Value, json};
 pub struct SceneGltf {
     /// The bytes of the file.
     pub glb: Vec<u8>,
-    /// What glTF cannot hold, and what stands in its place.
+    /// What glTF cannot represent, and its replacement.
     pub notes: Vec<String>,
 }
 

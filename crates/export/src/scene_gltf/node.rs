@@ -83,7 +83,7 @@ pub(super) fn object(object: &Object) -> Value {
     entry
 }
 
-/// What the importer reads back; nothing for an unlabelled part.
+/// The label for the importer to read back; `None` for an unlabelled part.
 fn extras(label: &PartLabel) -> Option<Value> {
     let class = usize::try_from(label.semantic - 1).ok().and_then(|index| NYU40.get(index))?;
     let mut extras = json!({ "semantic": class.name, "semantic_id": class.id });

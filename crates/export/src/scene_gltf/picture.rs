@@ -29,7 +29,7 @@ pub(super) fn reference(document: &mut Document, scene: &Scene, texture: &Textur
     referring(document, source, texture, user)
 }
 
-/// A reference to a picture computed from that of `texture`, texel by texel (column and row from the upper left).
+/// A reference to a picture computed from the picture of `texture`, texel by texel (column and row from the upper left).
 pub(super) fn computed(
     document: &mut Document,
     scene: &Scene,
@@ -128,7 +128,7 @@ fn transform(document: &mut Document, texture: &TextureRef, user: &str) -> Optio
     Some(json!({ "offset": [x, y], "rotation": rotation, "scale": scale }))
 }
 
-/// The surroundings: what the scene's `extras.environment` says.
+/// The surroundings, as the scene's `extras.environment`.
 pub(super) fn environment(document: &mut Document, scene: &Scene) -> Option<Value> {
     match scene.environment.as_ref()? {
         Environment::Constant { radiance } => Some(json!({ "radiance": radiance.to_array() })),

@@ -1,4 +1,4 @@
-//! What BOP's export says of hidden and truncated parts of objects.
+//! BOP's export of hidden and truncated parts of objects.
 
 use enfilade_dataset::mesh_names::{OBJECTS_INSTANCE, VERTICES};
 use enfilade_dataset::{AmodalMask, AmodalMasks, Dataset, InstanceView, PixelArea};
@@ -23,13 +23,13 @@ fn write_whole(dataset: &Dataset, visible: PixelArea, right: u32) {
     dataset.write_amodal_masks("room", "cam_00", 0, &AmodalMasks { size: [height, width], instances: vec![mask] }).unwrap();
 }
 
-/// What is said of the instances of each image of the first camera.
+/// The exported entries of the instances in each image of the first camera.
 fn exported(dataset: &Dataset, out: &Path) -> Value {
     export(dataset, &ExportConfig::new(Format::Bop, vec!["room".into()]), out, Existing::Refuse, &Quiet).unwrap();
     serde_json::from_slice(&std::fs::read(out.join("train_pbr/000000/scene_gt_info.json")).unwrap()).unwrap()
 }
 
-/// Rows and columns of a grey picture that a test holds for, pixel by pixel.
+/// Whether a condition is true for every pixel of a grey picture, by column, row and value.
 fn holds(out: &Path, name: &str, test: impl Fn(u32, u32, u16) -> bool) -> bool {
     let picture = image::open(out.join("train_pbr/000000").join(name)).unwrap().into_luma16();
     picture.dimensions() == (SIZE[0], SIZE[1]) && picture.enumerate_pixels().all(|(x, y, pixel)| test(x, y, pixel.0[0]))

@@ -7,7 +7,7 @@ use enfilade_scene::Quiet;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What chairs become: beyond the numbers of NYU40.
+/// Class that chairs are changed to: beyond the numbers of NYU40.
 const HARP: i16 = 77;
 
 fn with_harp(class: i16) -> i16 {

@@ -54,7 +54,7 @@ fn pictures_measurements_and_motion_have_one_clock_and_one_body() {
         assert!(vector(row, 1).distance(pose.position) < 1e-9);
         assert!((rotation(row) * DVec3::Z).abs_diff_eq(-pose.world_from_camera.z_axis, 1e-9));
     }
-    // Force and velocity agree: what is felt beside gravity is how the velocity changes.
+    // Force and velocity agree: the measured acceleration without gravity is the change of velocity.
     for (k, pair) in truth.windows(3).enumerate() {
         assert_eq!(measured[k][0], truth[k][0]);
         let acceleration = rotation(&pair[1]) * vector(&measured[k + 1], 4) - DVec3::Z * 9.80665;

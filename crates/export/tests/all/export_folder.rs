@@ -1,4 +1,4 @@
-//! Where exports go, what they may replace, and what is said when they cannot be made.
+//! Folders of exports, what they may replace, and the messages when they cannot be made.
 
 use enfilade_dataset::Dataset;
 use enfilade_export::{Existing, ExportConfig, Exported, Format, Selection, export};

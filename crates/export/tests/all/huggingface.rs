@@ -10,7 +10,7 @@ fn written(dataset: &Dataset, out: &Path, heard: &Heard) -> Result<Exported, Exp
     export(dataset, &ExportConfig::new(Format::Huggingface, dataset.scenes().unwrap()), out, Existing::Refuse, heard)
 }
 
-/// Every frame of the dataset, on the side that `side` says.
+/// Puts every frame of the dataset on the side that `side` returns.
 fn divide(dataset: &Dataset, side: impl Fn(&str) -> Option<Side>) {
     let mut rows = Vec::new();
     for scene in dataset.scenes().unwrap() {

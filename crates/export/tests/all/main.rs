@@ -1,4 +1,4 @@
-//! Exports, read back by what they were made for.
+//! Exports, read back by the programs that they are for.
 
 mod bop;
 mod coco;
@@ -8,10 +8,10 @@ mod euroc;
 mod export_folder;
 mod huggingface;
 mod incomplete;
-mod layouts;
 mod marigold;
 mod pix3d;
 mod readers;
+mod rooms;
 mod round_trips;
 mod scannet;
 mod scene_gltf;

@@ -1,4 +1,4 @@
-//! The export for Mesh R-CNN, read back: models stand in camera space where the frames show them.
+//! The export for Mesh R-CNN, read back: models are in camera space where the frames show them.
 
 use enfilade_dataset::{Dataset, PartitionRow, Side};
 use enfilade_export::{Existing, ExportConfig, ExportError, Format, export};
@@ -30,7 +30,7 @@ fn exported(folder: &Path, dataset: &Dataset) -> Result<(PathBuf, Document), Exp
     Ok((out, document))
 }
 
-/// Where an annotation's frame was seen from.
+/// Camera pose of an annotation's frame.
 fn pose(dataset: &Dataset, document: &Document, annotation: &Annotation) -> Pose {
     let image = document.images.iter().find(|image| image.id == annotation.image_id).unwrap();
     let poses = dataset.read_trajectory(image.scene.as_ref().unwrap(), image.camera.as_ref().unwrap()).unwrap().poses;
@@ -75,7 +75,7 @@ fn models_stand_in_camera_space_where_the_frames_show_them() {
         };
         let inside = (0..2).all(|axis| bound(axis).0 >= 0.0 && bound(axis).1 <= [64.0, 48.0][axis]);
         assert_eq!(rendered.leaves_frustum, !inside);
-        // What is seen lies within the silhouette's box, to the pixel.
+        // The visible pixels are within the silhouette's box, to the pixel.
         let [x, y, width, height] = annotation.bbox;
         let ((x0, x1), (y0, y1)) = (bound(0), bound(1));
         assert!(x0 < x + 0.5 && x1 > x + width - 0.5 && y0 < y + 0.5 && y1 > y + height - 0.5);

@@ -10,7 +10,7 @@ use std::process::Command;
 
 const READERS: &str = include_str!("readers.py");
 
-/// Says what the reader found; fails when it found something wrong.
+/// Prints what the reader found; fails when it found something wrong.
 fn read_back(spec: &FormatSpec, dataset: &Path, out: &Path) {
     let Some(python) = std::env::var_os("ENFILADE_PYTHON") else {
         return eprintln!("{} skipped: ENFILADE_PYTHON names no python", spec.name);

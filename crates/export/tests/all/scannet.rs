@@ -15,7 +15,7 @@ use std::path::Path;
 /// NYU40 class and instance of floor, wall, table and chair, and their raw categories.
 const OBJECTS: [(u16, i64, &str); 4] = [(7, 1, "table"), (5, 2, "chair"), (2, -1, "floor"), (1, -1, "wall")];
 
-/// Exports the scene `room` as ScanNet, and gives what was said.
+/// Exports the scene `room` as ScanNet, and returns the warnings.
 fn exported(dataset: &Dataset, out: &Path) -> Result<Vec<String>, String> {
     let heard = Heard::default();
     let config = ExportConfig::new(Format::Scannet, vec!["room".into()]);
@@ -102,7 +102,7 @@ fn segments_groups_and_the_table_give_the_labels_of_the_mesh() {
             assert_eq!(nyu40[word], label.to_string());
         }
         assert_eq!(labels, labelled.labels, "both ways to a label lead to the same");
-        // What stands where says what it is.
+        // The positions identify the things.
         for (label, low, high) in [(7, [-0.5, 0.5, 0.0], [0.3, 1.0, 0.6]), (5, [0.6, 0.8, 0.0], [1.0, 1.2, 0.4])] {
             let on = |p: &[f32; 3]| (0..3).all(|axis| (low[axis]..=high[axis]).contains(&p[axis]));
             let here: Vec<usize> = (0..labels.len()).filter(|&i| labels[i] == label).collect();
@@ -124,8 +124,8 @@ fn depths(dataset: &Dataset) -> Vec<(Pose, Values)> {
     ["cam_00", "cam_01"].into_iter().flat_map(of_camera).collect()
 }
 
-/// Relative differences of depth between a vertex and the pixels that it projects to, in all frames; `None` where it lies on the border of
-/// two pixels.
+/// Relative differences of depth between a vertex and the pixels that it projects to, in all frames; `None` if it is on the border of two
+/// pixels.
 fn differences(frames: &[(Pose, Values)], position: [f32; 3]) -> Option<Vec<f64>> {
     let position = DVec3::from(position.map(f64::from));
     let mut differences = Vec::new();

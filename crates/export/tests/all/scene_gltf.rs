@@ -1,4 +1,4 @@
-//! A scene that is written as glTF and imported again is the same scene, as far as glTF can say it.
+//! A scene that is written as glTF and imported again is the same scene, as far as glTF can represent it.
 
 use enfilade_export::{SceneGltf, scene_gltf};
 use enfilade_geometry::Mesh;
@@ -100,7 +100,7 @@ fn a_home_keeps_its_parts_places_labels_cameras_and_sky() {
 fn objects_of_parts_come_back_with_their_names_and_what_they_lie_in() {
     let grey = || Material::diffuse("grey", Rgb::splat(0.5));
     let mut scene = shelf(vec![grey(), grey(), grey(), grey(), grey()], vec![]);
-    // Two chairs of one name, the first of two parts; a cushion that lies in the second, and a part that belongs to nothing.
+    // Two chairs of one name, the first of two parts; a cushion that is a child of the second, and a part that belongs to nothing.
     let object = |name: &str, parent| Object { name: name.into(), parent };
     scene.objects = vec![object("World", None), object("chair", Some(0)), object("chair", Some(0)), object("a/b \"c\"", Some(2))];
     for (part, object) in [(0, 1), (1, 1), (2, 2), (3, 3)] {

@@ -8,7 +8,7 @@ const MAX_ARRAY: u32 = 10_000;
 /// Bytes of a command at most: what a request overrides may have 8192 in all.
 const MAX_BYTES: usize = 6000;
 
-/// One request per array job. `queue` and `definition` name what the account has; the definition's image holds the program.
+/// One request per array job. `queue` and `definition` are names in the account; the definition's image contains the program.
 pub fn aws_batch_job(submission: &Submission, queue: &str, definition: &str) -> Vec<Value> {
     let limited = Submission { array_limit: submission.array_limit.min(MAX_ARRAY), ..submission.clone() };
     let arrays: Vec<Vec<u32>> = limited.arrays().iter().flat_map(|tasks| fitting(&limited, tasks)).collect();

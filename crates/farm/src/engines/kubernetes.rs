@@ -1,10 +1,10 @@
-//! Kubernetes: an Indexed Job. Losing a node costs no retry, what would fail again is not tried again, and every index has retries of
+//! Kubernetes: an Indexed Job. Losing a node costs no retry, permanent failures are not retried, and every index has retries of
 //! its own (Kubernetes 1.33 or later).
 
 use super::{Submission, nth_task};
 use serde_json::{Value, json};
 
-/// The manifest, as JSON, which `kubectl apply -f` takes. `image` holds the program.
+/// The manifest, as JSON, which `kubectl apply -f` takes. `image` contains the program.
 pub fn kubernetes_job(submission: &Submission, image: &str) -> Value {
     let tasks: Vec<u32> = submission.tasks.iter().copied().collect();
     let count = tasks.len();

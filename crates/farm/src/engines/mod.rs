@@ -12,14 +12,14 @@ pub use slurm::{slurm_collect_script, slurm_scripts};
 
 use crate::{Job, Ranges, print_ranges};
 
-/// What every engine is told.
+/// The description of a job for every engine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Submission {
     /// Name of the job, of letters, digits and `-`.
     pub name: String,
     /// The store, as workers name it.
     pub store: String,
-    /// The program on the nodes, or the image that holds it.
+    /// The program on the nodes, or the image that contains it.
     pub program: String,
     /// The tasks to be done.
     pub tasks: Ranges,
@@ -31,7 +31,7 @@ pub struct Submission {
     pub minutes: u64,
     /// Workers at once, where that is limited.
     pub at_once: Option<u32>,
-    /// How often a task is tried that ends in a way that another try may change.
+    /// Most attempts at a task that fails in a way that another attempt may mend.
     pub attempts: u32,
     /// A folder of the node.
     pub scratch: String,
@@ -69,7 +69,7 @@ impl Submission {
 }
 
 /// The command of a container that does one of `tasks`: the one that the engine's index counts, which the program reads by itself, so that
-/// an image needs no shell. Tasks stand in it as ranges, since engines limit what a command may hold.
+/// an image needs no shell. Tasks are written as ranges, since engines limit the length of a command.
 pub(crate) fn nth_task(submission: &Submission, tasks: &[u32], scratch: &str) -> Vec<String> {
     let (cpus, ranges) = (submission.cpus.to_string(), print_ranges(&tasks.iter().copied().collect()));
     let words =

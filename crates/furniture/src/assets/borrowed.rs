@@ -1,4 +1,4 @@
-//! A model of a library as a piece of furniture: it stands where ours would, carries things, and gives as much light.
+//! A model of a library as a piece of furniture: it is placed like ours, carries things, and gives as much light.
 
 use crate::builder::{Builder, Class};
 use crate::lamplight::Glow;
@@ -20,16 +20,16 @@ const REACHED: f32 = 1.6;
 pub struct Borrowed {
     /// The number of the model in the library, so that its meshes are stored once.
     pub number: usize,
-    /// What it looks like.
+    /// The model.
     pub model: Arc<Model>,
-    /// What it stands in for.
+    /// The family that it replaces a piece of.
     pub family: &'static Family,
     /// Free depth before it, as our own wants.
     pub reach: f32,
 }
 
 impl Borrowed {
-    /// From the model's space, on whose floor it stands, to that of its place.
+    /// From the model's space, on whose floor it stands, to the space of its place.
     fn lift(&self) -> Vec3 {
         let size = self.model.size;
         match self.family.place {

@@ -1,4 +1,4 @@
-//! The models of a library by family, and which of them stands in for a piece of furniture.
+//! The models of a library by family, and the choice of one to replace a piece of furniture.
 
 use super::range::believable;
 use crate::builder::Class;
@@ -46,7 +46,7 @@ impl Library {
         library
     }
 
-    /// How many different models can be used.
+    /// Number of different models that can be used.
     pub fn usable(&self) -> usize {
         let numbers: BTreeSet<usize> = self.models.values().flatten().map(|(number, _)| *number).collect();
         numbers.len()
@@ -57,7 +57,7 @@ impl Library {
         &self.unfit
     }
 
-    /// What was wrong with models that were wanted.
+    /// Faults of models that were chosen but could not be used.
     pub fn broken(&self) -> Vec<String> {
         self.broken.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -8,7 +8,7 @@ use enfilade_math::{Rng, Vec3};
 const SAMPLES: u64 = 48;
 /// Minimum and maximum widths and depths, as factors of the smallest and largest of our own.
 const ACROSS: [f32; 2] = [0.65, 1.4];
-/// What stands at a wall may be deeper by this on top, metres.
+/// Additional depth that is allowed for things at a wall, metres.
 const DEEPER: f32 = 0.2;
 /// Minimum and maximum heights of tables and desks, which the human body decides, as factors of our own.
 const WORKING: [f32; 2] = [0.88, 1.12];
@@ -30,7 +30,7 @@ pub fn believable(family: &Family) -> [Vec3; 2] {
         }
         Place::OnWall | Place::Ceiling | Place::OnSurface | Place::Underfoot => SMALL.map(Vec3::splat),
     };
-    // What hangs flat on a wall or lies flat on the floor may be as thin as it likes.
+    // Things flat on a wall or on the floor may have any thickness.
     let (mut min, mut max) = (low * narrow, high * wide);
     match family.place {
         Place::OnWall => min.y = 0.0,

@@ -1,7 +1,7 @@
-//! Which families a model may stand in for, told from the English words of its name.
+//! The families that a model may replace, by the English words of its name.
 
-/// Phrases of a name, in singular and lower case, and the families that such a thing may stand in for; size decides among them. None
-/// for what does not belong into a home of ours, or is built in.
+/// Phrases of a name, in singular and lower case, and the families that such a thing may replace; size decides among them. None for things
+/// that do not belong in our homes, or are built in.
 const PHRASES: &[(&str, &[&str])] = &[
     // Seats.
     ("sofa", SOFAS),
@@ -284,12 +284,12 @@ const CHAIRS: &[&str] = &["chair", "spindle_chair", "upholstered_chair", "shell_
 const CABINETS: &[&str] = &["sideboard", "dresser", "wardrobe", "glass_cabinet", "shoe_cabinet"];
 const BINS: &[&str] = &["waste_bin", "bin"];
 
-/// Words after which a name says what goes with the thing, not what it is.
+/// Words after which a name describes what goes with the thing, not what it is.
 const ASIDES: [&str; 4] = ["with", "for", "under", "by"];
 
-/// The families that a thing of this name may stand in for; empty where the words say nothing.
+/// The families that a thing of this name may replace; empty if no phrase is known.
 ///
-/// Of the known phrases in it the longest counts, of equally long ones the last: the head of an English compound stands at its end.
+/// Of the known phrases in it the longest counts, of equally long ones the last: the head of an English compound is at its end.
 /// `sofa_03_1k`, `SofaLeather` and "Sofa 2 seats" are sofas; "Chair with cushion" is a chair.
 pub fn families_of(name: &str) -> &'static [&'static str] {
     let words = words(name);

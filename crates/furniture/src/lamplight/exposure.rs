@@ -1,9 +1,9 @@
-//! How bright a home is shown, and in which white: what a camera's exposure and white balance do.
+//! The brightness at which a home is shown, and its white: exposure and white balance of a camera.
 
 use super::blackbody;
 use enfilade_math::Rgb;
 
-/// How luminance becomes scene radiance: its level, and the white that a camera adapts to.
+/// Conversion of luminance to scene radiance: its level, and the white that a camera adapts to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
     per_kcd: f32,

@@ -34,7 +34,7 @@ impl Glow {
         Self { lumens: 800.0 * length_m, kelvin: 3500.0 }
     }
 
-    /// What a shade of cloth or paper lets through of the bulb inside; a cotton drum takes a little more than half.
+    /// The light of the bulb that passes a shade of cloth or paper; a cotton drum absorbs a little more than half.
     #[must_use]
     pub const fn shaded(self) -> Self {
         Self { lumens: 0.45 * self.lumens, ..self }

@@ -12,10 +12,10 @@ pub use glow::{Glow, area_m2};
 
 use enfilade_math::Rng;
 
-/// How bright what glows in a home is: the exposure, and which of the lamps are lit.
+/// The brightness of lights in a home: the exposure, and which of the lamps are lit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LampLight {
-    /// How bright the home is shown.
+    /// The exposure at which the home is shown.
     pub exposure: Exposure,
     /// Share of the lamps that are lit, 0 to 1.
     pub lit: f32,

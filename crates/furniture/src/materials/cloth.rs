@@ -7,7 +7,7 @@ use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, Material, Principled};
 use enfilade_textures::{self as texture, Pattern, RugStyle, Weave};
 
-/// What people wear besides the palette's colours: denim, black, white, grey, camel, navy, olive, wine.
+/// Colours of clothes besides the palette's: denim, black, white, grey, camel, navy, olive, wine.
 const CLOTHES: [Rgb; 8] = [
     Rgb::new(0.075, 0.12, 0.22),
     Rgb::new(0.022, 0.022, 0.024),

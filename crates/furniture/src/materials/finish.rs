@@ -1,9 +1,10 @@
-//! The list of finishes, which say what a surface is made of but not in which colour; and which of them glow.
+//! The list of finishes, which define the material of a surface but not its colour; and which of them glow.
 
 use crate::lamplight::{Glow, area_m2};
 use enfilade_geometry::Mesh;
 
-/// What a surface is made of. The maker of a thing names it; the palette of the room that the thing stands in gives the colours.
+/// The material of a surface, without its colours. The maker of a thing chooses it; the palette of the room that the thing is in gives the
+/// colours.
 ///
 /// A number chooses among the colours that the palette has for the finish; it may be any, and equal numbers give equal surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -145,7 +146,7 @@ pub enum Finish {
 }
 
 impl Finish {
-    /// What a part of this finish gives off, if it is a part of a lamp: an 806 lm bulb, a shade around one, or opal glass of
+    /// The light that a part of this finish emits, if it is a part of a lamp: an 806 lm bulb, a shade around one, or opal glass of
     /// 1.5 kcd/m² or, where it is small, around a 470 lm bulb.
     pub fn glow(self, mesh: &Mesh) -> Option<Glow> {
         match self {
@@ -159,7 +160,7 @@ impl Finish {
         }
     }
 
-    /// One of every kind; of those with a number, that of 0.
+    /// One of every kind; kinds with a number have 0.
     pub fn all() -> impl Iterator<Item = Self> {
         ALL.into_iter()
     }
@@ -252,7 +253,7 @@ const ALL: [Finish; 84] = [
     Finish::OpalGlobe,
 ];
 
-/// What a part is made of: a finish of the home, or a material that only one thing has.
+/// The surface of a part: a finish of the home, or a material that only one thing has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surfacing {
     /// A finish, in the colours of the room.

@@ -8,7 +8,7 @@ use enfilade_textures::{Paint, Skin};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
-/// What materials are made from: the colours of the room, and the pictures made so far.
+/// The inputs of materials: the colours of the room, and the pictures made so far.
 #[derive(Clone, Debug)]
 pub(super) struct Stock {
     pub palette: Palette,

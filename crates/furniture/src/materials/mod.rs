@@ -1,4 +1,4 @@
-//! What surfaces are made of: each [`Finish`] becomes a material when the first thing asks for it.
+//! The materials of surfaces: each [`Finish`] becomes a material when the first thing asks for it.
 //!
 //! Reflectances follow measured ones: white emulsion 0.8, glaze and washed cotton 0.76, pale wood 0.4 to 0.5, concrete 0.35, dark wood
 //! and leather 0.05 to 0.15, black plastic 0.025. Pictures that take their colour from a factor are shared by all rooms.
@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug)]
 pub struct Materials {
     stock: Stock,
-    /// Which room's palette that is, counted in the order in which rooms were entered.
+    /// Number of the palette's room, counted in the order in which rooms were entered.
     room: u32,
     light: LampLight,
     materials: BTreeMap<(u32, Finish), u32>,

@@ -1,4 +1,4 @@
-//! What grows and is eaten: leaves, bark, soil, petals, fruit, bread; and the jackets of books.
+//! Natural materials and food: leaves, bark, soil, petals, fruit, bread; and the jackets of books.
 
 use super::solid::FRUITS;
 use super::{Maker, coated, rough};

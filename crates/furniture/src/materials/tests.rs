@@ -37,7 +37,7 @@ fn a_finish_is_made_once_per_room_and_whatever_was_made_before() {
     assert_ne!(a.get(&mut scene, Finish::SofaCloth), cloth);
 }
 
-/// The largest value of each channel of a colour picture, linear; one where the picture holds no colours.
+/// The largest value of each channel of a colour picture, linear; one if the picture has no colours.
 fn largest_texel(image: &Image) -> [f32; 3] {
     let Pixels::Rgba8 { srgb: true, texels } = &image.pixels else { return [1.0; 3] };
     let max = texels.iter().fold([0u8; 4], |m, t| std::array::from_fn(|c| m[c].max(t[c])));

@@ -1,4 +1,4 @@
-//! What a model looks like: its meshes and materials, brought into the space that furniture lives in.
+//! The body of a model: its meshes and materials, transformed to the space of furniture.
 
 use crate::shape::bevelled_box;
 use crate::surface::Surface;
@@ -17,7 +17,7 @@ pub struct BodyPart {
     pub material: usize,
 }
 
-/// Where a lamp shines from.
+/// A light source of a lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bulb {
     /// The middle of the lamp, in the model's own space.
@@ -26,7 +26,8 @@ pub struct Bulb {
     pub diameter: f32,
 }
 
-/// What a model looks like. The middle of its footprint on the floor is the origin, x is to the right, y to the front, z up.
+/// The meshes, materials and lights of a model. The middle of its footprint on the floor is the origin, x is to the right, y to the front,
+/// z up.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Everything visible.
@@ -35,7 +36,7 @@ pub struct Body {
     pub materials: Vec<Material>,
     /// Decoded pictures.
     pub images: Vec<Image>,
-    /// What lamps shine from, besides materials that glow.
+    /// Light sources, besides materials that glow.
     pub bulbs: Vec<Bulb>,
     size: Vec3,
     surfaces: Vec<Surface>,
@@ -46,7 +47,7 @@ impl Body {
     /// floor with the middle of its footprint at the origin.
     ///
     /// # Errors
-    /// When nothing is visible, or everything lies in one point.
+    /// When nothing is visible, or everything is at one point.
     pub fn new(scene: Scene, turn: DMat3, size: Option<Vec3>) -> Result<Self, String> {
         let mirrored = turn.determinant() < 0.0;
         let mut parts: Vec<BodyPart> = scene
@@ -91,7 +92,7 @@ impl Body {
         self.size
     }
 
-    /// Where small things can stand on it.
+    /// Surfaces on which small things can stand.
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
     }

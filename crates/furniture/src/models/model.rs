@@ -10,13 +10,13 @@ type Reader = Box<dyn Fn() -> Result<Arc<Body>, String> + Send + Sync>;
 
 /// A thing that somebody has modelled.
 pub struct Model {
-    /// What it is called, and by whom, for people.
+    /// Name and author, for people.
     pub name: String,
     /// The file that it is in, as messages name it.
     pub file: String,
-    /// Under which it may be used, as far as its library says.
+    /// Licence under which it may be used, if its library states one.
     pub licence: String,
-    /// The families that it may stand in for where its size allows.
+    /// The families that it may replace if its size allows.
     pub families: Vec<&'static str>,
     /// Width, depth and height, metres.
     pub size: Vec3,
@@ -24,7 +24,7 @@ pub struct Model {
     pub elevation: f32,
     /// True where it gives off light, as lamps must.
     pub shines: bool,
-    /// How often it is taken, beside the others of its family.
+    /// Relative frequency with which it is chosen among the others of its family.
     pub weight: f32,
     reader: Reader,
     body: OnceLock<Result<Arc<Body>, String>>,
@@ -37,7 +37,7 @@ impl Model {
         Self { name, file, licence, families, size, elevation: 0.0, shines: false, weight: 1.0, reader, body: OnceLock::new() }
     }
 
-    /// What it looks like.
+    /// The body of the model.
     ///
     /// # Errors
     /// When its file is broken.

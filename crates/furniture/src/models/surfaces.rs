@@ -1,8 +1,8 @@
-//! Where small things can stand on a model, found from its triangles.
+//! Surfaces of a model on which small things can stand, found from its triangles.
 //!
-//! Levels are heights at which much of the model lies flat. On each, the cells of a grid that carry (a ray down finds the level) and
-//! are free (a ray up finds nothing near) are covered by the largest rectangles that hold only such cells. What the model closes around
-//! is left out: the inside of a cabinet with its doors shut.
+//! Levels are heights at which much of the model is level. On each, the cells of a grid that carry (a ray down finds the level) and are
+//! free (a ray up finds nothing near) are covered by the largest rectangles that contain only such cells. Enclosed cells are left out, such
+//! as the inside of a cabinet with its doors shut.
 
 use crate::surface::{CONTACT, Surface};
 use enfilade_geometry::Bvh;
@@ -12,7 +12,7 @@ use enfilade_math::{Ray, Vec2, Vec3};
 const CELL: f32 = 0.02;
 /// Triangles are level whose normals differ from the vertical by less than six degrees: this is the cosine.
 const LEVEL: f32 = 0.9945;
-/// Triangles of one level lie no further apart, metres.
+/// Greatest difference in height between triangles of one level, metres.
 const SPAN: f32 = 0.003;
 /// Rays start this far above a level, metres.
 const LIFT: f32 = 0.004;
@@ -46,7 +46,7 @@ fn enclosed(bvh: &Bvh, surface: &Surface) -> bool {
     [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].into_iter().all(|way| bvh.occluded(&Ray::new(from, way)))
 }
 
-/// Heights at which the model lies flat, from above.
+/// Heights at which the model is level, from the top down.
 fn levels(triangles: &[[Vec3; 3]]) -> Vec<f32> {
     let mut flat: Vec<(f32, f32)> = triangles
         .iter()
@@ -72,7 +72,7 @@ fn levels(triangles: &[[Vec3; 3]]) -> Vec<f32> {
     heights
 }
 
-/// The free height above each cell of a level, 0 where nothing can stand; and how far below the level it is carried.
+/// The free height above each cell of a level, 0 where nothing can stand; and the distance below the level at which it is supported.
 struct Grid {
     min: Vec2,
     z: f32,

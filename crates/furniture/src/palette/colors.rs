@@ -38,9 +38,9 @@ pub struct Palette {
     pub wall_tile: TileLook,
     /// Ground and figure of bed linen.
     pub linen: [Rgb; 2],
-    /// What is printed on the bed linen.
+    /// Pattern on the bed linen.
     pub linen_pattern: Pattern,
-    /// What is printed on wallpaper.
+    /// Pattern on wallpaper.
     pub paper: PaperPattern,
     /// Leather furniture.
     pub leather: Rgb,

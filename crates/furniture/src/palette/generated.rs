@@ -8,8 +8,8 @@ use enfilade_textures::{PaperPattern, Pattern, SlabLook, WoodTone};
 
 /// A palette of one leading hue and its companions.
 ///
-/// Walls are pale and nearly neutral in three of four homes, tinted in one of eight, dark in one of eight; cloth lies at middling
-/// lightness and small chroma, accents at larger chroma and hues that are near to the leading one, opposite, or a third away.
+/// Walls are pale and nearly neutral in three of four homes, tinted in one of eight, dark in one of eight; cloth has medium lightness and
+/// small chroma; accents have larger chroma, and hues that are near to the leading one, opposite, or a third of the circle away.
 pub(super) fn palette(rng: &mut Rng) -> Palette {
     let hue = rng.next_f32();
     let companion = hue + [0.08, 0.5, 0.333, -0.333][rng.below(4)] + rng.range(-0.03, 0.03);

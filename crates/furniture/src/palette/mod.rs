@@ -15,7 +15,7 @@ pub use colors::Palette;
 use enfilade_math::Rng;
 use serde::{Deserialize, Serialize};
 
-/// How the surfaces of a home are chosen.
+/// The configuration of a home's surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DecorConfig {

@@ -3,7 +3,7 @@
 use enfilade_math::{Rgb, Rng};
 use std::f32::consts::TAU;
 
-/// Linear RGB of Oklab's lightness (0 to 1), chroma (cloth seldom exceeds 0.15) and hue in turns; held within what surfaces reflect.
+/// Linear RGB of Oklab's lightness (0 to 1), chroma (cloth seldom exceeds 0.15) and hue in turns; limited to what surfaces can reflect.
 pub(super) fn oklch(lightness: f32, chroma: f32, hue: f32) -> Rgb {
     let (sin, cos) = (TAU * hue).sin_cos();
     let (a, b) = (chroma * cos, chroma * sin);

@@ -1,6 +1,6 @@
 //! An easy chair: an open frame of wooden rods, rails and armrests with two loose cushions in the armchairs' cloth, one object of class
-//! chair. Its width over the armrests (68 to 74 cm) and the lean of its back (17 to 22°) vary. Parts are placed in a space whose origin
-//! stands `FORWARD` of the footprint's middle.
+//! chair. Its width over the armrests (68 to 74 cm) and the lean of its back (17 to 22°) vary. Parts are placed in a space whose origin is
+//! `FORWARD` in front of the footprint's middle.
 
 use super::{Furniture, board, grained, on, standing};
 use crate::builder::{Builder, Class};
@@ -20,11 +20,11 @@ pub struct Armchair {
 
 /// Depth of the footprint, metres: from the front legs to the top of the leaning back.
 const DEPTH: f32 = 0.86;
-/// How far the seat stands before the middle of the footprint, metres: the back leans out behind it.
+/// Distance of the seat in front of the footprint's middle, metres: the back leans out behind it.
 const FORWARD: f32 = 0.075;
-/// Height of the middle of the armrests, metres: their upper side lies 14 cm above the seat cushion, where elbows rest.
+/// Height of the middle of the armrests, metres: their upper side is 14 cm above the seat cushion, where elbows rest.
 const ARM_HEIGHT: f32 = 0.56;
-/// Where the posts of the back stand and its slats end, as a share of half the frame's width.
+/// Position of the posts of the back, where its slats end, as a share of half the frame's width.
 const POSTS: f32 = 0.8;
 
 impl Furniture for Armchair {

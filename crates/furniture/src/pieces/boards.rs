@@ -17,7 +17,7 @@ pub fn grained(mesh: Mesh, rng: &mut Rng) -> Mesh {
     mesh.uv_moved(Vec2::new(rng.range(0.0, 1.6), rng.range(0.0, 0.8)))
 }
 
-/// A round leg from the floor to `height`, its radii at the foot and at the top, whose foot stands `splay` off its top.
+/// A round leg from the floor to `height`, its radii at the foot and at the top, whose foot is offset by `splay` from its top.
 pub fn leg(height: f32, radii: [f32; 2], splay: Vec2) -> Mesh {
     let [foot, top] = radii;
     let rim = 0.25 * foot;

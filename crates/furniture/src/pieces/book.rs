@@ -15,7 +15,7 @@ use enfilade_textures::{BOOK_COLUMNS, BOOK_ROWS};
 fn book(thickness: f32, depth: f32, height: f32, cell: usize) -> Mesh {
     /// Thickness of a cover, metres.
     const COVER: f32 = 0.0022;
-    /// How far the covers stand out around the pages, metres.
+    /// How far the covers protrude around the pages, metres.
     const INSET: f32 = 0.003;
     let boxed = |min: [f32; 3], max: [f32; 3]| board(min, max, 0.0007);
     let spine = boxed([0.0, -0.004, 0.0], [thickness, 0.0, height]);

@@ -1,4 +1,4 @@
-//! The table of all families: what there is, where it stands and in which rooms, and a way to draw one of its variants.
+//! The table of all families: the place of each thing, its rooms, and a function that draws one of its variants.
 
 use super::bathroom::{
     BathMat, Bathtub, FoldedTowels, MirrorCabinet, PaperHolder, PedalBin, Shower, SoapDispenser, Toilet, ToiletBrush, Toiletries,
@@ -56,7 +56,7 @@ pub enum Place {
 }
 
 impl Place {
-    /// The box, in a thing's own space, that holds a thing of this [`Furniture::size`].
+    /// The box, in a thing's own space, around a thing of this [`Furniture::size`].
     pub fn bounds(self, size: Vec3) -> Bounds3 {
         let low = match self {
             Self::OnWall => Vec3::new(-0.5 * size.x, 0.0, -0.5 * size.z),
@@ -72,11 +72,11 @@ impl Place {
 /// One row of the catalogue.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// The family's name, also that of its objects in a scene.
+    /// The family's name, which is also used for its objects in a scene.
     pub name: &'static str,
-    /// The class of the thing itself; what lies on it has classes of its own.
+    /// The class of the thing itself; things on it have classes of their own.
     pub class: Class,
-    /// Where it goes.
+    /// Place of the thing in a room.
     pub place: Place,
     /// The rooms in which people expect it.
     pub rooms: &'static [RoomKind],
@@ -262,7 +262,7 @@ pub static FAMILIES: &[Family] = &[
     family::<Foliage>("foliage", Class::OtherProp, Place::Corner, DWELLING),
     family::<HangingPlant>("hanging_plant", Class::OtherProp, Place::Ceiling, &[Living, Kitchen, Bedroom, Study]),
     family::<FlowerVase>("flower_vase", Class::OtherProp, Place::OnSurface, &[Living, Dining, Kitchen, Bedroom, Hall]),
-    // What lies about.
+    // Things that lie about.
     family::<BookRow>("book_row", Class::Books, Place::OnSurface, &[Living, Study, Children, Bedroom]),
     family::<OpenBook>("open_book", Class::Books, Place::OnSurface, &[Living, Study, Bedroom]),
     family::<MagazineRack>("magazine_rack", Class::OtherFurniture, Place::Free, &[Living]),
@@ -320,7 +320,7 @@ mod tests {
         (scene, labels, expected)
     }
 
-    /// What each variant fills, in its own space.
+    /// Bounds of each variant, in its own space.
     fn filled(scene: &Scene) -> Vec<Bounds3> {
         let mut filled = vec![Bounds3::EMPTY; seeds()];
         for part in &scene.parts {
@@ -421,7 +421,7 @@ mod tests {
         assert!(problems.is_empty(), "{problems:#?}");
     }
 
-    /// True when a thing that fills `found` is carried by floor, wall or ceiling, as its place says.
+    /// True when a thing that fills `found` is carried by floor, wall or ceiling, as its place requires.
     fn held(place: Place, found: &Bounds3, expected: &Bounds3) -> bool {
         let near = |a: f32, b: f32| (a - b).abs() < 0.003;
         match place {

@@ -1,6 +1,6 @@
-//! What fills an opening from room to room: a passage has a lining, casings and a threshold, a door also a leaf with two panels on each
+//! Doors and passages from room to room: a passage has a lining, casings and a threshold, a door also a leaf with two panels on each
 //! face, its stop, its lever handles and its hinges. All is painted white but for the wooden threshold and steel fittings; doors are of
-//! class door, passages of class other structure. The room gives the sizes and says how far the door is open.
+//! class door, passages of class other structure. The room gives the sizes and how far the door is open.
 //!
 //! The space of both begins on the floor at the middle of the opening: x is along the wall, y = 0 on the wall's inner face and positive
 //! into the room.
@@ -12,12 +12,12 @@ use crate::shape::{Reshape, lathe, picture_frame, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// How a door hangs.
+/// The leaf of a door.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaf {
     /// Hinges at the end with the smaller (−1) or larger (+1) x.
     pub hinge: f32,
-    /// How far it stands open; 0 is shut.
+    /// Opening angle, radians; 0 is shut.
     pub open_rad: f32,
     /// Thickness of the wall that it hangs in.
     pub back: f32,
@@ -26,7 +26,7 @@ pub struct Leaf {
 /// A door in its opening: lining, casings, leaf with mouldings and handles, threshold.
 #[derive(Clone, Copy, Debug)]
 pub struct Door {
-    /// How it hangs.
+    /// The leaf of the door.
     pub leaf: Leaf,
 }
 
@@ -40,7 +40,7 @@ const LINING: f32 = 0.03;
 const LEAF: [f32; 2] = [-0.058, -0.018];
 /// Air between the leaf and the lining, metres.
 const PLAY: f32 = 0.0025;
-/// How far casings stand out from the wall, metres.
+/// How far casings protrude from the wall, metres.
 const CASING: f32 = 0.017;
 
 /// Boards around an opening through a wall that is `back` thick, and casings on its faces.

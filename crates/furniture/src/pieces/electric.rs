@@ -17,7 +17,7 @@ const FRAME: f32 = 0.081;
 const PITCH: f32 = 0.071;
 /// Edge of a frame's opening, metres.
 const INSERT: f32 = 0.055;
-/// How far a frame stands out from the wall, metres.
+/// How far a frame protrudes from the wall, metres.
 const THICKNESS: f32 = 0.009;
 /// How far rockers are tipped, radians.
 const TIP: f32 = 0.055;
@@ -32,11 +32,11 @@ pub struct Switch {
 /// Sockets on a wall, of the round sort with two pins (CEE 7/3), in one frame; its origin is the middle of its back.
 #[derive(Clone, Copy, Debug)]
 pub struct Socket {
-    /// How many, beside each other.
+    /// Number of inserts, beside each other.
     pub count: usize,
 }
 
-/// Where the inserts of a frame are, along x.
+/// Positions of the inserts of a frame along x.
 fn places(count: usize) -> impl Iterator<Item = f32> {
     (0..count).map(move |k| PITCH * (k as f32 - 0.5 * (count - 1) as f32))
 }
@@ -77,7 +77,7 @@ impl Furniture for Switch {
 /// The insert of a socket: a square face with a round cup in it.
 fn cup() -> Mesh {
     const N: usize = 48;
-    // [radius, distance from the wall], metres; around the first of them lies the square edge.
+    // [radius, distance from the wall], metres; the square edge is around the first of them.
     const RINGS: [[f32; 2]; 5] = [[0.0215, THICKNESS], [0.0198, THICKNESS - 0.0012], [0.0195, 0.0015], [0.017, 0.001], [0.0, 0.001]];
     let half = 0.5 * INSERT - 0.0003;
     let point = |i: usize, j: usize| {

@@ -16,15 +16,15 @@ const GOLDEN_ANGLE: f32 = 2.4;
 /// A plant of one of several habits in a pot.
 #[derive(Clone, Copy, Debug)]
 pub struct Foliage {
-    /// How it grows.
+    /// Habit of the plant.
     pub habit: Habit,
     /// Radius of the pot's rim.
     pub pot: f32,
-    /// What the pot is made of.
+    /// Finish of the pot.
     pub finish: Finish,
 }
 
-/// How a plant grows.
+/// The habit of a plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Habit {
     /// Arching fronds with many leaflets.
@@ -233,7 +233,7 @@ impl Furniture for Foliage {
 pub struct HangingPlant {
     /// Distance from the ceiling to the pot's rim.
     pub drop: f32,
-    /// How far the longest shoots hang below the rim.
+    /// Length of the longest shoots below the rim, metres.
     pub trail: f32,
 }
 
@@ -304,7 +304,7 @@ pub struct FlowerVase {
     pub height: f32,
     /// Glass instead of pottery.
     pub glass: bool,
-    /// How many flowers.
+    /// Number of flowers.
     pub flowers: usize,
     /// 0 daisies, 1 tulips, 2 round heads.
     pub kind: u8,

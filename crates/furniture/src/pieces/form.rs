@@ -106,7 +106,7 @@ pub fn loft(rings: &[[f32; 4]], steps: usize) -> Mesh {
     grid(n, last, point, uv).smoothed(40.0)
 }
 
-/// Turns what stands on z = 0 so that it stands out from the wall behind it: up becomes +y.
+/// Turns a mesh on z = 0 so that it protrudes from the wall behind it: up becomes +y.
 pub fn to_front(mesh: Mesh) -> Mesh {
     mesh.turned(Vec3::X, -FRAC_PI_2)
 }

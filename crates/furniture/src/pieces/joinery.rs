@@ -1,4 +1,4 @@
-//! Parts that cabinets share: carcasses, drawer and door fronts, handles and feet. Fronts lie in the xz plane and face +y; sizes are those
+//! Parts that cabinets share: carcasses, drawer and door fronts, handles and feet. Fronts are in the xz plane and face +y; sizes are those
 //! of common cabinets, and the caller gives thicknesses and finishes.
 
 use super::form::{all, rod, turned};
@@ -12,7 +12,7 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Air between boards that meet, and between feet and what they carry, metres: it keeps two faces out of one plane.
 const GAP: f32 = 0.0002;
-/// How a drawer or door is opened.
+/// The handle of a drawer or door.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handle {
     /// A turned knob.
@@ -26,7 +26,7 @@ pub enum Handle {
 }
 
 impl Handle {
-    /// How far handles stand out from the front at most, metres.
+    /// How far handles protrude from the front at most, metres.
     pub const DEPTH: f32 = 0.032;
 
     /// A random kind; a third are bars, and knobs may be of wood.
@@ -70,7 +70,7 @@ pub struct Carcass {
     pub z: [f32; 2],
     /// Thickness of the boards.
     pub thick: f32,
-    /// What they are made of.
+    /// Finish of all boards.
     pub finish: Finish,
 }
 
@@ -98,7 +98,7 @@ impl Carcass {
     }
 }
 
-/// What furniture stands on.
+/// The feet of furniture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feet {
     /// Four round, splayed legs.
@@ -147,7 +147,7 @@ impl Feet {
     }
 }
 
-/// How far a framed front's panel lies behind its frame, metres.
+/// Distance of a framed front's panel behind its frame, metres.
 const RECESS: f32 = 0.007;
 
 /// True when a front has a panel: small ones are plain even where `framed` ones are wanted.

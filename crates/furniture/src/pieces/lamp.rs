@@ -1,6 +1,6 @@
 //! Lamps with a bulb in a shade or in an opal globe, of class lamp: floor lamps 148 to 162 cm high on a pole or a tripod, table lamps with
 //! a turned foot or as a globe, and pendants of five shapes that hang 60 to 110 cm down. Cloth shades are drums, open at both ends. The
-//! origin of a pendant is on the ceiling, that of the others on what they stand on.
+//! origin of a pendant is on the ceiling, the origin of the others on what they stand on.
 
 use super::{CONTACT, Furniture, standing};
 use crate::builder::{Builder, Class, Object};
@@ -35,7 +35,7 @@ pub(super) fn carrier(radius: f32, z: f32) -> Mesh {
     mesh.moved(Vec3::new(0.0, 0.0, z))
 }
 
-/// A bulb, whose socket stands at the height `socket`, in a cloth drum: `radii` and `z` are those of its lower and its upper rim.
+/// A bulb, whose socket is at the height `socket`, in a cloth drum: `radii` and `z` are of its lower and its upper rim.
 fn shaded_bulb(b: &mut Builder, lamp: &Object, radii: [f32; 2], z: [f32; 2], socket: f32) {
     let holder = lathe(&[[0.0, 0.0], [0.02, 0.0], [0.02, 0.05], [0.0, 0.05]].map(Vec2::from_array), 20);
     b.part(lamp, "socket", holder.moved(Vec3::new(0.0, 0.0, socket - 0.0002)), Finish::BlackMetal);
@@ -53,7 +53,7 @@ pub struct FloorLamp {
     pub height: f32,
     /// Radius of the shade.
     pub shade: f32,
-    /// Radius of the shade's upper rim over that of the lower one.
+    /// Radius of the shade's upper rim over the radius of the lower one.
     pub taper: f32,
     /// Stands on three wooden legs instead of a pole.
     pub tripod: bool,
@@ -192,9 +192,9 @@ pub struct Pendant {
     pub drop: f32,
     /// Radius of the shade, or of the globe in its place.
     pub radius: f32,
-    /// What hides the bulb.
+    /// Shade that hides the bulb.
     pub shade: PendantShade,
-    /// What shade and canopy are made of.
+    /// Finish of shade and canopy.
     pub finish: Finish,
 }
 

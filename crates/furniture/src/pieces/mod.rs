@@ -1,4 +1,4 @@
-//! What stands, hangs and lies in a home: one file per family, or a folder for the families of one kind of room.
+//! The things that stand, hang and lie in a home: one file per family, or a folder for the families of one kind of room.
 //!
 //! A piece of furniture lives in its own space: the middle of its footprint on the floor is the origin, x is to the right,
 //! y to the front, z up.

@@ -167,7 +167,7 @@ impl Furniture for Mug {
 /// Magazines lying on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Magazines {
-    /// How many.
+    /// Number of magazines.
     pub count: usize,
 }
 
@@ -221,7 +221,7 @@ impl Furniture for Magazines {
 /// A few large books lying on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct BookStack {
-    /// How many.
+    /// Number of books.
     pub count: usize,
 }
 
@@ -242,7 +242,7 @@ impl Furniture for BookStack {
 /// Candles of different heights.
 #[derive(Clone, Copy, Debug)]
 pub struct Candles {
-    /// How many.
+    /// Number of candles.
     pub count: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What every piece of furniture can tell and do: how large it is, what room it needs, what can stand on it, and how it is built.
+//! The trait of every piece of furniture: its size, the space it needs, the surfaces for things on it, and how it is built.
 //!
 //! It lives in a space of its own, see [`crate::pieces`]; its family is a row of the catalogue.
 
@@ -13,7 +13,7 @@ pub trait Furniture {
     where
         Self: Sized;
 
-    /// Width (x), depth (y) and height (z) of the box that holds it.
+    /// Width (x), depth (y) and height (z) of the box around it.
     fn size(&self) -> Vec3;
 
     /// Free depth before its front that people need to use it, metres.
@@ -24,7 +24,7 @@ pub trait Furniture {
     /// Fits what reaches up to the ceiling to a room of this height, metres.
     fn fit(&mut self, _height: f32) {}
 
-    /// Where small things can stand on it, in its own space.
+    /// Surfaces on which small things can stand, in its own space.
     fn surfaces(&self) -> Vec<Surface> {
         Vec::new()
     }

@@ -1,8 +1,8 @@
 //! Checks that no piece of an object hangs in the air beside the others.
 //!
-//! A mesh may have many pieces that share no vertex: the rods of a rack, the keys of a keyboard. Each has to touch, by way of others or
-//! not, what carries its object: the floor, the wall or the ceiling. Where an object as a whole stands on nothing, that is its lowest
-//! piece, or under a ceiling its highest: a home lets such objects down when it settles.
+//! A mesh may have many pieces that share no vertex: the rods of a rack, the keys of a keyboard. Each has to touch the support of its
+//! object (the floor, the wall or the ceiling), directly or by way of others. If an object as a whole has no support, its lowest piece
+//! counts as one, or under a ceiling its highest: a home lowers such objects when it settles.
 
 use super::{FAMILIES, Family, Furniture, Place};
 use crate::builder::{Builder, pose};
@@ -25,13 +25,13 @@ fn seeds() -> usize {
 }
 /// Variants of a family are built this far apart, metres.
 const APART: f64 = 100.0;
-/// What is nearer than this is joined, metres: the gaps around fronts are 3 mm wide, those behind a refrigerator's doors 4 mm.
+/// Pieces nearer than this are joined, metres: the gaps around fronts are 3 mm wide, those behind a refrigerator's doors 4 mm.
 const JOINT: f32 = 0.0042;
 /// Leaves that are nearer than this are joined, metres: they are set along a straight line, while the shoot that they grow from is bent.
 const LEAF: f32 = 0.025;
 /// Families of such plants.
 const LEAFY: [&str; 3] = ["herbs", "flower_vase", "hanging_plant"];
-/// What comes this near to floor, wall or ceiling is carried by it, metres.
+/// Pieces this near to floor, wall or ceiling are carried by it, metres.
 const HELD: f32 = 0.003;
 
 /// A thing alone at the origin.
@@ -65,7 +65,7 @@ pub fn triangles(mesh: &Mesh) -> Vec<Triangle> {
     (0..mesh.triangles.len()).map(|t| mesh.corners(t)).collect()
 }
 
-/// True when `p` lies within a closed surface, which then fills the whole solid angle of 4π around it; seen from outside, sides that face
+/// True when `p` is within a closed surface, which then fills the whole solid angle of 4π around it; seen from outside, sides that face
 /// `p` and sides that face away cancel to zero.
 ///
 /// Solid angle of a triangle: Van Oosterom & Strackee 1983.
@@ -154,7 +154,7 @@ fn are_near(s: &Triangle, t: &Triangle, reach: f32) -> bool {
         || triangles_cut(s, t)
 }
 
-/// Distance of a point from a triangle if it lies straight above or below it; infinity otherwise.
+/// Distance of a point from a triangle if it is straight above or below it; infinity otherwise.
 fn above(p: Vec3, [a, b, c]: &Triangle) -> f32 {
     let normal = (*b - *a).cross(*c - *a).normalize_or_zero();
     let left_of = |from: Vec3, to: Vec3| (to - from).cross(p - from).dot(normal) >= 0.0;
@@ -196,7 +196,7 @@ fn split(mesh: &Mesh) -> Vec<Vec<usize>> {
     pieces.into_values().collect()
 }
 
-/// The pieces of each variant in a scene of variants that stand apart.
+/// The pieces of each variant in a scene of separate variants.
 fn pieces(scene: &Scene) -> Vec<Vec<Piece<'_>>> {
     let splits: Vec<Vec<Vec<usize>>> = scene.meshes.iter().map(split).collect();
     let mut all: Vec<Vec<Piece>> = (0..seeds()).map(|_| Vec::new()).collect();
@@ -225,14 +225,14 @@ fn is_held(place: Place, piece: &Bounds3, whole: &Bounds3) -> bool {
     }
 }
 
-/// How near pieces of these parts have to come.
+/// Greatest distance at which pieces of these parts count as joined, metres.
 fn reach(a: &str, b: &str) -> f32 {
     let objects = [object_of(a), object_of(b)];
     let least = if objects.iter().any(|object| LEAFY.contains(&family_of(object))) { LEAF } else { JOINT };
     touch::reach(objects[0], objects[1]).max(least)
 }
 
-/// Which pieces are joined; the last number, beyond theirs, is what carries them.
+/// The groups of joined pieces; the last number, beyond theirs, is their support.
 fn joined(pieces: &[Piece], place: Place, whole: &Bounds3) -> Groups {
     let mut groups = Groups::new(pieces.len() + 1);
     for (i, piece) in pieces.iter().enumerate() {
@@ -279,7 +279,7 @@ fn loose<'a>(pieces: &[Piece<'a>], place: Place, whole: &Bounds3) -> BTreeMap<&'
     found
 }
 
-/// What is loose in variants of a family.
+/// Loose pieces in variants of a family.
 fn faults(family: &Family) -> Vec<String> {
     let mut b = nothing();
     let boxes: Vec<Bounds3> = (0..seeds())

@@ -8,7 +8,7 @@ use crate::shape::{Reshape, disk, lathe, leaf, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// How far the soil lies below the pot's rim, metres.
+/// Depth of the soil below the pot's rim, metres.
 const SOIL: f32 = 0.03;
 /// Angle from one leaf to the next around a stem, radians: the golden angle, by which leaves shade each other least.
 const GOLDEN_ANGLE: f32 = 2.4;

@@ -36,7 +36,7 @@ impl Furniture for Radiator {
         let (w, h, white) = (self.width, self.height, Finish::WhitePaint);
         let body = rounded_box(Vec3::new(w, 0.055, h), 0.008, 2).moved(Vec3::new(0.0, MIDDLE, FOOT + 0.5 * h));
         b.part(&radiator, "panel", body, white);
-        // Pressed ribs stand out from the panel's front.
+        // Pressed ribs protrude from the panel's front.
         let ribs = (w / 0.045) as usize;
         let (nu, half, low, high) = (ribs * 6, 0.5 * w - 0.02, FOOT + 0.035, FOOT + h - 0.035);
         let face = grid(

@@ -32,7 +32,7 @@ const DEPTH: f32 = 0.92;
 const LEG: f32 = 0.13;
 /// Height of the seat where the cushions are sewn, metres; in their middle they swell 2 cm above it.
 const SEAT: f32 = 0.43;
-/// Height of the back, metres: its frame ends 6 cm below, its cushions stand out above.
+/// Height of the back, metres: its frame ends 6 cm below, its cushions rise above.
 const BACK: f32 = 0.80;
 /// Thickness of the frame behind the back cushions, metres.
 const BACK_FRAME: f32 = 0.17;

@@ -51,12 +51,12 @@ pub struct Drape {
     pub folds: f32,
     /// Folds per metre.
     pub per_metre: f32,
-    /// Where the folds begin.
+    /// Phase of the folds.
     pub phase: f32,
 }
 
 impl Drape {
-    /// Where the cloth point `q` comes to lie.
+    /// Position of the cloth point `q`.
     pub fn point(&self, q: Vec2, above: f32) -> Vec3 {
         let core = (self.half - self.round).max(Vec2::ZERO);
         let on = q.clamp(-core, core);
@@ -70,14 +70,14 @@ impl Drape {
         let down = (reach - FRAC_PI_2 * self.round).max(0.0);
         let along = on.y * way.x - on.x * way.y + 0.15 * way.y.atan2(way.x);
         let wave = 0.5 + 0.5 * (TAU * self.per_metre * along + self.phase + 1.3 * (4.1 * along + self.phase).sin()).sin();
-        // At corners there is too much cloth: it stands out.
+        // At corners there is too much cloth: it protrudes.
         let corner = 4.0 * (way.x * way.y).powi(2);
         let out = (self.round + above) * sin + wave * self.folds * (down / 0.2).min(1.2) + 0.30 * corner * down.min(0.25);
         (on + way * out).extend(self.top - self.round + (self.round + above) * cos - down)
     }
 }
 
-/// Folds back what lies beyond a line: the cloth turns over with radius `round` and lies on itself.
+/// Folds back the cloth beyond a line: it turns over with radius `round` and lies on itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Turnback {
     /// A point of the line.
@@ -89,12 +89,12 @@ pub struct Turnback {
 }
 
 impl Turnback {
-    /// How far `q` lies beyond the line.
+    /// Distance of `q` beyond the line.
     pub fn distance(&self, q: Vec2) -> f32 {
         (q - self.line).dot(self.beyond)
     }
 
-    /// Where the cloth point at `q`, `above` its lower side, comes to lie on the flat, and how high.
+    /// Position on the flat, and height, of the cloth point at `q`, `above` its lower side.
     pub fn point(&self, q: Vec2, above: f32) -> (Vec2, f32) {
         let d = self.distance(q);
         if d <= 0.0 {

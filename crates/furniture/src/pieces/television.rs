@@ -26,7 +26,8 @@ const LEG: f32 = 0.14;
 const TOP: f32 = 0.50;
 /// Thickness of the boards, metres.
 const BOARD: f32 = 0.022;
-/// Where uprights meet the boards below and above them, metres from the outer face: the board and air that keeps faces out of one plane.
+/// Position at which uprights meet the boards below and above them, metres from the outer face: the board and air that keeps faces out of
+/// one plane.
 const INNER: f32 = 0.0222;
 
 impl TelevisionBench {

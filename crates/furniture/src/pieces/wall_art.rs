@@ -19,7 +19,7 @@ pub struct PictureOnWall {
     pub size: Vec2,
     /// Width of the white mount around the picture.
     pub mount: f32,
-    /// What it shows.
+    /// Style of the painting.
     pub style: PaintingStyle,
     /// The colours of what it shows.
     pub palette: Palette,

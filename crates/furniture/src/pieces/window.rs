@@ -11,7 +11,7 @@ use enfilade_math::{Vec2, Vec3};
 /// The window in its opening: frame, sashes with panes, handles, sill.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
-    /// How many sashes it has, beside each other.
+    /// Number of sashes, beside each other.
     pub sashes: usize,
 }
 
@@ -23,15 +23,15 @@ const FRAME: f32 = 0.055;
 const SASH: f32 = 0.06;
 /// Width of the post between two sashes, metres.
 const MULLION: f32 = 0.06;
-/// How far the frame reaches into the wall, metres, so that no gap is left.
+/// Depth of the frame inside the wall, metres, so that no gap is left.
 const INTO_WALL: f32 = 0.003;
-/// How far a sash overlaps the frame, metres.
+/// Overlap of a sash and the frame, metres.
 const LAP: f32 = 0.010;
 
 impl Window {
     /// Height of the sill's surface above the lower edge of the opening, metres.
     pub const SILL: f32 = 0.022;
-    /// How far the sill reaches into the room, metres.
+    /// Length of the sill into the room, metres.
     pub const SILL_DEPTH: f32 = 0.06;
 
     /// Adds the window in its opening.

@@ -1,9 +1,9 @@
-//! The program that searches: libFuzzer, and one target of the table. `cargo xtask fuzz` builds it with coverage, and runs it.
+//! The fuzzing program: libFuzzer, and one target of the table. `cargo xtask fuzz` builds it with coverage, and runs it.
 //!
-//! Two variables of the environment say what to do: `ENFILADE_FUZZ_WRITE=FOLDER` writes the table and the seeds of every target there
-//! and ends; `ENFILADE_FUZZ_TARGET=NAME` searches, with what libFuzzer is told on the command line, and keeps its files in the folder
-//! that `ENFILADE_FUZZ_FOLDER` names: `input` is the input that is being read, for those that kill the process without a word;
-//! `slowest` the time in microseconds that the slowest took, `memory` the most bytes that were allocated at a time.
+//! Two environment variables control it: `ENFILADE_FUZZ_WRITE=FOLDER` writes the table and the seeds of every target there and ends;
+//! `ENFILADE_FUZZ_TARGET=NAME` fuzzes that target, with libFuzzer's options on the command line, and keeps its files in the folder that
+//! `ENFILADE_FUZZ_FOLDER` names: `input` is the input that is being read, in case it kills the process without a message; `slowest` the
+//! longest time that an input took, in microseconds; `memory` the most bytes that were allocated at a time.
 #![no_main]
 
 use cap::Cap;
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 #[global_allocator]
 static MEMORY: Cap<System> = Cap::new(System, MAX_MEMORY);
 
-/// What the last panic said. It is shown if it comes out of the target: what is caught on the way is no mistake.
+/// Message of the last panic. It is shown if the panic leaves the target: one that the target catches is no fault.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
 thread_local! {
@@ -66,7 +66,7 @@ fn stop(message: &str) -> ! {
 
 impl Search {
     fn read(&mut self, bytes: &[u8]) {
-        // Its length stands before it, so that one call does.
+        // The input is prefixed with its length, so that one write is enough.
         let kept = [&(bytes.len() as u64).to_le_bytes(), bytes].concat();
         self.input.write_all_at(&kept, 0).expect("a folder that can be written");
         let start = Instant::now();

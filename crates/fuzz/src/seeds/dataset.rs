@@ -31,7 +31,7 @@ pub fn write(root: &Path) -> Dataset {
     dataset
 }
 
-/// What a dataset may have besides.
+/// Adds the optional files of a dataset.
 fn more(dataset: &Dataset) -> Result<(), enfilade_dataset::DatasetError> {
     let split = |partition| PartitionRow { scene: SCENE.into(), camera: CAMERA.into(), frame: 0, side: partition };
     dataset.write_partition(&[split(Ok(Side::Train)), split(Err("blank".into()))])?;

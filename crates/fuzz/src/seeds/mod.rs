@@ -197,7 +197,7 @@ pub fn usdz() -> Vec<Seed> {
     vec![seed("room.usdz", include_bytes!("../../../import/tests/usd/room.usdz"))]
 }
 
-/// What a catalogue lists, and a whole one.
+/// Entries of a catalogue, and a complete catalogue.
 #[cfg(feature = "program")]
 pub fn catalogues() -> Vec<Seed> {
     let text = "license=CC-BY 3.0\nname#1=Wardrobe\nid#1=t#wardrobe\ncategory#1=Bedroom\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\n\

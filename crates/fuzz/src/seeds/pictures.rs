@@ -41,7 +41,7 @@ pub fn pictures() -> Vec<Seed> {
     ]
 }
 
-/// The code of a DDS whose format stands in the extension of its header.
+/// The code of a DDS whose format is given in the extension of its header.
 const DX10: u32 = u32::from_le_bytes(*b"DX10");
 
 /// A DDS of one block in a format by its code, and by its number in the extension.

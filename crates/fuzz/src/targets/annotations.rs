@@ -1,4 +1,4 @@
-//! What the page that annotates leaves behind, and what pages ask of the servers.
+//! Files that the annotation page writes, and requests of pages to the servers.
 
 use crate::seeds::{dataset, room};
 use crate::{Run, Seed};
@@ -17,8 +17,8 @@ use tower::ServiceExt;
 
 const LOG: &str = "annotation_log.jsonl";
 
-/// Opens a scene beside whose log, list of classes, times of work or reviews the bytes lie, by what they begin with. What does not begin like a
-/// log goes behind the first line of one.
+/// Opens a scene whose log, list of classes, working times or reviews are the bytes; the first byte decides which. Bytes that do not begin
+/// like a log are put after the first line of one.
 pub fn log(folder: &Path) -> Run {
     let (options, header) = fresh(folder);
     let labels = folder.join("labels");

@@ -14,7 +14,7 @@ const TEXT: &str = include_str!("../../seeds/collections/scan.txt");
 const MESH: &str = include_str!("../../seeds/collections/mesh.ply");
 const URDF: &str = include_str!("../../seeds/collections/cabinet.urdf");
 
-/// What is right unless it is made of the bytes.
+/// The valid files of a collection; one of them is replaced by the input.
 const COMPANIONS: [(&str, &str); 13] = [
     ("all.scene_dataset_config.json", DATASET),
     ("model.object_config.json", r#"{"render_asset": "model.obj", "semantic_id": 1, "COM": [0, 1, 0]}"#),

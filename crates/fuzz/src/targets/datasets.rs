@@ -1,4 +1,4 @@
-//! Arrays, tables and records of datasets: each input stands in for every file of its kind in a small dataset.
+//! Arrays, tables and records of datasets: each input replaces every file of its kind in a small dataset.
 
 use crate::Run;
 use crate::seeds::dataset;

@@ -1,4 +1,4 @@
-//! What lies in the store of a farm: written by other machines, read by each worker and by whoever asks how far it has come.
+//! Files in the store of a farm: written by other machines, read by each worker and by whoever asks for the status.
 
 use crate::{Run, Seed};
 use enfilade_farm::{Job, Plan, Store, costs, status, unpack};

@@ -1,4 +1,4 @@
-//! Libraries of models that stand in for the furniture of homes.
+//! Libraries of models that replace the furniture of homes.
 
 use crate::{Run, seeds};
 use enfilade_pipeline::read_library;

@@ -28,13 +28,13 @@ use std::path::{Path, PathBuf};
 
 /// Something that reads bytes.
 pub struct Target {
-    /// What to call it; also the name of its folders.
+    /// Name of the target, and of its folders.
     pub name: &'static str,
-    /// What it reads.
+    /// Description of the input.
     pub about: &'static str,
     /// The longest input that is tried, bytes: some times as long as a file in which everything is used.
     pub longest: usize,
-    /// How it reads.
+    /// How the input is read.
     pub reads: Reads,
     /// Makes files to begin with, beside those in `seeds/<name>/`.
     pub seeds: fn() -> Vec<Seed>,
@@ -42,7 +42,7 @@ pub struct Target {
     pub words: &'static [&'static str],
 }
 
-/// How a target reads.
+/// How a target reads its input.
 pub enum Reads {
     /// Imports the scene file `scene` of a folder in which `file` holds the bytes. Both may be the same.
     Scene {
@@ -78,7 +78,7 @@ pub const TARGETS: &[Target] = &[
     own("zip", "scenes in ZIP archives", 8 << 10, scene_files::archive, seeds::gltf),
     own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
     own("collections", "scenes of collections, and what they are made of", 8 << 10, collections::scene, none),
-    // The extension is that of the one format which has no signature.
+    // TGA is the one format without a signature, so the extension must name it.
     importer("picture", "picture.tga", "with_picture.obj", "pictures of all formats as textures", seeds::pictures),
     own("package", "scene packages, their checksum set right", 16 << 10, scene_files::package, seeds::packages),
     own("vrscene", "V-Ray's scene description, its values, and what edits them", 8 << 10, vray::document, none),
@@ -116,7 +116,7 @@ impl Target {
         TARGETS.iter().find(|target| target.name == name)
     }
 
-    /// What reads inputs, with files in `folder`, which must be empty.
+    /// The function that reads inputs, with files in `folder`, which must be empty.
     ///
     /// # Panics
     /// When the folder cannot be written.

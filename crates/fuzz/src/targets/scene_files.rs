@@ -5,7 +5,7 @@ use enfilade_import::{ImportOptions, load};
 use enfilade_scene::Quiet;
 use std::path::Path;
 
-/// What lies beside a scene file: each is small and right.
+/// The files beside a scene file: each is small and valid.
 fn companions() -> Vec<(&'static str, Vec<u8>)> {
     let text = |text: &str| text.as_bytes().to_vec();
     let first = |of: fn() -> Vec<crate::Seed>| of().swap_remove(0).bytes;

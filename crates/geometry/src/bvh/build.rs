@@ -13,7 +13,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::{leaf_collapser, node::Bvh2Node};
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-/// The finished trees: that of the world, whose root is node 0, and those of the shared meshes.
+/// The finished trees: the tree of the world, whose root is node 0, and the trees of the shared meshes.
 pub(super) struct Built {
     pub nodes: Pages<Node>,
     /// Words of all leaves.

@@ -31,7 +31,7 @@ struct Ways {
 const NODE_COST: f32 = 1.0;
 const LEAF_COST: f32 = 1.0;
 
-/// What the wide tree will look like, before there is memory for it.
+/// The plan of the wide tree, made before its memory is allocated.
 pub(super) struct Plan {
     /// For each node its number and the end of its children among all.
     nodes: Vec<(u32, u32)>,
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn triangles_share_a_leaf_where_that_is_cheaper() {
-        // Beside a full leaf, two triangles that lie together make one leaf; two far apart, two.
+        // Beside a full leaf, two triangles close together make one leaf; two far apart make two.
         for (step, leaves) in [(0.1, 2), (1000.0, 3)] {
             let mut corners = triangles(8);
             corners.extend([0.0, step].map(|z| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + Vec3::Z * z)));

@@ -1,4 +1,4 @@
-//! The hierarchy itself: what it holds, how it is made of triangles and placements, and what it tells about itself.
+//! The hierarchy itself: its contents, its construction from triangles and placements, and queries about it.
 //!
 //! Rays are asked in [`queries`](super::queries), pictures are drawn in [`visibility`](super::visibility).
 
@@ -45,7 +45,7 @@ pub struct Bvh {
     pub(super) nodes: Pages<Node>,
     /// The words of all leaves, one leaf after the other; see [`super::leaf`].
     pub(super) words: Pages<u32>,
-    /// What children marked with [`super::placed::PLACED`] lead to.
+    /// The placements that children marked with [`super::placed::PLACED`] lead to.
     pub(super) placed: Vec<Placed>,
     bounds: Bounds3,
     /// The greatest absolute value of a coordinate.
@@ -54,7 +54,7 @@ pub struct Bvh {
     pub(super) kernel: Kernel,
 }
 
-/// Which compiled traversal to call.
+/// The compiled traversal to call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kernel {
     Portable,

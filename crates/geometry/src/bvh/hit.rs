@@ -1,6 +1,6 @@
-//! Where a ray meets a triangle: what every query of the hierarchy answers with.
+//! The hit of a ray with a triangle, which every query of the hierarchy returns.
 
-/// Where a ray meets a triangle.
+/// The hit of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Parameter on the ray, strictly between its `t_min` and `t_max`.

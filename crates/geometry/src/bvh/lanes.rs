@@ -45,7 +45,7 @@ impl Sixteen<f32> {
     #[inline(always)]
     pub fn halves(&self) -> [&Eight<f32>; 2] {
         let first = self.0.as_ptr().cast::<Eight<f32>>();
-        // SAFETY: sixteen values are twice eight, and both halves lie on 32-byte boundaries.
+        // SAFETY: sixteen values are twice eight, and both halves are aligned to 32 bytes.
         unsafe { [&*first, &*first.add(1)] }
     }
 

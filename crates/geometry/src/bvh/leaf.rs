@@ -19,7 +19,7 @@ pub(super) const BEYOND: usize = LANES;
 pub(super) type Words = [u32; WORDS * LANES + BEYOND];
 pub(super) const NO_WORDS: Words = [0; WORDS * LANES + BEYOND];
 
-/// Triangles that all leaves together can hold: a child has [`COUNT_AT`] bits for the place of its leaf's first triangle.
+/// Largest number of triangles in all leaves together: a child has [`COUNT_AT`] bits for the place of its leaf's first triangle.
 pub(super) const MAX_TRIANGLES: usize = 1 << COUNT_AT;
 
 /// The bit of a child from which on the number of its triangles, less one, is stored; the bits below are the place of the first.
@@ -36,7 +36,7 @@ pub(super) struct Leaf<'a> {
     count: usize,
 }
 
-/// The word in which a triangle's number is stored, or the number that such a word stands for.
+/// The word in which a triangle's number is stored, or the number that such a word encodes.
 ///
 /// Vectors of coordinates read some of the next leaf's numbers, and small integers would be denormal floats there, which processors are
 /// slow with; so they are kept as floats a little above one.
@@ -45,8 +45,8 @@ pub(super) fn word_of(id: u32) -> u32 {
     id ^ 1f32.to_bits()
 }
 
-/// Where the row of an axis of a corner begins in a leaf of `count` triangles; row after row, the numbers before the first. Rays reorder
-/// axes, not corners: with the corners of an axis side by side, one multiplication finds all three.
+/// Index at which the row of an axis of a corner begins in a leaf of `count` triangles. The rows follow each other, after the triangles'
+/// numbers. Rays reorder axes, not corners: with the corners of an axis side by side, one multiplication finds all three.
 #[inline(always)]
 pub(super) fn row_at(count: usize, corner: usize, axis: usize) -> usize {
     (1 + 3 * axis + corner) * count
@@ -70,7 +70,7 @@ pub(super) fn child_of(first: u32, count: usize) -> u32 {
     LEAF | (count as u32 - 1) << COUNT_AT | first
 }
 
-/// Where the words of a child that is a leaf begin.
+/// Index of the first word of a child that is a leaf.
 #[inline(always)]
 pub(super) fn start_of(child: u32) -> usize {
     WORDS * (child as usize & (MAX_TRIANGLES - 1))
@@ -80,7 +80,7 @@ impl<'a> Leaf<'a> {
     /// Without triangles.
     pub const NONE: Leaf<'static> = Leaf { words: &[0; BEYOND], count: 0 };
 
-    /// The leaf that a child stands for.
+    /// The leaf that a child refers to.
     ///
     /// # Safety
     /// The child must be a leaf in `words`.

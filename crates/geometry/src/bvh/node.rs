@@ -5,7 +5,7 @@ use super::lanes::Sixteen;
 /// Children of a node.
 pub(super) const WIDTH: usize = 16;
 
-/// Up to sixteen boxes and what is in them.
+/// Up to sixteen boxes and their children.
 #[repr(C, align(64))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {

@@ -1,4 +1,4 @@
-//! Meshes that stand in several places and are kept once.
+//! Meshes that are placed several times and stored once.
 //!
 //! Their boxes are tested in the mesh's own space, by the ray brought there. Their triangles are placed in the world when they are
 //! tested, with the rounding that they would have if they were stored there. So hits are the same, bit for bit, as without sharing.
@@ -8,10 +8,10 @@ use super::node::{LEAF, MAX_DEPTH};
 use super::prepared::{Prepared, SLACK};
 use enfilade_math::{Bounds3, DAffine3, Ray, Vec3, place};
 
-/// One of the places of a shared mesh.
+/// A placement of a shared mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Which mesh.
+    /// Index of the mesh.
     pub mesh: usize,
     /// Places it in the world. Can be inverted.
     pub world_from_mesh: DAffine3,
@@ -31,7 +31,7 @@ impl Placement {
 
 /// Marks, with [`LEAF`], a placement in place of a leaf.
 pub(super) const PLACED: u32 = 1 << 30;
-/// Stands on the stack below what waits inside of a placement.
+/// Entry on the stack below those inside a placement: when it is popped, the ray leaves the placement.
 pub(super) const LEAVE: u32 = LEAF | PLACED | (PLACED - 1);
 /// Levels of a tree in which placements lead to trees of their own.
 pub(super) const MAX_LEVELS: usize = 2 * MAX_DEPTH;
@@ -46,7 +46,7 @@ pub(super) struct Placed {
     flag: u32,
     /// The greatest absolute value of a coordinate of the mesh.
     largest_coordinate: f32,
-    /// How much longer a vector of the world can be in the mesh, by the greatest component.
+    /// Largest factor by which a vector of the world can be longer in the mesh, measured by the greatest component.
     stretch: f32,
     world_from_mesh: DAffine3,
     mesh_from_world: DAffine3,
@@ -96,7 +96,7 @@ impl Placed {
             for lane in 0..LANES {
                 let (x, y, z) = (f64::from(x[corner][lane]), f64::from(y[corner][lane]), f64::from(z[corner][lane]));
                 for k in 0..3 {
-                    // In the order of `transform_point3`, so that every bit is that of `Placement::world`.
+                    // In the order of `transform_point3`, so that the result equals `Placement::world` in every bit.
                     rows[k][corner][lane] = ((m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]) as f32).to_bits();
                 }
             }

@@ -2,10 +2,10 @@
 
 use enfilade_math::{Ray, Vec3, Vec3A};
 
-/// By how much boxes grow, as a share of an upper bound on their distance from the ray's origin; see [`Prepared::new`].
+/// Growth of boxes, as a share of an upper bound on their distance from the ray's origin; see [`Prepared::new`].
 pub(super) const SLACK: f32 = 6.0 * f32::EPSILON;
 
-/// By how much boxes grow on all sides, for a ray among triangles with coordinates of at most `largest_coordinate`.
+/// Growth of boxes on all sides, for a ray among triangles with coordinates of at most `largest_coordinate`.
 #[inline(always)]
 pub(super) fn slack(ray: &Ray, largest_coordinate: f32) -> f32 {
     SLACK * (largest_coordinate + ray.origin.abs().max_element())
@@ -25,8 +25,8 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// The triangle test moves corners by up to 3 ε of their distance from the origin, and the box test errs by up to 2 ε; a box must not
-    /// be missed that has a triangle accepted with those roundings (nor whose thickness is zero, nor in whose side the ray lies). So
-    /// boxes grow on all sides by 6 ε of a bound of that distance, by moving the origin the other way.
+    /// be missed if it has a triangle accepted with those roundings (nor if its thickness is zero, nor if the ray runs in one of its
+    /// sides). So boxes grow on all sides by 6 ε of a bound of that distance, by moving the origin the other way.
     ///
     /// A component of the direction that is zero would make 0 · ∞ = NaN in the plane of a wall; its inverse is kept finite.
     #[inline(always)]
@@ -41,7 +41,7 @@ impl Prepared {
         let (origin, direction) = (Vec3A::from(origin), Vec3A::from(direction));
         let exact = Vec3A::ONE / direction;
         let size = exact.abs();
-        // The smallest inverse is that of the largest component.
+        // The largest component has the smallest inverse.
         let limit = Vec3A::splat((MAX_INVERSE * size.min_element()).min(f32::MAX));
         let inverse = Vec3A::select(size.cmplt(limit), exact, limit.copysign(direction));
         let slack = Vec3A::splat(slack).copysign(direction);

@@ -1,6 +1,6 @@
-//! What rays ask of the hierarchy: the first hit, or whether there is any; of solid triangles, or of those that a filter lets through.
+//! Queries of rays to the hierarchy: the first hit, or whether there is any; among solid triangles, or also those that a filter accepts.
 //!
-//! Each query is compiled once for every kind of processor, and the hierarchy's [`Kernel`] says which of them runs.
+//! Each query is compiled once for every kind of processor, and the hierarchy's [`Kernel`] selects the one that runs.
 
 use super::hierarchy::{Bvh, Kernel};
 use super::hit::Hit;
@@ -26,8 +26,8 @@ impl Bvh {
 
     /// The first hit that is on an unfiltered triangle or that `accept` returns true for.
     ///
-    /// `accept` is asked about candidates in no particular order, also about some that lie behind the hit in the end; its answer
-    /// must depend on the hit alone.
+    /// `accept` is asked about candidates in no particular order, also about some behind the final hit; its answer must depend on the hit
+    /// alone.
     #[inline]
     pub fn closest_filtered<F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
         self.query::<false, true, F>(ray, accept)

@@ -16,7 +16,7 @@ const ROUNDS: usize = 16;
 struct Move {
     from: u32,
     to: u32,
-    /// By how much the half areas of all boxes shrink.
+    /// Decrease of the half areas of all boxes.
     gain: f32,
 }
 
@@ -72,7 +72,7 @@ fn best_move(tree: &Bvh2, from: u32, waiting: &mut Vec<(u32, f32)>) -> Option<Mo
     let mut search = Search { nodes, moved: *nodes[from as usize].aabb(), best: Move { from, to: 0, gain: 0.0 } };
     let own_area = search.moved.half_area();
 
-    // From the node's sibling upward: `gain` is what is gained by taking the node out, in all boxes up to that of `pivot`.
+    // From the node's sibling upward: `gain` is the area saved by taking the node out, in all boxes up to the box of `pivot`.
     let mut gain = nodes[pivot].aabb().half_area();
     let mut left_behind = *nodes[sibling].aabb();
     loop {

@@ -7,7 +7,7 @@ use enfilade_math::{Bounds3, Vec3};
 /// Triangles and placements to build a tree over. Its members are numbered: first the triangles, then the placements.
 pub(super) struct Soup<'a> {
     pub corners: &'a [[Vec3; 3]],
-    /// What hits report for the triangles: their indices unless it is given.
+    /// Numbers that hits report for the triangles; by default their indices.
     pub numbers: Option<&'a [u32]>,
     /// By number.
     pub filtered: &'a dyn Fn(u32) -> bool,
@@ -27,12 +27,12 @@ impl Soup<'_> {
         }
     }
 
-    /// Which placement it is; `None` for triangles.
+    /// Index of the placement; `None` for triangles.
     pub fn placement(&self, member: u32) -> Option<usize> {
         (member as usize).checked_sub(self.corners.len())
     }
 
-    /// What hits report for a triangle.
+    /// The number that hits report for a triangle.
     pub fn number(&self, triangle: u32) -> u32 {
         self.numbers.map_or(triangle, |numbers| numbers[triangle as usize])
     }
@@ -54,7 +54,7 @@ impl Soup<'_> {
     }
 }
 
-/// What the tree of the world has to know of a placement.
+/// The data about a placement that the tree of the world needs.
 pub(super) struct PlacedBox {
     pub bounds: Bounds3,
     stopping_area: f64,

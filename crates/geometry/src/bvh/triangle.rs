@@ -4,7 +4,7 @@ use super::lanes::{Eight, Lanes, lane_of};
 use super::leaf::{LANES, Leaf};
 use enfilade_math::Ray;
 
-/// Where the ray meets the planes of eight triangles. Only the lanes named beside it mean anything.
+/// The intersections of a ray with the planes of eight triangles. Only the lanes named beside it are meaningful.
 pub(super) struct Meets {
     pub t: Eight<f32>,
     pub u: Eight<f32>,

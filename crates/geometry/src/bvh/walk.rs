@@ -83,8 +83,8 @@ pub(super) fn walk<W: Wide, L: Lanes, const ANY: bool, const ASK: bool, const SH
                 continue;
             }
         } else if current & LEAF != 0 {
-            // A leaf: test its triangles, those of a placement as they stand in the world.
-            // SAFETY: the builder makes children of existing nodes and leaves only.
+            // A leaf: test its triangles, those of a placement in world space. SAFETY: the builder makes children of existing nodes and
+            // leaves only.
             let leaf = unsafe { Leaf::at(&bvh.words, current) };
             let mut words;
             let leaf = match inside {
@@ -187,7 +187,7 @@ impl<W: Wide> BoxTest<W> {
         }
     }
 
-    /// Which children the ray enters at or before `limit`, and where.
+    /// The children that the ray enters at or before `limit`, and the distances.
     #[inline(always)]
     fn enter(&self, node: &Node, limit: f32) -> (u32, W) {
         let from = self.enters(node, 0).max(self.enters(node, 1)).max(self.enters(node, 2).max(self.t_min));

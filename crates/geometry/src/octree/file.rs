@@ -8,9 +8,9 @@ pub enum TreeFileError {
     /// A line of the header is not as it should be.
     #[error("byte {offset}: expected {expected}, found {found:?}; is this a file of OctoMap?")]
     Header {
-        /// Where the line begins.
+        /// Position of the line, in bytes.
         offset: usize,
-        /// What should stand there.
+        /// The expected text.
         expected: &'static str,
         /// The line found.
         found: String,
@@ -18,21 +18,21 @@ pub enum TreeFileError {
     /// The data ends in the middle of the tree.
     #[error("byte {offset}: the file ends inside the tree, expected another node; copy or download it again")]
     Truncated {
-        /// Where the missing node should begin.
+        /// Position of the missing node, in bytes.
         offset: usize,
     },
     /// An inner node below the sixteenth level.
     #[error("byte {offset}: a node at the finest level has children, expected none below level 16; the file is damaged")]
     TooDeep {
-        /// Where the node begins.
+        /// Position of the node, in bytes.
         offset: usize,
     },
     /// Bytes after the tree.
     #[error("byte {offset}: {surplus} bytes follow the end of the tree, expected none; the file is damaged")]
     Surplus {
-        /// Where the tree ends.
+        /// End of the tree, in bytes.
         offset: usize,
-        /// How many bytes follow.
+        /// Number of bytes after it.
         surplus: usize,
     },
     /// The header's count of nodes is wrong.
@@ -45,11 +45,11 @@ pub enum TreeFileError {
     },
 }
 
-/// What stands before the tree.
+/// The header before the tree.
 pub(super) struct Header {
     pub resolution_m: f64,
     pub nodes: u64,
-    /// Where the tree begins, in bytes.
+    /// Position of the tree, in bytes.
     pub end: usize,
 }
 

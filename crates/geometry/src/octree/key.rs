@@ -22,7 +22,7 @@ const CENTER: i64 = 1 << (TREE_LEVELS - 1);
 pub struct VoxelKey(pub [u16; 3]);
 
 impl VoxelKey {
-    /// The voxel that holds `p`. `None` when it lies beyond the 65,536 voxels per axis of the key space, or is not a number.
+    /// The voxel that holds `p`. `None` when it is beyond the 65,536 voxels per axis of the key space, or NaN.
     #[inline]
     pub fn at(p: DVec3, resolution_m: f64) -> Option<Self> {
         let cells = (p / resolution_m).floor();
@@ -42,7 +42,7 @@ impl VoxelKey {
         DVec3::from(self.0.map(|k| (i64::from(k) - CENTER) as f64 + 0.5)) * resolution_m
     }
 
-    /// Which child of a node `level` levels above the voxels leads to this key: x, y and z contribute bits 0, 1 and 2.
+    /// The child of a node `level` levels above the voxels that leads to this key: x, y and z contribute bits 0, 1 and 2.
     #[inline]
     pub(super) fn octant(self, level: u32) -> usize {
         let [x, y, z] = self.0.map(|k| usize::from((k >> (level - 1)) & 1));

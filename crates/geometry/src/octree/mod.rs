@@ -1,8 +1,8 @@
-//! Which parts of space are free, occupied or unknown.
+//! Octrees of occupancy: the free, occupied and unknown parts of space.
 //!
 //! The tree, its keys and its file format are OctoMap's (Hornung et al. 2013, "OctoMap: An Efficient Probabilistic 3D Mapping
 //! Framework Based on Octrees"), so that a tree written here opens in OctoMap's programs and the other way round. Occupancy is
-//! the maximum-likelihood state, not a probability: that is what OctoMap's binary `.bt` files hold.
+//! the maximum-likelihood state, not a probability: OctoMap's binary `.bt` files store no more.
 
 mod bt;
 mod file;
@@ -16,7 +16,7 @@ pub use key::{TREE_LEVELS, VoxelKey};
 
 use enfilade_math::DVec3;
 
-/// What is known about a voxel.
+/// The state of a voxel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Voxel {
     /// Never seen: inside a wall, beyond one, or out of bounds.

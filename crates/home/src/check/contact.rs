@@ -1,4 +1,4 @@
-//! Which objects cut each other deeper than they may, and which touch.
+//! Contacts of objects: those that cut each other deeper than they may, and those that touch.
 
 use crate::shell::is_shell;
 use enfilade_furniture::meet::{Body, overlap};
@@ -12,7 +12,7 @@ const SOFT_SINK: f32 = 0.03;
 /// The six ways along the axes.
 const WAYS: [Vec3; 6] = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
 
-/// What is left of a soft body that gives way on all sides; `None` for a hard one.
+/// The core of a soft body, which gives way on all sides; `None` for a hard one.
 pub fn core(body: &Body) -> Option<Body> {
     is_soft(&body.name).then(|| body.shrunk(SOFT_SINK))
 }
@@ -22,7 +22,7 @@ pub fn runs_into(a: &Body, b: &Body, offset: Vec3) -> bool {
     cuts(a, b, offset) && cores_meet([a, b], [core(a).as_ref(), core(b).as_ref()], offset)
 }
 
-/// True when the surface of `a`, moved by `offset`, cuts that of `b`; never for cloth that lies in folds.
+/// True when the surface of `a`, moved by `offset`, cuts the surface of `b`; never for cloth that lies in folds.
 pub fn cuts(a: &Body, b: &Body, offset: Vec3) -> bool {
     !is_draped(&a.name) && !is_draped(&b.name) && a.meets(b, offset)
 }
@@ -88,7 +88,7 @@ impl Contacts {
         }
     }
 
-    /// Which bodies the shell carries, directly or by way of others, if only those are left of which `there` is true.
+    /// Whether the shell carries each body, directly or by way of others, if only those are left of which `there` is true.
     pub fn carried(&self, bodies: &[Body], there: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut beside: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
         for &(a, b) in &self.touching {

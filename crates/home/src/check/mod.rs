@@ -30,7 +30,7 @@ pub fn faults(home: &Home) -> Vec<Fault> {
     faults
 }
 
-/// What is wrong with where things are: they run into each other, or float.
+/// Faults in the positions of bodies: they run into each other, or float.
 fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
     let contacts = Contacts::new(bodies);
     let name = |i: usize| bodies[i].name.clone();

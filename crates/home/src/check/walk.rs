@@ -1,4 +1,4 @@
-//! Where a person can go in a finished home, and what stands in the way.
+//! Walkability of a finished home: where a person can go, and which objects are in the way.
 
 use crate::Home;
 use crate::place::BODY;
@@ -11,11 +11,11 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 /// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
-/// What lies lower is stepped over, what hangs higher is walked under, metres.
+/// Heights between which things are obstacles, metres: people step over lower things and walk under higher ones.
 const HEIGHTS: [f32; 2] = [0.12, 1.9];
-/// How much nearer than half its width a body may come, since cells are judged by their middle, metres.
+/// Reduction of half the width of a body, metres, because cells are tested at their centres.
 const TOLERANCE: f32 = 0.04;
-/// What it costs to take a cubic metre of furniture away, in cells walked around it.
+/// Cost of removing a cubic metre of furniture, in cells of a detour.
 const REMOVAL_COST: f32 = 10.0;
 
 struct Grid {
@@ -54,7 +54,7 @@ impl Grid {
         ways.into_iter().filter_map(|(there, next)| there.then_some(next))
     }
 
-    /// Marks the cells that a triangle stands in at the height of a body.
+    /// Marks the cells that a triangle covers at the height of a body.
     fn mark(&self, corners: [Vec3; 3], cells: &mut [bool]) {
         if corners.iter().all(|p| p.z < HEIGHTS[0]) || corners.iter().all(|p| p.z > HEIGHTS[1]) {
             return;
@@ -100,9 +100,9 @@ impl Grid {
 /// Something that a body cannot walk through.
 struct Obstacle<'a> {
     object: &'a str,
-    /// Where it keeps the middle of a body out.
+    /// The cells in which it blocks the middle of a body.
     cells: Vec<usize>,
-    /// What it costs to take it away; `None` for the shell.
+    /// Cost of removing it; `None` for the shell.
     cost: Option<u32>,
 }
 
@@ -116,7 +116,7 @@ pub struct Floor<'a> {
 
 /// The cheapest ways from the entrance to every cell.
 struct Ways {
-    /// What the way costs, if there is one.
+    /// Cost of the way, if there is one.
     cost: Vec<Option<u32>>,
     /// The cell before.
     from: Vec<usize>,
@@ -142,7 +142,7 @@ impl<'a> Floor<'a> {
         (0..self.plan.rooms.len()).filter(|&room| !self.within(room).any(|cell| ways.cost[cell] == Some(0))).collect()
     }
 
-    /// What has to go so that people can walk into a room: few and small things; none if walls are in the way.
+    /// Objects to remove so that people can walk into a room, as few and small as possible; none if walls are in the way.
     pub fn in_the_way(&self, room: usize, stays: impl Fn(&str) -> bool) -> Vec<&'a str> {
         let ways = self.ways(&stays);
         let nearest = self.within(room).filter(|&cell| ways.cost[cell].is_some()).min_by_key(|&cell| ways.cost[cell]);
@@ -158,7 +158,7 @@ impl<'a> Floor<'a> {
         (0..self.grid.columns * self.grid.rows).filter(move |&c| (self.grid.place(c) - room.center).abs().cmplt(half).all())
     }
 
-    /// Dijkstra's algorithm: a cell costs what stands there.
+    /// Dijkstra's algorithm: the cost of a cell is the sum of its obstacles' costs.
     fn ways(&self, stays: impl Fn(&str) -> bool) -> Ways {
         let mut toll = vec![Some(0u32); self.grid.columns * self.grid.rows];
         for obstacle in self.obstacles.iter().filter(|o| stays(o.object)) {
@@ -181,7 +181,7 @@ impl<'a> Floor<'a> {
     }
 }
 
-/// Everything that stands at the height of a body, in the order of names.
+/// Everything at the height of a body, in the order of names.
 fn obstacles<'a>(home: &'a Home, grid: &Grid) -> Vec<Obstacle<'a>> {
     let mut solid: BTreeMap<&str, (Vec<bool>, Vec3, Vec3)> = BTreeMap::new();
     for part in &home.scene.parts {

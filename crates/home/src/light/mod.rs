@@ -1,4 +1,4 @@
-//! The light of a home: sun, sky and what stands outside, the hour, and which lamps are lit.
+//! The light of a home: sun, sky and surroundings outside, the hour, and which lamps are lit.
 //!
 //! Light is computed in kilo-candela per square metre and kilo-lux. The scene's radiance is that times an [`Exposure`], which
 //! brings the walls of a home to about the same value by day and by night and balances the white as a camera does; the radiance's
@@ -34,7 +34,7 @@ words! {
     }
 }
 
-/// What the light of a home is a function of.
+/// The configuration of the light of a home, which is a function of it alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightConfig {
@@ -120,8 +120,8 @@ impl LightConfig {
         light
     }
 
-    /// This light with the home turned so that the sun of the day stands before `outward`, a direction of the home's plan, within
-    /// 50 degrees to one side or the other as `u` on [0,1) says.
+    /// This light with the home turned so that the sun of the day is in the direction `outward` of the home's plan, offset by up to 50
+    /// degrees to either side, as `u` on [0,1) chooses.
     #[must_use]
     pub fn facing_sun(mut self, outward: Vec2, u: f32) -> Self {
         self.north_deg = 0.0;
@@ -137,7 +137,7 @@ impl LightConfig {
         Vec2::from_angle(self.north_deg.to_radians()).rotate(sun.truncate()).extend(sun.z)
     }
 
-    /// How bright the scene is shown.
+    /// The exposure at which the scene is shown.
     pub fn exposure(&self) -> Exposure {
         let weather = self.weather();
         Exposure::of(weather.sky_klx(), weather.sun_klx(), self.lamps)
@@ -161,7 +161,7 @@ impl LightConfig {
         Weather::new(self.to_sun(), self.turbidity, self.cloud)
     }
 
-    /// The hour of the afternoon at which the sun stands between two elevations, or as near as it gets on this day.
+    /// The hour of the afternoon at which the sun's elevation is between two limits, or as near as it gets on this day.
     fn hour_between(&self, [low, high]: [f32; 2], u: f32) -> f32 {
         let elevation = |hour: f32| to_sun(self.latitude_deg, self.day_of_year, hour).z.asin().to_degrees();
         let hours: Vec<f32> = (0..144).map(|k| 12.0 + k as f32 / 12.0).collect();

@@ -1,4 +1,4 @@
-//! Where the sun stands: its direction from latitude, day of the year and true solar time.
+//! The position of the sun: its direction from latitude, day of the year and true solar time.
 
 use enfilade_math::Vec3;
 use std::f32::consts::TAU;

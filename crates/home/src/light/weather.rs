@@ -44,7 +44,7 @@ impl Weather {
         (self.clear)(up) * (1.0 - self.cloud) + overcast * self.cloud + night
     }
 
-    /// What stands outside in this light; `seed` decides trees and houses.
+    /// The surroundings in this light; `seed` decides trees and houses.
     pub(super) fn surroundings(&self, kind: Outside, seed: u32) -> Surroundings {
         Surroundings { kind, to_sun: self.to_sun, sun_klx: self.sun, sky_klx: self.sky, seed }
     }

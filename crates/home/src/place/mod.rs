@@ -1,4 +1,4 @@
-//! What fits where: the floor of a room, which only accepts what leaves people room to walk.
+//! Placement: the floor of a room, which only accepts things that leave people room to walk.
 //!
 //! Things are placed one after another, the most important first. For each, candidates along the walls or over the floor are sorted
 //! by a cost, and the first that fits is taken: no solid meets another or a space that must stay free (where doors swing, before
@@ -15,21 +15,21 @@ use crate::room::{Room, Wall};
 use enfilade_furniture::{CONTACT, pose};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
-/// Distance between walls and what stands along them, because of the skirting, metres.
+/// Distance between walls and the things along them, because of the skirting, metres.
 const WALL_GAP: f32 = 0.02;
-/// Distance between walls and what stands along them in rooms with tiles, where things are fixed to the wall, metres.
+/// Distance between walls and the things along them in rooms with tiles, where things are fixed to the wall, metres.
 const TILED_GAP: f32 = 0.0;
 /// Distance between things that do not belong together, metres.
 const AIR: f32 = 0.02;
 /// People walk under what is higher than this, metres.
 const HEADROOM: f32 = 2.0;
-/// What is lower is stepped over, metres.
+/// People step over what is lower than this, metres.
 const UNDERFOOT: f32 = 0.03;
 /// Distance between a window and things higher than its sill, metres.
 const BEFORE_WINDOW: f32 = 0.22;
-/// How far a window's sill reaches beyond its sides, metres.
+/// Length of a window's sill beyond each side, metres.
 const SILL_END: f32 = 0.06;
-/// How far a door's casing reaches above it, metres.
+/// Height of a door's casing above it, metres.
 const CASING: f32 = 0.08;
 /// Distance between candidates along walls, metres.
 const STEP: f32 = 0.05;
@@ -123,7 +123,7 @@ impl Floor {
         floor
     }
 
-    /// Distance between walls and what stands along them.
+    /// Distance between walls and the things along them, metres.
     pub fn gap(&self) -> f32 {
         self.gap
     }
@@ -139,7 +139,7 @@ impl Floor {
         Footprint { center, half: Vec2::new(0.5 * (x[1] - x[0]), 0.5 * depth), yaw: wall.yaw() as f32 }
     }
 
-    /// Records something solid that stands there whatever is placed.
+    /// Records something solid that is there whatever is placed.
     pub fn take(&mut self, footprint: Footprint, z: [f32; 2]) {
         self.taken.push(Taken { footprint, z, solid: true });
         if z[0] < HEADROOM {
@@ -185,7 +185,7 @@ impl Floor {
         self.nearest(p, self.room.ways().map(|o| self.room.before(o.wall, o.center_x(), 0.0)))
     }
 
-    /// Distance of a point to the nearest window; that of the room's diagonal where there is none.
+    /// Distance of a point to the nearest window; the length of the room's diagonal if there is none.
     pub fn to_window(&self, p: Vec2) -> f32 {
         self.nearest(p, self.room.windows().map(|o| self.room.before(o.wall, o.center_x(), 0.0)))
     }
@@ -226,7 +226,7 @@ impl Floor {
     }
 
     fn fits(&self, group: &[Piece], spot: &Spot) -> bool {
-        // What stands at a wall keeps the distance that its group says.
+        // Things at a wall keep the distance of their group.
         let half = 0.5 * self.room.size.truncate() - if spot.wall.is_some() { -0.0005 } else { self.gap };
         group.iter().all(|piece| {
             let own = footprint(piece, spot);

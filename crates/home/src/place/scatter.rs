@@ -8,15 +8,15 @@ const AIR: f32 = 0.012;
 /// Random places that are tried for each thing.
 const TRIES: usize = 24;
 
-/// Puts `things` on the surfaces of something that stands in `pose`, each where there is still room; those that find none are left
-/// out. Returns which thing stands in which pose, in order.
+/// Puts `things` on the surfaces of something in `pose`, each where there is still room; those that find none are left out. Returns the
+/// indices of the things and their poses, in order.
 pub fn scatter(surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>], rng: &mut Rng) -> Vec<(usize, DAffine3)> {
     let mut taken: Vec<(usize, Vec2, f32)> = Vec::new();
     let mut placed = Vec::new();
     for (index, thing) in things.iter().enumerate() {
         let size = thing.size();
         let turn = rng.range(-0.5, 0.5);
-        // Beside each other what counts is the circle around them, at the edges of what carries them how far they reach.
+        // Between things their bounding circles count; at the edges of the support, their actual extents.
         let radius = 0.5 * size.truncate().length();
         let (sin, cos) = turn.abs().sin_cos();
         let reach = 0.5 * Vec2::new(cos * size.x + sin * size.y, sin * size.x + cos * size.y);

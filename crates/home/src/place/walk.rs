@@ -1,4 +1,4 @@
-//! Where a person can go in a room: a grid of the places that the middle of a body can be.
+//! Walkability of a room: a grid of the places where the middle of a body can be.
 
 use crate::room::{Footprint, Room};
 use enfilade_math::Vec2;
@@ -7,7 +7,7 @@ use enfilade_math::Vec2;
 pub const BODY: f32 = 0.30;
 /// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
-/// How much nearer than half its width a body may come, since cells are judged by their middle, metres.
+/// Reduction of half the width of a body, metres, because cells are tested at their centres.
 const TOLERANCE: f32 = 0.02;
 /// Largest area, of places for the middle of a body, that furniture may cut off, m².
 const CUT_OFF: f32 = 0.12;

@@ -4,9 +4,9 @@
 //! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`).
 
 mod openings;
+mod rooms;
 mod search;
 pub mod slicing;
-mod structure;
 
 pub use openings::Doorway;
 

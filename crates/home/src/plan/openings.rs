@@ -58,7 +58,7 @@ pub fn add_doors(rooms: &mut [Room], sketch: &Sketch, kinds: &[RoomKind], site: 
     ways
 }
 
-/// How often the wall between two kinds of rooms is left open.
+/// Probability that the wall between two kinds of rooms is left open.
 fn may_be_open(a: RoomKind, b: RoomKind) -> f32 {
     use RoomKind::{Dining, Kitchen, Living};
     match (a, b) {
@@ -136,7 +136,7 @@ fn entrance(rooms: &mut [Room], sketch: &Sketch, site: Site, rng: &mut Rng) -> D
     Doorway { from: None, into: sketch.hub, open: false }
 }
 
-/// Adds windows where rooms lie along an open side of the home.
+/// Adds windows where rooms are along an open side of the home.
 pub fn add_windows(room: &mut Room, site: Site, rng: &mut Rng) {
     use RoomKind::{Bathroom, Hall, Kitchen, Laundry, Living, Toilet};
     let mut walls: Vec<Wall> = Wall::ALL.into_iter().filter(|&w| room.outer[w as usize] && site.open[w as usize]).collect();

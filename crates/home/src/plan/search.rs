@@ -64,7 +64,7 @@ pub fn shared_wall(a: &Cell, b: &Cell) -> Option<(Wall, [f32; 2])> {
     None
 }
 
-/// True where `cell` lies along this side of the whole.
+/// True if `cell` touches this side of the whole.
 pub fn on_side(cell: &Cell, whole: &Cell, wall: Wall) -> bool {
     let gap = match wall {
         Wall::South => cell.min.y - whole.min.y,
@@ -215,7 +215,7 @@ fn doors(kinds: &[RoomKind], cells: &[Cell], hub: usize) -> (Vec<(usize, usize)>
     (tree, cost)
 }
 
-/// Rooms that like to lie beside each other.
+/// Cost of rooms that are not beside those that they belong with.
 fn neighbour_cost(kinds: &[RoomKind], cells: &[Cell]) -> f32 {
     use RoomKind::{Dining, Kitchen, Living};
     let has = |kind| kinds.contains(&kind);

@@ -10,9 +10,9 @@ use enfilade_math::{Rng, Vec2};
 pub enum Word {
     /// A room, by its number.
     Room(usize),
-    /// The two pieces before it lie beside each other.
+    /// The two preceding pieces are beside each other.
     Beside,
-    /// The second of the two pieces before it lies behind the first: further along y.
+    /// The second of the two preceding pieces is behind the first: further along y.
     Behind,
 }
 
@@ -37,7 +37,7 @@ impl Cell {
     }
 }
 
-/// Cuts lie on multiples of this, metres.
+/// Cuts are at multiples of this, metres.
 const STEP: f32 = 0.01;
 
 /// A slicing plan; always valid.

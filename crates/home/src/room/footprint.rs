@@ -45,7 +45,7 @@ impl Footprint {
         (Vec2::new(d.dot(x), d.dot(y)).abs() - self.half).max(Vec2::ZERO).length()
     }
 
-    /// The rectangle of a thing of `size` that stands in `pose`.
+    /// The rectangle of a thing of `size` in `pose`.
     pub fn of(pose: DAffine3, size: Vec3) -> Self {
         let x = pose.matrix3.x_axis;
         let center = pose.translation.as_vec3().truncate();

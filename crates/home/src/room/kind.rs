@@ -1,4 +1,4 @@
-//! What building practice asks of each kind of room.
+//! The requirements of building practice for each kind of room.
 //!
 //! Widths and areas of bedrooms follow the Nationally Described Space Standard (England, 2015): a double room of at least 11.5 m² and
 //! 2.75 m width, a single one of 7.5 m² and 2.15 m. The others follow the furniture plans of Neufert, *Architects' Data* (chapters on
@@ -37,7 +37,8 @@ pub fn norm(kind: RoomKind) -> Norm {
     }
 }
 
-/// The price of a way into a room of kind `into` from a room of kind `from`: 0 is usual, 1 is done, from 5 on nobody would build it.
+/// The cost of a way into a room of kind `into` from a room of kind `from`: 0 is usual, 1 is acceptable, 5 or more is not built in
+/// practice.
 pub fn access(into: RoomKind, from: RoomKind) -> f32 {
     use RoomKind::{Bathroom, Bedroom, Dining, Hall, Kitchen, Laundry, Living, Toilet};
     match (into, from) {

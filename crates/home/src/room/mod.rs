@@ -47,22 +47,22 @@ impl Wall {
 /// A hole in a wall, in the wall's own coordinates: x along it from its middle, z up from the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
-    /// Which wall.
+    /// The wall of the opening.
     pub wall: Wall,
     /// From and to along the wall.
     pub x: [f32; 2],
     /// From and to above the floor.
     pub z: [f32; 2],
-    /// What is in it.
+    /// The window or door in it.
     pub filling: Filling,
 }
 
-/// What is in an opening.
+/// The window or door in an opening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Filling {
     /// Sashes beside each other.
     Window {
-        /// How many.
+        /// Number of sashes.
         sashes: usize,
     },
     /// A door whose leaf swings into this room.
@@ -96,13 +96,13 @@ impl Opening {
 /// A rectangular room.
 #[derive(Clone, Debug)]
 pub struct Room {
-    /// What it is for.
+    /// The use of the room.
     pub kind: RoomKind,
     /// The middle of its floor in the home.
     pub center: Vec2,
     /// Inner size: x, y, z.
     pub size: Vec3,
-    /// Which of its walls are outer walls of the home, in the order of [`Wall::ALL`].
+    /// Whether each of its walls is an outer wall of the home, in the order of [`Wall::ALL`].
     pub outer: [bool; 4],
     /// Thickness of walls between rooms.
     pub inner_wall: f32,
@@ -112,7 +112,7 @@ pub struct Room {
     pub openings: Vec<Opening>,
 }
 
-/// A way's casing, and the handle of a leaf that stands open.
+/// Width of a way's casing, and of the handle of an open leaf, metres.
 const BESIDE_WAY: f32 = 0.08;
 /// Free space that a way needs before it where no leaf swings.
 const WAY_DEPTH: f32 = 0.65;
@@ -139,7 +139,7 @@ impl Room {
         pose(f64::from(p.x), f64::from(p.y), 0.0, wall.yaw())
     }
 
-    /// An opening of the room as what fills it needs to know it.
+    /// An opening of the room in the form that its window or door needs.
     pub fn wall_opening(&self, opening: &Opening) -> WallOpening {
         let wall = opening.wall;
         let (pose, thickness) = (self.wall_pose(wall), self.thickness(wall));
@@ -179,7 +179,7 @@ impl Room {
         Footprint { center: self.before(way.wall, way.center_x(), 0.5 * depth), half, yaw: way.wall.yaw() as f32 }
     }
 
-    /// How badly a way at `way` would get in the way of the others: one each, ten for those that it would overlap on its wall.
+    /// Number of other ways that a way at `way` would conflict with; those that it would overlap on its wall count ten each.
     pub fn conflicts(&self, way: &Opening) -> f32 {
         let zone = self.way_zone(way);
         let swings = |o: &Opening| matches!(o.filling, Filling::Door(_));

@@ -3,7 +3,7 @@
 use super::Furnisher;
 use super::wishes::{by_door, by_window, cornered, in_view, tucked_away};
 
-/// Furnishes a bathroom: what is largest first, so that the rest finds its place around it, and what nobody does without before a
+/// Furnishes a bathroom: the largest things first, so that the others find their places around them, and the indispensable ones before a
 /// second place to wash.
 pub fn furnish(f: &mut Furnisher) {
     let large = f.room.size.x * f.room.size.y > 6.0;

@@ -6,12 +6,12 @@ use crate::place::Piece;
 use enfilade_furniture::{Bed, Furniture, Surface, TableLamp};
 use enfilade_math::Vec2;
 
-/// Distance between a bed and what stands beside it, metres.
+/// Distance between a bed and the things beside it, metres.
 const BESIDE: f32 = 0.04;
 /// Models of beds for as many sleepers differ less than this from ours in width, metres.
 const WIDTHS: f32 = 0.25;
 
-/// What people keep beside the bed, and how often.
+/// Things that people keep beside the bed, and their probabilities.
 const BEDSIDE: [(&str, f32); 9] = [
     ("books", 0.6),
     ("phone", 0.5),
@@ -23,7 +23,7 @@ const BEDSIDE: [(&str, f32); 9] = [
     ("open_book", 0.3),
     ("mug", 0.3),
 ];
-/// How much more than on other surfaces lies in open compartments of nightstands.
+/// Density of things in open compartments of nightstands, relative to other surfaces.
 const BELOW: f32 = 1.8;
 
 /// Furnishes the room.
@@ -47,7 +47,7 @@ pub fn furnish(f: &mut Furnisher) {
     f.ceiling_lamp();
 }
 
-/// Stands a bed for one or two `sleepers`, with nightstands on both sides, on one, or none, as space allows; false where no bed fits.
+/// Places a bed for one or two `sleepers`, with nightstands on both sides, on one, or none, as space allows; false where no bed fits.
 pub fn bed(f: &mut Furnisher, sleepers: usize) -> bool {
     let stand = f.any("nightstand");
     for _ in 0..3 {

@@ -5,7 +5,7 @@ use crate::room::{Filling, Opening};
 use enfilade_furniture::{Blind, BlindKind, RoomKind, Window, on};
 use enfilade_math::{Rng, Vec3};
 
-/// Where the backs of blinds are, seen from the wall's inner face, metres: just before the handles of the sashes.
+/// Position of the backs of blinds, measured from the wall's inner face, metres: just before the handles of the sashes.
 const BACK: f32 = -0.058;
 /// Air beside a blind, metres.
 const BESIDE: f32 = 0.006;
@@ -14,7 +14,7 @@ const ABOVE: f32 = 0.0005;
 /// Air below one that is let down.
 const BELOW: f32 = 0.004;
 
-/// How often the windows of a room have blinds.
+/// Probability that the windows of a room have blinds.
 fn often(kind: RoomKind) -> f32 {
     match kind {
         RoomKind::Bathroom | RoomKind::Toilet => 0.6,

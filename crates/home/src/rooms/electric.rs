@@ -11,7 +11,7 @@ const SWITCH: f32 = 1.05;
 const SOCKET: f32 = 0.30;
 /// Share of switches with a socket below.
 const BELOW: f32 = 0.7;
-/// How far sockets are from what they are for, metres.
+/// Greatest distance of sockets from the things that they are for, metres.
 const FLEX: f32 = 1.5;
 /// Floor area for each further group of sockets, square metres.
 const AREA: f32 = 6.0;

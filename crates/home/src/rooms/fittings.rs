@@ -1,4 +1,4 @@
-//! What belongs to a room whoever lives in it: radiators, curtains, lamps.
+//! Things that belong to a room whoever lives in it: radiators, curtains, lamps.
 
 use super::Furnisher;
 use crate::room::{Footprint, Opening};
@@ -7,13 +7,13 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Minimum height of a sill with a radiator below it, metres.
 const RADIATOR_SILL: f32 = 0.44;
-/// What stands on a sill is lower than this.
+/// Greatest height of things on a sill, metres.
 const ON_SILL: f32 = 0.32;
 /// The stream of random numbers of blinds, so that they do not change what else is in a room.
 const BLINDS: u64 = 0xb11d;
 /// Lower end of lamps in the middle of a room, metres: above people's heads.
 const PENDANT_RIM: f32 = 2.05;
-/// Height above which things are in the way of a lamp, metres; what stands or swings below is not.
+/// Height above which things are in the way of a lamp, metres; things below, and doors that swing below, are not.
 const OVERHEAD: f32 = 2.12;
 /// Minimum height of what hangs where people walk, metres.
 const HEADS: f32 = 1.98;

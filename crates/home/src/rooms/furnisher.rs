@@ -19,7 +19,7 @@ pub struct Furnisher<'a> {
     pub palette: &'a Palette,
     /// Models of others.
     pub models: &'a Library,
-    /// What stands where.
+    /// The floor with the things placed so far.
     pub floor: Floor,
     /// Density of small things.
     pub clutter: f32,
@@ -31,7 +31,7 @@ pub struct Furnisher<'a> {
     pub known: Vec<&'static str>,
     /// Pieces of wall without skirting, because of what is built in there.
     pub built_in: Vec<(Wall, [f32; 2])>,
-    /// Where something stands that needs a socket.
+    /// Positions of things that need a socket.
     pub plugs: Vec<Vec2>,
 }
 
@@ -39,7 +39,7 @@ pub struct Furnisher<'a> {
 const EYE: f32 = 1.52;
 /// Small things on a square metre of a surface in a home that is lived in.
 const DENSITY: f32 = 9.0;
-/// Between what stands on high furniture and the ceiling.
+/// Distance between things on high furniture and the ceiling, metres.
 const CEILING_AIR: f32 = 0.05;
 /// Variants of a family that are tried before the room does without.
 const VARIANTS: usize = 4;
@@ -47,11 +47,11 @@ const VARIANTS: usize = 4;
 /// Something that found its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Standing {
-    /// Where it stands.
+    /// Pose of the thing.
     pub pose: DAffine3,
     /// Width, depth and height of the box around the thing.
     pub size: Vec3,
-    /// Where its group stands.
+    /// Spot of its group.
     pub spot: Spot,
 }
 
@@ -111,7 +111,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// A model of the library that stands in for `own`, if there is one of a size that `fits`.
+    /// A model of the library that replaces `own`, if there is one of a size that `fits`.
     pub fn borrow(&mut self, family: &str, own: &dyn Furniture, fits: impl Fn(Vec3) -> bool) -> Option<Borrowed> {
         let family = family_named(family)?;
         let (number, model) = self.models.pick(family, fits, &mut self.rng)?;
@@ -126,7 +126,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Stands one of a family with its back to the wall where `cost` is lowest, and scatters small things on it.
+    /// Places one of a family with its back to the wall where `cost` is lowest, and scatters small things on it.
     pub fn furnish(&mut self, family: &str, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         for _ in 0..VARIANTS {
             let thing = self.any(family)?;
@@ -183,7 +183,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Lays a rug with this probability where `cost` is lowest, clear of everything that stands.
+    /// Lays a rug with this probability where `cost` is lowest, clear of all furniture.
     pub fn rug(&mut self, probability: f32, cost: impl Fn(&Floor, &Spot) -> f32) {
         if !self.chance(probability) {
             return;
@@ -201,7 +201,7 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Scatters things on surfaces of something that stands in `pose`; those that find no place are left out.
+    /// Scatters things on surfaces of something in `pose`; those that find no place are left out.
     pub fn scatter(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
         // Under the open sky of the room is its ceiling.
         let sky = self.room.size.z - CEILING_AIR - pose.translation.z as f32;
@@ -211,13 +211,13 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// Stands a thing with its back to the wall where `cost` is lowest.
+    /// Places a thing with its back to the wall where `cost` is lowest.
     pub fn stand(&mut self, thing: &dyn Furniture, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let spots = self.floor.along_walls(thing.size().x);
         self.stand_at(thing, spots, cost)
     }
 
-    /// Stands a thing with its back at one of `spots`.
+    /// Places a thing with its back at one of `spots`.
     pub fn stand_at(&mut self, thing: &dyn Furniture, spots: Vec<Spot>, cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let piece = Piece::standing(thing.size(), thing.reach());
         let (spot, poses) = self.floor.place(&[piece], spots, cost)?;
@@ -225,7 +225,7 @@ impl<'a> Furnisher<'a> {
         Some(Standing { pose: poses[0], size: thing.size(), spot })
     }
 
-    /// Stands a thing anywhere on the floor, turned by one of `yaws`, where `cost` is lowest.
+    /// Places a thing anywhere on the floor, turned by one of `yaws`, where `cost` is lowest.
     pub fn stand_free(&mut self, thing: &dyn Furniture, yaws: &[f32], cost: impl Fn(&Floor, &Spot) -> f32) -> Option<Standing> {
         let piece = Piece::standing(thing.size(), thing.reach()).at(0.0, 0.0, 0.0);
         let (spot, poses) = self.floor.place(&[piece], self.floor.everywhere(0.1, yaws), cost)?;

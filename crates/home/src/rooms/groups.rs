@@ -7,14 +7,14 @@ use enfilade_furniture::{Class, FAMILIES, Place};
 use enfilade_math::Vec2;
 use std::f32::consts::PI;
 
-/// How far the chair's middle is from the desk's front.
+/// Distance of the chair's middle from the desk's front, metres.
 const CHAIR: f32 = 0.22;
 /// Hanging plants keep to corners: this far from both walls, metres.
 const CORNER: f32 = 0.6;
-/// Families that rooms place themselves, and that do not stand about.
+/// Families that rooms place themselves, and that are not placed at random.
 const PLACED: [&str; 10] =
     ["kitchen_unit", "kitchen_island", "radiator", "switch", "socket", "blind", "tv_bench", "picture", "plant", "fireplace"];
-/// How often a room has a family that nothing else asks for.
+/// Probability that a room has a family that nothing else asks for.
 const SELDOM: f32 = 0.22;
 
 impl Furnisher<'_> {

@@ -55,7 +55,7 @@ fn lamps(f: &mut Furnisher) {
     f.hang_one(0.4, "wall_lamp", 1.75, in_view);
 }
 
-/// A mirror above what stands at a wall; false where there is no room for it.
+/// Hangs a mirror above a thing at a wall; false if there is no room for it.
 fn mirror_over(f: &mut Furnisher, low: &Standing) -> bool {
     let (Some(wall), x) = (low.spot.wall, low.spot.x) else { return false };
     let Some(mirror) = f.any("mirror") else { return false };

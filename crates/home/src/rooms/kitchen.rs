@@ -105,8 +105,8 @@ fn units(f: &mut Furnisher) -> Option<FittedKitchen> {
     tried.into_iter().find_map(|(_, kitchen, stretch)| place(f, &kitchen, &stretch).then_some(kitchen))
 }
 
-/// Where windows are above the main run, from its middle: those in its wall, and, as a narrow one at its end, those in the walls beside
-/// it that begin within its depth.
+/// Extents of the windows above the main run, measured from its middle: those in its wall, and, as a narrow one at its end, those in the
+/// walls beside it that begin within its depth.
 fn windows(f: &Furnisher, stretch: &Stretch, middle: f32) -> Vec<[f32; 2]> {
     let half = 0.5 * (stretch.x[1] - stretch.x[0]);
     let behind = f.room.windows().filter(|o| o.wall == stretch.wall).map(|o| o.x.map(|x| x - middle));
@@ -122,7 +122,7 @@ fn windows(f: &Furnisher, stretch: &Stretch, middle: f32) -> Vec<[f32; 2]> {
     all
 }
 
-/// True when a tall unit stands before a window.
+/// True when a tall unit is in front of a window.
 fn shuts(kitchen: &FittedKitchen, windows: &[[f32; 2]]) -> bool {
     let mut x = -0.5 * kitchen.main.length();
     kitchen.main.units.iter().any(|(unit, _)| {
@@ -132,7 +132,7 @@ fn shuts(kitchen: &FittedKitchen, windows: &[[f32; 2]]) -> bool {
     })
 }
 
-/// How long a wing can be in the corner at an end of a wall.
+/// Greatest length of a wing in the corner at an end of a wall, metres.
 fn wing(f: &mut Furnisher, wall: Wall, end: usize) -> f32 {
     let side = if end == 0 { wall.turned(3) } else { wall.turned(1) };
     let along = f.room.length(side);
@@ -171,7 +171,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
     let z = f64::from(enfilade_furniture::CONTACT);
     let pose = enfilade_furniture::pose(f64::from(at.x), f64::from(at.y), z, f64::from(spot.yaw));
     f.build(kitchen, pose);
-    // Nothing else hangs or stands where the wall units and tall units are.
+    // The space of the wall units and tall units is taken.
     let above = f.floor.strip(wall, stretch.x, 0.4);
     f.floor.take(above, [kitchen::WORKTOP, f.room.size.z - 0.05]);
     f.built_in.push((wall, stretch.x));
@@ -184,7 +184,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
             f.floor.take(f.floor.strip(side, x, 0.4), [kitchen::WORKTOP, f.room.size.z - 0.05]);
             f.built_in.push((side, x));
         } else if corner {
-            // The end of the run stands against the side wall.
+            // The end of the run is against the side wall.
             let side = if k == 0 { wall.turned(3) } else { wall.turned(1) };
             let half = 0.5 * f.room.length(side);
             f.built_in.push((side, if k == 0 { [half - kitchen::DEPTH, half] } else { [-half, kitchen::DEPTH - half] }));

@@ -84,7 +84,7 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
     None
 }
 
-/// How badly the sofa stands at a wall: its back to windows and doors, the screen before a window, too near or too far.
+/// Cost of the sofa at a wall: its back to windows and doors, the screen in front of a window, too near or too far.
 fn wall_cost(f: &Furnisher, wall: Wall) -> f32 {
     let on = |wall: Wall, window: f32, way: f32| {
         let cost = |o: &crate::room::Opening| if o.is_way() { way } else { window } * o.size().x;

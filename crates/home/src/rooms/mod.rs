@@ -1,7 +1,7 @@
-//! What each kind of room holds: one file per kind.
+//! The furnishing of each kind of room: one file per kind.
 //!
-//! They say what they want to a [`Furnisher`], which finds the places. What several kinds of rooms share has files of its own: `fittings`,
-//! `electric`, `blinds`, `table`, `groups`; `wishes` are the costs of places.
+//! They ask a [`Furnisher`] for things, which finds their places. Things that several kinds of rooms share have files of their own:
+//! `fittings`, `electric`, `blinds`, `table`, `groups`; `wishes` are the costs of places.
 
 mod bathroom;
 mod bedroom;
@@ -38,12 +38,14 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
         let palette = decor.room(&home, i as u64);
         b.enter_room(palette, room.windows().next().is_none());
         let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
-        // What belongs to the room whoever lives in it comes first, then what its kind of room wants, then what still fits.
+        // Things that belong to the room whoever lives in it come first, then the furniture of its kind of room, then extras that still
+        // fit.
         f.fittings();
         content(&mut f);
         f.extras();
         f.sockets();
-        // The shell is built last: it has an accent wall behind what stands there, and no skirting behind what is built in.
+        // The shell is built last, because it depends on the furniture: the accent wall is behind certain things, and there is no skirting
+        // behind built-in ones.
         let (accent, built_in) = (f.accent, std::mem::take(&mut f.built_in));
         let mut shape = shape.fork(i as u64);
         let finish = ShellFinish::usual(room.kind, accent, &mut shape, &mut look.fork(i as u64));

@@ -62,7 +62,7 @@ impl Table {
 }
 
 impl Furnisher<'_> {
-    /// Stands a table with chairs where there is room, the largest that fits; `seats` is the minimum and maximum number of people.
+    /// Places a table with chairs where there is room, the largest that fits; `seats` is the minimum and maximum number of people.
     pub fn dine(&mut self, seats: [usize; 2], cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
         let family = self.rng.below(4);
         let mut tables: Vec<Table> = (0..3).map(|_| Table::Small(DiningTable::random(&mut self.rng))).collect();
@@ -110,7 +110,7 @@ impl Furnisher<'_> {
 
     fn table(&mut self, table: &Table, taken: usize, chair: &dyn Furniture, apart: bool, cost: &impl Fn(&Floor, &Spot) -> f32) -> bool {
         let mut seats = table.seats();
-        // Those on one side go last: such a table can stand closer to a wall.
+        // The seats of one side come last, so they are dropped first: then the table can be closer to a wall.
         seats.sort_by(|a, b| a.1.y.total_cmp(&b.1.y));
         seats.truncate(taken);
         let mut group = vec![Piece::standing(table.thing().size(), 0.0).at(0.0, 0.0, 0.0)];
@@ -135,7 +135,7 @@ impl Furnisher<'_> {
         let spots = self.floor.everywhere(0.12, &[0.0, FRAC_PI_2]);
         let Some((spot, poses)) = self.floor.place(&deep, spots, cost) else { return false };
         match table {
-            // Without small things no table is laid; it stands where a laid one would.
+            // Without small things no table is laid, but it is in the same place.
             Table::Long(table) if self.clutter == 0.0 => self.build(&LongTable { laid: None, ..*table }, poses[0]),
             _ => self.build(table.thing(), poses[0]),
         }

@@ -11,7 +11,7 @@ use enfilade_scene::{Part, Scene};
 /// Maximum number of rooms that are tried.
 const SEEDS: u64 = 24;
 
-/// What `furnish` puts into the one room of a home, and the next random number then.
+/// The things that `furnish` puts into the one room of a home, and the next random number after that.
 pub(super) fn furnished(kind: RoomKind, seed: u64, clutter: f32, library: &Library, furnish: impl FnOnce(&mut Furnisher)) -> (Scene, u64) {
     let plan = FloorPlan::new(&[kind], &Rng::new(1));
     let palette = Palette::all()[0];

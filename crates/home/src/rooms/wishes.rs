@@ -27,7 +27,7 @@ pub fn by_door(floor: &Floor, spot: &Spot) -> f32 {
     floor.to_way(spot.origin)
 }
 
-/// Where it is seen from the door: opposite of it.
+/// In view of the door: opposite to it.
 pub fn in_view(floor: &Floor, spot: &Spot) -> f32 {
     spot.x.abs() - floor.to_way(spot.origin)
 }

@@ -1,4 +1,4 @@
-//! Scenes that are parts of others: models with files of their own, of which each is read once and may stand in many places.
+//! Scenes that are parts of others: models with files of their own, each of which is read once and may be placed many times.
 
 use super::{Assembly, FileLabel};
 use crate::{ImportError, Imported};
@@ -13,14 +13,14 @@ pub(crate) struct Piece {
     pub mesh: u32,
     pub material: u32,
     pub model_from_mesh: DAffine3,
-    /// The object within the model: that of the part, where the model stands in one place.
+    /// The object of the part within the model, if the model is placed only once.
     pub object: Option<ObjectId>,
-    /// What the model's own file says of it. Its number of the instance counts within the model alone.
+    /// The label in the model's own file. Its instance number is valid within the model only.
     pub label: PartLabel,
 }
 
 impl Piece {
-    /// What the model's file says of the piece as a part of `object`: one instance for each class.
+    /// The label of the piece, by the model's file, as a part of `object`: one instance for each class.
     pub(crate) fn label_in(&self, object: ObjectId) -> FileLabel {
         FileLabel::given(self.label.semantic, object)
     }
@@ -59,7 +59,7 @@ impl Assembly<'_> {
             let parent = object.parent.map(|parent| objects[parent as usize]);
             objects.push(self.push_object(&object.name, parent));
         }
-        // A model that stood far off was moved to its origin; within this scene it stands where its file has it.
+        // A model far from its origin was moved to the origin; within this scene it has the position of its file.
         let moved = imported.report.offset_m.map_or(DAffine3::IDENTITY, |offset| DAffine3::from_translation(offset.into()));
         let mut labels = vec![PartLabel::NONE; scene.parts.len()];
         imported.labels.into_iter().flatten().for_each(|l| labels[l.part as usize] = l.label);

@@ -63,7 +63,7 @@ impl Assembly<'_> {
     /// Checks and repairs a mesh and adds it. `None` (and a warning) when it is empty.
     ///
     /// # Errors
-    /// When an index is out of range or a position is not finite; `place` tells where the mesh is.
+    /// When an index is out of range or a position is not finite; `place` is the mesh's place in messages.
     pub(crate) fn push_mesh(&mut self, mut mesh: Mesh, file: &Path, place: &str) -> Result<Option<u32>, ImportError> {
         if mesh.triangles.is_empty() {
             self.warnings.push(format!("{}: {place}", file.display()), "the mesh has no triangles and was left out".into());
@@ -89,10 +89,11 @@ impl Assembly<'_> {
         Ok(pushed)
     }
 
-    /// Adds what the file names as one thing, or what holds such things: a node, a prim, a group. Those without parts go in the end.
+    /// Adds something that the file names as one thing, or that contains such things: a node, a prim, a group. Objects without parts are
+    /// removed at the end.
     pub(crate) fn push_object(&mut self, name: &str, parent: Option<ObjectId>) -> ObjectId {
         let depth = |object: ObjectId| self.object_depths[object as usize];
-        // What lies too deep stands beside what holds it.
+        // An object that is nested too deeply becomes a sibling of its parent.
         let parent =
             parent.and_then(|parent| if depth(parent) < MAX_DEPTH { Some(parent) } else { self.scene.objects[parent as usize].parent });
         self.object_depths.push(parent.map_or(1, |parent| depth(parent) + 1));

@@ -1,4 +1,4 @@
-//! Pictures that are not where the scene file says: found by their names in the folders in which downloads keep them.
+//! Pictures that are not at the path in the scene file: found by their names in the folders in which downloads keep them.
 //!
 //! Sketchfab has a scene in `source/` and its pictures in `textures/` beside it, Gazebo's models theirs in `materials/textures/` beside
 //! `meshes/`, and paths are often those of the machine that the scene was made on.
@@ -16,8 +16,9 @@ const EXTENSIONS: [&str; 13] = ["png", "jpg", "jpeg", "tga", "tif", "tiff", "web
 type Listing = (String, Vec<String>);
 
 impl Assembly<'_> {
-    /// Where a picture is whose `path` leads nowhere, as the scene file would spell it: by its name, in whatever case; else with an extension
-    /// behind it (`wood.tga.png`, as Sketchfab converts pictures); else by its name with another extension, where one alone has it.
+    /// The path, as the scene file would spell it, of a picture that does not exist at `path`: found by its name in any case; else by its
+    /// name with an extension appended (`wood.tga.png`, as Sketchfab converts pictures); else by its name with another extension, if
+    /// exactly one file has it.
     pub(super) fn elsewhere(&self, path: &str) -> Option<String> {
         let name = path.rsplit(['/', '\\']).next().filter(|name| !name.is_empty())?;
         let listings = self.picture_folders();
@@ -36,7 +37,7 @@ impl Assembly<'_> {
     fn picture_folders(&self) -> Vec<Listing> {
         let mut listings = Vec::new();
         for place in self.places() {
-            // An archive ends where the download does; on the disk anything may lie farther up.
+            // An archive contains only the download; on the disk, folders farther up may contain anything.
             let around: &[&str] = if self.archive.is_some() { &["", "../", "../../"] } else { &["", "../"] };
             for beside in around {
                 let at = place.join(beside);

@@ -7,7 +7,7 @@ use crate::images::{self, Decoded, Use};
 use enfilade_scene::{GIT_LFS_POINTER, is_git_lfs_pointer};
 use std::path::{Component, Path, PathBuf};
 
-/// Where a picture's bytes are.
+/// The source of a picture's bytes.
 pub(crate) enum Source<'a> {
     /// A file, by a path as the scene file spells it.
     File(&'a str),
@@ -17,7 +17,7 @@ pub(crate) enum Source<'a> {
     Missing(String),
 }
 
-/// The folder that a file lies in; the working directory has no name.
+/// The folder of a file; the working directory has no name.
 pub(super) fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }
@@ -38,8 +38,8 @@ impl Assembly<'_> {
         Ok((file, bytes))
     }
 
-    /// The bytes of a file that `from`, a file of the scene, refers to by `path`, with the path it was found at: in the folder of
-    /// `from`, or else in that of the scene file.
+    /// The bytes of a file that `from`, a file of the scene, refers to by `path`, and the path at which it was found: in the folder of
+    /// `from`, or else in the folder of the scene file.
     pub(crate) fn read_from(&mut self, from: &Path, path: &str) -> Result<(PathBuf, Vec<u8>), ImportError> {
         match self.beside(from, path) {
             Some(beside) => {
@@ -73,7 +73,7 @@ impl Assembly<'_> {
         is_there
     }
 
-    /// The bytes of a file by its whole path; `remedy` says what to do where it cannot be read.
+    /// The bytes of a file by its whole path; `remedy` is the advice if it cannot be read.
     pub(crate) fn read_input(&mut self, file: &Path, remedy: &str) -> Result<Vec<u8>, ImportError> {
         let unreadable = |source: std::io::Error| ImportError::Read { file: file.to_path_buf(), source, remedy: remedy.to_string() };
         if self.archive.is_none() {
@@ -97,8 +97,8 @@ impl Assembly<'_> {
         Ok(bytes)
     }
 
-    /// What was read of a mesh file that `user`, a shape of the scene, refers to by `path`. `None` when it is missing or broken and the
-    /// options allow that.
+    /// The result of reading a mesh file that `user`, a shape of the scene, refers to by `path`. `None` when it is missing or broken and
+    /// the options allow that.
     ///
     /// # Errors
     /// When they do not.
@@ -119,8 +119,8 @@ impl Assembly<'_> {
         Err(error.unwrap_or(ImportError::Mesh { file, user, mesh, problem }))
     }
 
-    /// What the picture in `file` is called in the scene: its path from the scene file's folder or within the archive, or its name alone
-    /// where it lies elsewhere. So the scene does not depend on where its folder is.
+    /// The name in the scene of the picture in `file`: its path from the scene file's folder or within the archive, or its name alone if it
+    /// is elsewhere. So the scene does not depend on the location of its folder.
     pub(super) fn picture_name(&self, file: &Path) -> String {
         let home = self.archive.map_or_else(|| folder_of(&self.file), Archive::file);
         let inside = file.strip_prefix(home).ok().filter(|path| path.is_relative());
@@ -130,7 +130,7 @@ impl Assembly<'_> {
     }
 
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
-    /// and the options allow that; then a plain value has to stand in.
+    /// and the options allow that; then a plain value must replace it.
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
         let (key, problem) = match self.try_image(source, usage, user)? {
             Ok(index) => return Ok(Some(index)),

@@ -1,4 +1,4 @@
-//! Finding the files that a scene refers to: by the path as it stands there, by its name in other case, or by its name alone.
+//! Finding the files that a scene refers to: by the path as written, by its name in another case, or by its name alone.
 
 use super::Assembly;
 use super::files::folder_of;
@@ -11,7 +11,7 @@ pub(crate) fn is_absolute(path: &str) -> bool {
 }
 
 impl Assembly<'_> {
-    /// Where a file is that the scene knows by the paths `written`: at one of them, or, since they are often of another machine, by its
+    /// The path of a file that the scene refers to by the paths `written`: one of them, or, since they are often of another machine, its
     /// name in one of `folders`. All are as the scene file would spell them; a folder is empty or has a slash at its end.
     pub(crate) fn find(&self, written: &[&str], folders: &[&str]) -> Option<String> {
         let named = written.iter().filter_map(|path| path.rsplit(['/', '\\']).next()).filter(|name| !name.is_empty());
@@ -38,7 +38,7 @@ impl Assembly<'_> {
         self.exact(path).or_else(in_other_case).unwrap_or_else(|| self.within_folder(folder_of(&self.file), path))
     }
 
-    /// Says so where `file` is what `path` means in other case.
+    /// Reports it if the names of `path` and `file` differ in case.
     pub(super) fn report_case(&mut self, path: &str, file: &Path) {
         let slashes = path.replace('\\', "/");
         let names = [path, &slashes].map(|written| Path::new(written).file_name());

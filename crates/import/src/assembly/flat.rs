@@ -1,4 +1,4 @@
-//! What is left of meshes that a placement flattens, such as sheets with a scale of zero along their normal.
+//! Meshes that a placement flattens, such as sheets with a scale of zero along their normal.
 
 use super::Assembly;
 use enfilade_geometry::Mesh;

@@ -2,14 +2,14 @@
 
 use enfilade_scene::{NYU40, ObjectId, PartLabel};
 
-/// What a scene file says that a part is.
+/// The label of a part in a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FileLabel {
     /// NYU40 class, 1 to 40, or −1.
     pub semantic: i16,
-    /// Number from 1, or −1 for none; `None` where the file does not say.
+    /// Number from 1, or −1 for none; `None` if the file does not state one.
     pub instance: Option<i16>,
-    /// What the label was given to: all of it is one instance where the file states no number.
+    /// The object that the label was given to: all of it is one instance if the file states no number.
     pub whole: Option<ObjectId>,
 }
 

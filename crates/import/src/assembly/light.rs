@@ -93,7 +93,7 @@ impl Assembly<'_> {
     }
 }
 
-/// Where a light is; the origin for one without a place.
+/// Position of a light; the origin for one without a position.
 fn position_of(light: &Light) -> DVec3 {
     match light {
         Light::Point { position, .. } | Light::Spot { position, .. } | Light::Profile { position, .. } => position.as_dvec3(),

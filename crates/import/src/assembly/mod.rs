@@ -1,4 +1,4 @@
-//! What all importers share: reading files, pictures, units and axes, unique names, and the checks at the end.
+//! The common base of all importers: reading files, pictures, units and axes, unique names, and the checks at the end.
 //!
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
@@ -36,7 +36,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Assembly<'a> {
     format: Format,
     file: PathBuf,
-    /// Folders in which files are looked for before that of the scene file, the last one first.
+    /// Folders in which files are sought before the folder of the scene file, the last one first.
     folders: Vec<PathBuf>,
     options: &'a ImportOptions,
     cx: &'a dyn Cx,
@@ -48,15 +48,15 @@ pub(crate) struct Assembly<'a> {
     images: BTreeMap<(String, Use), Option<u32>>,
     picture_files: PictureFiles,
     part_names: Names,
-    /// In how many objects each object of the scene lies, itself included.
+    /// Depth of each object of the scene: 1 for objects without a parent.
     object_depths: Vec<u8>,
     camera_names: Names,
     reversed: HashMap<u32, u32>,
     /// The points from which the positions of meshes count.
     origins: HashMap<u32, DVec3>,
-    /// Where the lights of the scene are in the world, in double precision.
+    /// Positions of the scene's lights in the world, in double precision.
     light_positions: Vec<DVec3>,
-    /// What was subtracted from the world's positions.
+    /// The offset that was subtracted from the world's positions.
     offset_m: Option<[f64; 3]>,
     /// Triangles kept of flattened parts.
     flattened: usize,
@@ -70,7 +70,7 @@ pub(crate) struct Assembly<'a> {
 }
 
 impl<'a> Assembly<'a> {
-    /// An empty scene from `file`, whose format has `up` upward unless the options say otherwise.
+    /// An empty scene from `file`, whose format has `up` upward unless the options override it.
     pub(crate) fn new(format: Format, file: &Path, up: UpAxis, options: &'a ImportOptions, cx: &'a dyn Cx) -> Self {
         let mut assembly = Self {
             format,
@@ -151,7 +151,7 @@ impl<'a> Assembly<'a> {
         self.warnings.push(place, message.into());
     }
 
-    /// Says at the end which of these files the scene was not made of.
+    /// Sets the files of which those that the scene was not made of are reported at the end.
     pub(crate) fn chosen_among(&mut self, others: Others) {
         self.others = Some(others);
     }
@@ -161,7 +161,7 @@ impl<'a> Assembly<'a> {
         warnings.into_iter().for_each(|w| self.warnings.push(w.place, w.message));
     }
 
-    /// Tells the caller how far the import is.
+    /// Reports the progress of the import to the caller.
     pub(crate) fn progress(&self, done: usize, total: usize) {
         self.cx.progress("import", done as u64, total as u64);
     }
@@ -171,7 +171,7 @@ impl<'a> Assembly<'a> {
         ImportError::malformed(&self.file, place, problem)
     }
 
-    /// What the user says.
+    /// The user's options.
     pub(crate) fn options(&self) -> &ImportOptions {
         self.options
     }
@@ -233,7 +233,7 @@ impl<'a> Assembly<'a> {
         Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, report })
     }
 
-    /// Says which of the files that the scene was chosen among it was not made of.
+    /// Reports those files of the choice that the scene was not made of.
     fn tell_others(&mut self) {
         let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let Some(others) = &self.others else { return };

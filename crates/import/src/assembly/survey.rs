@@ -1,19 +1,20 @@
-//! Coordinates of surveys: what stands far from the origin of its coordinates, such as those of a map (UTM), is given from a point nearby.
+//! Coordinates of surveys: positions far from the origin of their coordinates, such as those of a map (UTM), are stored relative to a point
+//! nearby.
 //!
-//! Meshes and rays are in single precision, whose numbers lie half a metre apart where northings of maps are. So a mesh that stands far off
-//! has positions from a point of its own and a placement in double precision, and a scene that does is moved, and the report says by how
-//! much.
+//! Meshes and rays are in single precision, whose numbers are half a metre apart at the magnitude of northings. So a mesh far from the
+//! origin has positions relative to a point of its own, and a placement in double precision. A scene far from the origin is moved, and the
+//! report says by how much.
 
 use super::Assembly;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Vec3};
 use enfilade_scene::{Light, Part, Scene};
 
-/// Beyond this distance from the origin numbers of single precision lie a millimetre apart, metres.
+/// Distance from the origin beyond which numbers of single precision are a millimetre apart, metres.
 pub(crate) const FAR_M: f64 = 8192.0;
-/// Along an axis on which things are nearer than this they stay, metres: there numbers lie a tenth of a millimetre apart.
+/// Things nearer than this along an axis are not moved along it, metres: numbers there are a tenth of a millimetre apart.
 const NEAR_M: f64 = 1024.0;
-/// What reaches farther than this share of its distance from the origin would be little nearer to another.
+/// Things whose extent exceeds this share of their distance from the origin are not moved: they would gain little from a nearer origin.
 const REACH: f64 = 0.25;
 
 /// The point, in whole units, from which positions of a mesh count: zero unless they are far from it, and together.
@@ -46,7 +47,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 impl Assembly<'_> {
-    /// Moves a scene that stands far off to the origin, with a warning that says by how much.
+    /// Moves a scene that is far off to the origin, with a warning that says by how much.
     pub(super) fn bring_near(&mut self) {
         let offset = if self.archive.is_none() { origin(places(&self.scene), 1.0) } else { DVec3::ZERO };
         if offset == DVec3::ZERO {

@@ -92,7 +92,7 @@ pub(super) fn indices(node: Node) -> Option<Vec<u32>> {
     texts.flat_map(str::split_ascii_whitespace).map(|word| word.parse().ok()).collect()
 }
 
-/// What messages call an element: its kind with its name or id.
+/// The name of an element in messages: its kind with its name or id.
 pub(super) fn called(node: Node) -> String {
     let name = node.attribute("id").or(node.attribute("name"));
     name.map_or_else(|| node.tag_name().name().to_string(), |name| format!("{} {name:?}", node.tag_name().name()))

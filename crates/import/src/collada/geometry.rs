@@ -44,7 +44,7 @@ impl Source {
     }
 }
 
-/// What a corner of a primitive refers to.
+/// A source that the corners of a primitive refer to.
 struct Input {
     /// Place in the indices of a corner.
     offset: usize,

@@ -8,14 +8,14 @@ use enfilade_math::{Rgb, linear_from_srgb};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, Principled, ScalarParam, TextureRef, Wrap};
 use std::collections::HashMap;
 
-/// Reflectance of what has no material.
+/// Reflectance of surfaces without a material.
 const GREY: f32 = 0.5;
 /// Shading models of the common profile.
 const MODELS: [&str; 4] = ["phong", "blinn", "lambert", "constant"];
-/// What has no counterpart.
+/// Parameters without a counterpart.
 const LEFT_OUT: [&str; 2] = ["reflective", "bump"];
 
-/// The materials met so far, by their ids; the empty id is that of what has none.
+/// The materials met so far, by their ids; the empty id is the material of geometry that has none.
 pub(super) struct Materials {
     known: HashMap<String, u32>,
     /// True where colours are written as they are.
@@ -77,7 +77,7 @@ struct Value {
 
 struct Reader<'r, 'd, 'a> {
     dae: &'r Dae<'d>,
-    /// Where parameters are.
+    /// Elements in which parameters are sought.
     scopes: [Node<'d>; 2],
     model: Node<'d>,
     user: String,
@@ -109,7 +109,7 @@ impl<'d> Reader<'_, 'd, '_> {
         Ok(Material { name, bsdf, emission, two_sided: true, emits_both_sides: true, alpha, normal_map: None })
     }
 
-    /// How much of the surface is there, by the four modes of COLLADA 1.5.
+    /// Opacity of the surface, by the four modes of COLLADA 1.5.
     fn alpha(&mut self) -> Result<Alpha, ImportError> {
         let element = child(self.model, "transparent");
         let transparency = self.float("transparency").map_or(1.0, |t| t.clamp(0.0, 1.0) as f32);
@@ -131,7 +131,7 @@ impl<'d> Reader<'_, 'd, '_> {
             }
             let has_alpha = !crate::images::is_opaque(self.a.image_at(texture.image));
             let channel = if mode == "RGB_ONE" || !has_alpha { 0 } else { 3 };
-            // The colour's own picture, without an alpha channel, says nothing of opacity.
+            // The colour's own picture, without an alpha channel, has no information about opacity.
             return Ok(match mode == "RGB_ONE" || has_alpha {
                 true => self.opaque_unless(transparency, Some((texture, channel))),
                 false => Alpha::Opaque,
@@ -217,7 +217,7 @@ impl<'d> Reader<'_, 'd, '_> {
     }
 }
 
-/// The path that a picture's URI means: as it stands, or without its scheme and escapes, or its name alone beside the file.
+/// The path that a picture's URI refers to: as written, or without its scheme and escapes, or its name alone beside the file.
 fn file_of(uri: &str, a: &Assembly) -> String {
     let plain = uri.strip_prefix("file://").map_or(uri, |rest| {
         // `file:///C:/a.png` is `C:/a.png`, `file:///a.png` is `/a.png`.

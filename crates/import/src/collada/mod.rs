@@ -3,7 +3,7 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | `asset` | the unit and the upward axis (x, y or z) |
-//! | `visual_scene` | that of `scene`, else the first; without any, every geometry where it lies |
+//! | `visual_scene` | that of `scene`, else the first; without any, every geometry in its own place |
 //! | `node` | an object with its parts, named after its `name`, else its `id`; `matrix`, `translate`, `rotate`, `scale`, `lookat`, `skew` in their order; `instance_node` |
 //! | `instance_geometry` | a part per primitive; `.<material>` is appended where a geometry has several. Meshes are shared between nodes |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | polygons are cut into triangles; the outer line of those with holes; lines are left out |

@@ -1,4 +1,4 @@
-//! The nodes of the visual scene: transforms, and what stands where.
+//! The nodes of the visual scene: transforms, and what they place.
 
 use super::document::{Dae, Node, at, called, child, children, exactly};
 use super::material::Materials;
@@ -143,7 +143,7 @@ impl<'d> Placer<'_, 'd> {
         };
         a.warn("library_controllers", "skins are in their bind pose, morphs are their base meshes");
         let bound = skin.and_then(|skin| child(skin, "bind_shape_matrix")).and_then(exactly::<16>).map_or(DAffine3::IDENTITY, affine);
-        // Joints place a skin by themselves, wherever its node stands.
+        // Joints place a skin by themselves, whatever the position of its node.
         let placement = if skin.is_some() { bound } else { file_from_node };
         self.geometry(source, instance, name, placement, Some(object), a)
     }
@@ -198,7 +198,7 @@ fn looking(v: [f64; 9]) -> Option<DAffine3> {
 fn skewed(v: [f64; 7]) -> Option<DAffine3> {
     let [angle, rest @ ..] = v;
     let (from, to) = (DVec3::new(rest[0], rest[1], rest[2]).try_normalize()?, DVec3::new(rest[3], rest[4], rest[5]).try_normalize()?);
-    // What of `from` stands at a right angle to `to`.
+    // The component of `from` at a right angle to `to`.
     let across = (from - to * from.dot(to)).try_normalize()?;
     let (along, over) = (from.dot(to), from.dot(across));
     let turned = (along.atan2(over) + angle.to_radians()).tan();

@@ -1,4 +1,4 @@
-//! The models of a collection: each file is read once, by the importer of its format, and may stand in many places.
+//! The models of a collection: each file is read once, by the importer of its format, and may be placed many times.
 
 use crate::assembly::{Assembly, Piece};
 use crate::{Format, ImportError, ImportOptions, Imported, UpAxis, collada, fbx, gltf, obj, ply, stl, usd};
@@ -41,8 +41,8 @@ impl Models {
     }
 }
 
-/// What was read; `None`, with a warning, where it is odd: one such thing is not the end of the import. `what` is what it is, such as
-/// "a template".
+/// The value that was read; `None`, with a warning, if it is odd: one such thing does not stop the import. `what` describes it, such as "a
+/// template".
 ///
 /// # Errors
 /// When a picture is missing and has to be there, or the file is a pointer of Git LFS, as all others will be.

@@ -1,4 +1,4 @@
-//! Which layout a file or folder has, by its name or by the keys that its JSON has.
+//! Detection of the layout of a file or folder, by its name or by the keys of its JSON.
 
 use super::{habitat, hm3d, json, replica};
 use crate::wildcards::matches;
@@ -76,10 +76,10 @@ pub(super) fn layout(file: &Path, bytes: &[u8]) -> Result<Layout, ImportError> {
     })
 }
 
-/// The file to import of a folder that holds a scene of a collection; `None` where it holds nothing of one.
+/// The file to import of a folder with a scene of a collection; `None` if the folder has none.
 ///
 /// # Errors
-/// When it holds several scenes: which.
+/// When it contains several scenes, with their names.
 pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<PathBuf>, ImportError> {
     let names = "info_semantic.json";
     let replicas = [folder.join("habitat"), folder.to_path_buf()].into_iter().filter(|place| place.join(replica::MESH).is_file());
@@ -111,7 +111,7 @@ fn one(folder: &Path, scenes: Vec<String>) -> Result<Option<PathBuf>, ImportErro
     }
 }
 
-/// What is said of a folder without a scene.
+/// The error for a folder without a scene.
 pub(crate) fn no_scene_in_folder(folder: &Path) -> ImportError {
     let problem = format!(
         "found no scene in the folder; expected one scene file ({}), or a collection's: *{}, annotation_3d.json, *{}, *.house, or \

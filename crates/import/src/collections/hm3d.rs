@@ -63,7 +63,7 @@ fn parse(text: &str) -> Result<HashMap<[u8; 3], Named>, (usize, String)> {
     }
     let mut objects = HashMap::new();
     for (i, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-        // 7,A1B2C3,"chair, old",2: the category may hold commas, and is always quoted.
+        // 7,A1B2C3,"chair, old",2: the category may contain commas, and is always quoted.
         let parsed = || {
             let (before, rest) = line.split_once('"')?;
             let (category, _) = rest.rsplit_once('"')?;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::path::Path;
 
-/// The description in the bytes of `file`; `what` says what it should be. Numbers may be text, as [`Lenient`] has it.
+/// The description in the bytes of `file`; `what` names the expected content. Numbers may be text, as [`Lenient`] has it.
 ///
 /// # Errors
 /// When it is not JSON, or not of that form: place, what was found and what was expected.
@@ -26,7 +26,7 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) 
     })
 }
 
-/// A value that may be `null`, which stands for its default.
+/// A value that may be `null`, which means its default.
 ///
 /// # Errors
 /// When it is another value of another type.

@@ -13,11 +13,11 @@ use std::ops::Deref;
 /// Length up to which an odd entry is quoted.
 const SHOWN: usize = 60;
 
-/// The entries of a list that are what they should be.
+/// The valid entries of a list.
 #[derive(Clone, Debug)]
 pub(super) struct Listed<T> {
     items: Vec<T>,
-    /// How many others there are, and what is wrong with the first.
+    /// Number of other entries, and the fault of the first.
     odd: usize,
     first: String,
 }
@@ -46,7 +46,7 @@ impl<'l, T> IntoIterator for &'l Listed<T> {
 }
 
 impl<T> Listed<T> {
-    /// Tells how many entries of the list called `place` were left out.
+    /// Reports how many entries of the list called `place` were left out.
     pub(super) fn report(&self, place: &str, a: &mut Assembly) {
         if self.odd > 0 {
             let all = self.items.len() + self.odd;

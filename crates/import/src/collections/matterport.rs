@@ -7,10 +7,10 @@
 //! |---|---|
 //! | lines `C` | categories: the name in `mpcat40`, which has a class where NYU40 has one, else the annotators' own |
 //! | lines `O` | objects and their categories |
-//! | lines `E` | which object a segment belongs to, where faces tell segments |
+//! | lines `E` | which object a segment belongs to, if faces have segments |
 //! | the mesh | the faces of each `object_id` or `segment_id` as one part, in the mean of its colours |
 //! | regions, panoramas, images | not used |
-//! | the textured mesh (`.glb`, `matterport_mesh/*.obj`) | says nothing of objects; import it by itself where pictures matter more than labels |
+//! | the textured mesh (`.glb`, `matterport_mesh/*.obj`) | has no objects; import it by itself if pictures matter more than labels |
 
 use super::objects::Objects;
 use super::scan;
@@ -20,7 +20,7 @@ use crate::{ImportError, Imported, UpAxis};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// What a `.house` file says of objects.
+/// The objects of a `.house` file.
 #[derive(Default)]
 struct House {
     categories: HashMap<i64, String>,
@@ -71,7 +71,7 @@ fn parse(text: &str) -> Result<House, (usize, String)> {
                 .map_err(|_| (i + 1, format!("found {word:?} as word {k}, expected a whole number; unpack the collection again")))
         };
         match words.first() {
-            // C category_index label_id label_name mpcat40_id mpcat40_name; `#` stands for a space.
+            // C category_index label_id label_name mpcat40_id mpcat40_name; `#` means a space.
             Some(&"C") => {
                 let name = |k: usize| words.get(k).map(|word| word.replace('#', " "));
                 let (own, common) = (name(3), name(5));

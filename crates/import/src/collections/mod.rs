@@ -15,7 +15,7 @@
 //!
 //! # What all layouts have in common
 //!
-//! - The keys of its JSON decide which layout a file has. A folder stands for the one scene in it.
+//! - The keys of its JSON decide which layout a file has. A folder means the one scene in it.
 //! - A model's file is read once, by the importer of its format (glTF, OBJ, PLY, USD, FBX), and its meshes are shared by all places.
 //! - Objects have names such as `chair_2 (ab12cd)`: their category, numbered, and what the collection calls their model. Where a model has
 //!   several parts they are `chair_2 (ab12cd)/seat`, so that a label table can name the object.

@@ -12,14 +12,14 @@ use std::collections::{BTreeMap, HashMap};
 /// Categories without a class that a warning names.
 const NAMED: usize = 12;
 
-/// What is known of the objects that were placed so far.
+/// Names, numbers and categories of the objects that were placed so far.
 #[derive(Default)]
 pub(super) struct Objects {
     names: HashMap<String, usize>,
     instances: i16,
     /// Objects that came after the last number.
     without_number: usize,
-    /// Categories that no class stands for, and of how many objects.
+    /// Categories without a class, and the number of their objects.
     unknown: BTreeMap<String, usize>,
     /// Objects of which the collection has no category.
     nameless: usize,
@@ -47,7 +47,7 @@ impl Objects {
         Object { name: self.name(category, id), label }
     }
 
-    /// Something of a class that the layout itself tells, such as a wall.
+    /// An object whose class follows from the layout itself, such as a wall.
     pub fn of_class(&mut self, semantic: i16, name: &str) -> Object {
         Object { label: self.label(semantic), name: self.name(None, name) }
     }

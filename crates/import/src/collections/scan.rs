@@ -1,4 +1,4 @@
-//! Scans whose faces say which object they belong to: Replica, and Matterport3D in the layout of Habitat.
+//! Scans whose faces have the number of their object: Replica, and Matterport3D in the layout of Habitat.
 //!
 //! A scene has no colours of vertices: each object has the mean of its own.
 
@@ -9,10 +9,10 @@ use enfilade_math::{DAffine3, Rgb};
 use enfilade_scene::Material;
 use std::path::Path;
 
-/// Reflectance of what has no colour.
+/// Reflectance of surfaces without a colour.
 const GREY: f32 = 0.5;
 
-/// Adds the objects of an annotated mesh. `category` says of a number of its faces the object's number and category.
+/// Adds the objects of an annotated mesh. `category` maps the number of a face to the object's number and category.
 ///
 /// # Errors
 /// When the mesh cannot be read.

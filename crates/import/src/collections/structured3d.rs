@@ -1,7 +1,7 @@
 //! Houses of Structured3D: `annotation_3d.json`, the structure of a house as planes, lines and junctions.
 //!
-//! Made from Structured3D's `data_organization.md` and `visualize_3d.py`, which say how planes become polygons: the lines of a plane are
-//! chained by their junctions into loops. Millimetres, z up.
+//! Made from Structured3D's `data_organization.md` and `visualize_3d.py`, which describe how planes become polygons: the lines of a plane
+//! are chained by their junctions into loops. Millimetres, z up.
 //!
 //! | in the file | what becomes of it |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Lights and cameras of FBX nodes. What a light's strength means stands in the page of [`super`].
+//! Lights and cameras of FBX nodes. [`super`] documents the meaning of a light's strength.
 
 use super::reader::{affine, of_blender};
 use crate::assembly::Assembly;
@@ -9,7 +9,7 @@ use enfilade_scene::{Light, Material, PartLabel, SpotFalloff};
 use std::f32::consts::{FRAC_PI_4, PI};
 use ufbx::{LightAreaShape, LightDecay, LightType, ProjectionMode};
 
-/// Adds the light of a node. Lights shine along the node's −y, unless the file says otherwise.
+/// Adds the light of a node. Lights shine along the node's −y by default.
 pub(super) fn add_light(node: &ufbx::Node, light: &ufbx::Light, name: &str, a: &mut Assembly) {
     let place = format!("light {name:?}");
     if !light.cast_light {

@@ -12,7 +12,7 @@ use ufbx::{MaterialMap, ShaderType};
 
 /// Reflectance of surfaces without a material.
 const GREY: f32 = 0.5;
-/// Metres that a bump map's full range stands for at a factor of one; FBX does not say, and this suits plaster and wood.
+/// Height of a bump map's full range at a factor of one, metres. FBX does not define it; this suits plaster and wood.
 const BUMP_METRES: f32 = 0.005;
 /// Transmission colours below this count as this: a perfectly black one would absorb without limit.
 const DARKEST_TRANSMISSION: f32 = 1e-4;
@@ -51,7 +51,7 @@ pub(super) fn name(material: &ufbx::Material) -> String {
     if name.is_empty() { format!("material_{}", material.element.typed_id) } else { name.to_string() }
 }
 
-/// The set of texture coordinates that a material wants: that of its base colour, or of its first texture. Empty where it is silent.
+/// Name of the texture coordinate set of a material: the set of its base colour, or of its first texture. Empty if none is stated.
 pub(super) fn uv_set<'m>(material: &'m ufbx::Material, a: &mut Assembly) -> &'m str {
     let base = material.pbr.base_color.texture.as_ref().or(material.fbx.diffuse_color.texture.as_ref());
     let set = |t: &'m ufbx::Texture| -> &'m str { &t.uv_set };
@@ -152,7 +152,7 @@ impl<'c> Converter<'c, '_> {
         Ok(p)
     }
 
-    /// What passes through: a thin sheet takes the transmission's colour; a body absorbs so that the colour remains after its depth.
+    /// Transmission: a thin sheet takes its colour; a solid body absorbs so that the colour remains after its depth.
     fn transmission(&mut self, p: &mut Principled) -> Result<(), ImportError> {
         let pbr = &self.m.pbr;
         let thin = self.m.features.thin_walled.enabled;
@@ -189,7 +189,7 @@ impl<'c> Converter<'c, '_> {
         let transparency = (color * number(&fbx.transparency_factor).unwrap_or(1.0)).clamp(0.0, 1.0);
         let mut opacity = 1.0 - transparency;
         if opacity <= 0.0 {
-            // Some programs write white here for opaque surfaces, and nobody models a surface that is not seen.
+            // Some programs write white here for opaque surfaces, and an invisible surface is unlikely to be intended.
             let stated = ufbx::find_prop(&self.m.element.props, "Opacity").map(|p| p.value_vec4.x as f32);
             opacity = stated.filter(|o| *o > 0.0).unwrap_or(1.0).min(1.0);
             self.warn(format!("found a transparency of one, which would hide the surface; an opacity of {opacity} was used"));
@@ -278,7 +278,7 @@ impl<'c> Converter<'c, '_> {
         self.used.extend(map.texture.as_ref().map(|texture| texture.element.element_id));
     }
 
-    /// Names the properties whose textures are not read. That of ambient light has no place where light is computed.
+    /// Reports the properties whose textures are not read, except ambient light, which has no meaning when light is computed.
     fn report_unused_textures(&mut self) {
         for slot in self.m.textures.iter().filter(|slot| !self.used.contains(&slot.texture.element.element_id)) {
             let property = &*slot.material_prop;
@@ -325,7 +325,7 @@ fn number(map: &MaterialMap) -> Option<f32> {
 
 fn rgb(map: &MaterialMap) -> Option<Rgb> {
     let v = &map.value_vec4;
-    // One number stands for a grey.
+    // One number means a grey.
     let color = if map.value_components == 1 { Rgb::splat(v.x as f32) } else { Rgb::new(v.x as f32, v.y as f32, v.z as f32) };
     Some(color).filter(|c| map.has_value && c.is_finite())
 }

@@ -2,7 +2,7 @@
 //!
 //! | feature | what becomes of it |
 //! |---|---|
-//! | units and axes | the file's own: its `UnitScaleFactor` says how long a unit is, its axes which way is up. [`crate::ImportOptions::meters_per_unit`] multiplies the file's own length (so 1, its default, keeps it), and [`crate::ImportOptions::up_axis`], where it is given, stands above the file's axes |
+//! | units and axes | the file's own: its `UnitScaleFactor` says how long a unit is, its axes which way is up. [`crate::ImportOptions::meters_per_unit`] multiplies the file's own length (so 1, its default, keeps it), and [`crate::ImportOptions::up_axis`], where it is given, overrides the file's axes |
 //! | nodes | one part per node and material, named after the node, else its mesh, else `node_<index>`; `.<material>` is appended where a mesh has several; pivots, pre- and post-rotation, geometric transforms and modes of inheriting scale; meshes are shared between nodes |
 //! | meshes | any number of corners, concave ones cut properly, holes left out; normals as in the file, else from its smoothing; material per face; texture coordinates of the set that the base colour wants, else the first |
 //! | visibility | hidden nodes and those of hidden layers are left out with a warning each, as are all levels of detail but the first |
@@ -10,14 +10,14 @@
 //! | Phong | a clear-coated one of GGX alpha √(2/(exponent+2)), which loses no light; a highlight on black is a mirror of its colour |
 //! | Arnold and OSL standard surface, OpenPBR, 3ds Max physical and PBR, Stingray, glTF, Blender's Phong | metallic-roughness with index of refraction, specular, transmission, coat, sheen, emission and opacity; glossiness becomes roughness |
 //! | normals | a normal map where the picture is coloured, of Blender's strength in its files; else heights |
-//! | bump | a normal map where the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times the factor) |
+//! | bump | a normal map where the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one means 5 mm times the factor) |
 //! | textures | PNG, JPEG and all that [`crate`] decodes: from the file, else by relative path, by absolute path, and by name beside the file, in `<file>.fbm/` or `textures/`; scale (2 shows the picture twice; Blender writes one over it), turn (Blender writes it backwards, in radians), offset, wrapping. Of layered and computed ones the first picture |
 //! | colours | taken as linear; textures as sRGB |
 //! | point, spot, directional lights | see below; spots dim evenly with the angle, those of Blender by its own law |
 //! | area lights | a square two units wide that shines along its axis, as FBX does not state its size |
 //! | cameras | perspective, by field of view or focal length and aperture; orthographic ones, film offset and roll are dropped |
 //! | animation, skins, blend shapes | the first moment of the first animation, else the pose of the nodes; each is reported |
-//! | dropped with a warning | vertex colours, points and lines, NURBS, curves, subdivision, caches of positions, subsurface scattering, anisotropy, thin film, displacement, normal maps of coats, volume lights (a point stands in) |
+//! | dropped with a warning | vertex colours, points and lines, NURBS, curves, subdivision, caches of positions, subsurface scattering, anisotropy, thin film, displacement, normal maps of coats, volume lights (replaced by a point) |
 //!
 //! Every surface has two sides, and emits on both, as FBX knows no sides.
 //!

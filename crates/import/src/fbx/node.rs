@@ -83,7 +83,7 @@ impl Placer {
     fn mesh(&mut self, node: &Node, mesh: &ufbx::Mesh, object: Option<ObjectId>, name: &str, a: &mut Assembly) -> Result<(), ImportError> {
         let object = object.unwrap_or_else(|| a.push_object(name, None));
         report_dropped(node, mesh, a);
-        // Skinned meshes may stand in the world already.
+        // Skinned meshes may be in world space already.
         let placement = if mesh.skinned_is_local { affine(&node.geometry_to_world) } else { DAffine3::IDENTITY };
         let materials = if node.materials.is_empty() { mesh.materials.as_ref() } else { node.materials.as_ref() };
         let filled = mesh.material_parts.iter().filter(|p| p.num_triangles > 0).count();

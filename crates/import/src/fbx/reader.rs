@@ -10,7 +10,7 @@ use ufbx::{
 /// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
 const MEMORY: usize = 1 << 30;
 
-/// Meshes and pictures lie packed in the file, and are unpacked into numbers of double precision.
+/// Meshes and pictures are packed in the file, and unpacked into numbers of double precision.
 const MEMORY_PER_BYTE: usize = 64;
 
 /// Nodes within nodes.
@@ -48,7 +48,7 @@ pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
         .map_err(|e| a.malformed(format!("animation {:?}", &*stack.element.name), problem(&e, &bytes)))
 }
 
-/// What is wrong, and what to do about it.
+/// The message for an error: the fault, and what to do about it.
 fn problem(error: &ufbx::Error, bytes: &[u8]) -> String {
     let what = error.description.to_string();
     let info = Some(error.info()).filter(|i| !i.is_empty()).map_or(String::new(), |i| format!(" ({i})"));
@@ -78,8 +78,8 @@ pub(super) fn of_blender(element: &Element) -> bool {
     matches!(element.scene.metadata.exporter, Exporter::BlenderBinary | Exporter::BlenderAscii)
 }
 
-/// The rotation (or reflection) from the file's axes to the world's: its up axis becomes z, what it calls front −y, right x.
-/// `None` where the file does not say, or says what cannot be.
+/// The rotation (or reflection) from the file's axes to the world's: its up axis becomes z, its front −y, its right x. `None` if the file
+/// does not state them, or they are impossible.
 pub(super) fn world_from_axes(axes: &CoordinateAxes) -> Option<DMat3> {
     let (x, y, z) = (direction(axes.right)?, direction(axes.front)?, direction(axes.up)?);
     let rows = DMat3::from_cols(x, -y, z);

@@ -45,8 +45,9 @@ pub(super) fn texture(texture: &ufbx::Texture, usage: Use, user: &str, a: &mut A
 
 /// From texture coordinates to the picture: scaled, turned and then moved.
 ///
-/// Autodesk's library says that a scale above one compresses the picture, and that a translation of one is its width after that. So the
-/// matrix is this one, though ufbx names it the other way round. Blender writes one over the scale, and the turn backwards and in radians.
+/// By Autodesk's documentation, a scale above one compresses the picture, and a translation of one is the picture's width after that. So
+/// this is the right matrix, although ufbx names it the other way round. Blender writes the reciprocal of the scale, and the rotation
+/// backwards and in radians.
 fn uv_transform(texture: &ufbx::Texture) -> [[f32; 3]; 2] {
     if !of_blender(&texture.element) {
         let m = &texture.texture_to_uv;
@@ -61,8 +62,8 @@ fn uv_transform(texture: &ufbx::Texture) -> [[f32; 3]; 2] {
     [[cos * x, -sin * y, translation[0]], [sin * x, cos * y, translation[1]]].map(|row| row.map(|v| v as f32))
 }
 
-/// Where the picture is: by its relative path, its absolute one, or, since that is often of another machine, by its name beside the
-/// file or in the folders where programs unpack pictures to. Where it is in none of these places, the path that the file states.
+/// The path of the picture: its relative path, its absolute one, or, since that is often of another machine, its name beside the file or in
+/// the folders into which programs unpack pictures. If it is in none of these places, the path that the file states.
 fn path(texture: &ufbx::Texture, a: &Assembly) -> String {
     let written = [&*texture.relative_filename, &*texture.filename, &*texture.absolute_filename];
     let written: Vec<String> = written.into_iter().filter(|p| !p.is_empty()).map(|p| p.replace('\\', "/")).collect();

@@ -10,7 +10,7 @@ impl Document {
     /// to [0,1] or [−1,1]).
     ///
     /// # Errors
-    /// What is wrong with the accessor, as the rest of a sentence.
+    /// The fault of the accessor, as the rest of a sentence.
     pub(super) fn vectors<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[f32; N]>, String> {
         let flat = self.components(index, N)?;
         Ok(flat.chunks_exact(N).map(|c| std::array::from_fn(|i| c[i] as f32)).collect())
@@ -19,7 +19,7 @@ impl Document {
     /// The elements of an accessor of vertex indices.
     ///
     /// # Errors
-    /// What is wrong with the accessor, as the rest of a sentence.
+    /// The fault of the accessor, as the rest of a sentence.
     pub(super) fn indices(&self, index: Index<Accessor>) -> Result<Vec<u32>, String> {
         Ok(self.components(index, 1)?.into_iter().map(|v| v as u32).collect())
     }
@@ -68,7 +68,7 @@ impl Document {
         Ok(values)
     }
 
-    /// How many components an accessor without a bufferView has, if the file may still ask for that many.
+    /// Number of components of an accessor without a bufferView, if the file may still ask for that many.
     fn zeros(&self, name: &str, count: u64, per_element: usize) -> Result<usize, String> {
         let wanted = count.checked_mul(per_element as u64).filter(|&wanted| wanted <= self.zeros_left.get());
         let wanted = wanted.ok_or_else(|| {

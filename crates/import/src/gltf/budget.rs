@@ -1,4 +1,4 @@
-//! How much the packed parts of a file may unpack to: a small file can claim any number of vertices that are all alike.
+//! The limit on the unpacked size of a file's packed parts: a small file can claim any number of vertices that are all alike.
 
 /// Bytes that a byte of packed data may become. Meshes in use become up to some dozens.
 const RATIO: u64 = 256;
@@ -6,7 +6,7 @@ const RATIO: u64 = 256;
 /// Bytes beyond that ratio that all packed parts of a file share, for meshes in which much is the same.
 const SHARED: u64 = 1 << 26;
 
-/// What a file may still unpack.
+/// The remaining budget of a file.
 pub(super) struct Budget {
     shared_left: u64,
 }

@@ -13,8 +13,8 @@ pub(super) const PADDING: u64 = 3;
 pub(super) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
-    /// Reads the buffers of a file, except for those that only stand in for packed data, as these may be placeholders. `binary` is the binary
-    /// chunk of a `.glb`.
+    /// Reads the buffers of a file, except for those that are only the fallback of packed data, as these may be placeholders. `binary` is
+    /// the binary chunk of a `.glb`.
     ///
     /// # Errors
     /// When a buffer is missing or too short.
@@ -32,7 +32,7 @@ impl Buffers {
         Ok(Self(buffers))
     }
 
-    /// Reads a buffer that stands in for packed data; false when the file does not have it.
+    /// Reads a buffer that is the fallback of packed data; false when the file does not have it.
     pub(super) fn read_plain(&mut self, root: &Root, index: usize, binary: Option<&[u8]>, assembly: &mut Assembly) -> bool {
         let read = root.buffers.get(index).and_then(|b| read_buffer(index, b, binary, assembly).ok());
         match (read, self.0.get_mut(index)) {

@@ -10,7 +10,7 @@ use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-/// What multiplies the base colour and the opacity of a material.
+/// Factors of the base colour and the opacity of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tint {
     pub color: Rgb,
@@ -27,7 +27,7 @@ impl Tint {
     }
 }
 
-/// What differs between the vertices of a primitive.
+/// The properties that differ between the vertices of a primitive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Several {
     pub colors: bool,

@@ -1,4 +1,4 @@
-//! The outer layer of a glTF file: text or binary, and what lies in its buffers.
+//! The outer layer of a glTF file: text or binary, and the content of its buffers.
 
 use super::budget::Budget;
 use super::buffers::{Buffers, PADDING};
@@ -38,13 +38,13 @@ const SUPPORTED: [&str; 22] = [
     "MSFT_texture_dds",
 ];
 
-/// True for an extension that is read, or of which the report says what is rendered instead.
+/// True for an extension that is read, or for which the report states what is rendered instead.
 pub(super) fn is_supported(extension: &str) -> bool {
     SUPPORTED.contains(&extension) || unrendered::is_told(extension)
 }
 
-/// True for an extension without which everything stands where it should: of looks, metadata, sound, behaviour and animation. It is told
-/// as others are that are used and not read.
+/// True for an extension that does not affect positions: of looks, metadata, sound, behaviour and animation. It is reported like others
+/// that are used and not read.
 fn is_harmless(extension: &str) -> bool {
     let name = extension.split_once('_').map_or(extension, |(_, name)| name);
     let begins = [
@@ -76,15 +76,15 @@ pub(super) struct Document {
     pub root: Root,
     /// Bytes of all buffers.
     buffers: Buffers,
-    /// What is wrong with buffer views whose data cannot be unpacked.
+    /// Faults of buffer views whose data cannot be unpacked.
     unreadable_views: HashMap<usize, String>,
-    /// What is wrong with primitives, by mesh, whose data cannot be unpacked.
+    /// Faults of primitives, by mesh, whose data cannot be unpacked.
     unreadable_primitives: HashMap<(usize, usize), String>,
     /// Numbers that accessors without a buffer view may still ask for.
     pub zeros_left: Cell<u64>,
     /// Large translations of nodes, see `far.rs`.
     pub far_translations: HashMap<usize, DVec3>,
-    /// What the strengths of its lights are divided by.
+    /// Divisor of the strengths of its lights.
     pub lumens_per_watt: f32,
 }
 
@@ -131,7 +131,7 @@ impl Document {
         Ok((bytes, view))
     }
 
-    /// What is wrong with the packed data of a primitive, if anything, as the rest of a sentence.
+    /// The fault of the packed data of a primitive, if any, as the rest of a sentence.
     pub(super) fn is_unpacked(&self, mesh: usize, primitive: usize) -> Result<(), &str> {
         self.unreadable_primitives.get(&(mesh, primitive)).map_or(Ok(()), |problem| Err(problem))
     }
@@ -156,7 +156,7 @@ impl Document {
     }
 }
 
-/// Where a picture that is not inside the glTF file is.
+/// Location of a picture that is not inside the glTF file.
 pub(super) enum ImageAt {
     /// In a file.
     File(String),
@@ -214,8 +214,8 @@ fn split_binary(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (String, String)
     json.map(|json| (json, binary)).ok_or_else(|| ("byte 12".into(), "there is no JSON chunk; export the file again".into()))
 }
 
-/// Where the chunk behind one that ends at `end` begins: at the next multiple of four bytes, as the format asks, or, as some programs write
-/// it, at once.
+/// Position of the chunk after one that ends at `end`: the next multiple of four bytes, as the format asks, or, as some programs write it,
+/// directly after.
 fn next_chunk(bytes: &[u8], end: usize) -> usize {
     let is_binary = |at: usize| bytes.get(at + 4..at + 8) == Some(b"BIN\0");
     let padded = end.next_multiple_of(4);

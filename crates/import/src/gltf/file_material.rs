@@ -8,7 +8,7 @@ use gltf::json::material::AlphaMode;
 /// A material of the file.
 pub(super) struct FileMaterial {
     pub index: Option<usize>,
-    /// All but what is cut out of it.
+    /// The material without its cut-outs.
     pub material: Material,
     /// The texture coordinate set that its textures use.
     pub uv_set: u32,
@@ -68,7 +68,7 @@ fn paint(bsdf: &mut Bsdf, texture: TextureRef) {
     }
 }
 
-/// Multiplies the base colour; beside a metal of its own colour that of the dielectric.
+/// Multiplies the base colour; in a blend with a metal of its own colour, only the dielectric's.
 fn multiply(bsdf: &mut Bsdf, color: Rgb) {
     match bsdf {
         Bsdf::Diffuse { reflectance } => reflectance.factor *= color,

@@ -29,7 +29,7 @@ const MAX_DIELECTRIC_PICTURE: f32 = 0.08;
 /// At most this many texels (8 bytes each) are computed for a scene.
 const MAX_TEXELS: usize = 1 << 27;
 
-/// Stand-ins for the picture of a file that is missing: reflectance and glossiness of plain plastic.
+/// Values in place of a missing picture: reflectance and glossiness of plain plastic.
 const MISSING: (f32, f32) = (DIELECTRIC, 0.4);
 
 impl Converter<'_, '_> {

@@ -9,7 +9,7 @@ pub(super) struct GlossPictures {
     pub texels: usize,
 }
 
-/// What is made of a picture of specular colour and glossiness.
+/// The pictures made from a picture of specular colour and glossiness.
 #[derive(Clone, Copy)]
 pub(super) struct Made {
     /// Green is the roughness, blue the share of the dielectric.

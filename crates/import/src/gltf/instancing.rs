@@ -11,7 +11,7 @@ use serde_json::Value;
 /// The extension's name.
 pub(super) const NAME: &str = "EXT_mesh_gpu_instancing";
 
-/// Where the mesh of a node stands by the extension: each place lies within the node's own. Attributes of other names are left out.
+/// Placements of a node's mesh by the extension, each relative to the node. Attributes of other names are left out.
 ///
 /// # Errors
 /// When an attribute cannot be read, or they are of different lengths.

@@ -25,7 +25,7 @@ pub(super) fn of(node: &Node, index: usize, object: Option<ObjectId>, inherited:
     label
 }
 
-/// The class that `semantic` says, else `semantic_id`.
+/// The class by `semantic`, else by `semantic_id`.
 fn class(extras: &Value, index: usize, a: &mut Assembly) -> Option<i16> {
     let by_id = |value: &Value| whole_number(value).filter(|id| (1..=40).contains(id)).map(|id| id as i16);
     let found = ["semantic", "semantic_id"].map(|key| {

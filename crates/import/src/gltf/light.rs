@@ -1,4 +1,4 @@
-//! `KHR_lights_punctual`: point, spot and directional lights at the place of their node; `lumens.rs` says how strong they are.
+//! `KHR_lights_punctual`: point, spot and directional lights at the place of their node; `lumens.rs` determines their units.
 
 use super::container::Document;
 use crate::assembly::Assembly;

@@ -7,7 +7,7 @@
 use crate::assembly::Assembly;
 use gltf::json::Root;
 
-/// What Blender's exporter multiplies watts by.
+/// Factor by which Blender's exporter multiplies watts.
 const BLENDER_LUMENS_PER_WATT: f32 = 683.0;
 
 /// The exporter's first version that does so.
@@ -17,7 +17,7 @@ const BLENDER_SINCE: [u32; 3] = [3, 4, 40];
 /// if it was, and a lamp of four kilowatts if not.
 const BLENDER_BRIGHT: f32 = 300.0;
 
-/// What the strengths of the file's lights are to be divided by: 683 where Blender has multiplied them, which is guessed, with a warning.
+/// Divisor of the strengths of the file's lights: 683 if Blender has multiplied them, which is guessed, with a warning.
 pub(super) fn per_watt(root: &Root, a: &mut Assembly) -> f32 {
     let generator = root.asset.generator.as_deref().unwrap_or_default();
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map_or(&[][..], |l| &l.lights);

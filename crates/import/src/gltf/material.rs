@@ -18,7 +18,7 @@ use serde_json::Value;
 /// Attenuation colours below this count as this: a perfectly black one would absorb without limit.
 const DARKEST_ATTENUATION: f32 = 1e-4;
 
-/// Stands for the index of refraction 0, by which `KHR_materials_ior` means that all light is reflected.
+/// Replaces the index of refraction 0, with which `KHR_materials_ior` means that all light is reflected.
 const MIRROR_IOR: f32 = 1000.0;
 
 /// Textures of extensions that the `gltf` crate leaves as JSON: extension and key.
@@ -29,7 +29,7 @@ const LAYER_TEXTURES: [(&str, &str); 4] = [
     ("KHR_materials_sheen", "sheenRoughnessTexture"),
 ];
 
-/// The texture coordinate set that a material uses: its base colour's, or that of the first other texture.
+/// The texture coordinate set that a material uses: its base colour's, or the first other texture's.
 pub(super) fn uv_set(json: &Json, name: &str, a: &mut Assembly) -> u32 {
     let set = |info: &Info| transform_of(info).and_then(|t| t.tex_coord).unwrap_or(info.tex_coord);
     let pbr = &json.pbr_metallic_roughness;
@@ -69,7 +69,7 @@ fn layer_texture(extension: &Value, key: &str) -> Option<Info> {
     serde_json::from_value(extension.get(key)?.clone()).ok()
 }
 
-/// What reads one material.
+/// The reader of one material.
 pub(super) struct Converter<'c, 'a> {
     pub(super) document: &'c Document,
     pub(super) user: String,
@@ -217,7 +217,7 @@ impl Converter<'_, '_> {
         Ok(ScalarParam { factor: if texture.is_some() { factor } else { factor * stand_in }, texture: texture.map(|t| (t, channel)) })
     }
 
-    /// False, with a warning, for a texture that names no picture: plain colours and numbers hold.
+    /// False, with a warning, for a texture that names no picture: plain colours and numbers are used.
     fn has_picture(&mut self, index: usize) -> bool {
         let has_picture = texture::has_picture(self.document, index);
         if !has_picture {

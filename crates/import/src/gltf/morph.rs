@@ -30,7 +30,7 @@ pub(super) fn apply(
             return Err(("targets".into(), problem));
         };
         shift(document, target.positions, weight, positions).map_err(|problem| (format!("targets[{i}].POSITION"), problem))?;
-        // Without normals the surface is flat, whatever the target says.
+        // Without normals the surface is flat, whatever normals the target has.
         if !normals.is_empty() {
             shift(document, target.normals, weight, normals).map_err(|problem| (format!("targets[{i}].NORMAL"), problem))?;
         }

@@ -10,10 +10,10 @@ use enfilade_math::DAffine3;
 use enfilade_scene::ObjectId;
 use gltf::json::scene::Node;
 
-/// Aspect of a camera that does not state one: that of the pictures this workspace makes by default.
+/// Aspect of a camera that does not state one: the default aspect of this workspace's pictures.
 const DEFAULT_ASPECT: f64 = 4.0 / 3.0;
 
-/// The extension that says whether a node is shown.
+/// The extension that states whether a node is shown.
 const VISIBILITY: &str = "KHR_node_visibility";
 
 /// Indices of the nodes that a scene begins with: the default scene's, else the first one's, else all nodes without a parent.
@@ -89,7 +89,8 @@ struct Placer<'d> {
 }
 
 impl Placer<'_> {
-    /// Adds what a node carries. With it come its own object and its parent's: where its mesh stands in many places, each is an object.
+    /// Adds the mesh, camera and light of a node. The arguments include its own object and its parent's: if its mesh is placed many times,
+    /// each placement is an object.
     fn node(
         &mut self,
         node: &Node,

@@ -1,6 +1,6 @@
-//! Nodes as objects: each node with its primitives is one, and lies in the nodes above it.
+//! Nodes as objects: each node with its primitives is one, and is a child of the nodes above it.
 //!
-//! Scenes that this program writes have a node for each part, and say by `extras` what these are parts of: `objects` of the scene lists
+//! Scenes that this program writes have a node for each part, and state in `extras` what these are parts of: `objects` of the scene lists
 //! the objects, each with its `name` and the index of its `parent`, and `object` of a node is an index into that list.
 
 use super::container::Document;
@@ -29,7 +29,7 @@ impl Objects {
         Self { listed }
     }
 
-    /// The object that a node is within `parent`; that of its parent where it has neither a name nor a mesh.
+    /// The object of a node, a child of `parent`; `parent` itself if the node has neither a name nor a mesh.
     pub(super) fn of(
         &self,
         document: &Document,

@@ -11,7 +11,7 @@ const MAX_WHOLE: f64 = 9_007_199_254_740_992.0;
 /// The typed JSON, or the place and the problem.
 ///
 /// # Errors
-/// When the text is not JSON, or not that of glTF 2.0.
+/// When the text is not JSON, or not glTF 2.0.
 pub(super) fn parse(text: &[u8]) -> Result<Root, (String, String)> {
     let error = match Root::from_slice(text) {
         Ok(root) => return Ok(root),
@@ -68,8 +68,8 @@ fn without_place(error: &serde_json::Error) -> String {
     message.rsplit_once(" at line ").map_or(message.clone(), |(message, _)| message.to_string())
 }
 
-/// Puts right what other readers take as well: whole numbers written as `3.0`, `null` for what is not there, versions and names that are
-/// numbers. `key` is what the value is called. What extras hold stays.
+/// Corrects mistakes that other readers accept as well: whole numbers written as `3.0`, `null` for missing values, versions and names that
+/// are numbers. `key` is the name of the value. The contents of extras stay.
 fn put_right(value: &mut Value, key: &str) {
     match value {
         Value::Number(number) => {

@@ -1,4 +1,4 @@
-//! What the extension of a buffer view says about its packed data.
+//! The description of packed data in the extension of a buffer view.
 
 use gltf::json::buffer::View;
 use serde::Deserialize;
@@ -23,7 +23,7 @@ pub(super) struct Packed {
     pub filter: Filter,
 }
 
-/// How data are packed.
+/// The packing mode of data.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) enum Mode {
@@ -35,7 +35,7 @@ pub(super) enum Mode {
     Indices,
 }
 
-/// What is done to attributes after they have been unpacked.
+/// The filter of attributes, applied after unpacking.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) enum Filter {
@@ -53,7 +53,7 @@ pub(super) fn extension_of(view: &View) -> Option<(&'static str, &Value)> {
     NAMES.into_iter().find_map(|name| Some((name, others.get(name)?)))
 }
 
-/// The buffer in which a view's packed data lie.
+/// The buffer of a view's packed data.
 pub(super) fn packed_buffer(view: &View) -> Option<usize> {
     let (_, extension) = extension_of(view)?;
     extension.get("buffer")?.as_u64().and_then(|buffer| usize::try_from(buffer).ok())
@@ -63,7 +63,7 @@ impl Packed {
     /// The properties of an extension.
     ///
     /// # Errors
-    /// What is wrong with them, as the rest of a sentence.
+    /// The fault, as the rest of a sentence.
     pub(super) fn read(extension: &Value) -> Result<Self, String> {
         let packed: Self = Self::deserialize(extension).map_err(|e| format!("is malformed ({e}); export the file again"))?;
         let stride = packed.byte_stride;

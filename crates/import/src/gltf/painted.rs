@@ -2,7 +2,7 @@
 //!
 //! Each triangle gets a square of 2×2 texels, three of which are its corners and the fourth what makes bilinear filtering of them linear.
 //! Squares follow one another along Morton's curve: triangles that are neighbours in the file mostly are in space and in the picture too,
-//! so that smaller copies of the picture mix what lies together.
+//! so that smaller copies of the picture mix neighbours.
 
 use enfilade_geometry::Mesh;
 use enfilade_math::Vec2;

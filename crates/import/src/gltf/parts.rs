@@ -17,7 +17,7 @@ use gltf::json::mesh::Primitive;
 use gltf::json::scene::Node;
 use std::collections::{BTreeSet, HashMap};
 
-/// Where a mesh of the file stands, and what its parts are called.
+/// The placement of a mesh of the file, and the names of its parts.
 pub(super) struct Stand<'n> {
     pub node: &'n Node,
     pub index: usize,
@@ -38,7 +38,7 @@ pub(super) struct Parts<'d> {
     varied: BTreeSet<(usize, usize)>,
 }
 
-/// A shape of a primitive: what of the nodes moves its vertices.
+/// Key of a primitive's shape: the parts of nodes that move its vertices.
 #[derive(Clone, PartialEq, Eq, Hash)]
 struct Key {
     mesh: usize,
@@ -53,7 +53,7 @@ struct Key {
 struct Shape {
     mesh: u32,
     tint: Tint,
-    /// What of the colours is not shown but by the tint.
+    /// The varying colours and opacities that only the tint represents.
     several: Several,
     /// The picture of its colours.
     picture: Option<u32>,
@@ -102,7 +102,7 @@ impl<'d> Parts<'d> {
             // Joints place a skinned mesh in the file by themselves.
             for &(object, file_from_mesh) in places.iter().take(if skin.is_some() { 1 } else { places.len() }) {
                 let file_from_mesh = if skin.is_some() { DAffine3::IDENTITY } else { file_from_mesh };
-                // What is said of the node itself is said of each place.
+                // A label of the node itself applies to each placement.
                 let is_own = stand.label.whole.is_some() && stand.label.whole == stand.object;
                 let label = FileLabel { whole: if is_own { Some(object) } else { stand.label.whole }, ..stand.label };
                 a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, label);

@@ -9,7 +9,7 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-/// What moves the vertices of a primitive.
+/// The skin and morph targets that move the vertices of a primitive.
 pub(super) struct Pose<'p> {
     /// Weights of morph targets.
     pub weights: &'p [f32],

@@ -1,6 +1,6 @@
-//! Skins in the pose of their nodes: a vertex stands where its joints take it, by their weights.
+//! Skins in the pose of their nodes: joints move each vertex, by their weights.
 //!
-//! As the specification has it, the transform of the node that bears the mesh has no part in this.
+//! As the specification has it, the transform of the node with the mesh is ignored.
 
 use super::container::Document;
 use super::transform::affine;
@@ -16,7 +16,7 @@ use std::rc::Rc;
 /// The skins met so far.
 pub(super) struct Skins<'d> {
     document: &'d Document,
-    /// Where every node stands, once that is asked for; `None` for nodes in a cycle.
+    /// The placement of every node, computed at first use; `None` for nodes in a cycle.
     file_from_node: Option<Vec<Option<DAffine3>>>,
     known: HashMap<usize, Rc<[DAffine3]>>,
 }
@@ -26,7 +26,7 @@ impl<'d> Skins<'d> {
         Self { document, file_from_node: None, known: HashMap::new() }
     }
 
-    /// Where each joint of a skin takes the mesh: its placement times its inverse bind matrix.
+    /// The transform of the mesh by each joint of a skin: the joint's placement times its inverse bind matrix.
     ///
     /// # Errors
     /// When the skin of the node, one of its joints or its matrices are not there.
@@ -64,7 +64,7 @@ impl<'d> Skins<'d> {
     }
 }
 
-/// Where all nodes stand; a node with several parents belongs to the first.
+/// The placements of all nodes; a node with several parents belongs to the first.
 fn placements(document: &Document) -> Vec<Option<DAffine3>> {
     let nodes = &document.root.nodes;
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];

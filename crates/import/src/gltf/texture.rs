@@ -1,4 +1,4 @@
-//! The picture of a texture: that of an extension where it can be read, else the plain one.
+//! The picture of a texture: an extension's if it can be read, else the plain one.
 
 use super::container::{Document, ImageAt};
 use crate::ImportError;
@@ -7,11 +7,11 @@ use crate::images::Use;
 use gltf::json::texture::Texture;
 use serde_json::Value;
 
-/// Extensions by which a texture has a picture of another format. All formats are recognised by their content; AVIF alone is not read, and named
-/// for what the message then says.
+/// Extensions by which a texture has a picture of another format. All formats are recognised by their content; AVIF alone is not read; it
+/// is listed for its message.
 const EXTENSIONS: [&str; 4] = ["KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds", "EXT_texture_avif"];
 
-/// Stands for a texture without a plain picture.
+/// Marks a texture without a plain picture.
 const NONE: usize = u32::MAX as usize;
 
 /// The index of a texture's picture in the scene; `None` when it is missing and the options allow that.
@@ -71,7 +71,7 @@ fn pictures(texture: &Texture) -> Vec<usize> {
     EXTENSIONS.into_iter().filter_map(source).chain(plain).collect()
 }
 
-/// What `read` makes of a picture of the file.
+/// The result of `read` for a picture of the file.
 ///
 /// # Errors
 /// When the file does not have it.

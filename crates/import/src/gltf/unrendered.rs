@@ -15,7 +15,7 @@ const INSTEAD: [(&str, &str); 5] = [
 /// Greatest number of materials that are named.
 const NAMED: usize = 3;
 
-/// True for an extension that [`report`] tells.
+/// True for an extension that [`report`] mentions.
 pub(super) fn is_told(extension: &str) -> bool {
     INSTEAD.iter().any(|(name, _)| *name == extension)
 }

@@ -11,7 +11,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_allow_trailing_bits(true).with_decode_padding_mode(DecodePaddingMode::RequireNone),
 );
 
-/// What a URI points at.
+/// The target of a URI.
 #[derive(Debug, PartialEq)]
 pub(super) enum Uri {
     Data(Vec<u8>),
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(decoded_base64("+/+/"), decoded_base64("-_-_"));
         assert_eq!(decoded_base64("aG Vs\nbG8"), Some(b"hello".to_vec()));
         assert_eq!(decoded_base64("aGVsb"), Some(b"hel".to_vec()));
-        // The last digit may say more than the last byte takes; what follows the padding is skipped.
+        // The last digit may have more bits than the last byte needs; text after the padding is skipped.
         assert_eq!(decoded_base64("aGVsbG9=aGVs"), Some(b"hello".to_vec()));
         assert_eq!((decoded_base64(""), decoded_base64("=")), (Some(vec![]), Some(vec![])));
         assert_eq!((decoded_base64("aGVs%"), decoded_base64("a%Vs")), (None, None));

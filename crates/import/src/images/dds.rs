@@ -1,6 +1,6 @@
 //! DirectDraw surfaces: the first picture of a file, whole or compressed in blocks (BC1 to BC7).
 //!
-//! The layout is that of Microsoft's "Programming Guide for DDS". Of cube maps, arrays, volumes and smaller copies (mipmaps) the first and
+//! The layout follows Microsoft's "Programming Guide for DDS". Of cube maps, arrays, volumes and smaller copies (mipmaps) the first and
 //! largest picture is read.
 
 use super::float_picture::check_size;
@@ -16,7 +16,7 @@ const HEADER_10: usize = 148;
 /// Decodes a file.
 ///
 /// # Errors
-/// What is wrong with it, as the rest of a sentence that begins with its name.
+/// The fault, as the rest of a sentence that begins with its name.
 pub(super) fn decode(bytes: &[u8]) -> Result<Surface, String> {
     let word = |at: usize| bytes.get(at..at + 4).map_or(0, |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     if bytes.len() < HEADER || word(4) != 124 {
@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Surface, String> {
     Ok(layout.decode(&bytes[start..start + size as usize], width, height))
 }
 
-/// How texels are stored by the header, and where they begin.
+/// The storage of texels by the header, and their position in bytes.
 fn layout(word: &dyn Fn(usize) -> u32) -> Result<(Layout, usize), String> {
     let code = word(84).to_le_bytes();
     let (flags, bits, masks) = (word(80), word(88), [word(92), word(96), word(100), word(104)]);

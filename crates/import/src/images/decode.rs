@@ -10,7 +10,7 @@ use enfilade_scene::{Image, PictureFile, Pixels};
 use std::io::Cursor;
 use std::path::Path;
 
-/// What a picture is used for: decides whether its bytes are sRGB-encoded.
+/// The use of a picture, which decides whether its bytes are sRGB-encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Use {
     /// Colours: eight-bit RGB is sRGB.
@@ -23,22 +23,22 @@ pub(crate) enum Use {
 pub(crate) struct Decoded {
     /// The picture.
     pub image: Image,
-    /// What was changed, for the report.
+    /// Changes to the picture, for the report.
     pub note: Option<String>,
     /// The file, where it is of a kind that every program reads.
     pub file: Option<PictureFile>,
 }
 
-/// What is read, for messages.
+/// The formats that are read, for messages.
 const KNOWN: &str = "PNG, JPEG, TIFF, WebP, GIF, BMP, TGA, DDS, KTX2, PNM, HDR, EXR, PFM";
 
 /// The largest finite half float, which infinite texels become.
 const LARGEST_HALF: f32 = 65_504.0;
 
-/// Decodes a picture from the bytes of a file. `name` is for messages, and its extension tells TGA, which has no signature.
+/// Decodes a picture from the bytes of a file. `name` is for messages, and its extension identifies TGA, which has no signature.
 ///
 /// # Errors
-/// What is wrong with the bytes, as the rest of a sentence that begins with the file's name.
+/// The fault of the bytes, as the rest of a sentence that begins with the file's name.
 pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, String> {
     if let Some(decoded) = by_signature(name, bytes, usage) {
         return decoded;
@@ -234,7 +234,7 @@ mod tests {
         let texels = vec![[10, 200, 30, 255], [0, 0, 255, 255]];
         let picture = ImageBuffer::from_fn(2, 1, |x, _| Rgba(texels[x as usize]));
         for format in [ImageFormat::Tiff, ImageFormat::WebP, ImageFormat::Gif, ImageFormat::Bmp, ImageFormat::Tga] {
-            // Whatever the name says, and without one.
+            // Whatever the extension, and without one.
             for name in ["a.png (12)", "images[0]", "3 (C:\\tex\\wood.tga)"] {
                 let decoded = decode(name, &encoded(picture.clone(), format), Use::Color).unwrap_or_else(|e| panic!("{format:?} {e}"));
                 assert_eq!(decoded.image.pixels, Pixels::Rgba8 { srgb: true, texels: texels.clone() }, "{format:?} as {name}");

@@ -38,7 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<FloatPicture, String> 
     Ok(FloatPicture { width: width as u32, height: height as u32, texels })
 }
 
-/// The channels that hold red, green and blue: those without a layer's name (`R`), or else of the first layer that has them
+/// The channels of red, green and blue: those without a layer's name (`R`), or else of the first layer that has them
 /// (`beauty.R`); where there are none, all three are `Y` or the first channel.
 fn colors(channels: &[AnyChannel<FlatSamples>]) -> [Option<&AnyChannel<FlatSamples>>; 3] {
     // Of each layer, the nameless one first: red, green, blue and grey.
@@ -93,7 +93,7 @@ pub fn check_exr_blocks(headers: &[Header]) -> std::result::Result<(), String> {
 
 /// Refuses an EXR whose table of blocks does not lead to each block once, at full resolution, of the parts that are wanted.
 ///
-/// The library finds blocks by the table and pixels by what a block says of itself. Where the two differ it would write a block
+/// The library finds blocks by the table, and pixels by the block's own header. If the two differ, it would write a block
 /// of another resolution or part over the picture, stop with a panic, or leave pixels out.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
-//! How the texels of uncompressed pictures and of pictures in blocks are stored, in DDS and KTX2 alike.
+//! Storage of texels, uncompressed or in blocks, in both DDS and KTX2.
 //!
-//! Blocks are decoded by `bcdec_rs`. BC5 holds the x and y of normals, to which z is added.
+//! Blocks are decoded by `bcdec_rs`. BC5 contains the x and y of normals, to which z is added.
 
 use super::float_picture::FloatPicture;
 use half::f16;
@@ -12,7 +12,7 @@ pub(super) enum Surface {
     Floats(FloatPicture),
 }
 
-/// How texels are stored.
+/// The storage of texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Layout {
     /// Blocks of 4×4 texels; the bytes of each.

@@ -1,4 +1,4 @@
-//! What a picture looks like: opaque, cut out, grey, or a map of normals.
+//! Kinds of pictures by their texels: opaque, cut out, grey, or a map of normals.
 
 use enfilade_math::DVec3;
 use enfilade_scene::{Image, Pixels};

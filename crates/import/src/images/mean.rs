@@ -1,4 +1,4 @@
-//! The mean of a picture, which stands in where a texture cannot be kept.
+//! The mean of a picture, which replaces a texture that cannot be kept.
 
 use enfilade_math::Rgb;
 use enfilade_scene::Image;

@@ -6,15 +6,15 @@ use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
-/// The number that stands for floats in the tag of the sample format.
+/// The number for floats in the tag of the sample format.
 const FLOATS: u16 = 3;
-/// The number that stands for channels that are stored one after the other.
+/// The number for channels that are stored one after the other.
 const PLANAR: u16 = 2;
 
 /// The first picture of a file; `None` where its numbers are whole.
 ///
 /// # Errors
-/// What is wrong with it, as the rest of a sentence that begins with its name.
+/// The fault, as the rest of a sentence that begins with its name.
 pub(super) fn decode_floats(bytes: &[u8]) -> Result<Option<FloatPicture>, String> {
     let undecodable = |e: TiffError| format!("cannot be decoded ({e})");
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(undecodable)?;

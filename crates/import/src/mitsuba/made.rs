@@ -1,4 +1,4 @@
-//! What has been made of the objects of a scene, so that each is made once.
+//! Results for the objects of a scene, so that each is converted once.
 
 use super::xml::Node;
 use crate::obj::Library;
@@ -6,13 +6,14 @@ use crate::ply::Means;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Which bsdf element (by its address, for the tree outlives the reader), which emitter and which mesh's attributes a material was made of.
+/// Key of a material: its bsdf element (by address, since the tree outlives the reader), its emitter, and the mesh whose attributes it
+/// uses.
 pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>, Option<u32>);
 
-/// What distinguishes meshes: plugin, file, index within it, and the flags that change it.
+/// Key of a mesh: plugin, file, index within it, and the flags that change it.
 pub(super) type MeshKey = (String, String, i64, [bool; 3]);
 
-/// What shapes share of OBJ files.
+/// Data of OBJ files that shapes share.
 #[derive(Default)]
 pub(super) struct ObjFiles {
     /// By path and the flags that change meshes.
@@ -31,7 +32,7 @@ pub(super) struct ObjMeshes {
     pub libraries: Vec<String>,
 }
 
-/// What a file has of one group and material.
+/// The faces of a file with one group and material.
 pub(super) struct ObjMesh {
     /// Name of the group, else of the material.
     pub name: String,
@@ -40,7 +41,7 @@ pub(super) struct ObjMesh {
     pub mesh: Option<u32>,
 }
 
-/// What the scene's meshes have of attributes.
+/// The attributes of the scene's meshes.
 #[derive(Default)]
 pub(super) struct Attributes {
     /// True when a texture of the scene refers to any.

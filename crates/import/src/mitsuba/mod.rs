@@ -75,13 +75,13 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 }
 
 impl<'n> Reader<'n, '_> {
-    /// Reads what stands directly within the scene.
+    /// Reads an element directly within the scene.
     fn scene_element(&mut self, node: &'n Node) -> Result<(), ImportError> {
         match node.tag.as_str() {
             "shape" => self.shape(node),
             "emitter" => self.emitter(node),
             "sensor" => self.sensor(node),
-            // Definitions are read where they are referred to; the rest says how to render, not what.
+            // Definitions are read where they are referred to; the rest are settings of rendering.
             "bsdf" | "texture" | "medium" | "alias" | "integrator" | "sampler" | "film" | "rfilter" | "spectrum" => Ok(()),
             "ref" => match self.resolve(node)? {
                 target if target.tag == "ref" => Ok(()),

@@ -1,4 +1,4 @@
-//! Number parameters, and the textures that may hold them.
+//! Number parameters, and the textures that may replace them.
 
 use super::reader::Reader;
 use super::spectrum;

@@ -1,7 +1,7 @@
 //! `obj` shapes of version 0.x, whose files contain several meshes, each with a material of its own.
 //!
-//! A mesh is what the file has of one group and material. It is of the last bsdf of the shape that has no name or the material's, else
-//! of what the libraries of the file say about the material, on its front alone.
+//! A mesh has the faces of one group and material. Its material is the shape's last bsdf that is unnamed or has the material's name, else
+//! the material of the file's libraries, on its front alone.
 
 use super::made::{ObjMesh, ObjMeshes};
 use super::reader::Reader;
@@ -96,7 +96,7 @@ impl<'n> Reader<'n, '_> {
         Ok(read)
     }
 
-    /// The bsdfs of a shape, each with the name that says for which material of the file it is.
+    /// The bsdfs of a shape, each with the name of the file's material that it is for.
     fn named_bsdfs(&self, node: &'n Node) -> Result<Vec<(&'n str, &'n Node)>, ImportError> {
         let mut found = Vec::new();
         for child in node.children.iter().filter(|c| matches!(c.tag.as_str(), "bsdf" | "ref")) {

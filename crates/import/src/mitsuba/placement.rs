@@ -1,4 +1,4 @@
-//! Where a shape's own parameters put it.
+//! Placement of a shape by its own parameters.
 
 use super::emitter;
 use super::reader::{Reader, spelling};
@@ -32,7 +32,7 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
-/// Where u begins around the unit vector `z`: the first tangent of Duff et al. 2017 since version 2, and of Mitsuba's own basis before.
+/// Direction of u = 0 around the unit vector `z`: the first tangent of Duff et al. 2017 since version 2, of Mitsuba's own basis before.
 fn tangent(z: DVec3, version: u32) -> DVec3 {
     if version >= 2 {
         return z.any_orthonormal_pair().0;

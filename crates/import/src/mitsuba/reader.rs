@@ -38,7 +38,7 @@ pub(super) struct Reader<'n, 'a> {
     pub parts: usize,
     /// The instance whose shapes are being placed.
     pub instance: Option<ObjectId>,
-    /// How often references within references led to shapes and bsdfs so far.
+    /// Number of shapes and bsdfs reached by nested references so far.
     pub visits: usize,
 }
 
@@ -84,7 +84,7 @@ impl<'n, 'a> Reader<'n, 'a> {
         }
     }
 
-    /// The object that a `ref` stands for; any other element stands for itself.
+    /// The object that a `ref` refers to; any other element is returned itself.
     pub(super) fn resolve(&self, node: &'n Node) -> Result<&'n Node, ImportError> {
         let mut node = node;
         for _ in 0..MAX_REFERENCES {
@@ -157,7 +157,7 @@ impl<'n, 'a> Reader<'n, 'a> {
     }
 }
 
-/// What a message about an unknown plugin adds where its name has capitals: Mitsuba's have none.
+/// Addition to the message about an unknown plugin if its name has capitals: Mitsuba's have none.
 pub(super) fn spelling(plugin: &str) -> String {
     let small = plugin.to_lowercase();
     if small == plugin { String::new() } else { format!(" (plugins have small letters: {small:?})") }

@@ -233,7 +233,7 @@ pub(super) fn eta(node: &Node, default_interior: &str) -> Result<f64, ImportErro
     Ok(index(node, "int_ior", default_interior)? / index(node, "ext_ior", "air")?)
 }
 
-/// An index of refraction, a number or the name of a substance; that of the substance `default` where there is none.
+/// An index of refraction, a number or the name of a substance; the substance `default` if there is none.
 fn index(node: &Node, name: &str, default: &str) -> Result<f64, ImportError> {
     let Some(property) = node.child(name) else { return Ok(spectrum::substance(default).unwrap_or(1.5)) };
     let text = property.attribute("value").unwrap_or_default();

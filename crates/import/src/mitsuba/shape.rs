@@ -52,7 +52,7 @@ impl<'n> Reader<'n, '_> {
         self.place(node, None, &format!("{prefix}{name}"), mesh, material, file_from_mesh)
     }
 
-    /// Where a shape stands under the placement of its instance, at the first moment.
+    /// The placement of a shape within its instance's, at the first moment.
     pub(super) fn placement(&mut self, node: &'n Node, outer: DAffine3) -> Result<DAffine3, ImportError> {
         if transform::is_animated(node, "to_world") {
             self.warn(node, "the shape is animated; its first moment was used");

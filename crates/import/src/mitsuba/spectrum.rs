@@ -23,8 +23,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The colour of a property in all versions: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`. The samples of a spectrum in a file
-/// stand in its value.
+/// The colour of a property in all versions: `rgb`, `srgb`, `spectrum`, `blackbody`, `color`, or a plain `float`. The samples of a spectrum
+/// in a file are in its value.
 ///
 /// # Errors
 /// When the value is not a spectrum.
@@ -94,7 +94,7 @@ fn triple(node: &Node) -> Result<Rgb, ImportError> {
     }
 }
 
-/// `#rrggbb` as it stands.
+/// `#rrggbb`, each component divided by 255.
 fn hex(node: &Node, text: &str) -> Result<Rgb, ImportError> {
     let digits = &text[1..];
     let byte = |i: usize| digits.get(i..i + 2).and_then(|d| u8::from_str_radix(d, 16).ok());

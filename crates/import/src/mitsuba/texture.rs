@@ -1,4 +1,4 @@
-//! Textures, and the colour and number parameters that may hold them.
+//! Textures, and the colour and number parameters that may have them.
 
 use super::reader::{MAX_REFERENCES, Reader, spelling};
 use super::spectrum;
@@ -12,7 +12,7 @@ use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{ColorParam, Filter, Image, Pixels, TextureRef, Wrap};
 
-/// Stands in for textures that have no counterpart.
+/// Replaces textures that have no counterpart.
 const MID_GREY: f32 = 0.5;
 
 /// A texture as this workspace knows it: a factor, a picture, and for numbers its channel if the file names one.
@@ -34,7 +34,7 @@ impl<'n> Reader<'n, '_> {
         Ok(ColorParam { factor: t.factor, texture: t.picture })
     }
 
-    /// A texture; `usage` is what it is for unless the texture says it is raw.
+    /// A texture; `usage` is its use, unless the texture is marked as raw.
     pub(super) fn texture(&mut self, node: &'n Node, usage: Use, depth: usize) -> Result<Texture, ImportError> {
         if depth > MAX_REFERENCES {
             return Err(node.error("textures go in a circle"));

@@ -37,7 +37,7 @@ fn one(operation: &Node) -> Result<DAffine3, ImportError> {
     }
 }
 
-/// The components x, y, z, each from its attribute or from `value` (one number stands for all three).
+/// The components x, y, z, each from its attribute or from `value` (one number applies to all three).
 fn vector(operation: &Node, default: f64) -> Result<DVec3, ImportError> {
     if operation.attribute("value").is_some() {
         return match operation.numbers("value")?[..] {

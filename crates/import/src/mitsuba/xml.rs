@@ -43,7 +43,7 @@ impl Node {
         self.attributes.iter().find(|(k, _)| k == name).map(|(_, v)| v.as_str())
     }
 
-    /// Where the element is, for messages: file, line, column and what it is.
+    /// The place of the element, for messages: file, line, column and kind.
     pub(super) fn place(&self) -> String {
         let file = self.file.file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
         let kind = if self.plugin.is_empty() { String::new() } else { format!(" type=\"{}\"", self.plugin) };

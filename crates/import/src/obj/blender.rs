@@ -1,4 +1,4 @@
-//! What Blender's own exporters mean by `Ns` and `Ks`, by the versions in the heads of its files.
+//! The meaning of `Ns` and `Ks` in files of Blender's own exporters, by the versions in the heads of the files.
 //!
 //! | version | head of the library | `Ns` |
 //! |---|---|---|
@@ -10,10 +10,10 @@
 //! From 2.80 on, `Ks` is half the strength of the highlight. Sources: `export_obj.py` of the add-on `io_scene_obj`, and
 //! `obj_export_mtl.cc`.
 
-/// What the numbers of a library mean.
+/// The meaning of the numbers of a library.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Gloss {
-    /// Blinn's exponent, as the format says.
+    /// Blinn's exponent, as the format defines.
     Exponent,
     /// Blender's hardness, by version 2.79 and older.
     Hardness,
@@ -26,7 +26,7 @@ const BEFORE: f32 = 900.0;
 const SINCE: f32 = 1000.0;
 
 impl Gloss {
-    /// By the text of a library, and the version of Blender in the head of the OBJ file that names it.
+    /// The meaning in a library, by its text and by the version of Blender in the head of the OBJ file that names it.
     pub(super) fn of(library: &str, obj: Option<[u32; 2]>) -> Self {
         let head = library.lines().next().unwrap_or_default();
         if !head.starts_with("# Blender ") || !head.contains("MTL File") {

@@ -1,4 +1,4 @@
-//! What is said of an entry of a material library whose statements are not read, or not as they stand.
+//! Notes on an entry of a material library whose statements are not read, or not as written.
 
 use super::library::{Entry, Numbers};
 
@@ -11,7 +11,7 @@ const MAPS: [&str; 9] = ["map_kd", "map_ks", "map_ke", "map_d", "map_pr", "map_p
 /// Statements that light transport makes superfluous: ambient light, the sharpness of reflections, smoothing of textures.
 const WITHOUT_EFFECT: [&str; 4] = ["ka", "map_ka", "sharpness", "map_aat"];
 
-/// What is not read of an entry, or not as it stands there, each as a message.
+/// Messages about statements of an entry that are not read, or not as written.
 pub(super) fn notes(entry: &Entry) -> Vec<String> {
     let known = |key: &str| NUMBERS.contains(&key) || COLORS.contains(&key);
     let mut notes = Vec::new();

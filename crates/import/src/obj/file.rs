@@ -1,4 +1,4 @@
-//! What an OBJ file contains, as it is written, and the meshes that its groups are.
+//! The content of an OBJ file as written, and the meshes of its groups.
 
 use crate::assembly::origin_of;
 use crate::polygon;
@@ -24,7 +24,7 @@ pub(crate) struct ObjFile {
     pub(crate) groups: Vec<Group>,
     /// Names of material libraries, each the whole rest of its line.
     pub(crate) libraries: Vec<String>,
-    /// What was ignored, each kind once.
+    /// Notes on what was ignored, each kind once.
     pub(crate) notes: Vec<String>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct ObjFile {
 pub(crate) struct Group {
     /// Number of the object; each `o` begins one, also of a name that occurred before.
     pub(crate) object: usize,
-    /// Name of the object, where an `o` stands before it.
+    /// Name of the object, if an `o` precedes it.
     pub(crate) object_name: Option<String>,
     /// Name of the object or group, whichever was set last.
     pub(crate) name: Option<String>,
@@ -53,7 +53,7 @@ pub(super) struct Face {
 }
 
 impl ObjFile {
-    /// Tells the positions of meshes from a point nearby, where those of the file are far from the origin of its coordinates.
+    /// Makes the positions of meshes relative to a point nearby, if those of the file are far from the origin of its coordinates.
     pub(crate) fn settle(&mut self, meters_per_unit: f64) {
         self.origin = origin_of(self.positions.iter().copied(), meters_per_unit);
     }
@@ -112,7 +112,7 @@ impl Group {
         &self.corners[self.range_of(face)]
     }
 
-    /// Where the corners of a face are.
+    /// The range of a face's corners.
     pub(super) fn range_of(&self, face: usize) -> Range<usize> {
         let end = self.faces.get(face + 1).map_or(self.corners.len(), |f| f.first as usize);
         self.faces[face].first as usize..end

@@ -18,7 +18,7 @@ pub(crate) struct Entry {
     pub(super) name: String,
     /// Folder of the library, to which pictures are relative, as the scene file would spell it.
     pub(super) folder: String,
-    /// What `Ns` and `Ks` mean.
+    /// Meaning of `Ns` and `Ks`.
     pub(super) gloss: Gloss,
     pub(super) statements: BTreeMap<String, String>,
 }
@@ -26,9 +26,9 @@ pub(crate) struct Entry {
 /// Materials by name.
 pub(crate) type Library = HashMap<String, Entry>;
 
-/// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name that of faces without one. Programs
-/// that are built on it, such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth. Their `d`
-/// is opacity, as in Sweet Home 3D's loader; in Java 3D's it is transparency.
+/// The materials that Java 3D's loader of OBJ files knows by name, and under the empty name the material of faces without one. Programs
+/// based on it, such as Sweet Home 3D, have many models that rely on them. Colours are rounded to a thousandth. Their `d` is opacity, as in
+/// Sweet Home 3D's loader; in Java 3D's it is transparency.
 pub(super) fn java3d() -> Library {
     let mut library = Library::new();
     parse_text(include_str!("java3d.mtl"), ("", None), &mut library);
@@ -38,7 +38,7 @@ pub(super) fn java3d() -> Library {
 }
 
 /// Reads the libraries `names` of the OBJ file at `obj`, a path as the scene file would spell it. Their materials replace those of
-/// `library`. For a library that is missing, with a warning, the one that is called like the OBJ file stands in.
+/// `library`. A missing library is replaced, with a warning, by the one with the name of the OBJ file.
 ///
 /// `blender` is the version of Blender in the head of the OBJ file, if it has one.
 pub(super) fn read_libraries(
@@ -120,7 +120,7 @@ fn stand_in(
     Ok(())
 }
 
-/// A path that stands in a file of `folder`, as the scene file would spell it.
+/// A path in a file of `folder`, as the scene file would spell it.
 pub(super) fn spelled(folder: &str, path: &str) -> String {
     if is_absolute(path) { path.to_string() } else { format!("{folder}{path}") }
 }
@@ -167,7 +167,7 @@ fn is_text(keyword: &str) -> bool {
     keyword.starts_with("map_") || matches!(keyword.as_str(), "newmtl" | "bump" | "norm" | "disp" | "decal" | "refl")
 }
 
-/// What stands behind a keyword that numbers follow.
+/// The text after a keyword that numbers follow.
 #[derive(Debug, PartialEq)]
 pub(super) enum Numbers {
     /// One number or several.
@@ -188,7 +188,7 @@ impl Numbers {
         };
         match words[..] {
             ["spectral", ..] => Self::Spectral,
-            // One number stands for all three.
+            // One number applies to all three.
             ["xyz", ref values @ ..] => match finite(values)[..] {
                 [x, y, z, ..] => Self::Xyz([x, y, z]),
                 [x, ..] => Self::Xyz([x; 3]),

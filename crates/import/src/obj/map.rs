@@ -2,8 +2,9 @@
 
 use super::text::unquoted;
 
-/// Options that a word follows, and those that numbers follow.
+/// Options whose value is a word.
 const TEXTUAL: [&str; 7] = ["-clamp", "-blendu", "-blendv", "-cc", "-imfchan", "-type", "-colorspace"];
+/// Options whose values are numbers.
 const NUMERIC: [&str; 7] = ["-s", "-o", "-t", "-mm", "-bm", "-boost", "-texres"];
 
 /// A `map_…` statement.
@@ -13,7 +14,7 @@ pub(super) struct Map<'m> {
     pub offset: [f32; 2],
     pub clamp: bool,
     pub bump: f32,
-    /// True where `-colorspace` says that colours are stored as they are.
+    /// True if `-colorspace` states that colours are stored as they are.
     pub linear: bool,
     /// The channel that `-imfchan` chooses for a number.
     pub channel: Option<u8>,
@@ -22,8 +23,8 @@ pub(super) struct Map<'m> {
 }
 
 impl<'m> Map<'m> {
-    /// Splits a statement into its options and the path, which may hold spaces. `None` where there is no path. Options belong before the
-    /// path; behind it they are read where nothing else is there, as three.js does.
+    /// Splits a statement into its options and the path, which may contain spaces. `None` if there is no path. Options belong before the
+    /// path; after it they are read if nothing else follows, as in three.js.
     pub(super) fn parse(statement: &'m str) -> Option<Self> {
         let mut map =
             Map { path: "", scale: [1.0; 2], offset: [0.0; 2], clamp: false, bump: 1.0, linear: false, channel: None, ignored: Vec::new() };
@@ -47,7 +48,7 @@ impl<'m> Map<'m> {
                 _ => 1,
             };
             let takes_word = TEXTUAL.iter().any(|known| known.eq_ignore_ascii_case(option));
-            let is_known = takes_word || NUMERIC.iter().any(|known| known.eq_ignore_ascii_case(option));
+            let is_known = is_option(option);
             let (mut values, mut word) = (Vec::new(), "");
             while values.len() < max_values {
                 let Some(next) = rest.split_whitespace().next() else { break };
@@ -55,7 +56,7 @@ impl<'m> Map<'m> {
                 match word.parse::<f32>() {
                     Ok(value) => values.push(value),
                     Err(_) if takes_word => values.push(f32::from(u8::from(word.eq_ignore_ascii_case("on")))),
-                    // What stands between an option that nobody knows and the file is the option's.
+                    // A word between an unknown option and the file belongs to the option.
                     Err(_) if !is_known && values.is_empty() && !word.contains('.') && rest[word.len()..].contains('.') => values.push(0.0),
                     Err(_) => break,
                 }
@@ -108,17 +109,18 @@ impl<'m> Map<'m> {
     }
 }
 
-/// Options that may stand behind a path.
-const OPTIONS: [&str; 14] =
-    ["-s", "-o", "-t", "-mm", "-bm", "-clamp", "-blendu", "-blendv", "-boost", "-cc", "-imfchan", "-texres", "-type", "-colorspace"];
+/// True if a word is the name of an option.
+fn is_option(word: &str) -> bool {
+    TEXTUAL.iter().chain(&NUMERIC).any(|known| known.eq_ignore_ascii_case(word))
+}
 
 /// Whether a text is nothing but options with values.
 fn are_options(text: &str) -> bool {
     let mut words = text.split_whitespace().peekable();
     let mut any = false;
     while let Some(option) = words.next() {
-        let is_value = |word: &&str| word.parse::<f32>().is_ok() || !word.contains('.') && !OPTIONS.contains(word);
-        if !OPTIONS.contains(&option) || words.next_if(is_value).is_none() {
+        let is_value = |word: &&str| word.parse::<f32>().is_ok() || !word.contains('.') && !is_option(word);
+        if !is_option(option) || words.next_if(is_value).is_none() {
             return false;
         }
         while words.next_if(|word| word.parse::<f32>().is_ok()).is_some() {}
@@ -141,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn options_behind_the_path_are_read_and_names_that_look_like_them_are_names() {
+    fn options_after_the_path_are_read_and_names_that_look_like_them_are_names() {
         let map = Map::parse("my a.png -s 2 3 1 -clamp on -bm 0.5").unwrap();
         assert_eq!((map.path, map.scale, map.clamp, map.bump), ("my a.png", [2.0, 3.0], true, 0.5));
         assert_eq!(Map::parse("-o 1 2 a.png -s 2 2").map(|map| (map.path, map.scale, map.offset)), Some(("a.png", [2.0; 2], [1.0, 2.0])));

@@ -15,15 +15,15 @@
 //! | the same of Blender, by the heads of its files | a clear-coated surface of roughness 1 − √(Ns/1000), before 3.2 1 − √(Ns/900), its highlight tinted by twice `Ks`; on black `Kd` too. Before 2.80 of GGX alpha √(2/(0.51·Ns+3)) |
 //! | `Pr Pm Pc Pcr Ps`, `map_Pr map_Pm` | metallic-roughness |
 //! | `norm` | a normal map |
-//! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one stands for 5 mm times `-bm`) |
+//! | `map_Bump`, `bump` | a normal map if the picture looks like one (most texels as long as a unit vector, out of the surface on average), else heights by its luminance (guessed: one means 5 mm times `-bm`) |
 //! | `d 0`, `Tr 1` | `d 0` is not seen, a `Tr` of one without `d` is taken for opaque, each with a warning |
 //! | `map_Ke` with a black `Ke` | taken for white, with a warning |
 //! | options of `map_…` | `-s`, `-o`, `-clamp`, `-bm`, `-imfchan` for numbers, `-colorspace` of linear colours; the others are skipped, with a warning |
 //! | ambient colours, `sharpness` | without effect |
 //! | dropped with a warning | lines, points, curves, and all other statements of materials, such as displacement and reflection maps, anisotropy, `map_Ns` |
 //!
-//! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A material
-//! library or material that is not there is a warning, and grey stands in.
+//! OBJ knows no sides, so every surface has two, and emits on both. It knows neither lights nor cameras nor units. A missing material
+//! library or material is a warning, and is replaced by grey.
 
 mod blender;
 mod check;
@@ -47,7 +47,7 @@ use mtl::GREY;
 use objects::Objects;
 use std::collections::HashMap;
 
-/// Bytes of a file that hold its first line.
+/// Bytes at the beginning of a file that contain its first line.
 const HEAD_BYTES: usize = 256;
 
 /// Imports an OBJ file.
@@ -111,7 +111,7 @@ fn load_with(mut assembly: Assembly, known: Library) -> Result<Imported, ImportE
     assembly.finish()
 }
 
-/// Reports what was ignored. The mean of the vertices' colours stands in where a part has no material.
+/// Reports what was ignored. The mean of the vertices' colours is the colour of parts without a material.
 fn report(obj: &ObjFile, a: &mut Assembly) {
     let has_parts_without = obj.groups.iter().any(|group| group.material.is_none() && obj.mean_color(group).is_some());
     for note in &obj.notes {

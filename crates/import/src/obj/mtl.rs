@@ -10,7 +10,7 @@ use crate::images::{self, Use};
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, Principled, ScalarParam, TextureRef, Wrap};
 
-/// Metres that a bump map's full range stands for at `-bm 1`; MTL does not say, and this suits plaster and wood.
+/// Height of a bump map's full range at `-bm 1`, metres. MTL does not define it; this suits plaster and wood.
 const BUMP_METRES: f32 = 0.005;
 
 /// Reflectance of surfaces whose material is not known.
@@ -65,7 +65,7 @@ impl<'c> Converter<'c, '_> {
         }
         let diffuse = self.base_color()?;
         let (specular, roughness) = self.highlight();
-        // Illumination models 0 and 1 have no highlight, whatever Ks says.
+        // Illumination models 0 and 1 have no highlight, whatever Ks is.
         let shiny = !matches!(illum, 0 | 1) && (!specular.is_black() || has("map_ks"));
         if !shiny {
             return Ok(Bsdf::Diffuse { reflectance: diffuse });
@@ -80,8 +80,8 @@ impl<'c> Converter<'c, '_> {
         Ok(Bsdf::Principled(Box::new(p)))
     }
 
-    /// True for solid glass. Only models 6 and 7 refract; 4 and 9, "glass on", keep the colour `Kd` and let straight through what `d` says.
-    /// But where they state neither, glass is meant.
+    /// True for solid glass. Only models 6 and 7 refract; 4 and 9, "glass on", keep the colour `Kd` and transmit straight through by `d`.
+    /// But if they state neither, glass is meant.
     fn is_glass(&self, illum: i32) -> bool {
         let has_color = self.entry.has("map_kd") || self.entry.rgb("kd").is_some_and(|kd| !kd.is_black());
         let see_through = self.opacity() < 1.0 || self.entry.has("map_d");
@@ -147,7 +147,7 @@ impl<'c> Converter<'c, '_> {
         Ok(if opacity.factor < 1.0 || texture.is_some() { Alpha::Blend { opacity } } else { Alpha::Opaque })
     }
 
-    /// What `d` says, else `Tr`, its opposite. A `Tr` of one alone counts for nothing: some programs write it for opaque surfaces.
+    /// Opacity by `d`, else by `Tr`, its complement. A `Tr` of one alone is ignored: some programs write it for opaque surfaces.
     fn opacity(&self) -> f32 {
         let stated = self.entry.number("d").map(|d| d.clamp(0.0, 1.0));
         let opposite = || self.entry.number("tr").map(|t| 1.0 - t.clamp(0.0, 1.0)).filter(|d| *d > 0.0);

@@ -8,7 +8,7 @@ use enfilade_scene::decoded_text;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// What is said of colours of vertices.
+/// Note on colours of vertices.
 pub(super) const COLORS_DROPPED: &str = "vertex colours dropped";
 
 impl ObjFile {

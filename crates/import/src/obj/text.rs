@@ -1,11 +1,11 @@
-//! The lines of OBJ files and their libraries, and what counts of them.
+//! The lines of OBJ files and their libraries, without comments.
 
 /// The lines of a text, whether they end with a line feed, a carriage return (as on old Macintoshes) or both.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
 }
 
-/// A line without its comment. Behind a keyword that `is_text` knows stands a name or path, which may contain `#`.
+/// A line without its comment. A keyword for which `is_text` is true is followed by a name or path, which may contain `#`.
 pub(super) fn without_comment(line: &str, is_text: fn(&str) -> bool) -> &str {
     let keyword = line.split_whitespace().next().unwrap_or_default();
     if is_text(keyword) { line } else { line.split('#').next().unwrap_or_default() }

@@ -49,7 +49,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Radiances stay as the file has them; a warning says what the film would make of them.
+    /// Radiances stay as the file has them; a warning states the factor that the film would apply.
     fn report_exposure(&mut self, camera: &Params, film: Option<&Params>) -> Result<(), ImportError> {
         let Some(film) = film else { return Ok(()) };
         let time = camera.float_or("shutterclose", 1.0)? - camera.float_or("shutteropen", 0.0)?;

@@ -1,4 +1,4 @@
-//! What directives define by name, to be made where a shape or material first uses it.
+//! Definitions of directives by name, converted when a shape or material first uses them.
 
 use super::made::Texture;
 use super::params::Params;
@@ -17,7 +17,7 @@ impl MaterialDefinition {
         Self { name, class, params }
     }
 
-    /// What shapes are of before the first material.
+    /// The material of shapes before the first material directive.
     pub(super) fn default_of(version: Version) -> Self {
         let class = if version == Version::V3 { "matte" } else { "diffuse" };
         Self::new(None, class.to_string(), Params::none("default material"))
@@ -31,7 +31,7 @@ pub(super) struct TextureDefinition {
     pub number: bool,
     pub class: String,
     pub params: Params,
-    /// What was made of it, once made.
+    /// The converted texture, once converted.
     pub made: Option<Texture>,
 }
 

@@ -227,7 +227,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// What is left to say and to do at the end.
+    /// The final checks, warnings and additions at the end of the scene.
     pub(super) fn end_of_scene(&mut self, file: &std::path::Path) -> Result<(), ImportError> {
         if !self.saved.is_empty() || self.object.is_some() {
             let open = self.saved.len() + usize::from(self.object.is_some());

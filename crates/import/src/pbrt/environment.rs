@@ -15,7 +15,7 @@ use enfilade_math::{DMat3, DVec3, Rgb, Vec2};
 use enfilade_scene::{Environment, Image, MapRows, Pixels, direction_from_uv};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// From the space of our maps (y up, azimuth from −z towards +x) to that of pbrt's lights (z up, azimuth from +x towards +y).
+/// From the space of our maps (y up, azimuth from −z towards +x) to the space of pbrt's lights (z up, azimuth from +x towards +y).
 pub(crate) const PBRT_FROM_MAP: DMat3 = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::NEG_X);
 
 /// Rows of a resampled map at most.

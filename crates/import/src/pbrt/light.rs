@@ -80,7 +80,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The emission of a shape that is an area light; pbrt counts it as so many `pieces` and gives `power` to each.
+    /// The emission of a shape that is an area light; pbrt counts it as `pieces` shapes and gives `power` to each.
     pub(super) fn area_emission(&mut self, params: &Params, area: f64, pieces: usize) -> Result<Emission, ImportError> {
         let both_sides = params.flag("twosided", false)?;
         let sides = if both_sides { 2.0 } else { 1.0 };

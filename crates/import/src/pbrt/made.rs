@@ -1,9 +1,9 @@
-//! What has been made of materials, textures and shapes: each is made once and shared by all that refer to it.
+//! Converted materials, textures and shapes: each is converted once and shared by all that refer to it.
 
 use enfilade_math::{DAffine3, Rgb};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Image, NormalMap, TextureRef};
 
-/// What a material scatters, and what it does beside.
+/// A converted material: its scattering, opacity and normals.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     /// `None` for `none` and `interface`, which scatter nothing.
@@ -38,10 +38,10 @@ impl From<Rgb> for Texture {
     }
 }
 
-/// Which channel of which picture, which computation, and the bits of its factors.
+/// Key of a computed picture: picture, channel, computation, and the bits of its factors.
 pub(super) type BakeKey = (u32, Option<u8>, &'static str, Vec<u32>);
 
-/// A picture, and what of it counts: one channel (3 is alpha) in place of each of the three, or the colour.
+/// A picture, and the part of it that is used: one channel (3 is alpha) in place of all three, or the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Picture {
     pub texture: TextureRef,
@@ -55,7 +55,7 @@ impl From<TextureRef> for Picture {
 }
 
 impl Picture {
-    /// What counts of a texel, linear; a channel stands in all three places.
+    /// The used part of a texel, linear; a single channel is repeated three times.
     pub(super) fn texel(self, image: &Image, x: usize, y: usize) -> Rgb {
         let (color, alpha) = image.texel(x, y);
         match self.channel {
@@ -69,7 +69,7 @@ impl Picture {
 #[derive(Clone, Copy)]
 pub(super) struct Shape {
     pub mesh: u32,
-    /// How many shapes it is to pbrt, which counts each triangle of a mesh as one.
+    /// Number of shapes by pbrt's count, where each triangle of a mesh is one.
     pub pieces: usize,
     pub has_uvs: bool,
 }

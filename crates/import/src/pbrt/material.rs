@@ -91,7 +91,7 @@ impl Reader<'_> {
         Ok(heights.texture.map(|texture| NormalMap::Bump { texture, scale }))
     }
 
-    /// Two materials by name. Version 3 states the share of the first, version 4 that of the second.
+    /// Two materials by name. Version 3 states the share of the first, version 4 the share of the second.
     fn mix(&mut self, params: &Params, depth: usize) -> Result<Surface, ImportError> {
         let names: Vec<String> = match params.get("materials").map(|p| &p.values) {
             Some(Values::Strings(names)) => names.clone(),
@@ -229,7 +229,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many materials a mix is made of.
+/// Number of materials in a mix.
 fn count_of(bsdf: &Bsdf) -> usize {
     match bsdf {
         Bsdf::Blend { first, second, .. } => count_of(first) + count_of(second),

@@ -13,7 +13,7 @@ use enfilade_scene::{Alpha, Bsdf, ColorParam, Principled, ScalarParam};
 const COAT: f32 = 1.5;
 
 impl Reader<'_> {
-    /// By index of refraction, or in version 4 by its reflectance.
+    /// A conductor by its index of refraction, or in version 4 by its reflectance.
     pub(super) fn conductor(&mut self, params: &Params) -> Result<Bsdf, ImportError> {
         let alpha = self.alpha(params, "", if params.has("reflectance") || self.is_fourth() { 0.0 } else { 0.01 })?;
         let white = ColorParam::from(Rgb::WHITE);

@@ -1,6 +1,6 @@
 //! pbrt scene descriptions of versions 3 and 4 (`.pbrt`, `.pbrt.gz`).
 //!
-//! The words of the file tell its version (`version.rs`). `Include` and `Import` are followed.
+//! The version is recognised by the words of the file (`version.rs`). `Include` and `Import` are followed.
 //!
 //! | what | supported |
 //! |---|---|
@@ -14,16 +14,16 @@
 //! | spectra | `rgb`, `color`, `xyz`, `blackbody`, wavelengths, `.spd` files; metals, glasses and illuminants by name |
 //! | lights | `point`, `spot`, `distant`, `infinite` (maps of both layouts), `diffuse` area lights; `power`, `illuminance`, `scale`, `twosided` |
 //! | cameras | `perspective`, as a pinhole |
-//! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` except for its size: they say how to render, not what |
-//! | dropped with a warning | media (except for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (points stand in), portals, colour spaces other than sRGB, sensors and exposure |
+//! | skipped in silence | `Sampler`, `Integrator`, `PixelFilter`, `Accelerator`, `Option`, `Film` except for its size: they are settings of rendering |
+//! | dropped with a warning | media (except for absorption within glass), motion (the first moment is used), curves and the other shapes, colours of vertices, projection lights, the picture of goniometric ones (replaced by points), portals, colour spaces other than sRGB, sensors and exposure |
 //!
-//! The crates that read pbrt's text know one version each (`pbrt4` 0.2 the fourth, `rs_pbrt`, a renderer, the third), keep no place for
-//! messages and say nothing about what a scene means, which is most of the work; so the reading is our own.
+//! The crates that read pbrt's text know one version each (`pbrt4` 0.2 the fourth, `rs_pbrt`, a renderer, the third), record no places for
+//! messages and do not interpret a scene, which is most of the work. So the reader is our own.
 //!
 //! # Handedness
 //!
 //! pbrt's world is left-handed unless the transform in front of the camera mirrors it, as `Scale -1 1 1` does. Worlds of the first kind
-//! are mirrored along x here, so that pictures come out as pbrt shows them; those of the second kind are right-handed as they stand.
+//! are mirrored along x here, so that pictures come out as pbrt shows them; those of the second kind are right-handed already.
 //!
 //! # Light
 //!

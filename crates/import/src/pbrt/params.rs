@@ -27,7 +27,7 @@ pub(super) struct Param {
     used: Cell<bool>,
 }
 
-/// Where a directive stands, and which one it is.
+/// The place of a directive in the file, and its name.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     pub file: Rc<PathBuf>,
@@ -105,12 +105,12 @@ impl Params {
         self.get(name).is_some()
     }
 
-    /// Marks parameters as used that say nothing here.
+    /// Marks parameters as used that have no meaning here.
     pub(super) fn ignore(&self, names: &[&str]) {
         self.list.iter().filter(|p| names.contains(&p.name.as_str())).for_each(|p| p.used.set(true));
     }
 
-    /// Marks all parameters as used, where a warning says that the whole was dropped.
+    /// Marks all parameters as used, if a warning reports that the whole directive was dropped.
     pub(super) fn ignore_all(&self) {
         self.list.iter().for_each(|p| p.used.set(true));
     }

@@ -17,7 +17,7 @@ struct Ring {
     v: f64,
 }
 
-/// What distinguishes round shapes: those of the same measures share a mesh. `None` for other shapes.
+/// Key of round shapes, which share a mesh if their measures are equal. `None` for other shapes.
 pub(super) fn measures(class: &str, params: &Params) -> Result<Option<String>, ImportError> {
     if !matches!(class, "sphere" | "disk" | "cylinder" | "cone") {
         return Ok(None);

@@ -186,7 +186,7 @@ impl Reader<'_> {
         Ok(self.a.push_mesh_from(origin, mesh, file, place)?.map(|mesh| Shape { mesh, pieces, has_uvs }))
     }
 
-    /// What `alpha` cuts out: in version 3 only where it is zero, in version 4 with its probability.
+    /// Cut-outs by `alpha`: in version 3 only where it is zero, in version 4 with its probability.
     fn mask(&mut self, params: &Params) -> Result<Alpha, ImportError> {
         let opacity: ScalarParam = self.scalar(params, "alpha", 1.0)?;
         Ok(match self.version {
@@ -244,8 +244,8 @@ fn vertices(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3), Impo
     Ok((Mesh { positions: positions_from(origin, &positions), normals, uvs, triangles: Vec::new() }, origin))
 }
 
-/// Patches of four corners, (0,0), (1,0), (0,1), (1,1) in their own coordinates, each with vertices of its own; the point from which positions
-/// are told; and how many patches.
+/// Patches of four corners, (0,0), (1,0), (0,1), (1,1) in their own coordinates, each with vertices of its own; the point that positions
+/// are relative to; and the number of patches.
 fn bilinear_mesh(params: &Params, meters_per_unit: f64) -> Result<(Mesh, DVec3, usize), ImportError> {
     let (v, origin) = vertices(params, meters_per_unit)?;
     let mut indices = params.indices("indices", v.positions.len())?;

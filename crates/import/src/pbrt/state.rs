@@ -6,7 +6,7 @@ use crate::ImportError;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use std::rc::Rc;
 
-/// What applies to the next shape or light.
+/// The graphics state that applies to the next shape or light.
 #[derive(Clone)]
 pub(super) struct State {
     /// pbrt's world from the object's own space; before `WorldBegin` the camera from the world.
@@ -25,7 +25,7 @@ pub(super) struct State {
     pub defaults: Rc<Vec<(String, Params)>>,
 }
 
-/// What a block's end brings back.
+/// The state that the end of a block restores.
 pub(super) enum Saved {
     /// `AttributeBegin` and `ObjectBegin`.
     Attributes(State),

@@ -1,4 +1,4 @@
-//! Textures, and the colour and number parameters that may hold them.
+//! Textures, and the colour and number parameters that may have them.
 
 use super::definition::TextureDefinition;
 use super::made::{Picture, Texture};
@@ -12,7 +12,7 @@ use crate::spectrum::Kind;
 use enfilade_math::Rgb;
 use enfilade_scene::{ColorParam, Filter, Image, Pixels, ScalarParam, TextureRef, Wrap};
 
-/// Stands in for textures that have no counterpart.
+/// Replaces textures that have no counterpart.
 const MID_GREY: f32 = 0.5;
 
 impl Reader<'_> {
@@ -64,7 +64,7 @@ impl Reader<'_> {
         self.texture(index, depth)
     }
 
-    /// What becomes of a texture, made once.
+    /// The converted texture, converted once.
     fn texture(&mut self, index: usize, depth: usize) -> Result<Texture, ImportError> {
         let definition = &self.textures[index];
         if let Some(made) = definition.made {

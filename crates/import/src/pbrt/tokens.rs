@@ -11,12 +11,12 @@ pub(super) struct Token<'t> {
     pub column: u32,
 }
 
-/// What a word is.
+/// The kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind<'t> {
     /// A directive, a number, `true` or `false`.
     Bare(&'t str),
-    /// What stands between quotation marks, which pbrt never escapes in names of files.
+    /// Text between quotation marks, which pbrt never escapes in names of files.
     Quoted(&'t str),
     /// `[`.
     Open,

@@ -1,4 +1,4 @@
-//! Version 3 or 4: the files do not say, so their words are counted.
+//! Version 3 or 4: the files do not state it, so their words are counted.
 
 use super::gzip::unpacked;
 use super::tokens::{Kind, Tokens};
@@ -6,7 +6,7 @@ use crate::ImportError;
 use crate::assembly::Assembly;
 use std::path::Path;
 
-/// Which pbrt a file is for.
+/// The version of pbrt that a file is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Version {
     V3,

@@ -12,7 +12,7 @@ pub(super) enum Encoding {
 
 pub(super) struct Header {
     pub encoding: Encoding,
-    /// What ends a line: `\n`, also behind `\r`, or `\r` alone, as Rhinoceros writes it.
+    /// Line ending: `\n`, also after `\r`, or `\r` alone, as Rhinoceros writes it.
     pub line_end: u8,
     pub elements: Vec<Element>,
     /// Number of its lines.
@@ -61,7 +61,7 @@ impl Kind {
         })
     }
 
-    /// What stands for 1 in a colour of this type.
+    /// The value that represents 1 in a colour of this type.
     pub(super) fn full(self) -> f64 {
         match self {
             Self::I8 => 127.0,

@@ -3,7 +3,7 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | encodings | text, and binary in either byte order |
-//! | rows of text | each a line, or several; one that ends within a line is an error, since its file does not have what the header says. What follows the last row is left out, with a warning |
+//! | rows of text | each a line, or several; one that ends within a line is an error, since its file does not match the header. What follows the last row is left out, with a warning |
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly |
 //! | `nx ny nz` | vertex normals; a mesh without any is shaded flat |
 //! | `tristrips` | strips of triangles, which −1 ends |

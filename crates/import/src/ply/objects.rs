@@ -1,4 +1,4 @@
-//! Meshes whose faces say which object they belong to, as scans with annotations have them: one mesh an object.
+//! Meshes whose faces have the number of their object, as in annotated scans: one mesh per object.
 
 use super::faces::Faces;
 use super::header::{Element, Problem, parse_header};
@@ -9,12 +9,12 @@ use enfilade_math::{Vec3, linear_from_srgb};
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-/// Names of the property of a face, or of a vertex, that tells the object.
+/// Names of the property of a face, or of a vertex, with the number of the object.
 const OBJECT: [&str; 3] = ["object_id", "objectId", "segment_id"];
 
 /// The faces of one object.
 pub(crate) struct ObjectMesh {
-    /// What the faces say.
+    /// Number of the object in its faces.
     pub id: i64,
     pub mesh: Mesh,
     /// The mean of the colours of its vertices, linear; `None` where vertices have none.
@@ -32,7 +32,7 @@ struct Vertices {
 /// Reads a mesh, apart by objects in the order of their numbers.
 ///
 /// # Errors
-/// When the file is no PLY, or neither its faces nor its vertices tell an object.
+/// When the file is no PLY, or neither its faces nor its vertices have the number of an object.
 pub(crate) fn read_objects(bytes: &[u8], file: &Path) -> Result<Vec<ObjectMesh>, ImportError> {
     let error = |(place, problem): Problem| ImportError::malformed(file, place, problem);
     let (header, body) = parse_header(bytes).map_err(error)?;
@@ -78,7 +78,7 @@ fn apart(of_objects: BTreeMap<i64, Vec<(u64, Vec<f64>)>>, vertices: &Vertices) -
     Ok(meshes)
 }
 
-/// Where a property of one of these names is.
+/// Index of a property with one of these names.
 fn index_of(element: &Element, names: &[&str]) -> Option<usize> {
     names.iter().find_map(|name| element.properties.iter().position(|p| p.name == *name && p.list.is_none()))
 }
@@ -104,7 +104,7 @@ fn read_vertices(element: &Element, values: &mut Values) -> Result<Vertices, Pro
     Ok(vertices)
 }
 
-/// Polygons with their objects, where faces tell them.
+/// Polygons with their objects, if faces have them.
 type Polygons = Vec<(Vec<f64>, Option<i64>)>;
 
 fn read_faces(element: &Element, values: &mut Values) -> Result<Polygons, Problem> {

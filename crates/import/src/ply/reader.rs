@@ -20,7 +20,7 @@ const BLUE: [&str; 3] = ["blue", "diffuse_blue", "b"];
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 const TEXCOORD: [&str; 1] = ["texcoord"];
 
-/// What a PLY file holds.
+/// The content of a PLY file.
 #[derive(Debug, PartialEq)]
 pub(crate) struct PlyFile {
     /// Mesh of the file, with texture coordinates as they are. Without faces it has no triangles.
@@ -37,7 +37,7 @@ pub(crate) struct PlyFile {
     pub unused: Vec<(String, Vec<String>)>,
     /// Pictures that comments name.
     pub pictures: Vec<String>,
-    /// What is said of what follows the last row, where something does.
+    /// Warning about data after the last row, if there are any.
     pub trailing: Option<String>,
 }
 
@@ -298,7 +298,7 @@ mod tests {
         assert_eq!(read(&returns(&format!("{header}0 0 2 9\n1 0 2 9\n1 1 2 9\n0 1 2 9\n4 0 1 2 3\n"))).unwrap(), plain);
         let error = read(&returns(&format!("{header}0 0 2 9\n1 0 2 9 255\n"))).unwrap_err();
         assert!(error.starts_with("a.ply: line 12: found 5 values in a row"), "{error}");
-        // The first byte of the body is that of a line feed.
+        // The first byte of the body equals a line feed.
         let header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n\
                       element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
         let mesh = read(&[returns(header), b"\n\0\0\x01\0\0\x02\x03\0\x03\0\x01\x02".to_vec()].concat()).unwrap().mesh;

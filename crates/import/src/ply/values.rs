@@ -26,7 +26,7 @@ impl<'b> Values<'b> {
         Self { encoding, line_end, bytes, at: 0, header_lines: lines, in_row: 0, continued: None }
     }
 
-    /// What follows the last row, if anything but blanks does, for a warning.
+    /// Description of the data after the last row, for a warning; `None` if there are only blanks.
     pub(super) fn trailing(&mut self) -> Option<String> {
         if self.encoding == Encoding::Text {
             self.skip_comments();

@@ -1,4 +1,4 @@
-//! What elements of URDF and SDF have in common: children, names and placements.
+//! Common parts of URDF and SDF: child elements, names and placements.
 
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use roxmltree::Node;

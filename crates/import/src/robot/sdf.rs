@@ -1,4 +1,4 @@
-//! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links stand where their poses say.
+//! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links are placed by their poses.
 
 use super::elements::{child, children, name_of, pose};
 use super::shapes::{Look, Shape, Shapes, find};
@@ -16,7 +16,7 @@ const MAX_MODELS: usize = 20_000;
 /// Side of a plane that states no size.
 const PLANE: f64 = 1.0;
 
-/// Places what the worlds or models of a file hold.
+/// Places the contents of the worlds or models of a file.
 pub(super) fn place(root: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
     let mut placer = Placer { shapes, models: 0 };
     let worlds: Vec<Node> = children(root, "world").collect();
@@ -122,7 +122,7 @@ impl Placer<'_> {
     }
 }
 
-/// The pose of an element, in the frame that it stands in.
+/// The pose of an element, in its parent's frame.
 fn posed(element: Node, a: &mut Assembly) -> DAffine3 {
     let Some(node) = child(element, "pose") else { return DAffine3::IDENTITY };
     if node.attribute("relative_to").or(node.attribute("frame")).is_some_and(|frame| !frame.is_empty()) {

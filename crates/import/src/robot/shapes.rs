@@ -11,14 +11,14 @@ use std::collections::HashMap;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// Reflectance of what has no material.
+/// Reflectance of surfaces without a material.
 const GREY: f32 = 0.5;
 /// A mesh without materials has one of this name.
 const PLAIN: &str = "default";
-/// How many folders above the file packages are looked for in.
+/// Number of folders above the file in which packages are sought.
 const ABOVE: usize = 5;
 
-/// What a visual looks like.
+/// The shape of a visual.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     Box(DVec3),

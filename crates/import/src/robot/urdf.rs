@@ -1,4 +1,4 @@
-//! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that say where they stand.
+//! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that place them.
 
 use super::elements::{child, children, name_of, pose};
 use super::shapes::{Look, Shape, Shapes};
@@ -43,7 +43,7 @@ pub(super) fn place(robot: Node, shapes: &mut Shapes, a: &mut Assembly) -> Resul
     Ok(())
 }
 
-/// Where each link stands, by its name; links that no root leads to are not in it.
+/// The pose of each link, by its name; links that no root leads to are left out.
 fn stands<'d>(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &Assembly) -> Result<HashMap<&'d str, DAffine3>, ImportError> {
     let mut joints: HashMap<&str, Vec<(&'d str, DAffine3)>> = HashMap::new();
     let mut has_parent: HashSet<&str> = HashSet::new();

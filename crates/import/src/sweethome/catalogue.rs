@@ -11,12 +11,12 @@ use std::path::Path;
 
 /// The list of a library's pieces.
 pub(super) const NAME: &str = "PluginFurnitureCatalog.properties";
-/// Free space between pieces of a library that stand beside one another, metres.
+/// Free space between neighbouring pieces of a library, metres.
 const GAP: f64 = 0.5;
 /// Diameter of a light source that does not state its own, metres.
 const BULB: f32 = 0.05;
 
-/// What a piece is, as far as libraries tell.
+/// The kind of a piece, by its library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CatalogueKind<'k> {
     /// The category, in the library's language.
@@ -30,7 +30,7 @@ pub struct CatalogueKind<'k> {
 /// A source of light of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CatalogueLight {
-    /// Metres from the piece's left, from its front, and from below, for who looks at its front.
+    /// Metres from the piece's left, from its front, and from below, as seen by someone who looks at its front.
     pub at: Vec3,
     /// Metres.
     pub diameter: f32,
@@ -47,11 +47,11 @@ pub struct CataloguePiece {
     pub model: String,
     /// Width, depth and height, metres; the model is scaled to them.
     pub size: Vec3,
-    /// How high above the floor it stands, metres.
+    /// Height above the floor, metres.
     pub elevation: f32,
     /// Turns the model upright, y up, its front toward +z. `None` where it is so.
     pub rotation: Option<DMat3>,
-    /// What shines in it.
+    /// Light sources in it.
     pub lights: Vec<CatalogueLight>,
     /// Licence of the model and who made it.
     pub licence: String,

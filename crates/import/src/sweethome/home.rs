@@ -44,7 +44,7 @@ impl<'h> Home<'h, '_> {
         self.level(id).map_or(0.0, |l| l.elevation)
     }
 
-    /// True for what is on no level or on one that is shown.
+    /// True for things on no level or on a visible one.
     pub fn shows(&self, id: Option<&str>) -> bool {
         self.level(id).is_none_or(|l| l.shown)
     }
@@ -59,7 +59,7 @@ impl<'h> Home<'h, '_> {
         self.levels.values().all(|l| l.elevation <= level.elevation)
     }
 
-    /// True when some level lies below the ground.
+    /// True when some level is below the ground.
     pub fn has_cellar(&self) -> bool {
         self.levels.values().any(|l| l.elevation < 0.0)
     }

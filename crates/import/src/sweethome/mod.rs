@@ -1,7 +1,7 @@
 //! Homes (`.sh3d`) and furniture libraries (`.sh3f`, or `.zip`) of Sweet Home 3D.
 //!
 //! Both are archives, read in memory. A home is described by its `Home.xml`, which versions from 5.3 on write; the older form, Java
-//! objects, is an error that says to save the home again. Lengths are centimetres, which [`crate::ImportOptions::meters_per_unit`]
+//! objects, is an error with the advice to save the home again. Lengths are centimetres, which [`crate::ImportOptions::meters_per_unit`]
 //! multiplies; the plan's x is the world's x, and the plan's y, which runs down the plan, the world's −y.
 //!
 //! | element | what becomes of it |
@@ -11,24 +11,24 @@
 //! | `doorOrWindow` | a piece, and a rectangular hole through the walls along it (`wallWidth`, `wallLeft`, `wallHeight`, `wallTop`) with jambs, sill and head. Other shapes of `cutOutShape` are cut as the rectangle around them, with a warning |
 //! | `room` | `<name>.floor` and `<name>.ceiling`, single sheets; where floors overlap, the later room has the place; staircases open the floor above and the ceiling below them by their rectangle. Ceilings of the highest level have the height of the nearest wall |
 //! | `level` | elevation, height, floor thickness; what is on hidden levels is left out |
-//! | `pieceOfFurniture`, `light`, `shelfUnit`, `furnitureGroup` | `<name> (<catalogId>)`, with `.<material>` where a model has several parts; turned, pitched, rolled, mirrored, sized; whole colour or picture, and those of single materials (a transparent one hides its parts). Pictures lie across the front and over the top of a piece, in centimetres; those of single materials follow the model's own texture coordinates, where it has them |
-//! | `transformation` | what hangs on the hinge, rail or ball (`sweethome3d_opening_on_hinge_1` and the like) moves; the size of the piece is that of the moved model. Lamps stay |
-//! | models | OBJ with its materials and pictures, also within a further archive. Where a model is 3DS, Collada or LWS, broken or missing, a box of the piece's size stands in, with a warning. Materials that no library defines, as those of many models that come with Sweet Home 3D, are what Java 3D, on which it is built, has under their names, else grey. Opaque parts named `sweethome3d_window_pane…` are thin glass, half of whose light takes their colour; those named `sweethome3d_window_mirror…` mirrors; those named `sweethome3d_light…` are not seen in a `light`, nor are lines |
+//! | `pieceOfFurniture`, `light`, `shelfUnit`, `furnitureGroup` | `<name> (<catalogId>)`, with `.<material>` where a model has several parts; turned, pitched, rolled, mirrored, sized; whole colour or picture, and those of single materials (a transparent one hides its parts). Pictures run across the front and over the top of a piece, in centimetres; those of single materials follow the model's own texture coordinates, where it has them |
+//! | `transformation` | parts on the hinge, rail or ball (`sweethome3d_opening_on_hinge_1` and similar) move; the size of the piece is that of the moved model. Lamps stay |
+//! | models | OBJ with its materials and pictures, also within a further archive. Where a model is 3DS, Collada or LWS, broken or missing, it is replaced by a box of the piece's size, with a warning. Materials that no library defines, as those of many models that come with Sweet Home 3D, are what Java 3D, on which it is built, has under their names, else grey. Opaque parts named `sweethome3d_window_pane…` are thin glass, half of whose light takes their colour; those named `sweethome3d_window_mirror…` mirrors; those named `sweethome3d_light…` are not seen in a `light`, nor are lines |
 //! | `lightSource` | a point light with the intensity of Sweet Home 3D's photographs: 5·π·power²·(255·colour)·(255·home's light) W/sr per cm² |
 //! | `ceillingLightColor` | such a light 25 cm below the ceiling in the middle of each room, unless it is black |
-//! | `environment` | the sky's colour from everywhere; the ground as a plane 20 m beyond the rooms, unless a level lies below it |
+//! | `environment` | the sky's colour from everywhere; the ground as a plane 20 m beyond the rooms, unless a level is below it |
 //! | cameras | the visitor's, the stored ones, and the one above the home, in this order; fisheye and spherical lenses become pinholes |
 //! | dropped with a warning | moved limbs of mannequins, pieces of kinds that are not known, camera paths, sky pictures and the sun; lines, dimensions and labels of the plan |
 //!
 //! What has neither colour nor picture has a reflectance of 0.8.
 //!
-//! A library becomes a scene in which its pieces stand beside one another in rows, each named `<name> (<id>)`, under a white sky;
-//! [`catalogue`] lists them for who wants single ones. The format is that of Sweet Home 3D's own reader,
+//! A library becomes a scene with its pieces beside one another in rows, each named `<name> (<id>)`, under a white sky;
+//! [`catalogue`] lists them for callers that want single ones. The format follows Sweet Home 3D's own reader,
 //! `com.eteks.sweethome3d.io.DefaultFurnitureCatalog`:
 //!
 //! | key | meaning |
 //! |---|---|
-//! | `name#N`, `category#N`, `creator#N`, `license#N` | as they say; `license` alone is that of all pieces |
+//! | `name#N`, `category#N`, `creator#N`, `license#N` | as named; `license` alone applies to all pieces |
 //! | `model#N` | the model within the archive |
 //! | `width#N`, `depth#N`, `height#N`, `elevation#N` | centimetres; the model is scaled to them |
 //! | `modelRotation#N` | a matrix, row by row, that turns the model upright, its front toward +z |

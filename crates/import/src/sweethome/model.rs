@@ -51,12 +51,12 @@ impl ModelPart {
         self.name.starts_with(MIRROR)
     }
 
-    /// True for what marks a source of light in the editor.
+    /// True for parts that mark a light source in the editor.
     pub fn is_light_mark(&self) -> bool {
         self.name.starts_with(LIGHT_MARK)
     }
 
-    /// True for what moves with a joint, such as `hinge_1`.
+    /// True for parts that move with a joint, such as `hinge_1`.
     pub fn hangs_on(&self, joint: &str) -> bool {
         let kinds = ["opening", "window_pane", "window_mirror", "arm"];
         let after = kinds.iter().find_map(|kind| self.name.strip_prefix(&format!("sweethome3d_{kind}_on_{joint}")));
@@ -74,8 +74,8 @@ impl Model {
         points.chain(corners).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
     }
 
-    /// From the model to a box of side one around the origin, turned by `rotation`. Without `recenter` the turned model stays where
-    /// the middle of the one that was not turned lay, as older versions of Sweet Home 3D have it.
+    /// From the model to a box of side one around the origin, turned by `rotation`. Without `recenter` the turned model keeps the middle of
+    /// the unturned one as its centre, as in older versions of Sweet Home 3D.
     pub fn normalized(&self, rotation: Option<DMat3>, recenter: bool, a: &Assembly) -> DAffine3 {
         let (min, max) = self.bounds(DAffine3::IDENTITY, a);
         let centered = DAffine3::from_translation(-0.5 * (min + max));
@@ -133,12 +133,12 @@ fn read_obj(archive: &Archive, name: &str) -> Result<Option<Imported>, String> {
     }
 }
 
-/// True for an OBJ file with lines, such as that of Sweet Home 3D's sources of light, which draws a sphere in the plan.
+/// True for an OBJ file with lines, such as the model of Sweet Home 3D's light sources, which draws a sphere in the plan.
 fn has_lines(archive: &Archive, name: &str) -> bool {
     archive.read(name).is_ok_and(|bytes| String::from_utf8_lossy(&bytes).lines().any(|line| line.trim_start().starts_with("l ")))
 }
 
-/// The model with panes and mirrors as in Sweet Home 3D's photographs, which tell them by the names of parts, not by their materials.
+/// The model with panes and mirrors as in Sweet Home 3D's photographs, which recognise them by the names of parts, not by their materials.
 fn glazed(imported: Imported) -> Imported {
     let mut scene = imported.scene;
     let mut known = HashMap::new();
@@ -173,7 +173,7 @@ fn mirror(mut material: Material) -> Option<Material> {
     Some(Material { bsdf, alpha: Alpha::Opaque, ..material })
 }
 
-/// What passes a pane of this colour: half of the light takes the colour. A picture is taken as it is.
+/// Transmittance of a pane of this colour: half of the light takes the colour. A picture is used unchanged.
 pub(super) fn tinted(color: ColorParam) -> ColorParam {
     if color.texture.is_some() { color } else { color.factor.map(|c| 0.5 + 0.5 * c).into() }
 }

@@ -1,4 +1,4 @@
-//! What doors and windows cut out of walls.
+//! Openings that doors and windows cut out of walls.
 
 use super::outline::Outline;
 use super::surface::{Surface, lifted};
@@ -22,7 +22,7 @@ pub(super) struct Opening {
 }
 
 impl Opening {
-    /// The opening of a door or window that stands at `elevation` of the home.
+    /// The opening of a door or window at `elevation` of the home.
     pub fn read(element: Element, elevation: f64, a: &mut Assembly) -> Result<Self, ImportError> {
         let (width, depth, height) = (element.length("width")?, element.length("depth")?, element.length("height")?);
         let angle = element.number_or("angle", 0.0)?;
@@ -53,7 +53,7 @@ impl Opening {
         DVec2::new(self.along.dot(p - self.center), self.along.perp_dot(p - self.center))
     }
 
-    /// True for walls that the opening stands in: its depth reaches into the wall, and a straight wall has its direction.
+    /// True for walls that the opening is in: its depth reaches into the wall, and a straight wall has its direction.
     pub fn cuts(&self, start: DVec2, end: DVec2, outline: &Outline, thickness: f64) -> bool {
         let straight = outline.left.len() == 2;
         if straight && (end - start).normalize_or_zero().perp_dot(self.along).abs() > PARALLEL {
@@ -92,7 +92,7 @@ impl Opening {
         (range[1] - range[0] > 1e-6).then_some(range)
     }
 
-    /// What one sees of the wall's inside through the hole: its sides, sill and head.
+    /// Adds the visible inside of the wall around the hole: its sides, sill and head.
     pub fn add_reveals(&self, outline: &Outline, bottom: f64, tops: [f64; 2], surface: &mut Surface) {
         let cross = |points: &[DVec2]| -> Vec<DVec2> {
             let mut inside: Vec<DVec2> = Vec::new();

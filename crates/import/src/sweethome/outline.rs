@@ -30,7 +30,7 @@ pub(super) struct Outline {
 }
 
 impl<'x> Wall<'x> {
-    /// A wall that stands on a level. `None` for those without length or thickness, which have no surface.
+    /// Reads a wall of a level. `None` for those without length or thickness, which have no surface.
     pub fn read(element: Element<'x>, elevation: f64, bottom: f64, default_height: f64) -> Result<Option<Self>, ImportError> {
         let point = |x: &str, y: &str| Ok::<_, ImportError>(DVec2::new(element.required(x)?, element.required(y)?));
         let (start, end) = (point("xStart", "yStart")?, point("xEnd", "yEnd")?);

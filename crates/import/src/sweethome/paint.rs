@@ -11,10 +11,10 @@ use enfilade_scene::{Bsdf, ColorParam, Material, TextureRef};
 const WHITE_PAINT: f32 = 0.8;
 /// Phong's exponent at full shininess.
 const SHINIEST: f64 = 128.0;
-/// Width and height of pictures that do not say how large they are, centimetres.
+/// Width and height of pictures that do not state their size, centimetres.
 const PICTURE_CM: f64 = 100.0;
 
-/// What a surface is covered with.
+/// The covering of a surface.
 #[derive(Clone, Copy)]
 pub(super) struct Paint<'x> {
     /// Opacity and linear colour.
@@ -32,7 +32,7 @@ impl Paint<'_> {
         (format!("{:?} {texture:?} {}", self.color, self.shininess), name)
     }
 
-    /// The material; a picture stands above a colour.
+    /// The material; a picture takes precedence over a colour.
     pub fn material(&self, name: &str, a: &mut Assembly) -> Result<Material, ImportError> {
         let plain = self.color.map_or(Rgb::splat(WHITE_PAINT), |(_, rgb)| rgb);
         let reflectance = match self.texture {

@@ -1,4 +1,4 @@
-//! Furniture, doors, windows and lamps: where they stand and what they look like.
+//! Furniture, doors, windows and lamps: their placement and their looks.
 
 use super::home::Home;
 use super::model::{self, Model, ModelPart, Models};
@@ -9,9 +9,9 @@ use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, Rgb, Vec2, srgb_from_linear};
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Light, Material, PartLabel};
 use std::rc::Rc;
 
-/// What Sweet Home 3D's photographs multiply the square of a lamp's power with, and the largest value of a colour there.
+/// Factor of the square of a lamp's power in Sweet Home 3D's photographs, times the squared largest value of a colour there.
 const LAMP: f64 = 5.0 * 255.0 * 255.0;
-/// The colour of light that homes have unless they say otherwise.
+/// The default light colour of homes.
 pub(super) const HOME_LIGHT: f64 = 208.0 / 255.0;
 
 /// A piece of the home that is shown.
@@ -69,7 +69,7 @@ impl<'x> Piece<'x> {
 
     /// True for staircases that lead through a floor at `elevation`, or through a ceiling from the level of `from`.
     pub fn opens_floor_at(&self, elevation: f64, from: f64) -> bool {
-        // The last step may lie somewhat below the floor that it leads to.
+        // The last step may be somewhat below the floor that it leads to.
         const STEP: f64 = 30.0;
         self.stair.is_some_and(|[bottom, top]| bottom < elevation - STEP && top + STEP >= elevation && bottom + STEP >= from.min(bottom))
     }
@@ -138,7 +138,7 @@ fn model_of(piece: &Piece, home: &mut Home) -> Result<Rc<Model>, ImportError> {
     Ok(model)
 }
 
-/// The model with its doors, drawers and arms as the piece has them opened, drawn and turned. The piece's size is that of this model.
+/// The model with its doors, drawers and arms as the piece has them opened, drawn and turned. The piece's size is the size of this model.
 fn deformed(element: Element, model: Rc<Model>, home: &mut Home) -> Result<Rc<Model>, ImportError> {
     let movements: Vec<Element> = element.children().filter(|c| c.tag() == "transformation").collect();
     if movements.is_empty() {

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 const METRES: f64 = 0.01;
 /// Height of walls that neither they nor the home state, centimetres.
 const WALL_HEIGHT: f64 = 250.0;
-/// Groups within groups may lie this deep.
+/// Greatest depth of groups within groups.
 const MAX_DEPTH: usize = 64;
 
 /// Imports the home that `text` describes. `a` is the assembly of `Home.xml` within the archive.

@@ -9,7 +9,7 @@ use super::xml::Element;
 use crate::{ImportError, polygon};
 use enfilade_math::{DVec2, Vec3};
 
-/// How far the ground extends beyond the rooms, centimetres.
+/// Extent of the ground beyond the rooms, centimetres.
 const GROUND_MARGIN: f64 = 2000.0;
 
 /// Corners of one room and of all: beyond them it takes too long to find out which floors overlap.
@@ -133,7 +133,7 @@ fn sheet(triangles: &[[DVec2; 3]], height: &dyn Fn(DVec2) -> f64, faces_up: bool
     surface
 }
 
-/// The height of the nearest corner of a wall of a level; the level's own height, or that of the home's walls, where it has none.
+/// The height of the nearest corner of a wall of a level; the level's own height, or the height of the home's walls, if it has none.
 pub(super) fn height_at(p: DVec2, level: Option<&str>, walls: &Walls, home: &Home) -> f64 {
     let corners = walls.list.iter().filter(|w| w.level == level).flat_map(|w| w.ends().into_iter().zip(w.tops));
     let nearest = corners.min_by(|(a, _), (b, _)| a.distance_squared(p).total_cmp(&b.distance_squared(p)));

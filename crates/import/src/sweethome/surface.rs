@@ -1,4 +1,4 @@
-//! Flat faces with texture coordinates in centimetres, and what is cut out of them.
+//! Flat faces with texture coordinates in centimetres, and holes in them.
 
 use enfilade_geometry::Mesh;
 use enfilade_math::{DVec2, DVec3, Vec2};
@@ -41,14 +41,14 @@ pub(crate) struct Hole {
     pub up: [f64; 2],
 }
 
-/// What is left of an upright face from `bottom` to a straight upper edge, which rises from `tops[0]` to `tops[1]`: convex
+/// The rest, without the holes, of an upright face from `bottom` to a straight upper edge, which rises from `tops[0]` to `tops[1]`: convex
 /// polygons of points (share along, height), counter-clockwise where along is to the right.
 pub(crate) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<Vec<DVec2>> {
     let top = |s: f64| tops[0] + s * (tops[1] - tops[0]);
     let mut breaks = vec![0.0, 1.0];
     for hole in holes {
         breaks.extend(hole.along);
-        // Where the upper edge crosses the hole's, so that between two breaks it lies above or below.
+        // Where the upper edge crosses the hole's, so that between two breaks it is entirely above or below.
         breaks.extend(hole.up.map(|z| (z - tops[0]) / (tops[1] - tops[0])));
     }
     breaks.retain(|s| (0.0..=1.0).contains(s));
@@ -74,7 +74,7 @@ pub(crate) fn without_holes(bottom: f64, tops: [f64; 2], holes: &[Hole]) -> Vec<
     polygons
 }
 
-/// What is left of flat triangles outside a convex polygon; both may run either way round.
+/// The parts of flat triangles outside a convex polygon; both may have either orientation.
 pub(crate) fn subtract(triangles: Vec<[DVec2; 3]>, convex: &[DVec2]) -> Vec<[DVec2; 3]> {
     let turn = if area(convex) < 0.0 { -1.0 } else { 1.0 };
     let mut left = Vec::new();

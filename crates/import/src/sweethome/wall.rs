@@ -1,4 +1,4 @@
-//! The faces of walls: both sides, ends, tops and baseboards, with what doors and windows cut out.
+//! The faces of walls: both sides, ends, tops and baseboards, with the holes of doors and windows.
 
 use super::home::Home;
 use super::opening::Opening;
@@ -8,10 +8,10 @@ use super::surface::{Hole, Surface, lifted, without_holes};
 use crate::ImportError;
 use enfilade_math::DVec2;
 
-/// One upright side: its points from left to right as seen from its front, and how far along the wall each lies.
+/// One upright side: its points from left to right as seen from its front, and the distance of each along the wall.
 struct Side<'s> {
     points: &'s [DVec2],
-    /// Left of the wall: its front lies to the left of its points.
+    /// Left of the wall: its front is to the left of its points.
     is_left: bool,
     bottom: f64,
     tops: [f64; 2],

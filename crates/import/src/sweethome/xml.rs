@@ -90,7 +90,7 @@ impl<'x> Element<'x> {
         Ok(Some((alpha, Rgb::new(linear(r), linear(g), linear(b)))))
     }
 
-    /// Where the element is.
+    /// The place of the element, for messages.
     pub(super) fn place(&self) -> String {
         let at = self.node.document().text_pos_at(self.node.range().start);
         format!("line {} <{}>", at.row, self.tag())

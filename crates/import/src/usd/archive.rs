@@ -17,7 +17,7 @@ impl Archive {
     /// Finds the files of an archive.
     ///
     /// # Errors
-    /// The place, and what is wrong there.
+    /// The place, and the fault there.
     pub(super) fn open(bytes: Vec<u8>) -> Result<Self, (String, String)> {
         let broken = |e: &dyn std::fmt::Display| {
             ("the archive".to_string(), format!("it is no zip archive or damaged ({e}); copy or export it again"))
@@ -30,7 +30,7 @@ impl Archive {
             if file.is_dir() {
                 continue;
             }
-            // Writers of usdz do not always say that their names are UTF-8.
+            // Writers of usdz do not always mark their names as UTF-8.
             let name = String::from_utf8(file.name_raw().to_vec()).unwrap_or_else(|_| file.name().to_string());
             if file.compression() != CompressionMethod::Stored || file.encrypted() {
                 let problem = format!(

@@ -1,5 +1,5 @@
-//! Which material a prim has: its own binding, or that of the nearest prim above, unless one above is stronger; and by purpose before
-//! nearness, as OpenUSD's `ComputeBoundMaterial` has it.
+//! The material of a prim: its own binding, or the nearest prim's above, unless one above is stronger; and by purpose before nearness, as
+//! in OpenUSD's `ComputeBoundMaterial`.
 
 use super::collection::Collection;
 use super::layer::field;
@@ -17,7 +17,7 @@ struct Binding {
     purpose: usize,
     /// True when bindings below do not count.
     stronger: bool,
-    /// What is bound, where that is a collection.
+    /// The bound prims, if they are a collection.
     members: Option<Rc<Collection>>,
     /// Path of the prim that states it.
     by: Rc<str>,

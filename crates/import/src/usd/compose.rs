@@ -1,9 +1,9 @@
-//! Composition: the opinions about each prim, strongest first, from all layers that speak of it.
+//! Composition: the opinions about each prim, strongest first, from all layers that have any.
 //!
 //! Each prim has a tree of nodes. A node is a path in a stack of layers (a file with its sublayers); its children are what it
 //! inherits, its chosen variants, its references, payloads and what it specializes, sorted in this order of strength (LIVRPS) and,
-//! among equals, what the prim itself says before what it has from its ancestors. The node of a child prim begins as its parent's
-//! with longer paths. What specializes is weakest of all. This is the prim index of OpenUSD's `Pcp` without relocates, and without
+//! among equals, the prim's own arcs before those that it has from its ancestors. The node of a child prim begins as its parent's
+//! with longer paths. Specializes arcs are the weakest of all. This is the prim index of OpenUSD's `Pcp` without relocates, and without
 //! classes that are overridden from outside of a reference ("implied inherits").
 
 use super::files::{Files, Unread, is_materialx, resolve};
@@ -103,7 +103,7 @@ impl Composer {
         Ok(node)
     }
 
-    /// Adds to a node, and to those that it has from its parent, what their own opinions bring in. `chain` holds the nodes above it,
+    /// Adds to a node, and to those that it has from its parent, the arcs of their own opinions. `chain` contains the nodes above it,
     /// `stronger` the opinions found so far, which may select variants.
     fn add_arcs(
         &mut self,
@@ -172,7 +172,7 @@ impl Composer {
         Ok(())
     }
 
-    /// Where a reference leads. `None`, with a warning, when its layer is not there or has no default prim.
+    /// The target of a reference. `None`, with a warning, when its layer is missing or has no default prim.
     fn target(&mut self, item: &Item, layer: &Rc<Layer>, node: &Node, a: &mut Assembly) -> Result<Option<Target>, ImportError> {
         let stack = if item.asset.is_empty() {
             node.stack.clone()

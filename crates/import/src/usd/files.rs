@@ -123,7 +123,7 @@ impl Files {
         Ok(layer)
     }
 
-    /// The bytes of a layer, with its location, which for an archive is that of its first file.
+    /// The bytes of a layer, with its location, which for an archive is its first file's.
     fn bytes(&mut self, location: &str, user: &str, a: &mut Assembly) -> Result<(Vec<u8>, String), Unread> {
         let file = outer(location);
         if !is_archive(file) {
@@ -161,7 +161,7 @@ impl Files {
     }
 }
 
-/// What an asset path in a layer means: `./a` and `a` stand beside the layer, in its archive if it is in one.
+/// The location of an asset path in a layer: `./a` and `a` are beside the layer, in its archive if it is in one.
 pub(super) fn resolve(asset: &str, layer: &str) -> String {
     let asset = asset.replace('\\', "/");
     if scheme(&asset).is_some() || Path::new(&asset).is_absolute() {

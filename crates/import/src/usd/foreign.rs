@@ -1,4 +1,4 @@
-//! Surfaces of other renderers and of MaterialX: what can be known of them by the names of their inputs.
+//! Surfaces of other renderers and of MaterialX, as far as the names of their inputs identify them.
 
 use super::material::index_of_refraction;
 use super::mtlx::{default_strength, first, is_solid, named};

@@ -10,7 +10,7 @@ use enfilade_math::Rgb;
 use enfilade_scene::{ColorParam, NormalMap, ScalarParam};
 use std::rc::Rc;
 
-/// Grey that stands in for a missing texture.
+/// Grey in place of a missing texture.
 const STAND_IN: f32 = 0.5;
 
 fn channel(output: &str) -> Option<usize> {

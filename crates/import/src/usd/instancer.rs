@@ -101,7 +101,7 @@ impl Walk<'_> {
     }
 }
 
-/// The label of one instance: what is said of the instancer, or of what holds the prototypes, is said of each.
+/// The label of one instance: a label of the instancer, or of a prim that contains the prototypes, applies to each.
 fn of_instance(label: FileLabel, instancer: Option<ObjectId>, instance: ObjectId) -> FileLabel {
     let is_of_all = label.whole.is_some() && label.whole != instancer;
     if is_of_all { label } else { FileLabel { whole: Some(instance), ..label } }

@@ -55,7 +55,7 @@ fn semantics(prim: &Prim) -> Vec<String> {
     texts.map(|text| text.trim().to_string()).filter(|text| !text.is_empty()).collect()
 }
 
-/// RoomPlan's category, without what it says of the thing besides: `Door(Isopen: False)` is a door.
+/// RoomPlan's category, without additional properties: `Door(Isopen: False)` is a door.
 fn category(prim: &Prim) -> Option<String> {
     let Some(Value::Dictionary(custom)) = prim.field("customData") else { return None };
     let text = custom.get("Category")?.as_text()?;

@@ -36,7 +36,7 @@ pub(super) type Fields = Vec<(Rc<str>, Value)>;
 /// The opinions of one file.
 #[derive(Debug, Default)]
 pub(super) struct Layer {
-    /// Where the layer is: a path relative to the scene file's folder, with `[inner]` for what is in an archive.
+    /// Location of the layer: a path relative to the scene file's folder, with `[inner]` for files in an archive.
     pub location: String,
     /// Fields by path: `/` is the layer, `/A/B` a prim, `/A{set=name}` a variant, `/A.points` a property.
     pub specs: HashMap<String, Fields>,
@@ -49,7 +49,7 @@ impl Layer {
     }
 }
 
-/// The path of a child prim. No slash stands between a variant and what is in it.
+/// The path of a child prim. There is no slash between a variant and a prim in it.
 pub(super) fn child_path(parent: &str, name: &str) -> String {
     let slash = if parent.ends_with(['/', '}']) { "" } else { "/" };
     format!("{parent}{slash}{name}")

@@ -61,13 +61,13 @@ fn radiance(prim: &Prim, default: f64) -> Rgb {
     color * strength as f32
 }
 
-/// The colour of a black body where that of [`WHITE_KELVIN`] is white.
+/// The colour of a black body, relative to that of [`WHITE_KELVIN`] as white.
 fn tint(kelvin: f64) -> Rgb {
     let (body, white) = (black_body(kelvin), black_body(WHITE_KELVIN));
     Rgb::new(body.r / white.r, body.g / white.g, body.b / white.b)
 }
 
-/// True for a normalized light of a layer that Blender wrote: its `doc` says so.
+/// True for a normalized light of a layer that Blender wrote, according to its `doc`.
 fn is_normalized_by_blender(prim: &Prim) -> bool {
     let stated = prim.value_at("inputs:intensity").map(|(_, site)| &site.layer);
     let doc = stated.and_then(|layer| layer.get("/", "doc").or(layer.get("/", "documentation"))).and_then(Value::as_text);
@@ -127,7 +127,7 @@ impl Lamp<'_> {
         Ok(())
     }
 
-    /// A part that emits. `exact` is the area of the shape that the mesh stands for.
+    /// Adds a part that emits. `exact` is the area of the shape that the mesh approximates.
     fn surface(&self, mesh: Mesh, exact: f64, picture: Option<u32>, a: &mut Assembly) -> Result<(), ImportError> {
         let cone = number(self.prim, "shaping:cone:angle", 90.0);
         if cone < 90.0 || number(self.prim, "shaping:focus", 0.0) != 0.0 || input(self.prim, "shaping:ies:file").is_some() {
@@ -182,7 +182,7 @@ impl Lamp<'_> {
         Ok(())
     }
 
-    /// What becomes of the shaping of a sphere that was made a point.
+    /// Reports the shaping of a sphere light that was made a point.
     fn report_shaping(&self, as_point: bool, profile: bool, a: &mut Assembly) {
         if !as_point {
             a.warn(

@@ -10,7 +10,7 @@ use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, Principled, ScalarParam}
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Outputs of a material that may hold a surface: for every renderer first, then for particular ones.
+/// Outputs of a material that may have a surface: for every renderer first, then for particular ones.
 const CONTEXTS: [&str; 7] = [
     "outputs:surface",
     "outputs:glslfx:surface",
@@ -164,7 +164,7 @@ impl Textures<'_, '_, '_> {
         Ok(())
     }
 
-    /// What inputs for opacity and for the threshold below which nothing is there say. Without the latter's name light is blended.
+    /// Opacity by the inputs for it and for the threshold below which the surface is absent. Without a threshold, light is blended.
     pub(super) fn alpha(&mut self, shader: &Rc<Prim>, opacity: &str, threshold: &str) -> Result<Alpha, ImportError> {
         let opacity = self.scalar(shader, opacity, 1.0)?;
         let cutoff = self.scalar(shader, threshold, 0.0)?.factor;
@@ -177,7 +177,7 @@ impl Textures<'_, '_, '_> {
     }
 }
 
-/// An index of refraction, where it is one; else that of glass.
+/// An index of refraction, if it is valid; else glass's.
 pub(super) fn index_of_refraction(found: f32) -> f32 {
     if found > 1.0 && found.is_finite() { found } else { 1.5 }
 }

@@ -1,4 +1,4 @@
-//! What is read of MaterialX: the surface beside a `UsdPreviewSurface`, and the pictures of its network.
+//! The supported part of MaterialX: the surface beside a `UsdPreviewSurface`, and the pictures of its network.
 
 use super::shader::{Source, id, source};
 use super::stage::Prim;
@@ -10,8 +10,8 @@ use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, Material, TextureRef};
 use std::rc::Rc;
 
-/// What Blender calls the surface of its viewport, which has none of the material's textures. It writes that one where it is asked for
-/// MaterialX without preview surfaces.
+/// Blender's name for the surface of its viewport, which has none of the material's textures. It is written when MaterialX is exported
+/// without preview surfaces.
 const BLENDERS_STAND_IN: &str = "previewShader";
 
 /// A longer way from an input to its picture is taken for a circle.
@@ -53,7 +53,7 @@ impl Textures<'_, '_, '_> {
         })
     }
 
-    /// True where a preview surface only stands in for the MaterialX surface beside it, which has the textures.
+    /// True if a preview surface is only a placeholder for the MaterialX surface beside it, which has the textures.
     pub(super) fn stands_in(&mut self, preview: &Rc<Prim>, mtlx: &Rc<Prim>) -> Result<bool, ImportError> {
         if preview.name() == BLENDERS_STAND_IN {
             return Ok(true);
@@ -69,14 +69,15 @@ impl Textures<'_, '_, '_> {
         }
     }
 
-    /// Adds to a preview surface what it cannot say and the MaterialX surface beside it does: glass, and how strong a texture emits.
+    /// Adds to a preview surface the properties that only the MaterialX surface beside it can express: glass, and the strength of a
+    /// texture's emission.
     pub(super) fn complete(&mut self, material: &mut Material, mtlx: &Rc<Prim>) -> Result<(), ImportError> {
         let transmission = self.scalar(mtlx, first(mtlx, named::TRANSMISSION), 0.0)?;
         if let Bsdf::Principled(p) = &mut material.bsdf
             && transmission.factor > 0.0
         {
             (p.transmission, p.solid) = (transmission, is_solid(mtlx));
-            // It stood for the glass.
+            // It only approximated the glass.
             material.alpha = Alpha::Opaque;
         }
         let emission = &mut material.emission;

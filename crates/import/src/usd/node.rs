@@ -12,7 +12,7 @@ pub(super) struct Stack {
     pub layers: Vec<Rc<Layer>>,
 }
 
-/// By what a node came in, the strongest first.
+/// The arc by which a node was added, the strongest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Arc {
     Root,

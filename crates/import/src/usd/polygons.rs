@@ -81,7 +81,7 @@ impl Polygons {
         })
     }
 
-    /// How many faces, points and corners there are.
+    /// Numbers of faces, points and corners.
     pub(super) fn sizes(&self) -> Sizes {
         Sizes { faces: self.faces.len(), points: self.points.len(), corners: self.corners.len() }
     }

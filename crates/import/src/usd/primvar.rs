@@ -5,7 +5,7 @@ use super::value::Value;
 use crate::assembly::Assembly;
 use std::rc::Rc;
 
-/// What one value covers: the whole surface, a face, a point or a corner.
+/// The scope of one value: the whole surface, a face, a point or a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Interpolation {
     Constant,
@@ -22,7 +22,7 @@ pub(super) struct Primvar<const N: usize> {
     interpolation: Interpolation,
 }
 
-/// How many faces, points and corners a surface has.
+/// Numbers of faces, points and corners of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     pub faces: usize,
@@ -73,7 +73,7 @@ impl<const N: usize> Primvar<N> {
         Ok(Some(Self { data: Rc::new(numbers.to_vec()), indices: indices.map(|i| Rc::new(i.to_vec())), interpolation }))
     }
 
-    /// The value at a corner: that of its face and its point.
+    /// Index of the value at a corner with this face and point.
     pub(super) fn element(&self, face: usize, point: usize, corner: usize) -> u32 {
         let place = match self.interpolation {
             Interpolation::Constant => 0,

@@ -1,4 +1,4 @@
-//! Networks of shaders: what an input is connected to, through node graphs and materials.
+//! Networks of shaders: the connections of inputs, through node graphs and materials.
 
 use super::layer::{field, split_property};
 use super::stage::{Prim, Stage};
@@ -10,21 +10,21 @@ use std::rc::Rc;
 /// A longer way from an input to its output is taken for a circle.
 const MAX_STEPS: usize = 64;
 
-/// Where an input's value comes from.
+/// The source of an input's value.
 #[derive(Debug)]
 pub(super) enum Source {
     /// Nowhere: the shader's default is used.
     Default,
-    /// A value, and the location of the layer that says it.
+    /// A value, and the location of the layer that states it.
     Value(Value, String),
     /// The output of a shader, without `outputs:`.
     Shader(Rc<Prim>, String),
 }
 
-/// What an input (or an output of a material) is fed by.
+/// The source of an input (or of a material's output).
 ///
 /// # Errors
-/// When a layer on the way cannot be read, or connections stand in a circle.
+/// When a layer on the way cannot be read, or connections form a cycle.
 pub(super) fn source(stage: &mut Stage, prim: &Rc<Prim>, property: &str, a: &mut Assembly) -> Result<Source, ImportError> {
     let (mut prim, mut property) = (prim.clone(), property.to_string());
     for _ in 0..MAX_STEPS {

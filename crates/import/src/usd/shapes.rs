@@ -33,7 +33,7 @@ pub(super) fn mesh(prim: &Prim) -> Option<Mesh> {
     Some(turned_to(mesh, &axis))
 }
 
-/// A mesh along z turned so that it lies along another axis, by a cyclic permutation of coordinates.
+/// A mesh along z turned to another axis, by a cyclic permutation of coordinates.
 fn turned_to(mut mesh: Mesh, axis: &str) -> Mesh {
     let turn = |v: Vec3| match axis {
         "X" => Vec3::new(v.z, v.x, v.y),
@@ -94,7 +94,7 @@ pub(super) fn tube(radius: f32, height: f32) -> Mesh {
     revolution(&[vec![flat(radius, -0.5 * height, Vec2::X), flat(radius, 0.5 * height, Vec2::X)]])
 }
 
-/// A tube that lies along x, as light tubes do.
+/// A tube along x, like light tubes.
 pub(super) fn tube_along_x(radius: f32, length: f32) -> Mesh {
     turned_to(tube(radius, length), "X")
 }

@@ -78,7 +78,7 @@ impl Stage {
         Ok((!prim.sites.is_empty()).then_some(prim))
     }
 
-    /// The bytes of a file within an archive that a layer lies in.
+    /// The bytes of a file within an archive that contains a layer.
     pub(super) fn embedded(&self, location: &str) -> Option<Vec<u8>> {
         self.composer.files.embedded(location)
     }
@@ -133,8 +133,8 @@ impl Prim {
         self.sites.iter().find_map(|s| s.layer.get(&property_path(&s.path, property), name))
     }
 
-    /// An attribute's value, and the site that says it. In a layer, the first of its time samples comes before its value without time,
-    /// as for every time that programs show.
+    /// An attribute's value, and the site that states it. In a layer, the first of its time samples has precedence over its value without
+    /// time, as at every time that programs show.
     pub(super) fn value_at(&self, attribute: &str) -> Option<(&Value, &Site)> {
         for site in &self.sites {
             let path = property_path(&site.path, attribute);
@@ -154,7 +154,7 @@ impl Prim {
         None
     }
 
-    /// How strong the opinions of one of the prim's sites are; 0 for the strongest.
+    /// Rank in strength of one of the prim's sites; 0 for the strongest.
     pub(super) fn rank(&self, site: &Site) -> usize {
         self.sites.iter().position(|known| std::ptr::eq(known, site)).unwrap_or(self.sites.len())
     }
@@ -197,7 +197,7 @@ impl Prim {
         items.into_iter().map(|i| i.path).collect()
     }
 
-    /// Which opinions the prim consists of: prims of the same opinions, as instances are, have the same shape.
+    /// Identity of the prim's opinions: prims of the same opinions, such as instances, have the same shape.
     pub(super) fn identity(&self) -> String {
         self.sites.iter().map(|s| format!("{}<{}>", s.layer.location, s.path)).collect()
     }

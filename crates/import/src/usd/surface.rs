@@ -1,4 +1,4 @@
-//! What a prim's surface is: its bound material or its display colour, and which texture coordinates that asks for.
+//! The surface of a prim: its bound material or its display colour, and the texture coordinates that it needs.
 
 use super::constants::Constants;
 use super::layer::field;
@@ -46,7 +46,7 @@ impl Walk<'_> {
         })
     }
 
-    /// A material that emits as a mesh light says; one that glows by itself keeps its own strength, tinted.
+    /// A material with the emission of a mesh light; one that glows by itself keeps its own strength, tinted.
     pub(super) fn glowing(&mut self, material: u32, radiance: Rgb, a: &mut Assembly) -> u32 {
         let key = (material, [radiance.r, radiance.g, radiance.b].map(f32::to_bits));
         if let Some(&known) = self.glowing.get(&key) {

@@ -19,7 +19,7 @@ pub(super) struct Texture {
     /// Values are texel × scale + bias, for red, green, blue and alpha.
     pub scale: [f32; 4],
     pub bias: [f32; 4],
-    /// What stands in for a picture that is missing.
+    /// The value that replaces a missing picture.
     pub fallback: Option<[f32; 4]>,
     /// The output that is read: r, g, b, a or rgb.
     pub output: String,
@@ -204,8 +204,8 @@ impl Textures<'_, '_, '_> {
         index
     }
 
-    /// How texels times a scale plus a bias, one pair for each channel that is read, are kept: as the picture's own where they stay
-    /// within 0 and 1.
+    /// Storage of texels times a scale plus a bias (one pair for each channel that is read): the picture's own if the results stay within 0
+    /// and 1.
     pub(super) fn kept(&self, image: u32, scale: &[f32], bias: &[f32]) -> Kept {
         let fits = scale.iter().zip(bias).all(|(s, b)| [*b, s + b].iter().all(|end| (0.0..=1.0).contains(end)));
         match &self.a.image_at(image).pixels {
@@ -216,7 +216,7 @@ impl Textures<'_, '_, '_> {
     }
 }
 
-/// How the texels of a changed picture are kept.
+/// The storage of a changed picture's texels.
 #[derive(Clone, Copy)]
 pub(super) enum Kept {
     /// Eight bits, encoded as sRGB.

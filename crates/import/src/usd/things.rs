@@ -1,5 +1,5 @@
-//! Which prims hold several gprims that are one object together: models of kind `component`, instanceable prims, and instances of point
-//! instancers. Otherwise each gprim is an object of its own, and its parents are what it lies in.
+//! Prims whose gprims are one object together: models of kind `component`, instanceable prims, and instances of point
+//! instancers. Otherwise each gprim is an object of its own, with its parent prims as parents.
 
 use super::stage::Prim;
 use super::value::Value;
@@ -16,7 +16,7 @@ pub(super) struct Thing {
 }
 
 impl Thing {
-    /// The thing that a prim with an object of its own is, else the one that it lies in.
+    /// The thing of a prim with an object of its own: the prim itself, or the thing around it.
     pub(super) fn at(prim: &Prim, object: ObjectId, around: Option<Self>) -> Option<Self> {
         let is_component = prim.field("kind").and_then(Value::as_text) == Some("component");
         let is_instance = prim.field("instanceable").and_then(Value::as_bool) == Some(true);
@@ -49,7 +49,7 @@ impl Things {
         }
     }
 
-    /// Makes parts those of their things. A prim that holds everything is the scene, whatever its kind.
+    /// Assigns parts to their things. A prim that contains everything is the scene, whatever its kind.
     pub(super) fn settle(self, a: &mut Assembly) {
         for (thing, pieces) in self.pieces {
             let objects: BTreeSet<ObjectId> = pieces.iter().map(|(object, _)| *object).collect();

@@ -1,4 +1,4 @@
-//! Values of fields and attributes, as both encodings hold them.
+//! Values of fields and attributes, as in both encodings.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 /// A value. Arrays are shared, because binary files store equal ones once.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
-    /// `None`: says that weaker opinions do not count either.
+    /// `None`: weaker opinions do not count either.
     Block,
     /// Numbers, tuples of them, matrices, and arrays of those.
     Numbers(Numbers),
@@ -133,7 +133,7 @@ impl Value {
         self.as_number().map(|n| n != 0.0)
     }
 
-    /// The edit that a value of a list field stands for: a plain value replaces the list.
+    /// The list edit of a value of a list field: a plain value replaces the list.
     pub(super) fn as_list(&self) -> ListEdit {
         match self {
             Self::List(list) => (**list).clone(),

@@ -18,7 +18,7 @@ use enfilade_scene::ObjectId;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// What a prim has from those above it.
+/// The state that a prim inherits from those above it.
 #[derive(Clone)]
 pub(super) struct State {
     pub file_from_parent: DAffine3,
@@ -46,7 +46,7 @@ pub(super) struct Piece {
     pub semantic: Option<i16>,
 }
 
-/// What the meshes of a prim are made of.
+/// The pieces of a prim's mesh, and its sizes.
 #[derive(Clone)]
 pub(super) struct Shape {
     pub pieces: Vec<Piece>,
@@ -72,7 +72,7 @@ pub(super) struct Walk<'s> {
     pub(super) cages: usize,
     /// Emitting variants of materials, for meshes that are lights.
     pub(super) glowing: HashMap<(u32, [u32; 3]), u32>,
-    /// Variants of materials whose colour is that of each prim.
+    /// Variants of materials with the display colours of prims, by material and colour.
     pub(super) colored: HashMap<(u32, [u32; 3]), u32>,
     /// Rectangles and disks that emit, whose backs are dark.
     panels: usize,

@@ -149,7 +149,7 @@ pub(super) fn mirror(reflectance: ColorParam, alpha: ScalarParam) -> Bsdf {
     Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance, alpha: alpha.into() }
 }
 
-/// `over` with a weight on `under`; one of both alone where the weight says so.
+/// `over` with a weight on `under`; only one of them if the weight is 0 or 1.
 pub(super) fn blend(under: Bsdf, over: Bsdf, weight: ScalarParam) -> Bsdf {
     if weight == ScalarParam::from(0.0) {
         under

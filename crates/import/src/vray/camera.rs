@@ -48,7 +48,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// The field of view of a camera that is not physical: that of `SettingsCamera`, unless it is below zero, or else the view's.
+    /// The field of view of a camera that is not physical: the one of `SettingsCamera`, unless it is below zero, or else the view's.
     fn angle(&mut self, view: Handle<'n>, settings: Option<Handle<'n>>) -> Result<f64, ImportError> {
         let own = view.number("fov", FRAC_PI_4)?;
         let Some(settings) = settings else { return Ok(own) };

@@ -1,7 +1,7 @@
 //! Light from the surroundings: `LightDome`, `SettingsEnvironment`.
 //!
-//! A scene here has one environment, which is seen and gives light. A dome wins over the settings, and of these what gives light
-//! (`gi_tex`) over what is seen (`bg_tex`).
+//! A scene here has one environment, which is seen and gives light. A dome has precedence over the settings, and among these the light
+//! (`gi_tex`) over the background (`bg_tex`).
 
 use super::light::Strength;
 use super::parameters;
@@ -53,7 +53,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// What the settings say of the background (`bg`) or of light (`gi`), with a multiplier; `None` where it is black.
+    /// The setting of the background (`bg`) or of light (`gi`), with a multiplier; `None` if it is black.
     fn backdrop(&mut self, settings: Handle<'n>, kind: &str) -> Result<Option<(String, Value, Rgb)>, ImportError> {
         let texture = format!("{kind}_tex");
         let multiplier = Rgb::splat(settings.number(&format!("{kind}_tex_mult"), 1.0)? as f32 * self.exposure);
@@ -131,7 +131,7 @@ impl<'n> Reader<'n, '_> {
         Ok(())
     }
 
-    /// A picture all round, by the mapping that its `UVWGenEnvironment` says.
+    /// A picture all round, by the mapping of its `UVWGenEnvironment`.
     fn environment_map(&mut self, texture: Handle<'n>, scale: Rgb) -> Result<(), ImportError> {
         let factor = self.plain_color(texture, "color_mult", Rgb::WHITE)? * scale;
         let Some(mut image) = self.picture(texture)? else {
@@ -182,7 +182,7 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
-/// V-Ray's space of environment pictures, z up, from that of ours, y up: the middle of the picture (+z) lies at +y.
+/// V-Ray's space of environment pictures, z up, from our space of pictures, y up: the middle of the picture (+z) is at +y.
 fn z_up_from_map() -> DMat3 {
     DMat3::from_cols(DVec3::NEG_X, DVec3::Z, DVec3::Y)
 }

@@ -10,7 +10,7 @@ use enfilade_math::{Vec2, Vec3};
 use enfilade_vrscene::Value;
 use std::collections::{BTreeMap, HashMap};
 
-/// Half the side of what stands for an infinite plane, units.
+/// Half the side of the square that replaces an infinite plane, units.
 const PLANE_HALF: f32 = 1000.0;
 
 impl<'n> Reader<'n, '_> {

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// Luminous efficacy by which V-Ray turns watts into lumens, lm/W (its documentation of `units`).
 const LUMENS_PER_WATT: f64 = 683.0;
 
-/// How strong a light is, by its parameters `color`, `intensity` and `units`.
+/// The strength of a light, by its parameters `color`, `intensity` and `units`.
 pub(super) enum Strength {
     /// Colour × intensity in units of the image.
     Image(Rgb),

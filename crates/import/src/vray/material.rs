@@ -6,10 +6,10 @@ use crate::ImportError;
 use enfilade_math::Rgb;
 use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap};
 
-/// Stands in for surfaces that have no counterpart.
+/// Replaces surfaces that have no counterpart.
 pub(super) const MID_GREY: f32 = 0.5;
 
-/// What a material or BRDF plugin says of a surface.
+/// The surface of a material or BRDF plugin.
 #[derive(Clone)]
 pub(super) struct Surface {
     pub bsdf: Bsdf,
@@ -109,7 +109,7 @@ impl<'n> Reader<'n, '_> {
         Ok(made)
     }
 
-    /// What a material or BRDF plugin says; `depth` counts the plugins on the way to it.
+    /// The surface of a material or BRDF plugin; `depth` counts the plugins on the way to it.
     pub(super) fn surface(&mut self, plugin: Handle<'n>, depth: usize) -> Result<Surface, ImportError> {
         self.layers += 1;
         if self.layers > MAX_LAYERS {

@@ -9,7 +9,7 @@
 //! | materials | `MtlSingleBRDF`, `MtlMulti`; `Mtl2Sided`, `MtlDoubleSided`, `MtlOverride`, `MtlWrapper`, `MtlRenderStats`, `MtlMaterialID`, `MtlRoundEdges` as the material within; `BRDFVRayMtl`, `BRDFDiffuse`, `BRDFMirror`, `BRDFPhong`, `BRDFBlinn`, `BRDFGGX`, `BRDFWard`, `BRDFCookTorrance`, `BRDFGlass`, `BRDFGlassGlossy`, `BRDFLight`, `BRDFLayered`, `BRDFBump` |
 //! | textures | `TexBitmap` with `BitmapBuffer` and its transfer function, `TexAColor`, `TexCombineColor`, `TexInvert`, `TexNormalBump`, and wrappers of one texture; `UVWGenChannel`, `UVWGenMayaPlace2dTexture`, `UVWGenEnvironment`; `TexSky` |
 //! | units | `SettingsUnitsInfo`: metres per unit, the axis that points up, and the scale of photometric lights |
-//! | skipped in silence | settings of sampling, caches and files; render elements: they say how to render, not what |
+//! | skipped in silence | settings of sampling, caches and files; render elements: they are settings of rendering |
 //! | dropped with a warning | every other plugin that a node, light or material leads to, or that would be seen: hair, proxies, volumes, instancers |
 //!
 //! # Units of light
@@ -22,7 +22,7 @@
 //!
 //! # Names
 //!
-//! A part has the name of its node, `chair@node_12` (for Hypersim, the object is what stands before `@`); with several materials
+//! A part has the name of its node, `chair@node_12` (for Hypersim, the object is the text before `@`); with several materials
 //! `chair@node_12_<material>`. Lights with a surface are parts of the light's name.
 //!
 //! # Animation

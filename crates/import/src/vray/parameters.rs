@@ -1,7 +1,7 @@
 //! The parameters of a plugin as the types that an importer asks for.
 //!
-//! An animated parameter has the value of its first keyframe ([`Handle::is_animated`] says which are). One that the plugin does not state has the
-//! default that the caller gives, which is V-Ray's.
+//! An animated parameter has the value of its first keyframe ([`Handle::is_animated`] is true for those). One that the plugin does not
+//! state has the default that the caller gives, which is V-Ray's.
 
 use super::plugins::Handle;
 use crate::ImportError;
@@ -9,7 +9,7 @@ use enfilade_math::{DAffine3, DMat3, DVec3, Rgb};
 use enfilade_vrscene::{Matrix, Value};
 
 impl<'n> Handle<'n> {
-    /// What it is, such as `Node`; empty where its kind is not text.
+    /// Kind of the plugin, such as `Node`; empty if it is not text.
     pub(super) fn kind(self) -> &'n str {
         std::str::from_utf8(self.plugin.kind()).unwrap_or_default()
     }
@@ -19,7 +19,7 @@ impl<'n> Handle<'n> {
         String::from_utf8_lossy(self.plugin.name()).into_owned()
     }
 
-    /// Where it is, for messages.
+    /// Kind and name of the plugin, for messages.
     pub(super) fn place(self) -> String {
         format!("{} {}", self.kind(), self.name())
     }
@@ -30,7 +30,7 @@ impl<'n> Handle<'n> {
         ImportError::malformed(self.file, format!("{place}: {}: {parameter}", self.place()), problem.as_ref())
     }
 
-    /// The value of a parameter; of an animated one that of the first keyframe. `None` where the plugin does not have it.
+    /// The value of a parameter; for an animated one the value of the first keyframe. `None` if the plugin does not have it.
     pub(super) fn value(self, parameter: &str) -> Result<Option<Value>, ImportError> {
         let value = self.plugin.get(parameter).map_err(|e| {
             let problem = format!("expected {}, found {}; export the scene again or correct the value", e.expected, e.found);
@@ -45,7 +45,7 @@ impl<'n> Handle<'n> {
         }
     }
 
-    /// How many keyframes a parameter has; 0 where it is not animated.
+    /// Number of keyframes of a parameter; 0 if it is not animated.
     pub(super) fn keyframes(self, parameter: &str) -> usize {
         match self.plugin.parameter(parameter) {
             Some(p) if p.raw().starts_with(b"interpolate") => match p.value() {
@@ -107,7 +107,7 @@ impl<'n> Handle<'n> {
         }
     }
 
-    /// True when a parameter that holds a texture states one: black and zero are V-Ray's defaults of such parameters, and `NULL` is none.
+    /// True when a parameter for a texture states one: black and zero are V-Ray's defaults of such parameters, and `NULL` is none.
     pub(super) fn states_texture(self, parameter: &str) -> Result<bool, ImportError> {
         let Some(value) = self.value(parameter)? else { return Ok(false) };
         Ok(constant(&value).map_or_else(|| value.plugin().is_some_and(|name| name != b"NULL"), |color| !color.is_black()))

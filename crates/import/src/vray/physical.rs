@@ -7,7 +7,7 @@ use super::plugins::Handle;
 use crate::ImportError;
 use enfilade_math::{DMat3, DVec3};
 
-/// Where the film may lie behind the lens, units.
+/// Least and greatest distance of the film behind the lens, units.
 const FILM_DISTANCES: [f64; 2] = [1e-4, 500.0];
 
 /// Halvings of that interval.
@@ -26,7 +26,7 @@ pub(super) const BY_EXPOSURE_VALUE: i64 = 2;
 /// Beyond this, brighter than the sun or darker than any night, an exposure value is a mistake.
 const MAX_EXPOSURE_VALUE: f64 = 64.0;
 
-/// What a camera's exposure multiplies radiance by; 1 where it is turned off.
+/// Factor of radiance by a camera's exposure; 1 if it is turned off.
 ///
 /// White is what saturates a film of this speed by ISO 12232: L · t · S · 0.65 / (78 N²) for a luminance L in cd/m². V-Ray does not
 /// publish its formula; this one gives the brightness of its own picture of Hypersim's empty scene to 0.1 % (docs/vray.md). An exposure
@@ -87,7 +87,7 @@ impl Physical {
         })
     }
 
-    /// True when the picture is not that of a pinhole whose axis goes through its middle.
+    /// True when the camera is not a pinhole whose axis goes through the middle of the picture.
     pub(super) fn is_shifted(&self) -> bool {
         [self.horizontal_shift, self.lens_shift, self.offset[0], self.offset[1]].iter().any(|v| v.abs() > NO_SHIFT)
     }

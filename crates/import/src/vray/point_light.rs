@@ -66,7 +66,7 @@ impl<'n> Reader<'n, '_> {
             (0.5 * light.number("hotspot", PI / 6.0)?, 0.5 * light.number("fallsize", PI / 4.0)?)
         } else {
             let (half, penumbra) = (0.5 * light.number("coneAngle", PI / 4.0)?, light.number("penumbraAngle", 0.0)?);
-            // A penumbra below zero lies within the cone.
+            // A penumbra below zero is within the cone.
             (half + penumbra.min(0.0), half + penumbra.max(0.0))
         };
         if light.number("dropOff", 0.0)? != 0.0 {

@@ -5,7 +5,7 @@
 //! | `diffuse`, `roughness` | diffuse, or rough diffuse where nothing reflects |
 //! | `reflect` with `fresnel`; `metalness`, `coat_*`, `sheen_*` | principled: `reflect` scales the reflection, roughness = 1 − glossiness (or the glossiness itself with `option_use_roughness`) |
 //! | `reflect` without `fresnel` | a mirror mixed in by its strength |
-//! | `refract` | glass mixed in by its strength; thin with `refract_thin_walled` or an index of 1, and frosted where it is thin and `refract_glossiness` says so |
+//! | `refract` | glass mixed in by its strength; thin with `refract_thin_walled` or an index of 1, and frosted where it is thin and `refract_glossiness` is below 1 |
 //! | `refract_affect_shadows` | on or off, light passes as the glass reflects, absorbs and bends it: straight on through panes |
 //! | `fog_color`, `fog_color_tex`, `fog_mult`, `fog_depth` | absorption, −ln(colour) · `fog_mult` / `fog_depth` per centimetre, or per unit of the scene where `fog_unit_scale_on` is 0 |
 //! | `opacity`, or `opacity_color` where `opacity_source` is 1; `opacity_mode` | shares of the surface that are there; mode 1 cuts at one half |
@@ -49,7 +49,7 @@ impl<'n> Reader<'n, '_> {
         Ok(Surface { bsdf, emission, emits_both_sides: true, alpha, normal_map })
     }
 
-    /// What scatters at the surface where it does not refract.
+    /// The scattering at the surface without refraction.
     fn opaque(&mut self, m: Handle<'n>) -> Result<Bsdf, ImportError> {
         let base = self.color(m, "diffuse", Rgb::splat(MID_GREY))?;
         let reflect = self.color(m, "reflect", Rgb::BLACK)?;

@@ -11,7 +11,7 @@ pub(super) const MAX_CHAIN: usize = 48;
 /// A material of more BRDFs than this has layers that contain each other again and again.
 pub(super) const MAX_LAYERS: usize = 256;
 
-/// What distinguishes meshes: the geometry's plugin, the texture channel, and whether faces are separated by material.
+/// Key of a mesh: the geometry's plugin, the texture channel, and whether faces are separated by material.
 pub(super) type MeshKey = (usize, i64, bool);
 
 /// The meshes of a geometry by material id; 0 for all where faces are not separated by material.
@@ -35,11 +35,11 @@ pub(super) struct Reader<'n, 'a> {
     pub materials: HashMap<usize, Made>,
     /// The texture channel of the material that is being made.
     pub channel: Option<i64>,
-    /// How many BRDFs it has so far.
+    /// Number of BRDFs of that material so far.
     pub layers: usize,
     /// Pictures of 1 − factor × channel of others.
     pub complements: HashMap<(u32, [u32; 3], Option<u8>), u32>,
-    /// What the camera's exposure multiplies all light by.
+    /// Factor of all light by the camera's exposure.
     pub exposure: f32,
     /// Multiplies all lights, exposure included.
     pub light_level: Rgb,

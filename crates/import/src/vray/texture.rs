@@ -1,4 +1,4 @@
-//! Textures, and the colour and number parameters that may hold them.
+//! Textures, and the colour and number parameters that may have them.
 
 use super::material::MID_GREY;
 use super::parameters;
@@ -87,7 +87,7 @@ impl<'n> Reader<'n, '_> {
         }
     }
 
-    /// The number that a value of a plugin stands for.
+    /// The number parameter of a plugin's value.
     pub(super) fn scalar_of(&mut self, plugin: Handle<'n>, parameter: &str, value: &Value) -> Result<ScalarParam, ImportError> {
         let texture = self.texture_of(plugin, parameter, value, 0)?;
         let Some(picture) = texture.picture else { return Ok(grey(texture.factor).into()) };
@@ -110,7 +110,7 @@ impl<'n> Reader<'n, '_> {
         Ok(ScalarParam { factor: 1.0, texture: Some((TextureRef { image, ..picture }, 0)) })
     }
 
-    /// Perceptual roughness by a parameter that holds it, or glossiness, its complement.
+    /// Perceptual roughness by a parameter for it, or for glossiness, its complement.
     pub(super) fn roughness(
         &mut self,
         plugin: Handle<'n>,
@@ -129,7 +129,7 @@ impl<'n> Reader<'n, '_> {
         (mean * mean).into()
     }
 
-    /// The texture that a value of a plugin stands for: a constant, or another plugin.
+    /// The texture of a plugin's value: a constant, or another plugin.
     pub(super) fn texture_of(&mut self, plugin: Handle<'n>, parameter: &str, value: &Value, depth: usize) -> Result<Texture, ImportError> {
         if depth > MAX_CHAIN {
             return Err(plugin.error(parameter, "textures refer to each other in a circle; correct the reference that closes it"));
@@ -182,7 +182,7 @@ impl<'n> Reader<'n, '_> {
                 Ok(self.inverted(texture))
             }
             kind => {
-                // A constant tells less than a texture does.
+                // A constant has less information than a texture.
                 let holds = |parameter: &&&str| t.plugin.parameter(parameter).is_some();
                 let Some(parameter) = NEAREST.iter().find(holds) else {
                     self.warn(t, format!("{kind} is not supported; a mid grey stands in"));
@@ -253,7 +253,7 @@ impl<'n> Reader<'n, '_> {
     }
 }
 
-/// The number that a colour stands for.
+/// The grey value of a colour.
 fn grey(color: Rgb) -> f32 {
     if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
 }

@@ -1,7 +1,7 @@
 //! Transfer functions: whether the texels of a `BitmapBuffer` are encoded for the eye or linear.
 //!
-//! By Chaos's descriptions of its plugins `transfer_function`, which was called `color_space` before, is 0 (linear), 1 (`gamma`, which
-//! counts for nothing else), 2 (sRGB) or 3 (by the file, as [`Reader::by_file`] says).
+//! By Chaos's descriptions of its plugins `transfer_function`, which was called `color_space` before, is 0 (linear), 1 (`gamma`, which is
+//! ignored otherwise), 2 (sRGB) or 3 (by the file, see [`Reader::by_file`]).
 
 use super::plugins::Handle;
 use super::reader::Reader;
@@ -16,14 +16,14 @@ const GAMMA: i64 = 1;
 const SRGB: i64 = 2;
 const AUTO: i64 = 3;
 
-/// Gammas by which sRGB is usually stated: that of the picture, or the one that undoes it, as 3ds Max's exporter writes it.
+/// Gammas by which sRGB is usually stated: the picture's, or the one that undoes it, as 3ds Max's exporter writes it.
 const USUAL_GAMMAS: [f64; 2] = [2.2, 1.0 / 2.2];
 
 /// Gammas that differ by no more than this share are the same.
 const NEAR_GAMMA: f64 = 0.15;
 
 impl<'n> Reader<'n, '_> {
-    /// How the picture of a buffer is decoded; `path` leads to its file.
+    /// The decoding of a buffer's picture; `path` leads to its file.
     pub(super) fn decoding(&mut self, buffer: Handle<'n>, path: &str) -> Result<Use, ImportError> {
         let function = buffer.int("transfer_function", buffer.int("color_space", GAMMA)?)?;
         Ok(match function {
@@ -49,8 +49,8 @@ impl<'n> Reader<'n, '_> {
         Ok(Use::Color)
     }
 
-    /// By the name of the file, `_lin_srgb` or `raw` for linear and `_srgb` for sRGB, or else sRGB where it has eight bits a channel
-    /// and three or four channels (Chaos's documentation of the bitmap texture).
+    /// The decoding by the name of the file, `_lin_srgb` or `raw` for linear and `_srgb` for sRGB, or else sRGB where it has eight bits a
+    /// channel and three or four channels (Chaos's documentation of the bitmap texture).
     fn by_file(&mut self, buffer: Handle<'n>, path: &str) -> Use {
         let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
         if name.contains("_lin_srgb") {

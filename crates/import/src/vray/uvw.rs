@@ -1,11 +1,11 @@
-//! Where a texture gets its coordinates: UVW generators.
+//! The sources of texture coordinates: UVW generators.
 
 use super::plugins::Handle;
 use super::reader::Reader;
 use crate::ImportError;
 use enfilade_scene::Wrap;
 
-/// How texture coordinates of a mesh lead into a picture.
+/// The mapping from a mesh's texture coordinates to a picture.
 pub(super) struct Placement {
     /// Texture channel of the mesh.
     pub channel: i64,
@@ -31,7 +31,7 @@ const MAYA_UNSUPPORTED: [(&str, f64); 7] = [
 ];
 
 impl<'n> Reader<'n, '_> {
-    /// The placement that a texture's `uvwgen` says.
+    /// The placement by a texture's `uvwgen`.
     pub(super) fn placement(&mut self, texture: Handle<'n>) -> Result<Placement, ImportError> {
         let Some(generator) = texture.reference("uvwgen")? else { return Ok(Placement::default()) };
         match generator.kind() {

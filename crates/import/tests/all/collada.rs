@@ -1,11 +1,11 @@
-//! COLLADA files, made on the spot, and what trimesh with pycollada and the specification have of them.
+//! COLLADA files, made by the tests, compared with trimesh with pycollada and with the specification.
 
 use crate::common::{Folder, png, principled, warnings};
 use enfilade_import::Imported;
 use enfilade_math::{Rgb, Vec3, linear_from_srgb};
 use enfilade_scene::{Alpha, Bsdf, Light, Wrap};
 
-/// A file with these libraries and nodes; y is up and the unit is a centimetre unless `asset` says otherwise.
+/// A file with these libraries and nodes; y is up and the unit is a centimetre unless `asset` changes that.
 fn file(asset: &str, libraries: &str, nodes: &str) -> String {
     let asset = if asset.is_empty() { "<unit meter=\"0.01\"/><up_axis>Y_UP</up_axis>" } else { asset };
     format!(

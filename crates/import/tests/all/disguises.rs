@@ -1,4 +1,4 @@
-//! Files that are something else than their names say, and statements that other programs take.
+//! Files that do not match their names, and statements that other programs accept.
 
 use crate::common::{Folder, Gltf, warnings};
 use enfilade_import::ImportOptions;

@@ -305,7 +305,7 @@ fn labels_in_extras_are_inherited_and_mistakes_are_told() {
     let imported = folder.write("a.gltf", g.text()).load("a.gltf").unwrap();
     let labels: Vec<_> = imported.labels.clone().unwrap().iter().map(|l| (l.part, l.label)).collect();
     let label = |semantic, instance| PartLabel { semantic, instance };
-    // What says what it is besides is no part of that instance.
+    // A node with a class of its own is no part of that instance.
     assert_eq!(labels, [(0, label(6, 3)), (1, label(18, 1))]);
     assert!(warnings(&imported).contains("spaceship"));
 }

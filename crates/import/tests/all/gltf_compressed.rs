@@ -1,4 +1,5 @@
-//! Compressed glTF by the encoders of other programs (`tests/gltf/make.mjs`): every vertex is where its texture coordinates say.
+//! Compressed glTF by the encoders of other programs (`tests/gltf/make.mjs`): every vertex is at the position that its texture coordinates
+//! encode.
 
 use crate::common::{Folder, Gltf, principled, warnings};
 use enfilade_geometry::Mesh;
@@ -77,7 +78,7 @@ fn compressed_meshes_are_the_ring_they_were_made_from() {
 fn filtered_rotations_place_instances() {
     let imported = load(include_bytes!("../gltf/meshopt_khr.glb"));
     let fronts: Vec<DVec3> = imported.scene.parts.iter().map(|p| p.world_from_mesh.matrix3 * DVec3::Z).collect();
-    // The second stands a quarter turn around the file's y: its z points along x.
+    // The second is turned by a quarter around the file's y: its z points along x.
     assert!(fronts.len() == 2 && fronts[0].distance(-DVec3::Y) < 1e-3 && fronts[1].distance(DVec3::X) < 1e-3, "{fronts:?}");
 }
 

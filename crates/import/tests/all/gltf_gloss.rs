@@ -85,7 +85,7 @@ fn mistakes_are_told() {
     let g = document(&json!({"diffuseFactor": [1, 1, "x", 1]}), &picture);
     assert!(folder.write("b.gltf", g.text()).error("b.gltf").contains("not valid glTF JSON"));
 
-    // Plain plastic stands in for a picture that is missing; values beyond 0 … 1 are these.
+    // Plain plastic replaces a missing picture; values beyond 0 … 1 are clamped.
     let extension = json!({"diffuseFactor": [1, 1, 1, 1], "specularFactor": [7, 7, 7], "glossinessFactor": -2, "specularGlossinessTexture": {"index": 0}});
     let mut g = document(&extension, &picture);
     g.json["images"] = json!([{"uri": "missing.png"}]);

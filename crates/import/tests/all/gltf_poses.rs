@@ -14,7 +14,7 @@ fn attribute(g: &mut Gltf, name: &str, accessor: usize) {
     g.json["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
 }
 
-/// The triangle bound to two nodes by joints and weights, four of each a vertex; its node stands elsewhere.
+/// The triangle bound to two nodes by joints and weights, four of each a vertex; its node is elsewhere.
 fn skinned(joints: [[u8; 4]; 3], weights: [[f32; 4]; 3], nodes: [Value; 2]) -> Gltf {
     let mut g = Gltf::triangle();
     let accessor = g.accessor(joints.as_flattened(), 5121, "VEC4", 3);
@@ -28,7 +28,7 @@ fn skinned(joints: [[u8; 4]; 3], weights: [[f32; 4]; 3], nodes: [Value; 2]) -> G
     g
 }
 
-/// Two joints, of which the second stands on the first and is twice as large.
+/// Two joints, of which the second is a child of the first and twice as large.
 fn two_joints() -> Gltf {
     let weights = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.25, 0.25, 0.0, 0.0]];
     let nodes = [json!({"translation": [1, 0, 0], "children": [2]}), json!({"scale": [2, 2, 2]})];

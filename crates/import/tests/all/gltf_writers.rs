@@ -1,4 +1,4 @@
-//! What writers of glTF files leave out, mean otherwise, or add.
+//! Omissions, deviations and additions of programs that write glTF files.
 
 use crate::common::{Folder, Gltf, warnings};
 use enfilade_math::Rgb;

@@ -45,7 +45,7 @@ fn dataset() -> Folder {
     folder
 }
 
-/// A scene of `objects` in the dataset, all by their own origins unless one says otherwise.
+/// A scene of `objects` in the dataset, all by their own origins unless one overrides it.
 fn imported(folder: &Folder, objects: Value, more: Value) -> Imported {
     let mut scene = json!({"stage_instance": {"template_name": "stages/house"}, "translation_origin": "asset_local",
         "default_lighting": "no_lights", "object_instances": objects});
@@ -121,7 +121,7 @@ fn categories_of_the_tables_become_classes_and_objects_instances() {
     assert_eq!(names(&imported), expected);
     let labels: Vec<_> = expected.iter().map(|name| label(&imported, name)).collect();
     assert_eq!(labels, [(1, -1), (2, -1), (-1, -1), (5, 1), (4, 2), (5, 3), (6, 4), (-1, -1)]);
-    // Each model once, though one stands twice.
+    // Each model once, though one is placed twice.
     assert_eq!(imported.report.counts.meshes, 5);
     assert!(warnings(&imported).contains("of 1 objects the collection has no category"), "{}", warnings(&imported));
     assert!(imported.inputs.iter().any(|p| p.ends_with("semantics/objects.csv")));

@@ -1,4 +1,4 @@
-//! What other readers take as well: byte order marks, other encodings, whole numbers with a point, paddings, decimal commas.
+//! Deviations that other readers accept as well: byte order marks, other encodings, whole numbers with a point, paddings, decimal commas.
 
 use crate::common::{Folder, Gltf, png, warnings};
 use enfilade_import::{ImportOptions, Imported};

@@ -1,4 +1,4 @@
-//! Files of every format, written by the tests, and what scenes become of them.
+//! Files of every format, written by the tests, and the imported scenes.
 
 mod bad_input;
 mod collada;

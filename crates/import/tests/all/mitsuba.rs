@@ -166,7 +166,7 @@ fn shapes_are_placed_named_and_face_outward() {
     assert_eq!(names, ["Wood_Chair 1", "inline_Chair 1", "Ball", "inline_cylinder", "inline_disk", "inline_cube", "inline_rectangle"]);
     // The front is where the normals point: the triangle was turned round.
     assert_eq!(scene.meshes[0].triangles, [[0, 2, 1]]);
-    // With `faceNormals` these say nothing.
+    // With `faceNormals` the normals are ignored.
     assert!(scene.meshes[1].normals.is_empty() && scene.meshes[1].triangles == [[0, 1, 2]]);
     assert_eq!(scene.parts[1].world_from_mesh.transform_point3(DVec3::Y), DVec3::new(1.0, 0.0, 2.0));
     let ball = scene.parts[2].world_from_mesh.transform_point3(DVec3::X);

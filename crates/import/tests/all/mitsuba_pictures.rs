@@ -1,4 +1,4 @@
-//! What Mitsuba makes of pictures where a number is wanted, and what stands in for textures that cannot be kept.
+//! Pictures in Mitsuba's number parameters, and replacements of textures that cannot be kept.
 
 use crate::common::{Folder, png, warnings};
 use enfilade_import::Imported;

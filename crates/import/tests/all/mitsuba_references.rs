@@ -1,4 +1,4 @@
-//! What shapes of a Mitsuba scene refer to.
+//! References of the shapes of a Mitsuba scene.
 
 use crate::common::{Folder, warnings};
 use enfilade_import::Imported;

@@ -121,7 +121,7 @@ fn highlights_are_energy_conserving_coats_and_of_blenders_roughness_in_its_files
             assert_eq!(coat(head, kd, ns), (kd, roughness, 1.0), "{head}");
         }
     }
-    // Before 2.80 a hardness from 1 to 511, as 0 to 1000: here one of 198. The OBJ file tells which Blender it was.
+    // Before 2.80 a hardness from 1 to 511, as 0 to 1000: here one of 198. The OBJ file has the version of Blender.
     folder.write("a.obj", format!("# Blender v2.79 (sub 0) OBJ File: ''\nmtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
     let (_, roughness, ks) = coat("# Blender MTL File: 'None'\n", 0.25, 197.0 / 0.51);
     assert!((roughness - 0.1f32.sqrt()).abs() < 1e-5 && ks == 0.5, "{roughness} {ks}");
@@ -193,7 +193,7 @@ fn colour_pictures_as_bump_maps_are_heights() {
     assert!(matches!(map("norm oak.png\n"), Some(NormalMap::Normal { .. })));
 }
 
-/// What one material says, and what the report says of it, on a triangle with texture coordinates.
+/// The import of one material, and its report, on a triangle with texture coordinates.
 fn made(folder: &Folder, body: &str) -> (enfilade_scene::Material, String) {
     folder.write("a.obj", format!("mtllib a.mtl\nusemtl M\n{TRIANGLES}f 1/1 2/2 3/3\n"));
     let imported = folder.write("a.mtl", format!("newmtl M\n{body}")).load("a.obj").unwrap();

@@ -1,4 +1,4 @@
-//! What files say is one thing: objects, what they lie in, and labels that files give to them.
+//! Things as files define them: objects, their parents, and labels that files give to them.
 
 use crate::common::{Folder, Gltf, warnings};
 use enfilade_import::Imported;
@@ -131,7 +131,7 @@ fn prims_are_objects_and_components_instances_and_placed_prototypes_are_one() {
             ("pots[1]/World/pots/pot/plant", 7, "World > pots > pots[1]"),
         ],
     );
-    // Of whatever kind, what holds everything is the scene.
+    // A prim that contains everything is the scene, whatever its kind.
     let all = usd("def Xform \"all\" ( kind = \"component\" ) { def Cube \"a\" { }\ndef Cube \"b\" { } }").scene;
     assert_told(&all, &[("World/all/a", 0, "World > all > a"), ("World/all/b", 1, "World > all > b")]);
 }
@@ -190,7 +190,7 @@ fn semantics_of_prims_give_each_an_instance_of_its_own() {
 
 #[test]
 fn of_two_schemas_the_stronger_opinion_counts_then_the_newer_schema() {
-    // By the strength order of USD (LIVRPS): what a prim says itself is stronger than what it references.
+    // By the strength order of USD (LIVRPS): a prim's own opinion is stronger than what it references.
     let older = |name: &str| format!("string semantic:Semantics:params:semanticData = \"{name}\"");
     let newer = |name: &str| format!("token[] semantics:labels:class = [\"{name}\"]");
     let chair = "prepend references = @chair.usda@";

@@ -6,7 +6,7 @@ use enfilade_math::{DVec3, Rgb, Vec2, Vec3};
 use enfilade_scene::{Alpha, Bsdf, Environment, Light, NormalMap, Scene, SpotFalloff};
 use std::io::Write;
 
-/// A camera that mirrors, so that the world is right-handed as it stands, and the world's beginning.
+/// A camera that mirrors, so that the world is already right-handed, and the world's beginning.
 const BEGIN: &str = "Scale -1 1 1\nLookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 60\nWorldBegin\n";
 
 fn load(folder: &Folder, body: &str) -> Imported {
@@ -42,7 +42,7 @@ fn materials_of_version_3() {
         matches!(of("Material \"glass\" \"float index\" 1.33 \"rgb Kt\" [1 .5 1]"), Bsdf::Dielectric { eta: 1.33, alpha, transmittance, .. }
             if alpha.factor == 0.0 && transmittance.factor.g == 0.5)
     );
-    // That of 0 is 0.04725, except for glass, which is smooth there.
+    // A roughness of 0 gives 0.04725, except for glass, which is smooth then.
     let metal = of("Material \"metal\" \"float roughness\" 0");
     assert!(matches!(metal, Bsdf::Conductor { alpha, .. } if (alpha.factor - 0.04725).abs() < 1e-4));
     let plastic = of("Material \"plastic\" \"float roughness\" 0");

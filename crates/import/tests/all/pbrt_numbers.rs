@@ -1,4 +1,4 @@
-//! What pictures count for where pbrt wants a number.
+//! Pictures in pbrt's number parameters.
 
 use crate::common::{Folder, png, warnings};
 use enfilade_import::Imported;
@@ -10,7 +10,7 @@ const TEXTURES: &str = "Texture \"leaf\" \"spectrum\" \"imagemap\" \"string file
     Texture \"leaf\" \"float\" \"imagemap\" \"string filename\" \"leaf.png\"\n\
     Texture \"colour\" \"float\" \"imagemap\" \"string filename\" \"colour.png\"\n";
 
-/// What of the leaf is there.
+/// Opaque share of the leaf.
 const LEAF: f32 = 128.0 / 255.0;
 
 fn load(body: &str) -> Imported {

@@ -92,7 +92,7 @@ fn textures_may_be_tiff_webp_gif_dds_or_ktx2() {
     (dds[0], dds[1], dds[3], dds[4]) = (u32::from_le_bytes(*b"DDS "), 124, 1, 1);
     dds[20..27].copy_from_slice(&[0x41, 0, 32, 0xff, 0xff00, 0xff_0000, 0xff00_0000]);
     let dds: Vec<u8> = dds.iter().flat_map(|word| word.to_le_bytes()).chain([10, 200, 30, 255]).collect();
-    // Vulkan's format 37 of 1×1 pixels, whose one level of 4 bytes lies behind the header.
+    // Vulkan's format 37 of 1×1 pixels, whose one level of 4 bytes follows the header.
     let words = [37u32, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes);
     let longs = [0u64, 0, 104, 4, 4].into_iter().flat_map(u64::to_le_bytes);
     let ktx2: Vec<u8> = b"\xabKTX 20\xbb\r\n\x1a\n".iter().copied().chain(words).chain(longs).chain([10, 200, 30, 255]).collect();

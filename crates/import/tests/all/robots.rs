@@ -78,7 +78,7 @@ fn urdf_stands_at_rest_with_its_shapes_and_materials() {
     let imported = folder.load("furniture/urdf/cupboard.urdf").unwrap_or_else(|e| panic!("{e}"));
     assert_bounds(&imported, "base", [-1.0, -0.5, 0.0], [1.0, 0.5, 1.0]);
     assert_bounds(&imported, "knob", [0.9, -0.1, 0.4], [1.1, 0.1, 0.6]);
-    // The joint turns x to y: the leg's x of 1 is y, and its tube, along x of the knob, lies along y.
+    // The joint turns x to y: the leg's x of 1 is y, and its tube, along x of the knob, is along y.
     assert_bounds(&imported, "leg.tube", [0.8, 0.0, 0.3], [1.2, 2.0, 0.7]);
     assert_bounds(&imported, "plate", [0.0, 0.0, 0.5], [1.0, 1.0, 0.5]);
     let of = |name: &str| &imported.scene.materials[imported.scene.parts.iter().find(|p| p.name == name).unwrap().material as usize];

@@ -44,7 +44,7 @@ fn faces_of_replica_become_objects_with_their_classes_and_mean_colours() {
     let Bsdf::Diffuse { reflectance } = &imported.scene.materials[1].bsdf else { panic!("not diffuse") };
     assert_eq!(reflectance.factor, Rgb::new(0.0, 0.0, 0.5));
     assert!(warnings(&imported).contains("colours of vertices are not supported"));
-    // A folder stands for it.
+    // Its folder can be given in its place.
     assert_eq!(folder.load("apartment_0").unwrap().report.counts.parts, 2);
 }
 
@@ -103,7 +103,7 @@ fn colours_of_hm3d_tell_objects_of_the_scan_with_its_own_pictures() {
     folder.write("x/s.basis.glb", halves(&two_texels([90, 90, 90, 255], [9, 9, 9, 255])));
     let imported = folder.load("x/s.semantic.txt").unwrap();
     assert_eq!(parts(&imported), [("wall (1)", 1, -1), ("bed (3)", 4, 1)]);
-    // z is up: the second triangle stands 2 m along x.
+    // z is up: the second triangle is 2 m along x.
     assert_eq!(points(&imported, "bed (3)"), [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 1.0, 0.0]].map(Vec3::from));
     let texels = imported.scene.images.iter().map(|image| image.width).collect::<Vec<_>>();
     assert_eq!(texels, [2], "the scan's picture alone");

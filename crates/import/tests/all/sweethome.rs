@@ -16,7 +16,7 @@ fn zip(entries: &[(&str, &[u8])]) -> Vec<u8> {
     zip.finish().unwrap().into_inner()
 }
 
-/// A corner with three legs of one unit, whose ends tell the axes apart.
+/// A corner with three legs of one unit, whose ends distinguish the axes.
 const TRIPOD: &str = "mtllib tripod.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl oak\nf 1 2 3\nf 1 3 4\nf 1 4 2\n";
 const MTL: &[u8] = b"newmtl oak\nKd 0.4 0.3 0.2\n";
 
@@ -275,7 +275,7 @@ fn shelf_units_are_pieces_and_kinds_that_are_not_known_are_told_once() {
     assert_eq!(warnings(&imported).matches("<gadget>: this kind of furniture is not known").count(), 1, "{}", warnings(&imported));
 }
 
-/// A door that is open by a quarter turn is as deep as it is wide; the size that the home states is that of the open door.
+/// A door that is open by a quarter turn is as deep as it is wide; the size that the home states is the open door's.
 #[test]
 fn open_doors_are_turned_on_their_hinges_before_they_are_sized() {
     let obj = b"v 0 0 0\nv 1 0 0\nv 0 2 0\nv 1 2 0\ng frame\nf 1 2 3\ng sweethome3d_opening_on_hinge_1\nf 1 2 4\n\

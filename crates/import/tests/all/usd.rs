@@ -352,7 +352,7 @@ fn preview_surfaces_and_their_textures_become_principled() {
     assert!(folder.error("a.usda").contains("material </Looks/Paint> needs the texture"));
 }
 
-/// What Blender writes for MaterialX: with a preview surface, and with its viewport's colour in place of one.
+/// Blender's output for MaterialX: with a preview surface, and with its viewport's colour in place of one.
 fn blender(preview: &str, open_pbr: &str) -> String {
     layer(&format!(
         r#"def Mesh "M" ( apiSchemas = ["MaterialBindingAPI"] ) {{ TRIANGLE
@@ -411,7 +411,7 @@ fn materialx_is_taken_where_the_preview_surface_only_stands_in_for_it() {
     assert_eq!(principled(&scene, "M").base_color.factor, Rgb::new(0.6, 0.1, 0.1));
     let material = &scene.materials[part(&scene, "M").material as usize];
     assert!(matches!(material.alpha, enfilade_scene::Alpha::Blend { opacity } if opacity.factor == 0.5));
-    // A preview surface that says what it can is kept, and what is not taken is reported.
+    // A complete preview surface is kept, and what is not taken from MaterialX is reported.
     let (scene, told) = load("Plain", "color3f inputs:base_color = (0.5, 0.25, 0)");
     assert_eq!((principled(&scene, "M").clearcoat.factor, principled(&scene, "M").transmission.factor), (1.0, 0.0));
     assert!(told.contains("beside its UsdPreviewSurface it has a \"ND_open_pbr_surface_surfaceshader\""), "{told}");

@@ -40,7 +40,7 @@ fn text_binary_and_archive_give_the_same_scene() {
     assert_eq!(archive.inputs, [fixture("room.usdz")]);
 }
 
-/// Some writers of archives leave out the flag that says so.
+/// Some writers of archives leave out the flag for UTF-8.
 #[test]
 fn names_in_archives_are_utf8_with_and_without_the_flag() {
     use std::io::Write;
@@ -167,7 +167,7 @@ fn errors_name_the_file_and_the_place() {
     assert!(folder.write("e.usdc", &old).error("e.usdc").contains("byte 8: found version 0.3.0 of usdc, expected 0.4 to 0.13"));
 }
 
-/// Writers' tables of paths hold an empty one that the tree leaves out, and tables of nothing hold not even a first number.
+/// Written tables of paths contain an empty path that the tree leaves out, and empty tables contain not even a first number.
 #[test]
 fn references_without_a_prim_and_empty_layers_are_read() {
     let folder = Folder::new();

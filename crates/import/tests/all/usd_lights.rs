@@ -241,7 +241,7 @@ fn lights_of_the_default_temperature_are_white() {
     }
 }
 
-/// Black bodies as `UsdLux.BlackbodyTemperatureAsRgb` has them, over that of 6500 K, which is to be white.
+/// Black bodies of `UsdLux.BlackbodyTemperatureAsRgb`, divided by the one of 6500 K, which is to be white.
 #[test]
 fn colour_temperatures_agree_with_usdlux() {
     let white = (1.043_33, 0.983_62, 1.034_61);

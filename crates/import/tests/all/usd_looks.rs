@@ -1,4 +1,4 @@
-//! What USD's surfaces look like: bindings by purpose and by collection, MaterialX by name, display colours, and prims that are damaged.
+//! Looks of USD's surfaces: bindings by purpose and by collection, MaterialX by name, display colours, and prims that are damaged.
 
 use crate::common::{Folder, png, warnings};
 use enfilade_import::Imported;

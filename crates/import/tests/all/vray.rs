@@ -16,7 +16,7 @@ fn nodes_are_placed_in_metres_with_z_up_and_share_meshes() {
     let scene = load_text(&folder, &text).scene;
     assert_eq!(scene.parts.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["chair@node_1", "b@node_2"]);
     assert_eq!((scene.meshes.len(), scene.materials.len()), (1, 1));
-    // The x axis goes to y, as the first vector of the matrix says.
+    // The x axis goes to y, as in the first vector of the matrix.
     let corners = scene.world_corners(&scene.parts[1], 0);
     assert!(corners[0].distance(Vec3::new(1.0, 0.0, 3.0)) < 1e-6 && corners[1].distance(Vec3::new(1.0, 0.02, 3.0)) < 1e-6, "{corners:?}");
     // The option multiplies the file's unit.
@@ -169,7 +169,7 @@ fn exposure_multiplies_all_light_but_what_compensates_it() {
     assert!(near(emission(&on), Rgb::splat(3.0 * k)), "{:?} and not {}", emission(&on), 3.0 * k);
     assert!(warnings(&on).contains("the camera's exposure") && warnings(&on).contains("vignetting"));
     assert_eq!(emission(&scene("exposure=0;")), Rgb::splat(3.0));
-    // EV 8 is f²/t = 2^8 at ISO 100, whatever the other parameters say.
+    // EV 8 is f²/t = 2^8 at ISO 100, whatever the other parameters are.
     let by_value = scene("exposure=2; exposure_value=8;");
     assert!(near(emission(&by_value), Rgb::splat(3.0 * 0.65 / 78.0 * 100.0 / 256.0 / 0.002)), "{:?}", emission(&by_value));
     assert!(warnings(&by_value).contains("ISO 100"), "{}", warnings(&by_value));
@@ -247,7 +247,7 @@ fn surroundings_come_from_the_dome_the_sky_or_the_settings() {
         half.images[image as usize].texel(0, (uv.y * 255.9) as usize).0
     };
     assert_eq!((seen(Vec3::new(0.6, 0.0, 0.8)), seen(Vec3::new(0.6, 0.0, -0.8))), (Rgb::WHITE, Rgb::BLACK));
-    // The sun stands where the z axis of its transform points.
+    // The sun is in the direction of the z axis of its transform.
     let day = load(
         &folder,
         "SunLight sun { transform=Transform(Matrix(Vector(0,0,-1), Vector(0,1,0), Vector(1,0,0)), Vector(0,0,0)); intensity_multiplier=0.5; }\nLightDome d { dome_tex=sky; }\nTexSky sky { sun=sun; }\n",

@@ -1,13 +1,13 @@
-//! An edit as it stands in the log: every decision is made, so that doing it again gives the same labels.
+//! An edit as recorded in the log: every decision is made, so that repeating it gives the same labels.
 
 use enfilade_dataset::number_runs;
 use serde::{Deserialize, Serialize};
 
-/// What was done, with everything that is needed to do it again.
+/// An edit, with everything needed to repeat it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Edit {
-    /// Pieces got labels.
+    /// Pieces were labelled.
     Label {
         /// For people.
         description: String,
@@ -38,7 +38,7 @@ pub enum Edit {
 }
 
 impl Edit {
-    /// What was done, for people.
+    /// Description of the edit, for people.
     pub fn description(&self) -> &str {
         match self {
             Self::Label { description, .. } | Self::Split { description, .. } => description,
@@ -48,13 +48,13 @@ impl Edit {
     }
 }
 
-/// What an edit is checked against: the annotation before it.
+/// The state before an edit, against which it is checked.
 pub struct Before<'a> {
-    /// How many pieces there are.
+    /// Number of pieces.
     pub pieces: usize,
     /// The piece of every face.
     pub piece_of_face: &'a [u32],
-    /// How many edits can be undone, and how many be done again.
+    /// Number of edits that can be undone, and that can be redone.
     pub steps: [usize; 2],
 }
 
@@ -62,7 +62,7 @@ impl Edit {
     /// Checks that an edit of the log can be done.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The problem.
     pub fn check(&self, before: &Before<'_>) -> Result<(), String> {
         let [undoable, redoable] = before.steps;
         match self {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// The first line names its own format.
 pub const FORMAT: &str = "enfilade annotation log 1";
 
-/// What the first lines of logs of every form have.
+/// Fields of the first line in logs of every format.
 #[derive(Deserialize)]
 struct Form {
     format: String,
@@ -21,9 +21,9 @@ pub struct Header {
     pub scene: String,
     /// The hash of the scene, by [`enfilade_dataset::scene_hash`].
     pub scene_hash: String,
-    /// How many parts the scene has.
+    /// Number of parts of the scene.
     pub parts: usize,
-    /// How many faces the scene has.
+    /// Number of faces of the scene.
     pub faces: usize,
     /// The class of every part before the first edit.
     pub initial_semantic: Vec<i16>,
@@ -38,12 +38,12 @@ pub struct Entry {
     pub revision: u64,
     /// When, in UTC.
     pub time: String,
-    /// Who asked for it.
+    /// The client that requested it.
     pub client: String,
     /// The client's name for it, by which a repeated request is recognised. Edits that came without one have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// What was done.
+    /// The edit.
     pub edit: Edit,
 }
 
@@ -52,14 +52,14 @@ pub struct Entry {
 pub enum LogProblem {
     /// The log is of another form, which a newer program may have written.
     Format {
-        /// What it calls itself.
+        /// The format that it states.
         found: String,
     },
     /// A line is not valid.
     Line {
         /// From 1.
         line: usize,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
 }

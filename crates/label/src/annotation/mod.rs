@@ -1,4 +1,4 @@
-//! What people labelled in `enfilade annotate`, by the log of their edits.
+//! The labels from `enfilade annotate`, by the log of edits.
 //!
 //! The log is all that an annotation is: a first line about the scene ([`Header`]), then a line for every edit ([`Entry`]), each decided so
 //! that doing it again gives the same labels. [`Annotation::read`] does them again. What is labelled is called a piece: a part of the scene,
@@ -30,7 +30,7 @@ pub enum AnnotationError {
     Format {
         /// The file.
         path: PathBuf,
-        /// What it calls itself.
+        /// The format that it states.
         found: String,
     },
     /// A line is not valid.
@@ -40,7 +40,7 @@ pub enum AnnotationError {
         path: PathBuf,
         /// From 1.
         line: usize,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
     /// The log belongs to another scene: its labels would go to parts that nobody labelled so.
@@ -55,7 +55,8 @@ pub enum AnnotationError {
 }
 
 impl Annotation {
-    /// Reads what people labelled in `scene` from the log beside its mesh; `None` where they did nothing yet, though they may have looked.
+    /// Reads what people labelled in `scene` from the log beside its mesh; `None` if the log has no edits, though people may have opened
+    /// the page.
     ///
     /// # Errors
     /// When the log cannot be read, has an edit that cannot be done, or is about another scene.
@@ -65,7 +66,7 @@ impl Annotation {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             bytes => bytes.map_err(|source| DatasetError::Io { action: "read", path: path.clone(), source })?,
         };
-        let Some((header, entries)) = parse(&bytes).map_err(|problem| located(&path, problem))? else { return Ok(None) };
+        let Some((header, entries)) = parse(&bytes).map_err(|problem| AnnotationError::at(&path, problem))? else { return Ok(None) };
         if entries.is_empty() {
             return Ok(None);
         }
@@ -76,23 +77,26 @@ impl Annotation {
         }
         let mut replay = Replay::new(&header, part_of_face(&faces));
         for entry in entries {
-            replay.perform(entry.edit).map_err(|problem| located(&path, LogProblem::of_edit(entry.revision, problem)))?;
+            replay.perform(entry.edit).map_err(|problem| AnnotationError::at(&path, LogProblem::of_edit(entry.revision, problem)))?;
         }
         Ok(Some(replay.into_annotation()))
     }
 
-    /// The pieces of a scene of which nothing was split: its parts, with these labels.
+    /// The pieces of a scene in which nothing was split: its parts, with these labels.
     pub fn of_whole_parts(scene: &Scene, labels: Labels) -> Self {
         let instances = labels.parts.iter().map(|label| label.instance).max().unwrap_or(0).max(0) as usize;
         Self { labels, pieces: Vec::new(), piece_of_face: part_of_face(&faces_of_parts(scene)), instances }
     }
 }
 
-fn located(path: &Path, problem: LogProblem) -> AnnotationError {
-    let path = path.to_path_buf();
-    match problem {
-        LogProblem::Format { found } => AnnotationError::Format { path, found },
-        LogProblem::Line { line, problem } => AnnotationError::Line { path, line, problem },
+impl AnnotationError {
+    /// A problem of the log in the file `path`.
+    pub fn at(path: &Path, problem: LogProblem) -> Self {
+        let path = path.to_path_buf();
+        match problem {
+            LogProblem::Format { found } => Self::Format { path, found },
+            LogProblem::Line { line, problem } => Self::Line { path, line, problem },
+        }
     }
 }
 

@@ -97,7 +97,7 @@ impl Replay {
         faces.into_iter().for_each(|face| self.piece_of_face[face as usize] = piece);
     }
 
-    /// What it came to.
+    /// The result.
     pub fn into_annotation(self) -> Annotation {
         let Self { labels, pieces, piece_of_face, next_instance, .. } = self;
         Annotation { labels: Labels { parts: labels }, pieces, piece_of_face, instances: next_instance.max(1) as usize - 1 }

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// Points are on a face when they are closer to it than this share of the whole: float32 vertices of a plane are.
 pub(super) const TOLERANCE: f64 = 1e-7;
 
-/// What points span.
+/// The convex hull of points, by its dimension.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Hull {
     /// At most one place.
@@ -48,7 +48,7 @@ impl Face {
     }
 }
 
-/// What `points` span.
+/// The convex hull of `points`.
 pub(super) fn convex_hull(points: &[DVec3]) -> Hull {
     let (min, max) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
     let tolerance = TOLERANCE * (max - min).max_element();

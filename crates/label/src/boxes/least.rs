@@ -14,13 +14,13 @@ use enfilade_math::{DMat3, DQuat, DVec2, DVec3, Rng};
 const FACES: usize = 300;
 /// Normals this close, in radians, propose the same box.
 const SAME_NORMAL: f64 = 1e-5;
-/// Rotations that propose a box whatever the body is.
+/// Number of rotations that propose a box for every body.
 const ROTATIONS: usize = 256;
 /// How many proposals are improved.
 const STARTS: usize = 8;
 /// Turns tried on each.
 const TURNS: usize = 300;
-/// Above so many corners, the hull's faces are those of the corners that are extreme in as many directions.
+/// Above this number of corners, the hull is built from the corners that are extreme in as many directions.
 const CORNERS: usize = 1500;
 
 /// The directions of the sides of a box around `points` of nearly the least volume: columns, orthonormal, right-handed.

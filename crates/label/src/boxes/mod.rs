@@ -1,7 +1,7 @@
 //! Bounding boxes of semantic instances, in Hypersim's three kinds and by its rules.
 //!
-//! The points of an instance are the corners of all its triangles, each as often as it is a corner. Sides are ordered and directed
-//! as the toolkit's code does it, which its README describes otherwise for the second kind:
+//! The points of an instance are the corners of all its triangles, each as often as it is a corner. Sides are ordered and directed as by
+//! the toolkit's code; its README describes the second kind differently:
 //!
 //! | kind | sides | order | direction |
 //! |---|---|---|---|

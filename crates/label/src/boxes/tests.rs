@@ -17,7 +17,7 @@ fn brute_force(points: &[DVec3], tries: usize) -> f64 {
     (0..tries).map(volume).fold(f64::INFINITY, f64::min)
 }
 
-/// What holds of every result.
+/// Checks what must be true of every result.
 fn assert_sound(points: &[DVec3]) -> InstanceBoxes {
     let boxes = boxes_around(points).unwrap();
     let reach = points.iter().map(|p| p.length()).fold(1.0, f64::max);

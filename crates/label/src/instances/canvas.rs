@@ -1,4 +1,4 @@
-//! Silhouettes of single objects, by rays through the pixel centres of the image and of what lies around it.
+//! Silhouettes of single objects, by rays through the pixel centres of the image and of a margin around it.
 
 use super::Solid;
 use enfilade_dataset::PixelArea;
@@ -20,7 +20,7 @@ pub struct Canvas {
     margin: [i32; 2],
 }
 
-/// What one object covers of a canvas.
+/// The area of a canvas that one object covers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Silhouette {
     /// All its pixels.
@@ -37,7 +37,7 @@ impl Canvas {
         Self { width, height, margin }
     }
 
-    /// What each of `solids` covers, each as if it were alone.
+    /// The areas that `solids` cover, each as if it were alone.
     pub(super) fn silhouettes(&self, solids: &[Solid], view: &CameraView<'_>) -> Vec<Silhouette> {
         let [left, above] = self.margin;
         let blocks: Vec<[i32; 4]> = squares([-left, -above, self.width + left, self.height + above], BLOCK).collect();
@@ -50,7 +50,7 @@ impl Canvas {
         whole
     }
 
-    /// What solids cover of a block, by their places in `solids`; a solid may come several times.
+    /// The areas of a block that solids cover, by their indices in `solids`; a solid may occur several times.
     fn cast_block(&self, solids: &[Solid], view: &CameraView<'_>, block: [i32; 4]) -> Vec<(usize, Silhouette)> {
         let tile = |[left, above, right, below]: [i32; 4]| {
             let pixels = (above..below).flat_map(|y| (left..right).map(move |x| (x, y)));
@@ -69,7 +69,7 @@ impl Canvas {
         found
     }
 
-    /// What a solid covers of the pixels of `rays`.
+    /// The pixels of `rays` that a solid covers.
     fn cast(&self, solid: &Solid, rays: &[(i32, i32, CameraRay)]) -> Silhouette {
         let mut found = Silhouette::default();
         for (x, y, ray) in rays {
@@ -93,7 +93,7 @@ fn squares([left, above, right, below]: [i32; 4], side: i32) -> impl Iterator<It
 /// Rays, and the pixels that they are of: column and row.
 type Rays = Vec<(i32, i32, CameraRay)>;
 
-/// A cone that holds some rays but for `spread`.
+/// A cone that contains some rays once they are moved by up to `spread`.
 struct Cone {
     apex: DVec3,
     axis: DVec3,
@@ -111,7 +111,7 @@ impl Cone {
         Some(Self { apex, axis, half_angle_rad, spread })
     }
 
-    /// A cone that holds what `cones` hold; `None` where they point away from each other.
+    /// A cone that contains all `cones`; `None` where they point away from each other.
     fn around_cones<'a>(cones: impl Iterator<Item = &'a Self> + Clone) -> Option<Self> {
         let apex = cones.clone().next()?.apex;
         let axis = cones.clone().map(|cone| cone.axis).sum::<DVec3>().try_normalize()?;

@@ -1,10 +1,9 @@
-//! What a frame shows of every instance: which pixels it has, which it would have if nothing hid it, and how much the image cuts
-//! off.
+//! What a frame shows of every instance: its visible pixels, the pixels it would have if nothing hid it, and how much the image cuts off.
 //!
 //! Visible pixels are counted in `semantic_instance`. Whole objects are seen alone, with the rays of the renderer: through the pixel
-//! centres of the same camera at the same moment, and beyond the image's border as far as [`Canvas`] goes. So whatever is visible
-//! belongs to the whole, and cameras of every model, with rolling shutters too, are treated alike. Objects are solid: what a
-//! texture cuts out of a leaf counts as part of the whole.
+//! centres of the same camera at the same moment, and beyond the image's border as far as [`Canvas`] goes. So every visible pixel belongs
+//! to the whole, and cameras of every model, including rolling shutters, are treated alike. Objects are solid: parts of a leaf that an
+//! alpha texture cuts out count as part of the whole.
 
 mod canvas;
 mod solid;
@@ -20,8 +19,8 @@ use enfilade_frame::Values;
 use enfilade_scene::CameraView;
 use std::collections::BTreeMap;
 
-/// What frame number `frame` shows of each instance of which the image holds some pixel, hidden or not, in ascending order; and
-/// the masks of the whole objects in the same order.
+/// What frame number `frame` shows of each instance with a pixel in the image, hidden or not, in ascending order; and the masks of the
+/// whole objects in the same order.
 ///
 /// `instances` is the frame's `semantic_instance`.
 pub fn frame_instances(solids: &[Solid], view: &CameraView<'_>, frame: u32, instances: &Values) -> (Vec<InstanceView>, AmodalMasks) {

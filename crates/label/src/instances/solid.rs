@@ -1,4 +1,4 @@
-//! Instances as solids: the triangles of all their parts, whatever hides or cuts them.
+//! Instances as solids: the triangles of all their parts, including hidden ones and those cut out by textures.
 
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DVec3, Vec3};
@@ -17,7 +17,7 @@ pub struct Solid {
     pub(super) radius: f64,
 }
 
-/// Every instance of a scene, in ascending order. Its class is that of its first part.
+/// Every instance of a scene, in ascending order. The class of an instance is the class of its first part.
 pub fn solids(world: &WorldMesh, labels: &Labels) -> Vec<Solid> {
     let mut corners: BTreeMap<i16, (i16, Vec<[Vec3; 3]>)> = BTreeMap::new();
     for (triangle, source) in world.corners.iter().zip(&world.sources) {

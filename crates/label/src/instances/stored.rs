@@ -7,8 +7,8 @@ use enfilade_scene::{CameraView, Counted, Cx};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files. What
-/// [`view_instances`] has found of frames stands in `made`, and is not looked for again.
+/// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files. Frames
+/// in `made` already have their result of [`view_instances`], which is not computed again.
 ///
 /// # Errors
 /// When a file cannot be read or written.
@@ -35,7 +35,7 @@ pub fn write_instances(
     Ok(masks.chain([dataset.layout().frame_instances(scene, camera)]).collect())
 }
 
-/// What one frame shows of each instance; its amodal masks are written.
+/// Finds what one frame shows of each instance, and writes its amodal masks.
 ///
 /// # Errors
 /// As [`write_instances`], and when the trajectory has no such frame.

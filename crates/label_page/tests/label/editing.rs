@@ -129,7 +129,7 @@ async fn what_lies_outside_of_the_clip_box_is_not_touched() {
     let folder = tempfile::tempdir().unwrap();
     let page = Page::open(&package(folder.path()));
     let mut camera = camera();
-    // The boxes of `pair` are at 2.75 to 3.25 m, `left` ends at x = -1.5 m, the wall stands at y = 5 m.
+    // The boxes of `pair` are at 2.75 to 3.25 m, `left` ends at x = -1.5 m, the wall is at y = 5 m.
     for (min, max, expected) in [
         ([-20.0; 3], [20.0; 3], json!([0, 1, 3, 4, 5])),
         ([-20.0; 3], [20.0, 20.0, 2.5], json!([0, 1, 3, 4])),

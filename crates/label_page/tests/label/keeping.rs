@@ -1,4 +1,4 @@
-//! What is kept: the log, the files, and going on after a restart.
+//! Storage: the log, the files, and continuing after a restart.
 
 use crate::room::{Page, assign, class, package, scene, stroke};
 use enfilade_dataset::hdf5::read_array;
@@ -61,7 +61,7 @@ async fn a_scene_that_was_only_looked_at_begins_with_the_labels_that_it_got_sinc
     let saved = dataset.read_label_tables("room").unwrap().parts;
     assert_eq!((saved[0].semantic, &saved[1..]), (40, &labels.parts[1..]));
     drop(page);
-    // From the first edit on the log says what is so, whatever the tables say.
+    // From the first edit on, the log determines the labels, not the tables.
     dataset.write_label_tables("room", &Labels { parts: vec![PartLabel::NONE; 6] }).unwrap();
     assert_eq!(Page::open(folder.path()).labels().await[5], (6, 6));
 }

@@ -27,7 +27,7 @@ fn page_of(out: &Path) -> Page {
     Page::with(&AnnotateOptions { path: out.to_path_buf(), scene: Some(demo::SCENE.into()), ..AnnotateOptions::default() })
 }
 
-/// Compares the tables that the label stage made in `out` with those that the page writes to a folder of its own, `apart`.
+/// Compares the tables that the label stage made in `out` with those that the page writes to a separate folder, `apart`.
 async fn assert_tables_are_those_of_the_page(out: &Path, apart: &Path) {
     let mesh = Dataset::open(out).unwrap().mesh_files(demo::SCENE);
     std::fs::create_dir(apart).unwrap();
@@ -104,7 +104,7 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     let pieces = page.labels().await.len();
     assert!(pieces > parts, "nothing was split");
     let all: Vec<usize> = (0..pieces).collect();
-    // Neither wall, floor nor ceiling: a law has those where the layout of the rooms has them.
+    // Neither wall, floor nor ceiling: a law has those where the rooms have them.
     let class = |piece: usize| 3 + piece as i64 % 19;
     page.act(json!({ "type": "assign_each", "pieces": all, "semantic": all.iter().map(|&p| class(p)).collect::<Vec<_>>() })).await;
     page.act(json!({ "type": "assign", "pieces": all, "apply": { "layer": "instance", "unique": true } })).await;
@@ -131,7 +131,7 @@ async fn split_parts_get_the_labels_of_their_pieces_without_rendering() {
     }
     assert!(of_pieces > 2000 && wrong * 1000 <= all, "{wrong} of {all} wrong, {of_pieces} of pieces");
 
-    // Boxes went along with labels; the rest follows, and every law holds.
+    // Boxes were updated with the labels; the rest follows, and every law is satisfied.
     let whole = run(&config, &out, None, &Silent).unwrap();
     assert!(whole.ok(), "{:?}", whole.scenes);
     let made: Vec<Stage> = whole.scenes[0].stages.iter().filter(|stage| !stage.up_to_date).map(|stage| stage.stage).collect();

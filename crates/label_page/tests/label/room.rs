@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tower::ServiceExt;
 
-/// The parts of the room, in order. `behind` stands behind `near`; `pair` are two boxes.
+/// The parts of the room, in order. `behind` is behind `near`; `pair` are two boxes.
 pub const PARTS: [&str; 6] = ["wall", "near", "behind", "left", "right", "pair"];
 
 /// A box around the origin.

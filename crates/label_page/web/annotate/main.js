@@ -5,7 +5,7 @@ import { byId } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { resizable } from "../shared/resizable.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
-import { takeChosenTheme } from "../shared/theme.js";
+import { takeChosenTheme, themeColor } from "../shared/theme.js";
 import { toastError } from "../shared/toast.js";
 import { Actions } from "./actions.js";
 import { classesPanel } from "./classes_panel.js";
@@ -35,9 +35,7 @@ const PROGRESS_AFTER_MS = 700;
 
 /** Gives the view the colours of the theme. @param {Stage3d} stage */
 function takeTheme(stage) {
-    const style = getComputedStyle(document.documentElement);
-    const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
-    stage.setTheme({ background: color("--ground"), accent: color("--select"), paint: color("--warn") });
+    stage.setTheme({ background: themeColor("--ground"), accent: themeColor("--select"), paint: themeColor("--warn") });
 }
 
 /** Shows colours, marks and what is hidden as the state says. @param {Stage3d} stage @param {State} state */

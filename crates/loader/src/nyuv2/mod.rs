@@ -1,6 +1,6 @@
 //! NYU-Depth V2 (Silberman et al., ECCV 2012) from the file as it is published, `nyu_depth_v2_labeled.mat`.
 //!
-//! That is MATLAB 7.3, hence HDF5 with transposed arrays: `images` uint8 \[N, 3, 640, 480\], `depths` float32 and `labels` uint16
+//! The file is MATLAB 7.3, hence HDF5 with transposed arrays: `images` uint8 \[N, 3, 640, 480\], `depths` float32 and `labels` uint16
 //! \[N, 640, 480\], `scenes` a list of texts.
 
 mod tables;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// The layers that there are.
 pub const NYU_LAYERS: [Layer; 3] = [Layer::Color, Layer::DepthZMeters, Layer::Semantic];
 
-/// Which images of NYUv2, and what of them.
+/// The chosen images of NYUv2, and their layers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NyuChoice {
     /// A side of the published split; `None` is all images.

@@ -1,4 +1,4 @@
-//! Which images of NYUv2 are of which side, and which class counts as which; `data/nyuv2/README.md` says where that comes from.
+//! The training and test images of NYUv2, and the mapping of its classes; `data/nyuv2/README.md` names the sources.
 
 use std::sync::LazyLock;
 
@@ -38,7 +38,7 @@ impl NyuClasses {
         [Self::All, Self::Forty, Self::Thirteen].into_iter().find(|classes| classes.names().len() == count)
     }
 
-    /// Names of the classes, from that of class 1 on.
+    /// Names of the classes, starting with class 1.
     pub fn names(self) -> Vec<&'static str> {
         match self {
             Self::All => CLASSES_894.iter().map(|row| row.0).collect(),
@@ -70,7 +70,7 @@ pub fn nyu13_of_nyu40(nyu40: i16) -> i16 {
     usize::try_from(nyu40).ok().and_then(|class| class.checked_sub(1)).and_then(|row| CLASSES_40.get(row)).map_or(-1, |row| row.1)
 }
 
-/// Which side an image is of, counted from 0; `None` beyond the published images.
+/// The side of an image, counted from 0; `None` beyond the published images.
 pub fn side_of(image: usize) -> Option<NyuSide> {
     SPLIT.get(image).map(|&test| if test { NyuSide::Test } else { NyuSide::Train })
 }

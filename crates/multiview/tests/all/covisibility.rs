@@ -9,7 +9,7 @@ use std::process::Command;
 
 const READER: &str = include_str!("covisibility.py");
 
-/// How far the second camera stands to the right of the first, metres.
+/// Distance of the second camera to the right of the first, metres.
 const BASELINE_M: f64 = 0.61;
 
 fn measured(dataset: &Dataset, config: CovisibilityConfig) -> (Covisibility, Vec<String>) {
@@ -50,7 +50,7 @@ fn shares_before_a_screen_are_those_of_the_closed_form() {
     assert_eq!((found.hidden_by, found.frames[1].surface_pixels), (HiddenBy::Scene, 3072));
     let expected = [1.0, share_before_boards(0.0, BASELINE_M), share_before_boards(BASELINE_M, 0.0), 1.0];
     assert_eq!(found.shares, expected.map(|share| share as f32));
-    // Five columns of the wall leave the image on the left, and as many lie behind the screen.
+    // Five columns of the wall leave the image on the left, and five are behind the screen.
     assert_eq!(expected[1], 1.0 - 10.0 / 64.0);
 }
 

@@ -1,4 +1,4 @@
-//! glTF files as models: metres, y up, the front toward +z unless `assets.toml` says otherwise.
+//! glTF files as models: metres, y up, the front toward +z unless `assets.toml` states another.
 
 use super::table::Table;
 use enfilade_furniture::models::{Body, Model};
@@ -13,13 +13,13 @@ pub(super) fn models(files: &[(String, PathBuf)], table: &Table) -> Vec<Result<M
     enfilade_parallel::map(files, |(name, path)| model(name, path, table))
 }
 
-/// A model of which only its size, and whether it shines, is kept until it is wanted: memory would not hold a whole library.
+/// A model. Only its size, and whether it emits light, is kept until the model is used: a whole library would not fit into memory.
 fn model(name: &str, path: &Path, table: &Table) -> Result<Model, String> {
     let choice = table.of(name);
     let stem = Path::new(name).file_stem().map_or(name.into(), |stem| stem.to_string_lossy());
     let families = choice.families_or(&stem);
     let (turn, stretched) = (choice.front.turn(), choice.size);
-    // Nobody asks for the size of what no family takes.
+    // The size of a model that fits no family is not needed.
     let (size, shines) = if families.is_empty() {
         (stretched.unwrap_or_default(), false)
     } else {

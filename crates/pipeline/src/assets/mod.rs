@@ -1,8 +1,8 @@
-//! Libraries of models that stand in for our own furniture: folders of glTF, and the furniture catalogues of Sweet Home 3D.
+//! Libraries of models that replace our own furniture: folders of glTF, and the furniture catalogues of Sweet Home 3D.
 //!
-//! The `home` crate says what a model is and when one is taken; here the files are found, and read when a home wants them. Those of
-//! glTF are read once before, and let go, since only they tell what they measure. The files' contents are inputs of the stage, and
-//! their names are part of its settings, because they tell what a model is.
+//! The `home` crate defines models and decides when one is used; here the files are found, and read when a home uses them. glTF files are
+//! also read once before and dropped again, because their sizes are known only from the files. The files' contents are inputs of the stage,
+//! and their names are part of its settings, because names decide the class of a model.
 
 mod gltf;
 mod notes;
@@ -23,10 +23,10 @@ use table::Table;
 /// Most places that an error or warning lists.
 const LISTED: usize = 8;
 
-/// Makes a home with the models that its configuration names; `locate` finds what that says.
+/// Makes a home with the models that its configuration names; `locate` finds the named files.
 ///
 /// # Errors
-/// When a library is not there, holds nothing that can be used, or a model that the home wants is broken.
+/// If a library does not exist, has no usable model, or a model that the home uses is broken.
 pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Home, Error> {
     let notes = Notes::default();
     let library = library(config, locate, &notes, cx)?;
@@ -46,11 +46,11 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
     Ok(home)
 }
 
-/// Reads every model of the library at `root`, as homes do with those that they want: names of the broken ones, and why. It is not for
-/// users, who make homes; the search for files that break readers calls it.
+/// Reads every model of the library at `root`, as homes read the models that they use: returns names of the broken ones, with reasons. It
+/// is not for users, who make homes, but for fuzzing.
 ///
 /// # Errors
-/// When the library is not there or its catalogues and tables cannot be understood.
+/// If the library does not exist or its catalogues and tables cannot be read.
 #[doc(hidden)]
 pub fn read_library(root: &Path, cx: &dyn Cx) -> Result<Vec<String>, Error> {
     let models = of_root(root, true, &Notes::default(), cx)?;
@@ -62,7 +62,7 @@ pub(crate) fn files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf
     Ok(named_files(config, locate)?.into_iter().map(|(_, file)| file).collect())
 }
 
-/// The names of the files of the libraries, each within its library; empty where a library is not there, which reading it tells.
+/// The names of the files of the libraries, each within its library; empty if a library does not exist, which is reported when it is read.
 pub(crate) fn names(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Vec<String> {
     named_files(config, locate).unwrap_or_default().into_iter().map(|(name, _)| name).collect()
 }
@@ -77,7 +77,7 @@ fn named_files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Err
     Ok(all)
 }
 
-/// What a file is called within its library: its path from there, with `/`.
+/// Name of a file within its library: its path from there, with `/`.
 fn name_in(root: &Path, file: &Path) -> String {
     let inside = file.strip_prefix(root).ok().filter(|path| path.components().next().is_some());
     let inside = inside.unwrap_or_else(|| file.file_name().map_or(file, Path::new));
@@ -149,7 +149,7 @@ fn listed(lines: &[String]) -> String {
     if more > 0 { format!("{text}; and {more} more") } else { text }
 }
 
-/// Where the table of a library lies: in its folder, or beside it where it is one file.
+/// Folder of a library's table: the library itself, or the folder beside it if the library is one file.
 fn folder_of(root: &Path) -> &Path {
     if root.is_file() { root.parent().unwrap_or(root) } else { root }
 }

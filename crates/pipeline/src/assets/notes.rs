@@ -4,7 +4,7 @@ use enfilade_scene::{Cx, Warning};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What is told while models are read, which is when a home wants them; kept until it is made.
+/// Notes from reading models, which happens when a home uses them; kept until the home is made.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Notes(Arc<Mutex<BTreeSet<String>>>);
 

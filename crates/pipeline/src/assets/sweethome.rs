@@ -43,15 +43,14 @@ pub(super) fn pieces(catalogues: &[&PathBuf]) -> Result<Vec<Piece>, Error> {
     Ok(all)
 }
 
-/// A light source in the space of furniture: x to the left of who looks at its front, y to the front.
+/// A light source in the space of furniture: x to the left for someone who looks at its front, y to the front.
 fn bulb(light: &CatalogueLight, size: Vec3) -> Bulb {
     let at = Vec3::new(0.5 * size.x - light.at.x, 0.5 * size.y - light.at.y, light.at.z);
     Bulb { at, diameter: light.diameter }
 }
 
 impl Piece {
-    /// The model, which is read when it is wanted.
-    /// What is dropped or guessed then comes to `notes`.
+    /// The model, which is read when it is used; anything dropped or guessed then is added to `notes`.
     pub fn model(self, table: &Table, notes: Notes) -> Model {
         let choice = table.of(&self.name);
         let families = choice.families_or(&self.piece.title);
@@ -67,7 +66,7 @@ impl Piece {
         model
     }
 
-    /// What it looks like.
+    /// Mesh and materials of the model.
     fn read(&self, front: Front, size: Vec3, notes: &Notes) -> Result<Body, String> {
         let imported = self.piece.load(&self.archive).map_err(|error| error.to_string())?;
         imported.report.warnings.into_iter().for_each(|warning| notes.warn(warning));

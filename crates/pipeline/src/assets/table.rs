@@ -1,4 +1,4 @@
-//! `assets.toml` beside the models: what their files do not say.
+//! `assets.toml` beside the models: data that their files do not have.
 //!
 //! ```toml
 //! licence = "CC0 1.0"                 # of all models, like the other keys out here
@@ -60,7 +60,7 @@ impl Front {
     }
 }
 
-/// What carries a model.
+/// The support of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Stands {
@@ -82,7 +82,7 @@ impl Stands {
     }
 }
 
-/// What may be said of one model, and of all.
+/// Keys for one model, and for all.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
@@ -110,25 +110,25 @@ struct Document {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Table(Document);
 
-/// What the table says of one model, itself and by its defaults.
+/// The table's settings for one model, its own and the defaults.
 pub(super) struct Choice {
-    /// The families that it may stand in for; `None` where the table does not say.
+    /// The families that it may replace; `None` if the table does not state them.
     pub families: Option<Vec<&'static str>>,
     /// Width, depth and height, metres.
     pub size: Option<Vec3>,
     pub front: Front,
     pub weight: f32,
-    /// What the table says of this model.
+    /// Licence of this model in the table.
     pub licence: Option<String>,
-    /// What it says of all models that do not say it themselves.
+    /// Licence in the table for all models without their own.
     pub licence_of_all: Option<String>,
-    /// False where it is not to be used.
+    /// False if it must not be used.
     pub wanted: bool,
     stands: Option<Stands>,
 }
 
 impl Choice {
-    /// The families that the table says, or else the words of `name`.
+    /// The families from the table, or else from the words of `name`.
     pub fn families_or(&self, name: &str) -> Vec<&'static str> {
         let by_name = || families_of(name).iter().copied().filter(|family| allowed(family, self.stands)).collect();
         self.families.clone().unwrap_or_else(by_name)
@@ -140,7 +140,7 @@ fn allowed(family: &str, stands: Option<Stands>) -> bool {
 }
 
 impl Table {
-    /// Reads the table of a library with models of these names; nothing is said where there is none.
+    /// Reads the table of a library with models of these names; an empty one if there is no table.
     ///
     /// # Errors
     /// When it is not TOML, has an unknown key, family, class or model, or a number out of its domain. In a table that is `whole`,
@@ -168,7 +168,7 @@ impl Table {
         Ok(Self(document))
     }
 
-    /// What the table says of the model of this name.
+    /// The table's settings for the model of this name.
     pub fn of(&self, name: &str) -> Choice {
         let entry = self.0.models.get(name).cloned().unwrap_or_default();
         Choice {
@@ -196,7 +196,7 @@ impl Entry {
         said.then(|| FAMILIES.iter().filter(meant).map(|family| family.name).collect())
     }
 
-    /// What is wrong with it, and what to do.
+    /// The problem with it, if any, and what to do.
     fn problem(&self) -> Option<(String, String)> {
         let unknown = |what: &str, found: &str, known: &[&str]| {
             let near = closest(found, known).map(|near| format!("did you mean {near:?}? "));

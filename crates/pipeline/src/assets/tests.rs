@@ -50,7 +50,7 @@ fn glb(size: [f32; 3]) -> Vec<u8> {
     out
 }
 
-/// A catalogue with a wardrobe whose model is a unit cube, a door, and a lamp whose model is not there.
+/// A catalogue with a wardrobe whose model is a unit cube, a door, and a lamp whose model is missing.
 fn sh3f(file: &Path) {
     let catalogue = "license=CC-BY 3.0\nname#1=Wardrobe\nid#1=t#wardrobe\ncategory#1=Bedroom\nmodel#1=/w/w.obj\nwidth#1=120\ndepth#1=60\n\
         height#1=205.5\ncreator#1=Ann\nmodelRotation#1=0 0 1 0 1 0 -1 0 0\nname#2=Door\ncategory#2=Doors and windows\nmodel#2=/d.obj\n\
@@ -75,7 +75,7 @@ fn archive(file: &Path, catalogue: &str) {
     archive.finish().unwrap();
 }
 
-/// A folder with a nightstand whose name does not say so, a bed, and a catalogue.
+/// A folder with a nightstand whose name does not reveal it, a bed, and a catalogue.
 fn library() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("beds")).unwrap();
@@ -110,7 +110,7 @@ fn first_with(config: &HomeConfig, seeds: std::ops::Range<u64>, names: &[&str], 
     tried.find(|(_, home)| names.iter().all(|name| has(home, name))).expect("one of the homes has them all")
 }
 
-/// What a failure says, and what to do.
+/// Message and hint of a failure.
 fn refused(config: &HomeConfig) -> (String, String) {
     let error = made(config).expect_err("it is refused");
     (error.to_string(), error.hint().unwrap_or_default())

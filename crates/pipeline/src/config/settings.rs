@@ -52,7 +52,7 @@ pub struct SceneConfig {
     pub source: Source,
     /// Where its labels come from; `None` takes what comes with the scene.
     pub labels: Option<LabelSource>,
-    /// What kind of room it is, in Hypersim's words; `None` where the rooms of its structure say it, or nothing does.
+    /// What kind of room it is, in Hypersim's words; `None` where its rooms say it, or nothing does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene_type: Option<String>,
     /// Cameras where trajectories begin, one trajectory each; empty means all of the file's, or found ones if it has none.

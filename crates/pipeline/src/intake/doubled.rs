@@ -8,7 +8,7 @@ use enfilade_import::Imported;
 use enfilade_scene::{PartId, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What doubled faces do, and how they go; `None` where there are none, or they go.
+/// The remark about doubled faces and how to remove them; `None` if there are none, or if they are removed.
 pub(super) fn remark(source: &FileSource, scene: &Scene, look: &Look) -> Option<String> {
     let doubled = &look.findings.doubled;
     let part = |triangle: u32| look.world.sources[triangle as usize].part;
@@ -25,7 +25,7 @@ pub(super) fn remark(source: &FileSource, scene: &Scene, look: &Look) -> Option<
     ))
 }
 
-/// Drops every doubled face if that is asked for, and with its last face a part; says how many went.
+/// Drops every doubled face if requested, and a part with its last face; returns a remark on how many were dropped.
 pub(super) fn drop_faces(source: &FileSource, imported: &mut Imported, look: &Look) -> Option<String> {
     let doubled = &look.findings.doubled;
     if !source.drop_doubled_faces {

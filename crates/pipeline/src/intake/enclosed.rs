@@ -14,21 +14,21 @@ const SHARE: f64 = 0.9;
 /// Faces of a part that are asked whether the sun reaches them, and the share of them that makes the part sunlit.
 const FACES: usize = 32;
 const SUNLIT: f64 = 0.2;
-/// What encloses a lamp is nearer than this, metres; farther away are the walls of its room.
+/// An enclosure of a lamp is nearer than this, metres; the walls of its room are farther away.
 const NEAR_M: f32 = 0.4;
 /// Below this GGX roughness glass is smooth.
 const SMOOTH: f32 = 1e-3;
-/// Names that stand for all.
+/// Number of names listed in place of all.
 const NAMED: usize = 3;
 
-/// What keeps light in.
+/// The part that keeps light in, and why.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Keeper {
     Opaque(PartId),
     Bumped(PartId),
 }
 
-/// Says which lamps are enclosed, one sentence for each way.
+/// Remarks on enclosed lamps, one sentence for each kind of enclosure.
 pub(super) fn lamps(scene: &Scene, look: &Look) -> Vec<String> {
     let kept: Vec<(&str, Keeper)> = scene.lights.iter().filter_map(|light| Some((light.name(), keeper(scene, look, light)?))).collect();
     let opaque = kept.iter().filter_map(|(name, by)| if let Keeper::Opaque(part) = by { Some((*name, *part)) } else { None });
@@ -91,7 +91,7 @@ fn suns(scene: &Scene, look: &Look) -> Option<String> {
     })
 }
 
-/// What almost all of a lamp's light ends at, if that is one part.
+/// The part at which almost all of a lamp's light ends, if it is one part.
 fn keeper(scene: &Scene, look: &Look, light: &Light) -> Option<Keeper> {
     let (position, axis, cosine) = match light {
         Light::Point { position, .. } | Light::Profile { position, .. } => (*position, Vec3::Z, -1.0),
@@ -105,7 +105,7 @@ fn keeper(scene: &Scene, look: &Look, light: &Light) -> Option<Keeper> {
     (same as f64 >= SHARE * met.len() as f64).then_some(*first)
 }
 
-/// What a ray from a lamp ends at nearby.
+/// The part nearby at which a ray from a lamp ends.
 fn met(scene: &Scene, look: &Look, ray: Ray) -> Option<Keeper> {
     let hit = look.bvh.closest(&Ray { t_max: NEAR_M, ..ray })?;
     let part = look.world.sources[hit.triangle as usize].part;
@@ -140,7 +140,7 @@ mod tests {
     use enfilade_math::{DAffine3, Rgb};
     use enfilade_scene::{Image, NormalMap, Part, Pixels, TextureRef};
 
-    /// What is told of a lamp in the middle of a globe and a sun above it.
+    /// The remarks about a lamp in the middle of a globe and a sun above it.
     fn told(bsdf: Bsdf, bumped: bool) -> Vec<String> {
         let positions = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z].map(|corner| corner * 0.2).to_vec();
         let triangles = vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];

@@ -3,8 +3,8 @@
 use enfilade_scene::{Cx, Warning};
 use std::sync::{Mutex, PoisonError};
 
-/// Keeps warnings back until it is dropped: a terminal shows few, and what a look at the geometry finds comes after a hundred textures
-/// that are missing. Progress goes on to the [`Cx`] below.
+/// Keeps warnings back until it is dropped: a terminal shows only a few, and without this the findings about geometry would come after a
+/// hundred missing textures. Progress is passed on to the [`Cx`] below.
 pub(crate) struct Held<'a> {
     below: &'a dyn Cx,
     warnings: Mutex<Vec<Warning>>,

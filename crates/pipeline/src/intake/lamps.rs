@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 const KLM_PER_M2: f64 = 0.25;
 /// White of a warm fluorescent or LED panel, about 4000 K, with a luminance of 1.
 const WHITE: Rgb = Rgb::new(1.19, 0.97, 0.75);
-/// Thickness of a lamp and its distance to the ceiling, metres; its frame is as wide as it is thick.
+/// Thickness of a lamp and its distance to the ceiling, metres; the width of its frame is the thickness.
 const THICK_M: f32 = 0.04;
 const BELOW_M: f32 = 0.01;
 /// Reflectance of the frame.
@@ -21,7 +21,7 @@ const FRAME: Rgb = Rgb::splat(0.8);
 /// NYU40's number of lamps.
 const LAMP: i16 = 35;
 
-/// Hangs lamps from every ceiling and says how many. Where the file has labels, the lamps get theirs.
+/// Hangs lamps from every ceiling and returns a remark on how many. If the file has labels, the lamps are labelled too.
 pub(crate) fn hang(scene: &mut Scene, labels: Option<&mut Vec<ImportedLabel>>, look: &Look) -> String {
     let ceilings = &look.findings.ceilings;
     let lamps: Vec<LampPlace> = ceilings.iter().flat_map(|ceiling| ceiling.lamps(&look.bvh)).collect();

@@ -1,7 +1,7 @@
-//! What becomes of a scene file between its importer and the stages: a look at its geometry, and what the user asked to be mended.
+//! Processing of a scene file between its importer and the stages: an inspection of its geometry, and the repairs that the user requested.
 //!
-//! An importer gives what the file says. Here follow doubled faces that go, lamps that are hung, glass that becomes clear, and the remarks about both and about
-//! everything else that a look finds; they join the importer's warnings, in the report.
+//! An importer returns the contents of the file. Here doubled faces are removed, lamps are hung and glass becomes clear, and remarks are
+//! made about these and about everything else that the inspection finds; they join the importer's warnings in the report.
 
 mod doubled;
 mod enclosed;
@@ -24,7 +24,7 @@ use enfilade_import::Imported;
 use enfilade_scene::{Cx, Warning};
 use std::path::{Path, PathBuf};
 
-/// [`load_file`] and [`settle`], where nothing comes between: what the look finds is told before the importer's warnings.
+/// [`load_file`] and [`settle`] without anything between: the findings of the inspection are reported before the importer's warnings.
 pub(crate) fn read(
     source: &FileSource,
     file: &Path,
@@ -51,7 +51,7 @@ pub(crate) fn load_file(
     enfilade_import::load(file, &options, cx).map_err(Error::stage)
 }
 
-/// Mends what `source` asks for, and tells what a look found: `cx` hears it, and the report keeps it.
+/// Makes the repairs that `source` requests, and reports the findings of the inspection to `cx` and in the import's report.
 pub(crate) fn settle(source: &FileSource, imported: &mut Imported, cx: &dyn Cx) -> Look {
     let look = Look::at(&imported.scene);
     let mut remarks = remarks::of_geometry(source, imported, &look);

@@ -1,4 +1,4 @@
-//! `panes`: glass that has lost on its way that it lets light through becomes clear, and is told where nobody asked for that.
+//! `panes`: glass whose transmission was lost in export becomes clear; if that is not requested, such glass is reported.
 //!
 //! Exporters leave transmission out where their format has no place for it: Blender's FBX and OBJ, and USD without MaterialX.
 
@@ -31,17 +31,17 @@ const CALLED: [&str; 16] = [
     "szyba",
     "steklo",
 ];
-/// Words that may stand behind one of these.
+/// Words that may follow one of these.
 const BEHIND: [&str; 12] =
     ["clear", "transparent", "window", "door", "panel", "shader", "mat", "thin", "simple", "architectural", "tinted", "surface"];
-/// Words that say of glass that it lets no light through on purpose: hobs, screens, lampshades.
+/// Words for glass that is opaque on purpose: hobs, screens, lampshades.
 const OPAQUE: [&str; 8] = ["black", "opal", "opaline", "milk", "milky", "opaque", "painted", "mirror"];
-/// Names that a remark has.
+/// Number of names in a remark.
 const NAMED: usize = 3;
 /// Metalness from which on a surface is a mirror.
 const METAL: f32 = 0.5;
 
-/// Makes panes of what `source` names; says of how many, and which names nothing has.
+/// Makes panes of the materials that `source` names; returns a remark on how many, and on names without a material.
 pub(super) fn glaze(source: &FileSource, scene: &mut Scene) -> Option<String> {
     let patterns: Vec<String> = source.panes.iter().map(|pattern| pattern.trim().to_lowercase()).collect();
     if patterns.is_empty() {
@@ -100,12 +100,12 @@ pub(super) fn lost(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Whether a name says of glass that it lets no light through.
+/// Whether a name describes opaque glass.
 fn is_opaque_on_purpose(name: &str) -> bool {
     words(name).iter().any(|word| OPAQUE.contains(&word.as_str()))
 }
 
-/// Whether a name ends with a word for glass, but for words that may stand behind it: a glass table is a table.
+/// Whether a name ends with a word for glass, apart from words that may follow it: a glass table is a table.
 fn is_called_glass(name: &str) -> bool {
     let words = words(name);
     let last = words.iter().rev().find(|word| !BEHIND.contains(&word.as_str()));
@@ -140,7 +140,8 @@ fn pane(material: &Material) -> Option<Material> {
     Some(Material { bsdf, alpha, normal_map: None, ..material.clone() })
 }
 
-/// What passes a pane of a colour: exporters write black, grey or white for clear glass, so a grey tells nothing, and of a colour half is kept.
+/// Transmittance of a pane of a colour: exporters write black, grey or white for clear glass, so grey is ignored, and half of a colour is
+/// kept.
 fn tinted(color: &ColorParam) -> ColorParam {
     let Rgb { r, g, b } = color.factor;
     let most = r.max(g).max(b);

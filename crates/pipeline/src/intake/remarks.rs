@@ -1,4 +1,4 @@
-//! What a look at a scene finds, in sentences that name the key that mends it.
+//! The findings of an inspection of a scene, in sentences that name the key for repairs.
 
 use super::doubled;
 use super::labels::labels_by_part;
@@ -18,12 +18,12 @@ const BUILDINGS_M: RangeInclusive<f32> = 1.0..=200.0;
 const ROOMS_M: RangeInclusive<f32> = 2.0..=60.0;
 /// Common areas below this are a matter of contact, square metres.
 const LEAST_OVERLAP_M2: f64 = 0.01;
-/// Floors without a ceiling are told from this area on, square metres, and this share of all floors.
+/// Floors without a ceiling are reported from this area on, square metres, and from this share of all floors.
 const LEAST_OPEN_M2: f64 = 2.0;
 const LEAST_OPEN_SHARE: f64 = 0.2;
 /// Share of what is seen in rooms that may be backs: sheets have two sides.
 const BACKS_SHARE: f64 = 0.3;
-/// Names that stand for all.
+/// Number of names listed in place of all.
 const NAMED: usize = 3;
 
 /// About the geometry, most important first.
@@ -43,13 +43,13 @@ pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look)
     found.into_iter().flatten().chain(without_area(scene, look)).collect()
 }
 
-/// What is doubtful about the instances that the file itself tells.
+/// Doubts about the instances that the file itself defines.
 pub(super) fn of_labels(imported: &Imported) -> Vec<String> {
     let Some(labels) = &imported.labels else { return Vec::new() };
     doubts(&imported.scene, &labels_by_part(&imported.scene, labels)).remarks(&imported.scene)
 }
 
-/// Says so when nothing shines.
+/// The remark that a scene has no light; `None` if it has.
 pub(super) fn of_light(scene: &Scene) -> Option<String> {
     (!has_light(scene)).then(|| {
         "nothing in it shines, so every picture would be black; light it by environment = \"sky\" or \"overcast\" (or --environment sky), \

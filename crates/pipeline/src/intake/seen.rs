@@ -1,12 +1,12 @@
-//! An imported scene as it is looked at.
+//! An imported scene prepared for inspection.
 
 use enfilade_explore::{Findings, findings};
 use enfilade_geometry::Bvh;
 use enfilade_math::Bounds3;
 use enfilade_scene::{Scene, WorldMesh};
 
-/// How many times as long as all others together a part is that is none of the building: flat ground, and the dome of a sky around at least
-/// so many parts. The shell of a room around one thing is neither.
+/// Factor by which a part that does not belong to the building is longer than all others together: flat ground, and the dome of a sky
+/// around at least this many parts. The shell of a room around one thing is neither.
 const GROUND: f32 = 2.0;
 const DOME: f32 = 20.0;
 const DOME_PARTS: usize = 5;

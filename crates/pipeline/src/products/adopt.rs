@@ -1,5 +1,5 @@
-//! Products that lie in a dataset without a record, as earlier versions left them: these removed what was out of date, so that what is there
-//! is fresh when it is first seen. How it was asked for is read from the files as far as they tell.
+//! Products without a record in a dataset, as earlier versions left them. Those versions removed products that were out of date, so
+//! existing ones are fresh when first seen. The requests for them are recovered from the files as far as possible.
 
 use super::record::{MadePart, Place, Record};
 use super::relit;
@@ -15,10 +15,10 @@ use enfilade_sensors::Sensor;
 /// Writes a record for every product of a scene that is there without one. It is called before anything that they are made from changes.
 ///
 /// # Errors
-/// When a file that says what is there cannot be read, or a record cannot be written.
+/// If a file needed to find existing products cannot be read, or a record cannot be written.
 pub(crate) fn adopt(dataset: &Dataset, scene: &str) -> Result<(), Error> {
     let place = Place::Scene(scene);
-    // A damaged table of cameras is told, and made again, by planning.
+    // A damaged table of cameras is reported, and made again, by planning.
     if !dataset.root().join(WORKDIR).is_dir() || !dataset.layout().metadata_cameras(scene).is_file() || dataset.cameras(scene).is_err() {
         return Ok(());
     }
@@ -48,7 +48,7 @@ fn take(dataset: &Dataset, place: Place, product: Product, requests: Vec<Request
     record.write(dataset, place, product)
 }
 
-/// What would have made the files of a product that are there.
+/// The requests that would have made the existing files of a product.
 fn found(dataset: &Dataset, scene: &str, product: Product) -> Result<Vec<Request>, DatasetError> {
     let layout = dataset.layout();
     Ok(match product {
@@ -77,7 +77,7 @@ fn flow(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError> {
 fn tracks(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError> {
     let mut requests = Vec::new();
     for camera in dataset.cameras(scene)?.into_iter().filter(|camera| dataset.layout().tracks(scene, camera).is_file()) {
-        // What is damaged is told where it is judged.
+        // Damaged files are reported where they are judged.
         let Ok(tracks) = dataset.read_tracks(scene, &camera) else { continue };
         let frames = tracks.frames.first().zip(tracks.frames.last()).map(|(first, last)| *first..last + 1);
         requests.push(Request::Tracks {

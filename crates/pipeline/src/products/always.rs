@@ -1,4 +1,4 @@
-//! Products that every run brings up to date, and the statistics as the verb of that name asks for them.
+//! Products that every run brings up to date, and statistics by the verb of that name.
 
 use super::record::{MadePart, Place, Record};
 use super::sources::Subject;
@@ -48,15 +48,15 @@ pub(crate) fn update_statistics(dataset: &Dataset, pictures: &Pictures, were_mad
     bring(dataset, Request::Statistics { pictures: Hash::of(pictures).0 }, were_made)
 }
 
-/// Whether what a request asks for was asked for before, and is there.
+/// Whether the product of a request was requested before, and exists.
 fn is_fresh(dataset: &Dataset, request: &Request) -> Result<bool, Error> {
     let Some(record) = Record::read(dataset, Place::Dataset, request.product()) else { return Ok(false) };
     let wanted = States::new(dataset, Place::Dataset).wanted_by(request.product(), &record)?;
     Ok(record.requests.contains(request) && wanted.iter().all(|part| part.is_fresh))
 }
 
-/// Makes what `request` asks for unless it is there. Files without a record are those of an earlier version, which removed them when pictures were
-/// made: they count where none `were_made` in this run.
+/// Makes the product of `request` unless it exists. Files without a record are from an earlier version, which removed them when pictures
+/// were made: they are up to date if no pictures `were_made` in this run.
 fn bring(dataset: &Dataset, request: Request, were_made: bool) -> Result<(), Error> {
     let product = request.product();
     if Record::read(dataset, Place::Dataset, product).is_none() && !were_made {
@@ -81,7 +81,7 @@ fn vouch(dataset: &Dataset, request: Request, files: &[PathBuf]) -> Result<(), E
     record.write(dataset, Place::Dataset, product)
 }
 
-/// Writes statistics of a dataset. Those in its own folder stay as they are asked for here until its frames change.
+/// Writes statistics of a dataset. Those in its own folder keep the options given here until its frames change.
 ///
 /// # Errors
 /// When a file cannot be read or written, or there is nothing to compare with.
@@ -92,7 +92,7 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     }
     let workdir = Workdir::open(dataset.root())?;
     let pictures = pictures(dataset, &workdir, &BTreeMap::new())?;
-    // From here on the old record must not speak of the new files.
+    // From here on the old record must not vouch for the new files.
     vouch(dataset, Request::Statistics { pictures: String::new() }, &[])?;
     let summary = stats::write_statistics(dataset, config, cx).map_err(Error::stage)?;
     vouch(dataset, Request::Statistics { pictures: Hash::of(&pictures).0 }, &summary.files)?;

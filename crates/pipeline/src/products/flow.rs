@@ -27,7 +27,7 @@ pub(super) fn parts(subject: &Subject, request: &Request) -> Result<Vec<Part>, E
     Ok(chosen(subject, &filmed, pairs)?.into_iter().map(part).collect())
 }
 
-/// The pairs that are asked for of a scene, of frames that are there.
+/// The requested pairs of a scene, of existing frames.
 fn chosen(subject: &Subject, filmed: &Filmed, pairs: &FlowPairs) -> Result<Vec<[usize; 2]>, Error> {
     let find = |of: &FrameName| filmed.find(&of.0, of.1);
     let found = |pair: &FramePair| Some([find(&pair.first)?, find(&pair.second)?]);
@@ -76,7 +76,7 @@ pub(super) fn files(subject: &Subject, part: &Part) -> Result<Vec<PathBuf>, Erro
 /// The scene that was filmed, for what cannot do without.
 ///
 /// # Errors
-/// When it is not there, or is another one than the frames were rendered from.
+/// If it does not exist, or is not the one that the frames were rendered from.
 pub(super) fn package(subject: &Subject, filmed: &Filmed<'_>, cx: &dyn Cx) -> Result<ScenePackage, Error> {
     ScenePackage::read(filmed, cx).map_err(Error::stage)?.ok_or_else(|| {
         let path = subject.dataset.layout().scene_package(subject.scene);

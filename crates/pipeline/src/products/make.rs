@@ -1,4 +1,4 @@
-//! Making products: what is asked for now, or what is out of date.
+//! Making products: requested ones, or those that are out of date.
 
 use super::adopt::adopt;
 use super::lists::{make_covisible, make_listed};
@@ -16,11 +16,11 @@ use crate::workdir::Workdir;
 use enfilade_dataset::{Dataset, PairRow, WORKDIR};
 use enfilade_scene::{Cx, Quiet};
 
-/// Makes what `requests` ask for of these scenes, and first what that is made from. What is up to date is left alone. Requests are kept: what
-/// they have made is made again by them once it is out of date.
+/// Makes the requested products of these scenes, after the products that they need. Products that are up to date are not made again.
+/// Requests are stored, and used to make products again once they are out of date.
 ///
 /// # Errors
-/// When nothing that is asked for can be made of these scenes, another process works on the dataset, or a file cannot be read or written.
+/// If none of the requests can be fulfilled for these scenes, another process works on the dataset, or a file cannot be read or written.
 pub fn make(dataset: &Dataset, scenes: &[String], requests: &[Request], options: MakeOptions, cx: &dyn Cx) -> Result<Vec<Made>, Error> {
     let _lock = locked(dataset)?;
     scenes.iter().try_for_each(|scene| adopt(dataset, scene))?;
@@ -44,8 +44,8 @@ pub fn make(dataset: &Dataset, scenes: &[String], requests: &[Request], options:
     Ok(all)
 }
 
-/// Makes again what is out of date in these scenes and in the dataset as a whole, as it was asked for; of `only` these products where any are
-/// named.
+/// Makes again the products that are out of date in these scenes and in the dataset as a whole, as requested before; only the products in
+/// `only` if any are named.
 ///
 /// # Errors
 /// As [`make`].
@@ -142,8 +142,8 @@ fn made(product: Product, place: Place, updated: Updated) -> Made {
     Made { product, scene: place.scene().map(String::from), made: updated.made, kept: updated.kept, lines: updated.lines }
 }
 
-/// Brings the products of a place up to date that were asked for, by the configuration (`configured`) or otherwise; those that are `late` or
-/// those that are not. One that cannot be made keeps none of the others from being made.
+/// Brings the requested products of a place up to date, whether requested by the configuration (`configured`) or otherwise; either the
+/// `late` ones or the others. If one cannot be made, the others are still made.
 pub(crate) fn bring_up_to_date(
     dataset: &Dataset,
     place: Place,
@@ -179,8 +179,8 @@ pub(crate) fn bring_up_to_date(
     specs_in(place).filter(|spec| spec.when == When::Asked && spec.is_late() == late).filter_map(outcome).collect()
 }
 
-/// Makes what is asked for of a scene in the dataset `aside`, which has one frame of it: what products of all frames cost beyond that, it does
-/// not tell.
+/// Makes the requested products of a scene in the dataset `aside`, which has one frame of it; the further cost of products of all frames is
+/// not measured.
 pub(crate) fn try_out(dataset: &Dataset, scene: &str, configured: &[Request], aside: &Dataset) -> Result<(), Error> {
     for spec in specs_in(Place::Scene(scene)) {
         let record = Record::read(dataset, Place::Scene(scene), spec.product).unwrap_or_default();
@@ -193,7 +193,7 @@ pub(crate) fn try_out(dataset: &Dataset, scene: &str, configured: &[Request], as
     Ok(())
 }
 
-/// Adds what the configuration asks for, and did not when it was last looked at. A verb may have asked for something else since.
+/// Adds the requests of the configuration that it did not have when it was last read. A verb may have made other requests since.
 fn configure(dataset: &Dataset, place: Place, product: Product, configured: &[Request]) -> Result<(), Error> {
     let found = Record::read(dataset, place, product);
     if found.as_ref().map_or(configured.is_empty(), |record| record.configured == configured) {
@@ -205,8 +205,8 @@ fn configure(dataset: &Dataset, place: Place, product: Product, configured: &[Re
     record.write(dataset, place, product)
 }
 
-/// The pairs that `request` chooses, with a line about each scene; their covisibility is made where it is not there. The dataset's own list
-/// stays as it is.
+/// The pairs that `request` chooses, with a line about each scene; their covisibility is made if it is missing. The dataset's own list is
+/// not changed.
 ///
 /// # Errors
 /// When no scene has frames that are chosen, or a file cannot be read or written.

@@ -1,9 +1,9 @@
-//! What is made of a dataset on request, beside the outputs of its stages: one table, and one rule for what is out of date.
+//! Products of a dataset that are made on request, beside the outputs of its stages: one table, and one rule for what is out of date.
 //!
-//! A product consists of parts, each with files of its own: one for the dataset, for a scene, a camera or a frame. A record in the work
-//! folder, `.enfilade/SCENE/products/NAME.json` (of the dataset as a whole `.enfilade/.products/NAME.json`), keeps what was asked for and,
-//! of each part, a key of everything that it was made from. A part is fresh as long as that key is the same and its files are there in full
-//! length. What is stale stays on disk; `verify` does not judge it; [`make_stale`] and every run make it again, as it was asked for.
+//! A product consists of parts with separate files: one for the dataset, for a scene, a camera or a frame. A record in the work folder,
+//! `.enfilade/SCENE/products/NAME.json` (for the dataset as a whole `.enfilade/.products/NAME.json`), has the requests and, for each part,
+//! a key of everything that it was made from. A part is fresh as long as that key is the same and its files exist in full length. Stale
+//! parts stay on disk; `verify` does not judge them; [`make_stale`] and every run make them again, as requested.
 
 mod adopt;
 mod always;
@@ -32,7 +32,7 @@ pub use always::write_statistics;
 pub(crate) use always::{Pictures, pictures, update_sheet, update_statistics};
 pub(crate) use make::{bring_up_to_date, try_out};
 pub use make::{choose_pairs_of, make, make_stale};
-pub use options::{ProductOptions, make_products};
+pub use options::make_products;
 pub(crate) use record::Place;
 pub use relit::read_mixes;
 pub use stale::{OutOfDate, out_of_date};

@@ -1,4 +1,4 @@
-//! What is kept of a product in the work folder: what was asked for, and what each of its parts was made from.
+//! The record of a product in the work folder: the requests, and what each of its parts was made from.
 
 use crate::error::Error;
 use crate::request::{Product, Request};
@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Folder of the records, in the work folder of a scene; with a dot before it, which no scene has, in that of the dataset.
+/// Folder of the records in the work folder of a scene; in the dataset's work folder it has a leading dot, which no scene's name has.
 const FOLDER: &str = "products";
 
-/// Where a product lies.
+/// Place of a product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Place<'a> {
     /// The dataset as a whole.
@@ -46,7 +46,7 @@ impl Part {
     }
 }
 
-/// A part that is to be made, and the request that asks for it.
+/// A part to make, and its request.
 pub(crate) struct Asked<'a> {
     pub part: &'a Part,
     pub request: &'a Request,
@@ -55,9 +55,9 @@ pub(crate) struct Asked<'a> {
 /// The record of a product.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Record {
-    /// What was asked for, the oldest first: of two that ask for one part the later counts.
+    /// The requests, the oldest first: of two requests for one part the later is used.
     pub requests: Vec<Request>,
-    /// What the configuration asked for when it was last looked at.
+    /// The requests of the configuration when it was last read.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub configured: Vec<Request>,
     /// The parts that were made, by name.
@@ -93,7 +93,7 @@ impl Record {
         Ok(write_json(&path(dataset, place, product), self)?)
     }
 
-    /// Adds a request, and drops those of which it leaves nothing.
+    /// Adds a request, and drops requests that it replaces completely.
     pub fn ask(&mut self, request: &Request) {
         self.requests.retain(|older| !request.replaces(older));
         self.requests.push(request.clone());

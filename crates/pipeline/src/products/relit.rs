@@ -82,7 +82,7 @@ pub(super) fn files(subject: &Subject, part: &Part) -> Result<Vec<PathBuf>, Erro
     Ok(subject.files_of_frame(&folder, *frame))
 }
 
-/// What would have made the pictures that are there of a scene.
+/// The requests that would have made the existing pictures of a scene.
 pub(super) fn found(dataset: &Dataset, scene: &str) -> Result<Vec<Request>, DatasetError> {
     let mut requests = Vec::new();
     for name in dataset.mixes()? {

@@ -1,4 +1,4 @@
-//! What parts of products are made from, by content: hashes that are equal as long as the same inputs are there.
+//! The inputs of parts of products, by content: hashes that are equal as long as the inputs are the same.
 
 use super::record::{Part, Place, Record};
 use crate::error::Error;
@@ -18,7 +18,7 @@ const KEYFRAMES: [&str; 4] = ["frame_indices", "positions", "look_at_positions",
 /// Something that parts are made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
-    /// The layers of the part's frames that the product reads, and where the camera stood.
+    /// The layers of the part's frames that the product reads, and the camera's pose.
     Frames,
     /// All files of the part's frames.
     WholeFrames,
@@ -30,13 +30,13 @@ pub(crate) enum Source {
     Labels,
     /// How the pictures of the part's frames are exposed.
     Exposures,
-    /// What lights the scene.
+    /// The fixtures that light the scene.
     Fixtures,
     /// The files of another product.
     Product(Product),
     /// The pictures of all scenes: the request names what they were made from.
     Pictures,
-    /// Another product that may say which parts there are, and not what is in them.
+    /// Another product that may decide which parts exist, but not their contents.
     ListedBy(Product),
 }
 
@@ -125,7 +125,7 @@ impl<'a> Subject<'a> {
             Source::Labels => self.of_files(self.label_files()),
             Source::Exposures => self.of_files(cameras().into_iter().map(|camera| layout.tone_maps(scene, camera)).collect()),
             Source::Fixtures => self.of_files(vec![layout.metadata_fixtures(scene)]),
-            Source::Product(Product::Rooms) => self.of_files(vec![layout.structure(scene)]),
+            Source::Product(Product::Rooms) => self.of_files(vec![layout.rooms(scene)]),
             Source::Product(product) => self.of_product(product),
             Source::Pictures | Source::ListedBy(_) => Ok(Hash::of(&())),
         }
@@ -202,7 +202,7 @@ impl<'a> Subject<'a> {
 }
 
 impl Recorded {
-    /// The checksums of layers, and where the camera stood.
+    /// The checksums of layers, and the camera's pose.
     fn of_layers(&self, subject: &Subject, layers: &[Layer]) -> Hash {
         let Some(frame) = &self.frame else { return Hash::of(&None::<u8>) };
         let checksum = |layer: &Layer| {

@@ -30,10 +30,10 @@ pub(super) fn key(subject: &Subject, spec: &ProductSpec, request: &Request, part
     Ok(Hash::of(&(HASHED_AS, spec.name, spec.version, &part.settings, hashes)))
 }
 
-/// A part that was asked for.
+/// A requested part.
 pub(super) struct Wanted {
     pub part: Part,
-    /// Place of the request among those of the record.
+    /// Index of the request in the record.
     pub request: usize,
     pub key: Hash,
     /// False where what it is made from has changed, and where it was never made.
@@ -42,10 +42,10 @@ pub(super) struct Wanted {
     pub is_fresh: bool,
 }
 
-/// The products of `scenes`, and those of the dataset as a whole, that are out of date.
+/// The products of `scenes`, and of the dataset as a whole, that are out of date.
 ///
 /// # Errors
-/// When a file that a product is made from cannot be read.
+/// If an input file of a product cannot be read.
 pub fn out_of_date(dataset: &Dataset, scenes: &[String]) -> Result<Vec<OutOfDate>, Error> {
     let mut found = Vec::new();
     for place in scenes.iter().map(|scene| Place::Scene(scene)).chain([Place::Dataset]) {
@@ -89,7 +89,7 @@ pub(crate) fn not_judged(dataset: &Dataset, scene: &str) -> Result<NotJudged, Er
     Ok(not_judged)
 }
 
-/// The products that lie in such a place.
+/// The products of such a place.
 pub(super) fn specs_in(place: Place) -> impl Iterator<Item = &'static ProductSpec> {
     PRODUCTS.iter().filter(move |spec| (spec.scope == Scope::Dataset) == (place == Place::Dataset))
 }
@@ -98,7 +98,7 @@ pub(super) fn specs_in(place: Place) -> impl Iterator<Item = &'static ProductSpe
 pub(super) struct States<'a> {
     pub subject: Subject<'a>,
     place: Place<'a>,
-    /// False where nothing was ever asked for.
+    /// False if there was never a request.
     is_any: bool,
     /// Whether all wanted parts of a product are fresh.
     known: BTreeMap<Product, bool>,
@@ -109,13 +109,13 @@ impl<'a> States<'a> {
         Self { subject: Subject::new(dataset, place), place, is_any: has_records(dataset, place), known: BTreeMap::new() }
     }
 
-    /// The parts of a product that were asked for; none where there is no record of it.
+    /// The requested parts of a product; none if there is no record of it.
     pub fn wanted(&mut self, product: Product) -> Result<Vec<Wanted>, Error> {
         let record = if self.is_any { Record::read(self.subject.dataset, self.place, product) } else { None };
         record.map_or(Ok(Vec::new()), |record| self.wanted_by(product, &record))
     }
 
-    /// The parts that a record asks for.
+    /// The parts that a record requests.
     pub fn wanted_by(&mut self, product: Product, record: &Record) -> Result<Vec<Wanted>, Error> {
         let spec = product.spec();
         let mut inputs_are_fresh = true;
@@ -143,7 +143,7 @@ impl<'a> States<'a> {
         order.into_iter().map(wanted).collect()
     }
 
-    /// True when everything that was asked for of a product is there as its inputs would have it now.
+    /// True if all requested parts of a product exist and are up to date with their inputs.
     fn is_fresh(&mut self, product: Product) -> Result<bool, Error> {
         if let Some(&known) = self.known.get(&product) {
             return Ok(known);

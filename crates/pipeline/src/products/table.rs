@@ -14,37 +14,37 @@ use std::path::PathBuf;
 pub enum When {
     /// By every run that makes pictures.
     Always,
-    /// Once somebody has asked for it: by a verb, in Python or by a key of `dataset.toml`.
+    /// On request: by a verb, in Python or by a key of `dataset.toml`.
     Asked,
 }
 
-/// What a product is.
+/// The definition of a product.
 pub struct ProductSpec {
     /// Which one.
     pub product: Product,
     /// The word for it on the command line, in `dataset.toml` and in the name of its record.
     pub name: &'static str,
-    /// What it is.
+    /// Description of the product.
     pub about: &'static str,
     /// When it is made.
     pub when: When,
-    /// What its parts belong to.
+    /// Scope of its parts.
     pub scope: Scope,
-    /// What its parts are made from, beside the options of the request.
+    /// Inputs of its parts, beside the options of the request.
     pub(crate) reads: &'static [Source],
     /// Changes whenever the same inputs give other files.
     pub(crate) version: u32,
     /// The layers that it reads of each frame of a part.
     pub(crate) layers: fn(&Request) -> Vec<Layer>,
-    /// The parts that a request asks for.
+    /// The parts of a request.
     pub(crate) parts: fn(&Subject, &Request) -> Result<Vec<Part>, Error>,
-    /// Makes parts, and says in lines what it made.
+    /// Makes parts, and returns lines about what it made.
     pub(crate) make: Maker,
-    /// The files of a part that was made, those that are there.
+    /// The existing files of a part that was made.
     pub(crate) files: fn(&Subject, &Part) -> Result<Vec<PathBuf>, Error>,
 }
 
-/// Makes parts of a product, and says in lines what it made.
+/// Makes parts of a product, and returns lines about what it made.
 type Maker = fn(&Subject, &[Asked], &dyn Cx) -> Result<Vec<String>, Error>;
 
 /// All products in the order in which they are made: each after those that it reads.
@@ -52,7 +52,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Covisibility,
         name: Product::Covisibility.name(),
-        about: "the share of each frame's surfaces that each other frame of the scene sees",
+        about: "The share of each frame's surfaces that each other frame of the scene sees",
         when: When::Asked,
         scope: Product::Covisibility.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package],
@@ -65,7 +65,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Pairs,
         name: Product::Pairs.name(),
-        about: "the pairs of frames that see the same surfaces",
+        about: "Which frames see the same surfaces: shares, baselines and angles of all view pairs of a scene",
         when: When::Asked,
         scope: Product::Pairs.scope(),
         reads: &[Source::Product(Product::Covisibility)],
@@ -78,7 +78,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Flow,
         name: Product::Flow.name(),
-        about: "where the surfaces of a frame are in another one",
+        about: "Flow between any two frames of a scene, also of different cameras, forward and backward",
         when: When::Asked,
         scope: Product::Flow.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::ListedBy(Product::Pairs)],
@@ -91,7 +91,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Tracks,
         name: Product::Tracks.name(),
-        about: "points on surfaces, followed through the frames of a camera",
+        about: "Points on surfaces, followed through the frames of each camera, in TAP-Vid's layout",
         when: When::Asked,
         scope: Product::Tracks.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package],
@@ -104,7 +104,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Surfaces,
         name: Product::Surfaces.name(),
-        about: "every surface along the rays of a frame",
+        about: "Every surface along the ray of each pixel, front and back, and what is behind glass with refraction",
         when: When::Asked,
         scope: Product::Surfaces.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels],
@@ -117,7 +117,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Rooms,
         name: Product::Rooms.name(),
-        about: "rooms of scenes that came without them, and which plane of them each pixel shows",
+        about: "Rooms, walls, doors and windows of scenes without a plan, and the plane that each pixel shows",
         when: When::Asked,
         scope: Product::Rooms.scope(),
         reads: &[Source::Frames, Source::Package, Source::Labels],
@@ -130,7 +130,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Words,
         name: Product::Words.name(),
-        about: "attributes and relations of things; captions and questions of frames",
+        about: "Attributes and relations of things, captions, questions with answers",
         when: When::Asked,
         scope: Product::Words.scope(),
         reads: &[Source::Frames, Source::Poses, Source::Package, Source::Labels, Source::Product(Product::Rooms)],
@@ -143,7 +143,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Sensors,
         name: Product::Sensors.name(),
-        about: "what real cameras and depth sensors would make of a frame",
+        about: "Readings of simulated cameras and depth sensors",
         when: When::Asked,
         scope: Product::Sensors.scope(),
         reads: &[Source::Frames, Source::Poses],
@@ -156,7 +156,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Relit,
         name: Product::Relit.name(),
-        about: "a frame with other lamps on",
+        about: "Frames with lamps switched, dimmed and tinted",
         when: When::Asked,
         scope: Product::Relit.scope(),
         reads: &[Source::WholeFrames, Source::Exposures, Source::Fixtures],
@@ -169,7 +169,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Sheet,
         name: Product::Sheet.name(),
-        about: "one picture of each trajectory of the dataset",
+        about: "One picture of each trajectory of the dataset",
         when: When::Always,
         scope: Product::Sheet.scope(),
         reads: &[Source::Pictures],
@@ -182,7 +182,7 @@ pub const PRODUCTS: [ProductSpec; 11] = [
     ProductSpec {
         product: Product::Statistics,
         name: Product::Statistics.name(),
-        about: "numbers and charts of the dataset",
+        about: "Numbers and charts of the dataset",
         when: When::Always,
         scope: Product::Statistics.scope(),
         reads: &[Source::Pictures],
@@ -220,7 +220,7 @@ impl ProductSpec {
         })
     }
 
-    /// True when it lies in scenes, but is made after a product of the dataset as a whole.
+    /// True if it belongs to scenes, but is made after a product of the dataset as a whole.
     pub(crate) fn is_late(&self) -> bool {
         self.scope != Scope::Dataset && self.after().any(|product| product.spec().scope == Scope::Dataset)
     }

@@ -1,4 +1,4 @@
-//! The matrix: for every product and every input that changes, it is fresh or out of date as the table says.
+//! The matrix: for every product and every input that changes, it is fresh or out of date according to the table.
 
 use super::record::{MadePart, Place, Record};
 use super::sources::Source;
@@ -116,7 +116,7 @@ const CHANGES: [Change; 10] = [
         name: "rooms as they were built",
         sources: &[Source::Product(Product::Rooms)],
         layers: &[],
-        files: |dataset| vec![dataset.layout().structure(SCENE)],
+        files: |dataset| vec![dataset.layout().rooms(SCENE)],
         make: append,
     },
 ];
@@ -163,7 +163,8 @@ fn stale(dataset: &Dataset) -> BTreeSet<Product> {
     out_of_date(dataset, &[SCENE.into()]).unwrap().into_iter().map(|found| found.product).collect()
 }
 
-/// Whether the table says that a change makes a product out of date. Records of [`make_all`] list no files, so a product's own do not count.
+/// Whether a change makes a product out of date according to the table. Records of [`make_all`] list no files, so a product's own do not
+/// count.
 fn is_expected(spec: &ProductSpec, requests: &[Request], change: &Change) -> bool {
     let own: Vec<Layer> = requests.iter().filter(|request| request.product() == spec.product).flat_map(spec.layers).collect();
     let reads_layer = spec.reads.contains(&Source::Frames) && own.iter().any(|layer| change.layers.contains(layer));

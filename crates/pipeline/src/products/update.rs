@@ -18,7 +18,7 @@ pub struct MakeOptions {
     pub force: bool,
 }
 
-/// What became of a product in a scene, or in the dataset as a whole.
+/// Result of making a product in a scene, or in the dataset as a whole.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Made {
     /// Which.
@@ -29,11 +29,11 @@ pub struct Made {
     pub made: usize,
     /// Parts that were up to date.
     pub kept: usize,
-    /// What was made, in lines; without them nothing was to be done.
+    /// Lines about what was made; none if nothing was to be done.
     pub lines: Vec<String>,
 }
 
-/// What became of a product in a place.
+/// Result of updating a product in a place.
 #[derive(Debug, Default)]
 pub(super) struct Updated {
     pub made: usize,
@@ -41,8 +41,8 @@ pub(super) struct Updated {
     pub lines: Vec<String>,
 }
 
-/// Makes what `asked` asks for of a product in a place; without any request, all that was ever asked for. What is up to date stays, unless it
-/// is asked for by force.
+/// Makes the parts of a product in a place that `asked` requests; without any request, all parts ever requested. Parts that are up to date
+/// are kept, unless forced.
 pub(super) fn update(
     dataset: &Dataset,
     place: Place,
@@ -95,14 +95,14 @@ fn make_parts(
     todo: &[&Wanted],
     cx: &dyn Cx,
 ) -> Result<Vec<String>, Error> {
-    // From here on the record must not speak of the files that are about to change.
+    // From here on the record must not vouch for the files that are about to change.
     let dataset = subject.dataset;
     todo.iter().for_each(|part| record.parts.entry(part.part.name.clone()).or_default().from = None);
     record.write(dataset, place, product)?;
     let parts: Vec<Asked> = todo.iter().map(|part| Asked { part: &part.part, request: States::request(record, part) }).collect();
     let made = if parts.is_empty() { Ok(Vec::new()) } else { (product.spec().make)(subject, &parts, cx) };
     if made.is_err() {
-        // What cannot be made is not asked for again by every run.
+        // Requests that cannot be fulfilled are not repeated by every run.
         record.requests = before.to_vec();
         record.write(dataset, place, product)?;
         return made;

@@ -1,4 +1,4 @@
-//! What every run makes of the dataset as a whole from the pictures of its scenes: the contact sheet and the statistics.
+//! Products of the dataset as a whole that every run makes from the pictures of its scenes: the contact sheet and the statistics.
 
 use super::record::{Asked, Part};
 use super::sources::Subject;

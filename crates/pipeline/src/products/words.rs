@@ -1,4 +1,4 @@
-//! What the things of a scene are and how they stand to each other, and that in captions and questions: one part for the scene.
+//! Descriptions and relations of the things of a scene, with captions and questions about them: one part for the scene.
 
 use super::record::{Asked, Part};
 use super::sources::Subject;

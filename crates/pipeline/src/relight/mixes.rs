@@ -32,7 +32,7 @@ struct Rule {
 }
 
 impl Mix {
-    /// What the light of a fixture is multiplied by: what the last row says that means it, 1 where none does.
+    /// Factor for the light of a fixture: from the last row that selects it, 1 if none does.
     pub fn factor(&self, fixture: &Fixture) -> Rgb {
         self.rules.iter().rev().find(|rule| rule.means(fixture)).map_or(Rgb::WHITE, |rule| rule.factor)
     }

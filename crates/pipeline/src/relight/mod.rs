@@ -21,7 +21,7 @@ const AT_ONCE: usize = 8;
 /// The picture of a mix, exposed as the frame's own.
 const PICTURE: PreviewSpec = PreviewSpec { pass: enfilade_frame::Pass::Final, name: "display.jpg", subject: Subject::Displayed };
 
-/// What denoising and exposure go by: the frame's own.
+/// Layers that guide denoising and exposure: the frame's own.
 const GUIDES: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
 
 pub(crate) use mixes::{Mix, mixes_of};
@@ -44,7 +44,7 @@ pub(crate) fn relight_frames(
         exposures.insert(camera, dataset.read_tone_maps(scene, camera)?);
     }
     let counted = Counted::new(cx, "frames", frames.len());
-    // One after the other: each holds several mixes, and denoising uses all threads.
+    // One after the other: each has several mixes in memory, and denoising uses all threads.
     frames.iter().try_for_each(|((camera, number), mixes)| {
         let exposure = exposures[camera].iter().find(|row| row.frame == *number).map(exposure);
         counted.unit(|| {

@@ -22,7 +22,7 @@ pub enum Product {
 
 impl Product {
     /// Products that people request by name.
-    pub(crate) const ON_REQUEST: [Self; 8] =
+    pub const ON_REQUEST: [Self; 8] =
         [Self::Pairs, Self::Flow, Self::Tracks, Self::Surfaces, Self::Rooms, Self::Words, Self::Sensors, Self::Relit];
 
     /// The word for it on the command line and in `dataset.toml`.
@@ -42,7 +42,30 @@ impl Product {
         }
     }
 
-    /// What its parts belong to.
+    /// Names of its options that `dataset.toml` has as well, in a table of the product.
+    pub const fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Pairs => &["overlap", "baseline_m", "angle_deg", "pixels"],
+            Self::Flow => &["step"],
+            Self::Tracks => &["points", "seed"],
+            Self::Surfaces => &["layers"],
+            _ => &[],
+        }
+    }
+
+    /// Names of its options, which are fields of [`ProductOptions`](super::ProductOptions).
+    pub fn options(self) -> impl Iterator<Item = &'static str> {
+        let of_calls: &[&str] = match self {
+            Self::Pairs => &["pairs"],
+            Self::Flow => &["pairs", "between"],
+            Self::Sensors => &["sensors"],
+            Self::Relit => &["mixes"],
+            _ => &[],
+        };
+        of_calls.iter().chain(self.keys()).copied()
+    }
+
+    /// Scope of its parts.
     pub const fn scope(self) -> Scope {
         match self {
             Self::Covisibility | Self::Words => Scope::Scene,
@@ -53,7 +76,7 @@ impl Product {
     }
 }
 
-/// What the parts of a product belong to.
+/// The unit that a part of a product belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// The dataset as a whole: one part.

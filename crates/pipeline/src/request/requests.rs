@@ -1,4 +1,4 @@
-//! What somebody asks of a product: options, and the frames that it is for. It is recorded with the product, which is made again by it.
+//! The request for a product: options, and the frames that it is for. It is recorded with the product and used to make it again.
 
 use super::choice::FrameChoice;
 use super::product::Product;
@@ -8,7 +8,7 @@ use enfilade_multiview::{CovisibilityConfig, PairFilter};
 use enfilade_sensors::Sensor;
 use serde::{Deserialize, Serialize};
 
-/// A product with the options that it is asked for by.
+/// A product with the options of the request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Request {
@@ -67,7 +67,7 @@ pub enum Request {
     },
     /// The contact sheet of the dataset.
     Sheet {
-        /// What stands above it.
+        /// Its title.
         title: String,
         /// Names the pictures of all scenes.
         pictures: String,
@@ -97,7 +97,7 @@ impl Request {
         }
     }
 
-    /// True when it is made after another product: flow is after the list of pairs where that says which pairs.
+    /// True when it is made after another product: flow is after the list of pairs if that list selects its pairs.
     pub(crate) fn is_made_after(&self, product: Product) -> bool {
         match self {
             Self::Flow { pairs, .. } => product == Product::Pairs && *pairs == FlowPairs::Listed,
@@ -125,7 +125,7 @@ impl Request {
         }
     }
 
-    /// The request with the settings of `newer` where both are about one sensor or one mix: its folder holds readings of one setting alone.
+    /// The request with the settings of `newer` where both are about one sensor or one mix: its folder has readings of only one setting.
     pub(crate) fn with_settings_of(&self, newer: &Self) -> Option<Self> {
         match (self, newer) {
             (Self::Sensor { sensor: old, of }, Self::Sensor { sensor, .. }) if old.name() == sensor.name() && old != sensor => {
@@ -176,7 +176,7 @@ impl PairsRequest {
         }
     }
 
-    /// What is asked of each scene.
+    /// The request for each scene.
     pub(crate) fn covisibility(&self) -> Request {
         Request::Covisibility { pixels: self.pixels, cameras: self.cameras.clone() }
     }

@@ -1,8 +1,7 @@
-//! Running a stage, and the rule by which one is skipped.
+//! Running a stage, and the rule for skipping it.
 //!
-//! A stage is up to date when its record says that it ran with the same configuration, the same content of the same inputs and the
-//! same version of the code, and all its outputs are there as it wrote them. What a stage has beyond that rule stands in its row of
-//! the table, [`STAGES`].
+//! A stage is up to date if its record states that it ran with the same configuration, the same content of the same inputs and the same
+//! version of the code, and all its outputs exist as it wrote them. Further conditions of a stage are in its row of the table, [`STAGES`].
 
 use super::{HASHED_AS, Input, Job, Output, Record, STAGES, Stage, StageSpec, verify};
 use crate::error::Error;
@@ -50,7 +49,7 @@ pub(crate) fn advance(spec: &StageSpec, job: &Job, ready: impl FnOnce() -> Resul
     // Do the work.
     let outcome = (spec.run)(job, &cx)?;
 
-    // Describe the outputs as they are on disk.
+    // Describe the outputs on disk.
     let inputs = outcome.inputs.or(inputs).unwrap_or_default();
     let outputs = outcome.outputs.iter().map(|path| Output::of(job.out(), path)).collect::<Result<_, _>>()?;
     let listed = spec.shared_row.as_ref().and_then(|row| (row.hash)(job));
@@ -118,7 +117,7 @@ fn refuse_damaged(stage: Stage, job: &Job, inputs: &[Input]) -> Result<(), Error
 
 /// Names the settings, the inputs and the version of the code that a stage ran with.
 fn key(spec: &StageSpec, settings: &Hash, inputs: &[Input]) -> Hash {
-    // A dataset may be moved: the contents of its files count, and where they lie does not.
+    // A dataset may be moved: the contents of its files count, not their paths.
     let contents: Vec<&Hash> = inputs.iter().map(|i| &i.content).collect();
     Hash::of(&(HASHED_AS, spec.name, spec.stage.version(), settings, contents))
 }

@@ -1,4 +1,4 @@
-//! The files that say where the cameras of a scene are: `plan` writes them, and later stages have them as inputs.
+//! The files with the cameras of a scene: `plan` writes them, and later stages have them as inputs.
 
 use super::{Input, Job, Stage};
 use crate::error::Error;

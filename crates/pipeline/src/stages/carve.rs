@@ -19,25 +19,25 @@ pub(super) const STARTS: &str = "starts.json";
 struct Start {
     #[serde(flatten)]
     camera: StartCamera,
-    /// True where it was skipped, because it stands in a wall.
+    /// True if it was skipped, because it is in a wall.
     #[serde(default)]
     is_skipped: bool,
-    /// True where hardly a direction around it meets a surface.
+    /// True if hardly any direction around it meets a surface.
     #[serde(default)]
     is_open: bool,
 }
 
-/// All of them; there is at least one.
+/// All start cameras; there is at least one.
 pub(super) fn starts(job: &Job) -> Result<Vec<StartCamera>, Error> {
     Ok(read_starts(job)?.into_iter().map(|start| start.camera).collect())
 }
 
-/// Start cameras that stand on the right side of things: carving began there.
+/// Start cameras that are not inside of things: carving began there.
 pub(super) fn standing(job: &Job) -> Result<Vec<StartCamera>, Error> {
     Ok(read_starts(job)?.into_iter().filter(|start| !start.is_skipped).map(|start| start.camera).collect())
 }
 
-/// Whether a trajectory begins in the open, where views are not to be held to what is true of rooms.
+/// Whether a trajectory begins in the open, where the gates that assume a room do not apply to views.
 pub(super) fn is_open_place(job: &Job) -> Result<bool, Error> {
     Ok(read_starts(job)?.iter().any(|start| start.is_open))
 }

@@ -11,7 +11,8 @@ use enfilade_frame::Pass;
 use enfilade_scene::{Cx, Warning};
 use enfilade_show::preview::{PREVIEWS, PreviewSpec};
 
-/// How names of denoisers begin in records of earlier versions, which could also denoise by an installed library. What it made counts.
+/// Beginning of the names of denoisers in records of earlier versions, which could also denoise by an installed library. Their results are
+/// still valid.
 const LIBRARY: &str = "Open Image Denoise ";
 /// The place of that library in hashes of settings.
 const NO_LIBRARY: Option<&str> = None;
@@ -24,7 +25,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     job.rendered_records().map(Some)
 }
 
-/// Whether every frame has the colour that is asked for.
+/// Whether every frame has the requested kind of colour.
 pub(super) fn frames_are_chosen(job: &Job) -> bool {
     let is_chosen = |(camera, frame): &(String, u32)| record(job, camera, *frame).is_ok_and(|record| is_chosen(job, &record));
     job.frames().is_ok_and(|frames| frames.iter().all(is_chosen))
@@ -65,7 +66,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, ..Outcome::default() })
 }
 
-/// Warns of frames that have to be rendered again because what was rendered is asked for and was not kept.
+/// Warns of frames that have to be rendered again because their rendered layers are requested but were not kept.
 pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
     if job.scene.color == ColorKind::Denoised {
         return;
@@ -79,7 +80,7 @@ pub(crate) fn warn_of_lost(job: &Job, cx: &dyn Cx) {
     }
 }
 
-/// Makes the colour of one frame that was rendered, as it is asked for, unless it is made already.
+/// Makes the requested kind of colour of one rendered frame, unless it exists already.
 pub(super) fn make_color(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
     match job.scene.color {
         ColorKind::Denoised if is_chosen(job, &record(job, camera, frame)?) => Ok(()),
@@ -100,7 +101,7 @@ fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Re
         .map(drop)
 }
 
-/// Names what denoises. What was denoised stands in the record too.
+/// Hash of the denoiser. The record also has the checksums of the denoised layers.
 fn denoise_hash() -> String {
     Hash::of(&(HASHED_AS, Stage::Denoise.version(), NO_LIBRARY)).0
 }
@@ -113,7 +114,7 @@ fn record(job: &Job, camera: &str, frame: u32) -> Result<FrameRecord, Error> {
     })
 }
 
-/// Whether a frame has the colour that is asked for.
+/// Whether a frame has the requested kind of colour.
 fn is_chosen(job: &Job, record: &FrameRecord) -> bool {
     let is_asked_for = match (&record.denoised, job.scene.color) {
         (None, color) => color == ColorKind::Rendered,
@@ -123,7 +124,7 @@ fn is_chosen(job: &Job, record: &FrameRecord) -> bool {
     is_asked_for && job.dataset.color_is_whole(&job.scene.name, record)
 }
 
-/// Whether a frame that does not have the colour that is asked for has to be denoised.
+/// Whether a frame without the requested kind of colour has to be denoised.
 fn is_denoised_now(job: &Job, record: &FrameRecord) -> bool {
     job.scene.color == ColorKind::Denoised
         && record.has_rendered()
@@ -136,7 +137,8 @@ fn is_current(denoised: &Denoised) -> bool {
     denoised.denoise_hash == denoise_hash() || denoised.denoiser.starts_with(LIBRARY)
 }
 
-/// Brings a frame that needs no denoising to what is asked for: what was rendered under both names, or gone if it is not to be kept.
+/// Brings a frame that needs no denoising to the requested state: the rendered layers under both names, or removed if they are not to be
+/// kept.
 fn settle(job: &Job, camera: &str, frame: u32, record: &FrameRecord) -> Result<(), Error> {
     let of = [job.scene.name.as_str(), camera];
     let settled = match job.scene.color {
@@ -147,7 +149,7 @@ fn settle(job: &Job, camera: &str, frame: u32, record: &FrameRecord) -> Result<(
     settled.map_err(Error::stage)
 }
 
-/// Removes the pictures of layers that a frame may not have any more; the preview stage makes those of what it has.
+/// Removes the pictures of layers that a frame may not have any more; the preview stage makes pictures of its current layers.
 fn remove_pictures_of_rendered(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
     let name = &job.scene.name;
     let mut previews = PREVIEWS.iter().filter(|spec| spec.pass == Pass::Rendered);

@@ -1,5 +1,5 @@
-//! What is done with a frame where it was rendered, when the rest of the dataset is made elsewhere: labels, colour without noise, laws, what it
-//! shows of instances, and pictures.
+//! Finishing a frame on the machine that rendered it, if the rest of the dataset is made elsewhere: labels, denoised colour, laws, visible
+//! instances, and pictures.
 
 use super::{Job, denoise, label, made};
 use crate::error::Error;
@@ -19,18 +19,18 @@ pub struct FinishedFrame {
     pub files: Vec<PathBuf>,
     /// The laws of verification that it breaks; normally none.
     pub broken: Vec<&'static str>,
-    /// What it took.
+    /// Time and memory that it took.
     pub time: FrameTime,
 }
 
-/// What the frames of a scene are finished with.
+/// Data for finishing the frames of a scene.
 pub(crate) struct FrameFinisher {
     known: label::Known,
     furniture: made::Furniture,
     verifier: FrameVerifier,
 }
 
-/// Reads what finishing takes.
+/// Reads the data for finishing frames.
 pub(crate) fn frame_finisher(job: &Job, cx: &StageCx) -> Result<FrameFinisher, Error> {
     let known = label::known(job, cx)?.0;
     let furniture = made::Furniture::of(job)?;
@@ -51,7 +51,8 @@ impl FrameFinisher {
     }
 }
 
-/// The files of a frame, relative to the dataset's folder; every record after the files that it vouches for, and that of the frame at the end.
+/// The files of a frame, relative to the dataset's folder; every record after the files that it vouches for, and the frame's record at the
+/// end.
 fn files(job: &Job, camera: &str, frame: u32, extra: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
     let (dataset, layout, name) = (job.dataset, job.dataset.layout(), &job.scene.name);
     let rendered = dataset.frame_record(name, camera, frame).map_err(Error::stage)?.map(|record| record.files);

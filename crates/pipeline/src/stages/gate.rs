@@ -1,4 +1,4 @@
-//! `gate`: which of the planned views are worth rendering, by their geometry alone.
+//! `gate`: which of the planned views are worth rendering, by their geometry.
 
 use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve};
 use crate::error::Error;
@@ -88,14 +88,14 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs, ..Outcome::default() })
 }
 
-/// The gates of a scene. In an open place no view is held to what is true of rooms: that there is something around it, and depth in nearly
-/// every pixel.
+/// The gates of a scene. In an open place the gates that assume a room are off: that there are surfaces around, and depth in nearly every
+/// pixel.
 pub(super) fn config(job: &Job) -> Result<GateConfig, Error> {
     let gate = job.scene.gate.clone();
     Ok(if carve::is_open_place(job)? { GateConfig { max_open_share: 1.0, max_invalid_share: 1.0, ..gate } } else { gate })
 }
 
-/// The frame of a trajectory that is a start camera's own pose, which is rendered whatever it shows.
+/// The frame of a trajectory that is a start camera's own pose, which is rendered in any case.
 fn given_frame(job: &Job, trajectory: &str) -> Option<u32> {
     let path = job.dataset.layout().plan_report(&job.scene.name, trajectory);
     let report: PlanReport = read_json(&path)?;
@@ -113,7 +113,7 @@ pub(super) fn verdicts(job: &Job) -> Result<Vec<Input>, Error> {
     job.filmed()?.iter().map(|(_, trajectory)| file(trajectory)).collect()
 }
 
-/// Removes what was said about an earlier plan.
+/// Removes the results for an earlier plan.
 pub(super) fn forget(job: &Job) -> Result<(), Error> {
     let (layout, name) = (job.dataset.layout(), &job.scene.name);
     remove_if_there(&layout.gates_page(name))?;

@@ -11,7 +11,7 @@ use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
 use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
-use enfilade_show::planview::structure_svg;
+use enfilade_show::planview::rooms_svg;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -43,19 +43,19 @@ pub(super) fn settings(job: &Job) -> Hash {
     }
 }
 
-/// The files that the last import read or looked for in vain: which these are, only reading tells.
+/// The files that the last import read or looked for in vain: they are known only after reading.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     let source = match &job.scene.source {
         Source::Home(config) => return asset_inputs(job, config).map(Some),
         Source::File(source) => source,
     };
     let Some(record) = previous else { return Ok(None) };
-    // Where the configuration names other files now, those that were read do not matter, although they may still be there.
+    // If the configuration names other files now, the files read before do not matter, although they may still exist.
     let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == in_folder(path));
     if named(source).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
-    // A file that cannot be read makes the stage run, and its error says why.
+    // A file that cannot be read makes the stage run, and its error has the reason.
     Ok(record.inputs.iter().map(|input| Input::of_any(&input.path)).collect::<Result<_, _>>().ok())
 }
 
@@ -72,20 +72,20 @@ fn in_folder(path: &Path) -> PathBuf {
     within.unwrap_or_else(|| path.to_path_buf())
 }
 
-/// The files of the libraries that a home takes models of, all of them: which ones it takes, only making it tells.
+/// All files of the libraries that a home may take models from: the ones it takes are known only after making it.
 fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
     assets::files(config, &|path| job.config.path(path))?.iter().map(|path| Input::of(path)).collect()
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let (scene, labels, structure, inputs, report, offset_m) = match &job.scene.source {
+    let (scene, labels, rooms, inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
             // Its files were known before, and hashed.
-            let structure = home.structure();
-            (home.scene, Some(home.labels), Some(structure), None, report, None)
+            let rooms = home.rooms();
+            (home.scene, Some(home.labels), Some(rooms), None, report, None)
         }
         Source::File(source) => {
             let watch = Watch::start(job, source);
@@ -107,11 +107,11 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
-    let drawn = [layout.structure(name), layout.structure_plan(name)];
-    match &structure {
-        Some(structure) => {
-            job.dataset.write_structure(name, structure).map_err(Error::stage)?;
-            write_bytes(&drawn[1], structure_svg(structure))?;
+    let drawn = [layout.rooms(name), layout.rooms_drawing(name)];
+    match &rooms {
+        Some(rooms) => {
+            job.dataset.write_rooms(name, rooms).map_err(Error::stage)?;
+            write_bytes(&drawn[1], rooms_svg(rooms))?;
             outputs.extend(drawn);
         }
         None => remove_built_rooms(job, &drawn)?,
@@ -121,12 +121,12 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 
 /// Removes the rooms of a home that the scene was before. Those that were fitted to its labels are a product of their own.
 fn remove_built_rooms(job: &Job, files: &[PathBuf]) -> Result<(), Error> {
-    let is_fitted = matches!(job.dataset.read_structure(&job.scene.name), Ok(Some(structure)) if structure.fit.is_some());
+    let is_fitted = matches!(job.dataset.read_rooms(&job.scene.name), Ok(Some(rooms)) if rooms.fit.is_some());
     if is_fitted { Ok(()) } else { Ok(files.iter().try_for_each(|file| remove_if_there(file))?) }
 }
 
-/// Removes frames that show another scene: their part numbers may mean other parts of this one. `bytes` are those of the package that
-/// replaces the one on disk.
+/// Removes frames that show another scene: their part numbers may mean other parts of this one. `bytes` is the package that replaces the
+/// one on disk.
 fn remove_frames_of_other_scenes(job: &Job, package: &Path, bytes: &[u8]) -> Result<(), Error> {
     let name = &job.scene.name;
     if !job.dataset.layout().images_dir(name).is_dir() {
@@ -136,7 +136,7 @@ fn remove_frames_of_other_scenes(job: &Job, package: &Path, bytes: &[u8]) -> Res
     let is_replaced = package.is_file() && Hash::of_file(package)? != hash;
     let stays = |record: &FrameRecord| match &record.recipe {
         Some(recipe) if !recipe.scene_blake3.is_empty() => recipe.scene_blake3 == hash.0,
-        // V-Ray's frames, and those of earlier versions, do not name their scene: they show the one whose package is on disk.
+        // V-Ray's frames, and frames of earlier versions, do not name their scene: they show the one whose package is on disk.
         _ => !is_replaced,
     };
     job.there()?.iter().try_for_each(|camera| job.dataset.retain_frames(name, camera, stays)).map_err(Error::stage)
@@ -151,20 +151,20 @@ fn named(source: &FileSource) -> impl Iterator<Item = String> {
 /// Finds files that somebody saves while the scene is read from them: whether the old or the new content was read is unknown.
 struct Watch {
     start: SystemTime,
-    /// The files that the configuration names, as they were before.
+    /// The files that the configuration names, in their state before the import.
     named: Vec<Input>,
 }
 
 impl Watch {
     fn start(job: &Job, source: &FileSource) -> Self {
         let files = named(source).filter_map(|written| job.config.path(&written).ok()).filter(|path| path.is_file());
-        // A file that cannot be read here fails the import, which says why.
+        // A file that cannot be read here makes the import fail with the reason.
         let named = files.filter_map(|path| Input::of(&path).ok()).collect();
         Self { start: SystemTime::now(), named }
     }
 
-    /// The files at `paths` as they were read. One that was saved meanwhile gets a hash that no content has, so that the next run imports
-    /// again; named ones, which were hashed before, differ from then on anyway.
+    /// The files at `paths` in the state in which they were read. A file that was saved meanwhile gets a hash that no content has, so that
+    /// the next run imports again; named ones, which were hashed before, differ from then on anyway.
     fn inputs(&self, paths: &[PathBuf]) -> Result<Vec<Input>, Error> {
         let meanwhile = self.start..=SystemTime::now();
         let is_saved = |path: &Path| path.metadata().and_then(|data| data.modified()).is_ok_and(|time| meanwhile.contains(&time));

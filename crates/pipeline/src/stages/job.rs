@@ -1,4 +1,4 @@
-//! One scene on its way through the stages: its files, what was loaded of them, and which of its frames are made here.
+//! One scene in the stages: its files, their loaded contents, and the frames that are made here.
 
 use super::{Input, Shift, Stage};
 use crate::config::{Config, SceneConfig};
@@ -14,14 +14,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// One scene on its way through the stages: where its files are, and what was loaded of them.
+/// One scene in the stages: its files and their loaded contents.
 pub(crate) struct Job<'a> {
     pub config: &'a Config,
     pub scene: &'a SceneConfig,
     pub dataset: &'a Dataset,
-    /// Do the work even where its result is there already.
+    /// Do the work even if its result exists.
     pub force: bool,
-    /// What of it is made here, where other machines make the rest.
+    /// The part that is made here, if other machines make the rest.
     pub shift: Option<&'a Shift<'a>>,
     workdir: &'a Workdir,
     loaded: Arc<Mutex<Loaded>>,
@@ -180,7 +180,7 @@ impl<'a> Job<'a> {
         self.frames().is_ok_and(|frames| frames.iter().all(is_whole))
     }
 
-    /// The commit records of all frames as inputs: they hold the checksums of every layer.
+    /// The commit records of all frames as inputs: they have the checksums of every layer.
     pub fn frame_records(&self) -> Result<Vec<Input>, Error> {
         let layout = self.dataset.layout();
         let record =
@@ -196,7 +196,7 @@ impl<'a> Job<'a> {
         self.frames()?.iter().map(record).collect()
     }
 
-    /// Records of the frames as far as they tell what was rendered: whether colour is denoised since does not count.
+    /// Records of the frames, limited to the rendered layers: later denoising of colour does not count.
     pub fn rendered_records(&self) -> Result<Vec<Input>, Error> {
         self.frames()?.iter().map(|(camera, frame)| self.rendered_record(camera, *frame)).collect()
     }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Folder within the work folder of a scene where a plan is tried out.
 const FOLDER: &str = "planned";
 
-/// A trajectory as it is planned, what it is filmed with, and the other camera of a rig.
+/// A planned trajectory, its camera, and the other camera of a rig.
 pub(super) struct Plan<'a> {
     pub trajectory: &'a Trajectory,
     pub camera: &'a Camera,
@@ -24,7 +24,7 @@ pub(super) fn remove_frames_of_other_poses(job: &Job, plan: &Plan) -> Result<(),
     // With motion blur, and with flow, a frame also depends on the poses before and after its own.
     let is_alone = plan.camera.shutter.is_none() && !job.scene.render.extra;
     let is_same = is_alone || job.dataset.read_trajectory(name, &trajectory.name).is_ok_and(|old| old == *trajectory);
-    // The files of the earlier plan may be damaged. Then the records of the frames tell whether the plan was the same.
+    // The files of the earlier plan may be damaged. Then the records of the frames show whether the plan was the same.
     let hashes = if is_same { BTreeMap::new() } else { hashes(job, plan)? };
     let stays = |record: &FrameRecord| is_taken(record) && (is_same || hashes.get(&record.frame) == Some(&record.config_hash));
     job.dataset.retain_frames(name, &trajectory.name, stays).map_err(Error::stage)

@@ -12,7 +12,7 @@ use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The tables of labels and objects; that of pieces is there where people cut parts.
+/// The tables of labels and objects; the table of pieces exists only if people cut parts.
 const TABLES: [&str; 5] =
     [mesh_names::OBJECTS_SEMANTIC, mesh_names::OBJECTS_INSTANCE, mesh_names::OBJECTS, mesh_names::FACES_OBJECTS, mesh_names::OBJECT_PIECES];
 /// Names listed in a warning; the report has all.
@@ -40,7 +40,7 @@ pub(super) fn frames_are_whole(job: &Job) -> bool {
     job.layers_are_whole(Pass::Label)
 }
 
-/// What people labelled in `enfilade annotate`, if they did: then it counts, whatever else there is.
+/// The labels from `enfilade annotate`, if there are any: they take precedence over everything else.
 fn annotation(job: &Job) -> Result<Option<Annotation>, Error> {
     let files = job.dataset.mesh_files(&job.scene.name);
     match Annotation::read(&files, &*job.load_scene()?) {
@@ -73,7 +73,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job), report, ..Outcome::default() })
 }
 
-/// What is known of a scene, with the report of how it became known; the tables of labels and objects are written.
+/// The labels of a scene, with the report on their sources; the tables of labels and objects are written.
 pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value), Error> {
     let (files, scene) = (job.dataset.mesh_files(&job.scene.name), job.load_scene()?);
     let annotation = annotation(job)?;
@@ -101,7 +101,7 @@ fn write_tables(files: &MeshFiles, scene: &Scene, annotation: &Annotation, class
     files.write_labels(&annotation.labels, &colors).map(drop)
 }
 
-/// What every part is called, or every piece where parts were split.
+/// The labels of every part, or of every piece if parts were split.
 pub(super) struct Known {
     labels: Labels,
     split: Option<Pieces>,
@@ -109,7 +109,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// By which frames tell whether they were labelled with it.
+    /// Hash by which frames record the labels that they were made with.
     pub fn hash(&self) -> Hash {
         match &self.split {
             None => Hash::of(&self.labels),

@@ -1,8 +1,8 @@
-//! What a node makes of a frame beside its layers: the part of `boxes` and `preview` that the frame and its scene decide. It travels with
-//! the frame, so that these stages need not make it again where frames come together.
+//! Files that a node makes of a frame beside its layers: the part of `boxes` and `preview` that depends only on the frame and its scene.
+//! They travel with the frame, so that these stages need not make them again where frames are gathered.
 //!
-//! A note in the work folder, `.enfilade/SCENE/made/CAMERA/FRAME.json`, names what the files were made from. They count as long as that is
-//! so and they are there; otherwise, and without a note, the stages make them.
+//! A note in the work folder, `.enfilade/SCENE/made/CAMERA/FRAME.json`, names the inputs of the files. They are used as long as these are
+//! the same and the files exist; otherwise, and without a note, the stages make them.
 
 use super::{HASHED_AS, Job, Output, Stage};
 use crate::error::Error;
@@ -20,14 +20,14 @@ use std::sync::Arc;
 #[derive(Serialize, Deserialize)]
 struct Note {
     instances: Made,
-    /// What the frame shows of instances.
+    /// The visible instances of the frame.
     views: Vec<InstanceView>,
     pictures: Made,
 }
 
 #[derive(Serialize, Deserialize)]
 struct Made {
-    /// Names what the files were made from, and by which version of the stage.
+    /// Key of the files' inputs and of the stage's version.
     from: Hash,
     files: Vec<Output>,
 }
@@ -67,7 +67,8 @@ pub(super) fn scene_of_pieces(job: &Job) -> Result<Arc<Scene>, Error> {
     Ok(split.map_or(scene.clone(), |split| Arc::new(split.scene_of_pieces(&scene))))
 }
 
-/// Makes it of a frame that is rendered, denoised unless what was rendered is asked for, and labelled; returns the files and then the note.
+/// Makes these files of a frame that is rendered, denoised unless rendered colour is requested, and labelled; returns the files and then
+/// the note.
 pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -> Result<Vec<PathBuf>, Error> {
     let shot = [job.scene.name.as_str(), camera];
     let views = view_instances(job.dataset, shot, frame, &furniture.solids).map_err(Error::stage)?;
@@ -84,7 +85,7 @@ pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -
     Ok([masks, pictures, vec![path]].concat())
 }
 
-/// What a frame shows of instances, if that is known and its masks are there.
+/// The visible instances of a frame, if they are known and its masks exist.
 pub(super) fn views(job: &Job, camera: &str, frame: u32) -> Result<Option<Vec<InstanceView>>, Error> {
     let Some(note) = note(job, camera, frame)? else { return Ok(None) };
     let there = note.instances.files(job, &instances_from(job, camera, frame)?).is_some();

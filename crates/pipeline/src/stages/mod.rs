@@ -50,13 +50,13 @@ pub(crate) use render::{FrameCx, add_extra, config_hash, missing_frames, program
 pub(crate) use shift::Shift;
 pub(crate) use verify::CARD;
 
-/// What a stage is.
+/// The definition of a stage.
 pub struct StageSpec {
     /// Which one.
     pub stage: Stage,
     /// The name, as `run --only` takes it.
     pub name: &'static str,
-    /// What it reads and writes.
+    /// Description of its inputs and outputs.
     pub about: &'static str,
     /// Everything of the configuration that the outputs depend on.
     settings: fn(&Job) -> Hash,
@@ -64,15 +64,15 @@ pub struct StageSpec {
     inputs: fn(&Job, Option<&Record>) -> Inputs,
     /// Does the work.
     run: fn(&Job, &StageCx) -> Result<Outcome, Error>,
-    /// Whether all is well with outputs in ways that the stage's record does not tell. Frames have too many files to have their contents in
-    /// it: records of their own vouch for them. A scene package is one that is read here.
+    /// Further checks of outputs that the stage's record does not cover. Frames have too many files for their contents to be in it: they
+    /// have their own records. A scene package must be readable by this version.
     is_whole: fn(&Job) -> bool,
     /// A row that the stage writes into a table which scenes share.
     shared_row: Option<SharedRow>,
 }
 
-/// A scene's row in a table of the dataset. The table changes with every scene, so its length and content do not tell whether the row
-/// is as the stage left it.
+/// A scene's row in a table of the dataset. The table changes with every scene, so its length and content do not show whether the row is
+/// unchanged.
 struct SharedRow {
     /// The file of the table.
     table: fn(&Job) -> PathBuf,
@@ -81,7 +81,7 @@ struct SharedRow {
 }
 
 impl StageSpec {
-    /// What most stages have in the columns that few fill.
+    /// A row with the usual values in the columns that few stages use.
     const fn plain(
         stage: Stage,
         about: &'static str,
@@ -97,7 +97,7 @@ impl StageSpec {
         self.stage <= Stage::Render
     }
 
-    /// Whether its outputs are among what `verify` looks at: then the report card goes before they change.
+    /// Whether `verify` checks its outputs: then the report card is removed before they change.
     fn is_verified(&self) -> bool {
         self.stage < Stage::Preview
     }

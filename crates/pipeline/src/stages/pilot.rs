@@ -1,5 +1,5 @@
-//! The pilot of a forecast: a few squares of pixels of a few frames, and one frame with two samples per pixel that goes through all
-//! later stages, in a dataset of its own that is removed afterwards.
+//! The pilot of a forecast: a few squares of pixels of a few frames, and one frame with two samples per pixel that passes through all later
+//! stages, in a separate dataset that is removed afterwards.
 
 use super::{FramesByTrajectory, Job, PARTIALS, STAGES, Stage, advance};
 use crate::error::Error;
@@ -16,9 +16,9 @@ use std::path::Path;
 
 /// Folder within the work folder of a scene.
 const FOLDER: &str = "pilot";
-/// Samples per pixel of the frame that goes through all stages.
+/// Samples per pixel of the frame that passes through all stages.
 const FRAME_SAMPLES: u32 = 2;
-/// Samples per pixel of a probe at most: enough to tell how noisy a place is.
+/// Largest number of samples per pixel of a probe: enough to estimate how noisy a place is.
 const PROBE_SAMPLES: u32 = 16;
 /// Samples per pixel of a probe at most, where noise decides how many are taken.
 const NOISE_SAMPLES: u32 = 64;
@@ -103,7 +103,7 @@ fn corners([width, height]: [u32; 2], probes: f64) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// What squares of a frame take.
+/// The cost of squares of a frame.
 fn probe_frame(scene: &RenderScene<'_>, guide: &Guide, view: &CameraView<'_>, config: &RenderConfig) -> Result<Vec<ProbeCost>, Error> {
     let [width, height] = view.camera().size();
     let samples = if config.noise.is_some() { NOISE_SAMPLES } else { PROBE_SAMPLES }.min(config.samples);
@@ -185,7 +185,7 @@ fn try_frame_in(
     let before_bytes = bytes_below(&folder, &|file| !is_of_frame(file));
     later_stages(job, &dataset, &scratch, products, found)?;
     let layout = dataset.layout();
-    // Where colour is as it was rendered, its files have two names.
+    // If colour is as rendered, its files have two names.
     let is_second_name = |file: &str| job.scene.color == ColorKind::Rendered && file.ends_with("_rendered.hdf5");
     found.frame_bytes = bytes_below(&folder, &|file| is_of_frame(file) && !is_second_name(file));
     found.frame_bytes += folder_bytes(&layout.sensors_dir()) + folder_bytes(&layout.relit_dir());

@@ -59,7 +59,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             None => filmed.push((trajectory, None)),
             Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
         }
-        // The report of a rig is that of its left camera, the one that was planned.
+        // The report of a rig is the report of its left camera, which was planned.
         reports.push(report);
     }
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
@@ -93,7 +93,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary: summary(&reports, fov_x_rad), outputs, report, ..Outcome::default() })
 }
 
-/// Sets the scene's row of the table that scenes share, and tells where what stood there could not be read.
+/// Sets the scene's row of the table that scenes share, and warns if the old table could not be read.
 fn write_camera_row(job: &Job, camera: &Camera, cx: &StageCx) -> Result<(), Error> {
     if let Some(damage) = job.dataset.write_camera_parameters(&job.scene.name, camera).map_err(Error::stage)? {
         let message = format!("{damage}; the table was started again, and the next `plan` or `run` of the other scenes adds their rows");
@@ -102,7 +102,7 @@ fn write_camera_row(job: &Job, camera: &Camera, cx: &StageCx) -> Result<(), Erro
     Ok(())
 }
 
-/// A shutter blurs by the time between frames, so it should be told that of the video.
+/// A shutter blurs by the time between frames, so that should be the video's.
 fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
     let (Mode::Video(video), Some(shutter)) = (&job.scene.plan.mode, camera.shutter) else { return };
     if (shutter.frame_time_s * video.fps - 1.0).abs() > 1e-3 {
@@ -113,7 +113,7 @@ fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
     }
 }
 
-/// All trajectories of a scene are filmed with one camera, whose field of view is that of the first start.
+/// All trajectories of a scene are filmed with one camera, with the field of view of the first start.
 fn warn_of_other_views(starts: &[StartCamera], cx: &dyn Cx) {
     let first = &starts[0];
     let degrees = |camera: &StartCamera| format!("{:.1}", camera.fov_x_rad.to_degrees());
@@ -130,7 +130,7 @@ fn warn_of_other_views(starts: &[StartCamera], cx: &dyn Cx) {
     }
 }
 
-/// One line: how many poses, and what they come to.
+/// One line: the number of poses, and their statistics.
 fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
     let poses: usize = reports.iter().map(|report| report.per_frame.frame.len()).sum();
     let mean = |of: fn(&PlanReport) -> f64| reports.iter().map(of).sum::<f64>() / reports.len().max(1) as f64;
@@ -155,7 +155,7 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
     text
 }
 
-/// The space that was carved, with the bounds that were written: those of Hypersim's programs are of voxel centres.
+/// The carved space, with the written bounds: Hypersim's programs write the bounds of voxel centres.
 fn free_space(job: &Job) -> Result<FreeSpace, Error> {
     let (bt, free_min, free_max) = job.dataset.read_free_space(&job.scene.name).map_err(Error::stage)?;
     let damaged =
@@ -221,7 +221,7 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     }
 }
 
-/// Whether a view, and that of the other camera of a rig, passes the gates that it will meet.
+/// Whether a view, and the view of the other camera of a rig, passes the gates that will apply to it.
 fn passes(job: &Job, keeper: &Gatekeeper, camera: &Camera, pose: &Pose) -> bool {
     let one = Trajectory { name: String::new(), poses: vec![*pose] };
     let other = job.scene.camera.stereo.map(|stereo| one.beside(String::new(), stereo.baseline_m));
@@ -254,8 +254,8 @@ fn misread(error: ExploreError) -> Error {
     Error::scene(error.to_string(), "correct the file; its format is explained in docs/trajectories.md")
 }
 
-/// The name of the trajectory from start or file number `index`, which comes after `before` others; that of its left camera where each
-/// is one of a rig. A start without a trajectory leaves a gap in the numbers of single cameras, and none in those of rigs.
+/// The name of the trajectory from start or file number `index`, which comes after `before` others; the name of its left camera if it is a
+/// rig. A start without a trajectory leaves a gap in the numbers of single cameras, and none in those of rigs.
 fn trajectory_name(is_rig: bool, index: usize, before: usize) -> String {
     camera_name(if is_rig { 2 * before } else { index })
 }

@@ -1,4 +1,4 @@
-//! Pictures of what `plan` has planned; made when they are asked for, from the files of the dataset.
+//! Pictures of the planned trajectories; made on request, from the files of the dataset.
 
 use super::{Job, carve};
 use crate::error::Error;

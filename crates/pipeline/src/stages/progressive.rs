@@ -1,4 +1,4 @@
-//! One frame, pass by pass: kept now and then, so that a killed run goes on within the frame, and ended when its time is over.
+//! One frame, pass by pass: saved now and then, so that a killed run continues within the frame, and ended when its time is over.
 
 use super::Job;
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! What a run of a stage read and wrote, by path and content: later runs compare it with what they find.
+//! The inputs and outputs of a run of a stage, by path and content: later runs compare them with the files that they find.
 
 use crate::error::Error;
 use crate::workdir::{Hash, read_json};
@@ -33,14 +33,14 @@ pub(crate) struct Output {
     /// Relative to the dataset's folder.
     pub path: PathBuf,
     bytes: u64,
-    /// None for files of frames, which are too many bytes to be read in every run; checksums of those stand in their commit records.
-    /// Earlier versions noted it of no file.
+    /// `None` for files of frames, which are too many bytes to be read in every run; their checksums are in their commit records. Earlier
+    /// versions did not record it for any file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<Hash>,
 }
 
 impl Output {
-    /// The file at `path` in the dataset's folder `out`, by its length alone.
+    /// The file at `path` in the dataset's folder `out`, only with its length.
     pub fn by_length(out: &Path, path: &Path) -> Result<Self, Error> {
         let bytes = std::fs::metadata(path).map_err(Error::io("read", path))?.len();
         Ok(Self { path: path.strip_prefix(out).unwrap_or(path).into(), bytes, content: None })
@@ -72,7 +72,7 @@ impl Output {
     }
 }
 
-/// What a stage's function leaves behind.
+/// Result of a stage's function.
 #[derive(Default)]
 pub(crate) struct Outcome {
     /// One line: what it made.
@@ -81,11 +81,11 @@ pub(crate) struct Outcome {
     pub outputs: Vec<PathBuf>,
     /// Files read, for a stage that only knows them afterwards.
     pub inputs: Option<Vec<Input>>,
-    /// The report of the stage's function, whatever its form.
+    /// The report of the stage's function, in any form.
     pub report: serde_json::Value,
 }
 
-/// What stands in `STAGE.json`.
+/// Contents of `STAGE.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Record {
     /// Hash of settings, inputs and code version.

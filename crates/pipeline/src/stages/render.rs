@@ -1,5 +1,5 @@
-//! `render`: trajectories to frames. Resumes frame by frame: a frame is left alone when its record names the hash of everything
-//! that its values depend on; and within a frame, see `progressive`.
+//! `render`: trajectories to frames. Resumes frame by frame: a frame is not rendered again if its record has the current hash of everything
+//! that its values depend on; for resuming within a frame, see `progressive`.
 
 use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, progressive};
 use crate::error::Error;
@@ -33,7 +33,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         remove_unwanted_frames(job, trajectory, wanted)?;
     }
 
-    // Find the frames that are missing. Of others nothing needs to be kept to go on from.
+    // Find the missing frames. For the others no saved state is needed.
     denoise::warn_of_lost(job, cx);
     let missing = missing(job, &filmed, &wanted)?;
     let unfinished = missing.iter().flat_map(|m| m.frames.iter().map(|info| (m.trajectory.name.as_str(), info.pose.frame)));
@@ -63,7 +63,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
 }
 
-/// Renders the frames of `job` that are not there, whatever the stage's record says.
+/// Renders the missing frames of `job`, regardless of the stage's record.
 pub(crate) fn render_frames(job: &Job, cx: &StageCx) -> Result<(), Error> {
     run(job, cx).map(drop)
 }
@@ -80,7 +80,7 @@ fn wanted(job: &Job, filmed: &[(Camera, Trajectory)]) -> Result<Vec<BTreeSet<u32
     filmed.iter().map(|(_, trajectory)| job.frames_of(trajectory)).collect()
 }
 
-/// What is to be rendered of each trajectory of which not all is there.
+/// The frames to render of each incomplete trajectory.
 fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet<u32>]) -> Result<Vec<Missing<'a>>, Error> {
     let package = Input::of(&job.package()?)?.content;
     let mut missing = Vec::new();
@@ -124,7 +124,7 @@ pub(super) fn config_hashes(job: &Job, camera: &Camera, trajectory: &Trajectory)
     Ok(trajectory.poses.iter().map(hash).collect())
 }
 
-/// What is to be rendered of a trajectory.
+/// The frames to render of a trajectory.
 struct Missing<'a> {
     camera: &'a Camera,
     trajectory: &'a Trajectory,
@@ -136,14 +136,15 @@ fn is_complete(job: &Job, trajectory: &Trajectory, info: &FrameInfo) -> bool {
     rendered_record(job, trajectory, &info.camera, &info.pose).is_some_and(|record| record.config_hash == info.config_hash)
 }
 
-/// The record of a frame that was taken as its trajectory says, of which all that was rendered is there; where that is asked for, colour too.
+/// The record of a frame that agrees with its trajectory and whose rendered layers all exist; also its rendered colour if that is
+/// requested.
 fn rendered_record(job: &Job, trajectory: &Trajectory, camera: &Camera, pose: &Pose) -> Option<FrameRecord> {
     let record = job.dataset.rendered_record(&job.scene.name, &trajectory.name, pose.frame)?;
     let has_what_is_asked_for = job.scene.color == ColorKind::Denoised || record.has_rendered();
     (has_what_is_asked_for && record.is_taken(camera, pose)).then_some(record)
 }
 
-/// Whether every frame is there, and was taken as its trajectory says.
+/// Whether every frame exists and agrees with its trajectory.
 pub(super) fn frames_are_whole(job: &Job) -> bool {
     frames_are_taken(job).unwrap_or(false)
 }
@@ -170,14 +171,14 @@ fn render(job: &Job, scene: &RenderScene, missing: &[Missing], [kept, total]: [u
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
 
-            // Render a frame, which goes on where a killed run was.
+            // Render a frame; it continues where a killed run ended.
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
             let rendering = FrameRender::new(scene, &guide, &views[index], config).map_err(Error::stage)?;
             let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
             add_extra(scene, &views, index, config, &mut frame);
 
-            // Write it with its record, tell whoever waits for it, and only then drop what was kept of it.
+            // Write it with its record, announce it, and only then remove its saved state.
             let time = time.of_frame();
             let info = FrameInfo { sampling: Some(sampling), ..info.clone() };
             job.dataset.write_rendered(&job.scene.name, &trajectory.name, &frame, &info, time).map_err(Error::stage)?;
@@ -207,12 +208,12 @@ fn list_fixtures(job: &Job, found: &[enfilade_render::Fixture]) -> Result<(), Er
     job.dataset.write_fixtures(&job.scene.name, &listed).map_err(Error::stage)
 }
 
-/// What a camera sees from every place of a trajectory.
+/// The views of a camera from every pose of a trajectory.
 pub(crate) fn views<'a>(camera: &'a Camera, trajectory: &'a Trajectory) -> Vec<CameraView<'a>> {
     (0..trajectory.poses.len()).map(|index| CameraView::of_frame(camera, &trajectory.poses, index)).collect()
 }
 
-/// Adds the further layers of a view, where they are asked for; flow leads to the next one.
+/// Adds the further layers of a view, if requested; flow leads to the next one.
 pub(crate) fn add_extra(scene: &RenderScene, views: &[CameraView], index: usize, config: &RenderConfig, frame: &mut Frame) {
     if config.extra {
         add_extra_layers(scene, &views[index], views.get(index + 1), frame);
@@ -241,7 +242,7 @@ pub(crate) fn program() -> String {
     format!("enfilade {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Every file that rendering writes for the scene as a whole; records vouch for those of frames.
+/// Every file that rendering writes for the scene as a whole; records vouch for the files of frames.
 fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let has_fixtures = !job.dataset.read_fixtures(&job.scene.name).map_err(Error::stage)?.is_empty();
     Ok(has_fixtures.then(|| job.dataset.layout().metadata_fixtures(&job.scene.name)).into_iter().collect())
@@ -279,7 +280,7 @@ fn remove_unwanted_frames(job: &Job, trajectory: &Trajectory, wanted: &BTreeSet<
     Ok(())
 }
 
-/// Places the progress within a frame in that of all frames.
+/// Converts the progress within a frame to the progress of all frames.
 pub(crate) struct FrameCx<'a> {
     pub outer: &'a dyn Cx,
     /// Frames before this one.

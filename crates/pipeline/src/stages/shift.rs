@@ -16,12 +16,12 @@ pub struct Part {
     pub frames: BTreeSet<u32>,
 }
 
-/// What is made of a scene here, until when, and who is told.
+/// The part of a scene that is made here, the flag that ends it, and the callback for finished frames.
 pub(crate) struct Shift<'a> {
     pub part: &'a Part,
     /// Ends the work at the next occasion.
     pub stop: &'a AtomicBool,
-    /// Is given every frame that was rendered, by trajectory and number.
+    /// Receives every frame that was rendered, by trajectory and number.
     pub rendered: &'a (dyn Fn(&str, u32) -> Result<(), Error> + Sync),
 }
 

@@ -1,4 +1,4 @@
-//! Where trajectories begin: the cameras that were chosen, the file's, or places that are found, with the free space around them.
+//! Starts of trajectories: chosen cameras, the file's cameras, or found places, with the free space around them.
 
 use super::Job;
 use crate::config::CameraChoice;
@@ -11,8 +11,8 @@ use enfilade_math::DVec3;
 use enfilade_options::closest;
 use enfilade_scene::{Cx, Pose, Quiet, Scene, StartCamera, Warning};
 
-/// The cameras where trajectories begin, and the space around them. The file's own cameras give way to found places where none of them is
-/// in a building or all stand in walls, unless they were chosen by name.
+/// The cameras where trajectories begin, and the space around them. The file's own cameras are replaced by found places if none of them is
+/// in a building or all are in walls, unless they were chosen by name.
 pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Result<(Vec<StartCamera>, FreeSpace), Error> {
     let config = CarveConfig { seed, ..job.scene.carve.clone() };
     let carve = |starts: &[StartCamera]| {
@@ -40,8 +40,8 @@ pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Resul
     Ok((starts, space))
 }
 
-/// Start cameras of the file that stand in a building; where none does, found places, and without any the cameras after all: an open place.
-/// Hypersim's program takes all.
+/// Start cameras of the file that are in a building; if there are none, found places, and without any of these the cameras after all: the
+/// scene is an open place. Hypersim's program takes all.
 fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
     let is_inside = |camera: &StartCamera| !camera.position.is_finite() || enfilade_explore::is_indoors(&world.bvh, camera.position);
     let (inside, outside): (Vec<StartCamera>, Vec<StartCamera>) = scene.cameras.iter().cloned().partition(is_inside);
@@ -63,7 +63,7 @@ fn indoors(job: &Job, scene: &Scene, world: &World, cx: &StageCx) -> Result<Vec<
     Ok(places)
 }
 
-/// Tells that found places stand in for the file's cameras, with which something is wrong.
+/// Warns that found places replace the file's cameras, and why.
 fn warn_of_replacement(scene: &Scene, wrong: &str, places: &[StartCamera], cx: &StageCx) {
     let message = format!(
         "{wrong}; trajectories begin at {} instead. To begin at one of the file's, choose it: cameras = [{:?}]",
@@ -77,7 +77,7 @@ fn starts_config(job: &Job) -> StartsConfig {
     StartsConfig { max_spread_m: job.scene.carve.extent_m, ..StartsConfig::default() }
 }
 
-/// Places to stand; there is at least one.
+/// Found places for cameras; there is at least one.
 fn found(job: &Job, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Error> {
     let found = enfilade_explore::find_starts(&world.mesh, &world.bvh, &starts_config(job), cx);
     if found.is_empty() {

@@ -12,7 +12,7 @@ use enfilade_verify::{LAWS, Law, VerifyReport, verify_listed_scene};
 /// The scene's part of the report card, in its work folder; written also when a check does not pass.
 pub(crate) const CARD: &str = "card.json";
 
-/// Removes the card of the scene and that of the dataset, before the data that they judge change.
+/// Removes the cards of the scene and of the dataset before the data that they judge change.
 pub(super) fn forget(job: &Job) -> Result<(), Error> {
     let layout = job.dataset.layout();
     let cards = [job.work_file(CARD)?, layout.verify_report(), layout.verify_page()];

@@ -61,7 +61,7 @@ fn datasets_of_every_camera_verify_and_are_made_once() {
     let eyes = ["cam_00", "cam_01"].map(|camera| dataset.read_trajectory("stereo", camera).unwrap().poses[1]);
     assert!((eyes[0].position.distance(eyes[1].position) - 0.12).abs() < 1e-12);
 
-    // What a user does: position = camera centre + distance × (world_from_camera × ray), from the files alone.
+    // A user's calculation from the files alone: position = camera centre + distance × (world_from_camera × ray).
     for scene in ["distorted", "panorama", "grid"] {
         let pose = dataset.read_trajectory(scene, "cam_00").unwrap().poses[1];
         let rays = dataset.read_camera_rays(scene, "cam_00", [64, 48]).unwrap().unwrap();

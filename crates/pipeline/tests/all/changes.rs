@@ -1,4 +1,4 @@
-//! What becomes of finished work when scenes, cameras or the list of scenes change, and where a run was killed.
+//! Finished work after changes of scenes, cameras or the list of scenes, and after a killed run.
 
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
@@ -57,10 +57,10 @@ fn a_forecast_with_fewer_cameras_leaves_the_folder_as_it_is() {
     let differ: Vec<_> = before.keys().chain(after.keys()).filter(|path| before.get(*path) != after.get(*path)).collect();
     assert!(differ.is_empty(), "{differ:?}");
 
-    // What a scene of that folder still takes is forecast where it lies.
+    // The remaining work of a scene of that folder is forecast in place.
     let (_, forecasts) = estimate(&two, &out, None, &Silent).unwrap();
     assert_eq!(forecasts[0].1.frames, 0);
-    // So is a scene that comes to it, which takes nothing away from the others.
+    // So is an added scene, which removes nothing from the others.
     let three = config(folder.path(), &[("a", "room.obj", TWO, ""), ("c", "room.obj", ONE, "")]);
     estimate(&three, &out, None, &Silent).unwrap();
     let layout = Dataset::open(&out).unwrap().layout().clone();
@@ -78,7 +78,7 @@ impl Reporter for Saver {
         if stage != Stage::Import || !matches!(event, Event::Progress { .. }) || self.has_saved.swap(true, Ordering::Relaxed) {
             return;
         }
-        // The clock of file systems goes in steps.
+        // The clock of file systems advances in steps.
         std::thread::sleep(Duration::from_millis(50));
         let text = fs::read_to_string(&self.path).unwrap();
         fs::write(&self.path, text + "# saved again\n").unwrap();

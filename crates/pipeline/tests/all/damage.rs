@@ -1,4 +1,4 @@
-//! What becomes of files that were damaged or removed: they are made again, and finished work is kept.
+//! Damaged or removed files are made again, and finished work is kept.
 
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::{ANNOTATION_LOG, BoxKind, Dataset, Price};
@@ -9,7 +9,7 @@ use enfilade_show::stats::StatsConfig;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Runs `config` over files of `out` after each of them was changed by `damage`: then they are as they were, and no frame is rendered.
+/// Runs `config` over files of `out` after each of them was changed by `damage`: then they are restored, and no frame is rendered.
 fn assert_healed(config: &Config, out: &Path, paths: &[PathBuf], damage: impl Fn(&mut Vec<u8>)) {
     let color = Dataset::open(out).unwrap().layout().layer("a", "cam_00", 0, Layer::Color);
     let rendered = fs::metadata(&color).unwrap().modified().unwrap();
@@ -212,7 +212,7 @@ fn a_record_that_tells_another_pose_is_made_again_by_rendering() {
     let (config, dataset, _) = dataset_of_one(folder.path(), &out);
     let path = dataset.layout().frame_record("a", "cam_00", 1);
     let whole = fs::read_to_string(&path).unwrap();
-    // The rest of it, its length among it, is as it was.
+    // The rest of it, including its length, is unchanged.
     fs::write(&path, whole.replacen("-0.9", "-0.8", 1)).unwrap();
     assert!(!verify(&dataset, &["a".into()], &Quiet).unwrap().passed);
     let summary = run_stage(&out, Stage::Render, None, false, &Silent).unwrap();
@@ -229,7 +229,7 @@ fn flip(path: &Path) {
     fs::write(path, bytes).unwrap();
 }
 
-/// Does what `verify` says is to be done about records.
+/// Follows the advice of `verify` about records.
 fn follow_advice(out: &Path, dataset: &Dataset) {
     let Ok(report) = verify(dataset, &["a".into()], &Quiet) else { return };
     for law in report.failures() {
@@ -257,7 +257,7 @@ fn files_of_every_stage_are_whole_again_after_what_verify_advises() {
     for path in tables.iter().chain(&of_camera).chain(&layers).chain([&record]) {
         let whole = fs::read(path).unwrap();
         flip(path);
-        // What is wrong with a record, the manifest tells after a run.
+        // The manifest reports a problem with a record after a run.
         for _ in 0..2 {
             follow_advice(&out, &dataset);
             run(&config, &out, None, &Silent).unwrap();

@@ -5,7 +5,7 @@ use enfilade_pipeline::{CameraChoice, Config, Event, Overrides, Reporter, Stage,
 use std::path::Path;
 use std::sync::Mutex;
 
-/// Remembers which stages began, and what rendering said that it does.
+/// Remembers which stages began, and the messages of rendering.
 #[derive(Default)]
 struct Began(Mutex<Vec<Stage>>, Mutex<Vec<String>>);
 
@@ -32,7 +32,7 @@ fn tiny_demo() -> Config {
     config
 }
 
-/// Runs and tells which stages were not up to date.
+/// Runs and returns the stages that were not up to date.
 fn run_and_watch(config: &Config, out: &Path) -> (Summary, Vec<Stage>) {
     let began = Began::default();
     let summary = run(config, out, None, &began).unwrap();
@@ -81,7 +81,7 @@ fn the_demo_verifies_and_is_made_once() {
     let (second, began) = run_and_watch(&config, &out);
     assert!(second.nothing_done() && began.is_empty(), "{began:?}");
 
-    // More samples leave the trajectory alone; more frames leave the free space alone, and are another trajectory to learn from.
+    // More samples do not change the trajectory; more frames do not change the free space, and are another trajectory to learn from.
     config.scenes[0].render.samples = 5;
     assert_eq!(run_and_watch(&config, &out).1, [Stage::Render, Stage::Denoise, Stage::Label, Stage::Boxes, Stage::Preview, Stage::Verify]);
     config.scenes[0].plan.frames = 3;

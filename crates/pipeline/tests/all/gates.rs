@@ -41,7 +41,7 @@ fn failures(summary: &Summary) -> Vec<&str> {
     summary.scenes.iter().filter_map(|s| s.failure.as_ref()).map(|f| f.message.as_str()).collect()
 }
 
-/// The frames whose view passes, as `VIEWS` says.
+/// The frames whose view passes according to `VIEWS`.
 fn good() -> Vec<u32> {
     (0..).zip(VIEWS).filter(|(_, view)| view.0.is_empty()).map(|(frame, _)| frame).collect()
 }
@@ -51,12 +51,10 @@ fn every_bad_view_is_rejected_for_its_reason_and_left_out_everywhere() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let summary = run(&config(folder.path(), GIVEN, ""), &out, None, &Silent).unwrap();
-    // Verification knows that the others are not missing, and that nobody stands where they were to be taken; that they are most it tells.
+    // Verification knows that the other frames are not missing and that no camera was at their places; it reports that most frames are
+    // rejected.
     let [failure] = failures(&summary)[..] else { panic!("{:?}", failures(&summary)) };
-    assert!(
-        failure.starts_with("1 of ") && failure.contains("gates reject no more than half") && failure.contains("5 of 7 views"),
-        "{failure}"
-    );
+    assert!(failure.starts_with("1 of ") && failure.contains("gates reject at most half") && failure.contains("5 of 7 views"), "{failure}");
     let dataset = Dataset::open(&out).unwrap();
     let layout = dataset.layout();
     let views = dataset.read_view_gates("room", "cam_00").unwrap().unwrap();
@@ -82,7 +80,7 @@ fn every_bad_view_is_rejected_for_its_reason_and_left_out_everywhere() {
     let again = run(&config(folder.path(), GIVEN, ""), &out, None, &Silent).unwrap();
     assert!(again.scenes[0].stages.iter().all(|stage| stage.up_to_date) && !again.ok());
 
-    // Other limits let another view through; the frames that are there stay, and one that is rejected goes.
+    // With other limits another view passes; existing frames stay, and a rejected one is removed.
     let wider = config(folder.path(), GIVEN, "max_plane_share = 1\nmin_depth_range_m = 0");
     let summary = run(&wider, &out, None, &Silent).unwrap();
     let rendered = summary.scenes[0].stages.iter().find(|s| s.stage == Stage::Render).unwrap();

@@ -1,4 +1,4 @@
-//! What becomes of a scene file before the stages: light for dark ones, doubled faces, and what a look at the geometry tells.
+//! Processing of a scene file before the stages: light for dark ones, doubled faces, and remarks about the geometry.
 
 use enfilade_pipeline::{EnvironmentOverride, FileSource, Lamps, check_file, import_file};
 use enfilade_scene::{Heard, Light, Quiet, Scene, from_bytes, to_bytes};
@@ -24,7 +24,7 @@ fn source(folder: &Path, text: &str) -> FileSource {
     FileSource { up_axis: Some(enfilade_pipeline::UpAxis::Z), ..FileSource::of(file.to_string_lossy()) }
 }
 
-/// What checking a file tells.
+/// The warnings from checking a file.
 fn told(source: &FileSource) -> String {
     let heard = Heard::default();
     let checked = check_file(source, &heard).unwrap();
@@ -98,7 +98,7 @@ fn a_wrong_unit_is_told_with_the_ones_that_make_a_room() {
         let text = told(&source(folder.path(), &room(scale)));
         assert!(text.contains(words), "{scale}: {text}");
     }
-    // Where a unit is stated, what is proposed is to stand in its place.
+    // If a unit is stated, the proposed one replaces it.
     let stated = FileSource { meters_per_unit: 10.0, ..source(folder.path(), &room(100.0)) };
     let text = told(&stated);
     assert!(text.contains("it is 4000.00 m long") && text.contains("meters_per_unit = 0.01 "), "{text}");
@@ -152,7 +152,7 @@ fn the_report_of_a_sound_room_has_nothing_about_its_geometry() {
     let folder = tempfile::tempdir().unwrap();
     let lit = FileSource { environment: Some(EnvironmentOverride::named("sky")), ..source(folder.path(), &room(1.0)) };
     let checked = check_file(&lit, &Quiet).unwrap();
-    // OBJ files have no material of their own here, which their reader tells.
+    // The OBJ files here have no materials, which their reader reports.
     assert!(checked.warnings.iter().all(|warning| warning.message.contains("material")), "{:?}", checked.warnings);
 }
 

@@ -1,4 +1,4 @@
-//! Where trajectories begin: places in a building, found ones, and open places.
+//! Starts of trajectories: places in a building, found ones, and open places.
 
 use enfilade_dataset::Dataset;
 use enfilade_explore::PlanReport;

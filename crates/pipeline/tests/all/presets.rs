@@ -1,4 +1,4 @@
-//! What a preset makes: its rules in the plan, its camera, and depth as Hypersim's loaders compute it.
+//! Results of a preset: its rules in the plan, its camera, and depth as Hypersim's loaders compute it.
 
 use enfilade_dataset::{Dataset, loader_depth};
 use enfilade_explore::{PlanReport, Preset};
@@ -59,7 +59,7 @@ fn hypersims_loaders_compute_planar_depth_right_from_its_preset_and_are_told_whe
     assert!(run(&config, &out, Some("default"), &Silent).unwrap().ok());
     let dataset = Dataset::open(&out).unwrap();
     for (scene, expected, noted) in [("hypersim", 0.0..1e-4, false), ("default", 0.04..0.2, true)] {
-        // As Marigold's preprocessing does: planar depth from the distance, by the pixel's place alone.
+        // As Marigold's preprocessing does: planar depth from the distance, only by the pixel's position.
         let frame = dataset.read_frame(scene, "cam_00", 0, &[Layer::DepthMeters, Layer::DepthZMeters]).unwrap();
         let [distance, depth] = [Layer::DepthMeters, Layer::DepthZMeters].map(|layer| frame.get(layer).unwrap());
         let mut worst: f64 = 0.0;

@@ -1,4 +1,4 @@
-//! What becomes of products when what they are made from changes: they stay, are out of date, and are made again as they were asked for.
+//! Products after changes of their inputs: they stay, are out of date, and are made again as requested.
 
 use crate::rooms::{ONE, config, failures, files, place, write_poses};
 use enfilade_dataset::Dataset;
@@ -14,7 +14,7 @@ use tempfile::TempDir;
 
 const LABELS: &str = "name,semantic,instance\nwall,wall,\ntable,table,1\nlamp,lamp,2\n";
 
-/// A finished dataset of scene a, and where it lies.
+/// A finished dataset of scene a, and its path.
 fn finished() -> (TempDir, PathBuf, Config) {
     let (folder, out) = place();
     fs::write(folder.path().join("labels.csv"), LABELS).unwrap();
@@ -70,7 +70,7 @@ fn stale(out: &Path) -> BTreeSet<Product> {
     out_of_date(&dataset, &["a".into()]).unwrap().into_iter().map(|found| found.product).collect()
 }
 
-/// Everything but the work folder, times and the report card, which tells what was there when it was written.
+/// All files except the work folder, times and the report card, which lists the files at the time of writing.
 fn tree(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = files(out);
     found.retain(|path, _| {
@@ -238,8 +238,8 @@ fn products_of_the_configuration_are_made_by_a_run_and_forgotten_by_none() {
     assert_eq!(dataset.read_tracks("a", "cam_00").unwrap().positions.len(), 8);
 }
 
-/// Every state that a run can be killed in between two writes: the files as they were up to each write of the record, and those of the other
-/// run beyond it.
+/// Every state in which a run can be killed between two writes: the files of one run up to each write of the record, and of the other run
+/// after it.
 #[test]
 fn making_that_was_killed_ends_with_the_same_bytes() {
     let (folder, out, config) = finished();
@@ -250,12 +250,12 @@ fn making_that_was_killed_ends_with_the_same_bytes() {
     let (begun, expected) = (files(&out), files(&whole));
     let added: Vec<&PathBuf> = expected.keys().filter(|path| begun.get(*path) != expected.get(*path)).collect();
     assert!(added.len() > 40, "{}", added.len());
-    // A prefix of the writes is there, in two orders; of records only what stands before a product's files.
+    // A prefix of the writes exists, in two orders; of records only those written before a product's files.
     for step in (0..added.len()).step_by(7) {
         for reversed in [false, true] {
             let killed = folder.path().join("killed");
             copy(&out, &killed);
-            // What was asked for stands in the record before the first file changes.
+            // The request is in the record before the first file changes.
             make_all_unfinished(&whole, &killed);
             let order: Vec<&&PathBuf> = if reversed { added.iter().rev().collect() } else { added.iter().collect() };
             for path in order.into_iter().take(step).filter(|path| !path.starts_with(".enfilade")) {

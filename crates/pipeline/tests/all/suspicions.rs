@@ -1,4 +1,4 @@
-//! Units and axes that are suspected: from rooms and things whose sizes are those of the building trade, written in other units and axes.
+//! Suspected units and axes: from rooms and things of standard sizes, written in other units and axes.
 
 use enfilade_pipeline::{FileSource, HomeConfig, UpAxis, check_file, make_home};
 use enfilade_scene::{Quiet, to_bytes};
@@ -40,7 +40,7 @@ fn y_up([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x, z, -y]
 }
 
-/// What is suspected of a file with this text.
+/// The suspicions about a file with this text.
 fn suspected(name: &str, text: &str, source: impl Fn(FileSource) -> FileSource) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(name);
@@ -68,7 +68,7 @@ fn units_are_suspected_by_rooms_and_furniture_and_the_number_to_try_is_named() {
         assert_eq!(told.len(), 1, "{unit}: {told:?}");
         assert!(told[0].contains(&format!("with meters_per_unit = {key} (or --meters-per-unit {key})")), "{told:?}");
         assert!(told[0].contains("rooms are 2.60 m high") && told[0].contains("the chair is 0.90 m high"), "{told:?}");
-        // Where a unit is stated, what is proposed stands in its place, and with it all is well.
+        // If a unit is stated, the proposed one replaces it, and then there is no suspicion.
         let doubled = suspected("room.obj", &text, |source| FileSource { meters_per_unit: 2.0 * unit, ..source });
         assert!(doubled[0].contains(&format!("meters_per_unit = {key} ")), "{doubled:?}");
         assert_eq!(suspected("room.obj", &text, |source| FileSource { meters_per_unit: unit, ..source }), [""; 0]);
@@ -83,7 +83,7 @@ fn halls_single_things_and_dolls_houses_in_their_own_size_are_what_they_are() {
     assert_eq!(plain("hall.obj", &boxes(&with_people, y_up)), [""; 0]);
     for (name, high) in [("chair", [0.5, 0.5, 0.9]), ("sofa", [2.0, 0.9, 0.8]), ("cup", [0.08, 0.08, 0.1]), ("person", [0.5, 0.3, 1.8])] {
         assert_eq!(plain("model.obj", &boxes(&[(name, [0.0; 3], high)], y_up)), [""; 0], "{name}");
-        // Many exporters name nothing, and then the file's name tells.
+        // Many exporters write no names, and then the file's name is used.
         let unnamed = boxes(&[("Mesh.001", [0.0; 3], high)], y_up);
         assert_eq!(plain(&format!("{name}.obj"), &unnamed), [""; 0], "{name}");
     }
@@ -95,7 +95,7 @@ fn halls_single_things_and_dolls_houses_in_their_own_size_are_what_they_are() {
     assert!(plain("house.obj", &house)[0].contains("rooms are 0.22 m high"));
 }
 
-/// Where a point goes.
+/// The image of a point.
 type Turn = fn([f64; 3]) -> [f64; 3];
 
 #[test]

@@ -53,7 +53,7 @@ fn datasets_of_every_mode_verify_and_are_made_once() {
     let time = std::fs::read_to_string(dataset.layout().metadata_camera("video", "cam_00")).unwrap();
     assert!(time.contains("frame_time_seconds,0.1"), "{time}");
 
-    // Where nothing is free, planned poses break a law. Poses made by hand are kept wherever they stand.
+    // Where nothing is free, planned poses break a law. Poses made by hand are kept at any place.
     for (scene, broken) in [("walk", vec![Law::FreeTarget, Law::FreeCamera]), ("keyframes", vec![])] {
         dataset.write_free_space(scene, &OccupancyTree::new(0.1).to_bt(), DVec3::ZERO, DVec3::ZERO).unwrap();
         let report = verify_scene(&dataset, scene, &Quiet).unwrap();

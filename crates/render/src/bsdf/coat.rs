@@ -17,13 +17,13 @@ const MIN_ESCAPE: f32 = 1e-12;
 /// How light that meets several facets of the coat in a row counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounces {
-    /// Nothing is lost: what is not reflected in one bounce reaches the base, so that a white base under a coat reflects all light.
+    /// Nothing is lost: light that is not reflected in one bounce reaches the base, so that a white base under a coat reflects all light.
     All,
     /// Only single bounces count and the rest is lost, with separable masking: the model of Mitsuba's `roughplastic`.
     Single,
 }
 
-/// What a coat table is made for.
+/// Parameters of a coat table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatSpec {
     /// Index of refraction, > 1.
@@ -58,7 +58,7 @@ struct Row {
 pub struct Coat<'a> {
     low: &'a Row,
     high: &'a Row,
-    /// Weight of `high` in the interpolation; that of `low` is the rest.
+    /// Weight of `high` in the interpolation; `low` has the rest.
     fraction: f32,
     smooth: bool,
     /// Index of refraction of the coat.
@@ -79,7 +79,7 @@ impl CoatTable {
         Self { spec, rows }
     }
 
-    /// What it was made for.
+    /// Its parameters.
     pub fn spec(&self) -> CoatSpec {
         self.spec
     }
@@ -167,7 +167,7 @@ const POINTS: u32 = 512;
 fn once(cos_o: f32, alpha: f32, distribution: Distribution, eta: f32) -> (f32, f32) {
     let wo = Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o);
     let facets = single(distribution, alpha, cos_o);
-    // What is visible from the side of the facet's light, over the density of sampled facets.
+    // Masking of the reflected or transmitted direction, over the density of sampled facets.
     let kept = |m: Vec3, w: Vec3| match distribution {
         Distribution::Ggx => ggx::g1(w, alpha),
         Distribution::Beckmann => facets.d(m) * facets.masking(wo, w) / (ggx::d(m, alpha) * ggx::g1(wo, alpha)).max(f32::MIN_POSITIVE),

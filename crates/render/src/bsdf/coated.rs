@@ -31,8 +31,8 @@ pub struct Coated<'a> {
 
 impl<'a> Coated<'a> {
     /// A base of colour `reflectance` under `coat` of roughness `alpha`, whose reflection is multiplied by `tint`. `saturating`: light that
-    /// is reflected between base and coat takes on the base's colour each time; otherwise the base counts as white there. The coat lies
-    /// over the fraction `covered` of the base, and `tint` includes that factor.
+    /// is reflected between base and coat takes on the base's colour each time; otherwise the base counts as white there. The coat covers
+    /// the fraction `covered` of the base, and `tint` includes that factor.
     #[inline]
     pub fn new(coat: Coat<'a>, alpha: f32, reflectance: Rgb, tint: Rgb, saturating: bool, covered: f32, cos_o: f32) -> Self {
         let through_o = coat.transmittance(cos_o);

@@ -12,7 +12,7 @@ use std::f32::consts::PI;
 /// The roughness of the clear-coat's masking.
 const COAT_MASKING: f32 = 0.25;
 
-/// One of the model's lobes that others do not have.
+/// A lobe that only this model has.
 #[derive(Clone, Copy, Debug)]
 pub enum Part {
     /// The diffuse base with its retro-reflection, demodulated.
@@ -32,7 +32,7 @@ pub enum Part {
         /// Roughness.
         alpha: f32,
     },
-    /// Refraction, without the reflection that goes with it.
+    /// Refraction, without the corresponding reflection.
     Through {
         /// The surface.
         facets: Facets,
@@ -41,7 +41,7 @@ pub enum Part {
         /// Multiplies it.
         tint: Rgb,
     },
-    /// Light that a rough sheet scatters on its way through: reflection, turned to the other side.
+    /// Light that a rough sheet scatters in transmission: reflection, turned to the other side.
     Sheet {
         /// The surface.
         facets: Facets,

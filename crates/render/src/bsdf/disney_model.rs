@@ -1,6 +1,6 @@
 //! Disney's model as Mitsuba 3 has it in `principled` and `principledthin`: from its parameters at a point to the mixture of its lobes.
 //!
-//! It is not a model that keeps energy: lobes are added to each other, single bounces between facets count alone, and masking is
+//! The model does not conserve energy: lobes are added to each other, only single bounces between facets count, and masking is
 //! separable. What glTF's model shares with it ([`super::resolve`]) is named alike and means something else.
 
 use super::disney::Part;
@@ -18,7 +18,7 @@ fn facets(alpha: f32, cos_o: f32) -> Facets {
     Facets::separable(if alpha < MIN_ALPHA { 0.0 } else { alpha }, cos_o)
 }
 
-/// What the parameters are at a point.
+/// Values of the parameters at a point.
 struct Point {
     base: Rgb,
     roughness: f32,
@@ -134,7 +134,7 @@ fn sheet(mixture: &mut Mixture<'_>, p: &scene::Disney, here: &Point, at: &Inputs
     reflectance
 }
 
-/// Fraction of light that goes straight through a smooth sheet at a point.
+/// Fraction of light that passes straight through a smooth sheet at a point.
 pub fn straight_transmittance(p: &scene::Disney, at: &Inputs<'_>) -> Rgb {
     let here = Point::new(p, at);
     here.base * (here.through * (1.0 - fresnel::dielectric(at.cos_o, here.eta).0))

@@ -1,10 +1,10 @@
 //! Light that bounces several times between the facets of a rough surface.
 //!
-//! A microfacet lobe counts one bounce and loses the rest. The tables here say how much one bounce keeps, E, and lobes are scaled by
-//! what E lacks: white metals and clear glasses then keep all light at every roughness and angle. Turquin 2019, "Practical multiple
-//! scattering compensation for microfacet models"; the colour that metals gain by further bounces from Kulla & Conty 2017. The
-//! scale depends on the viewing direction alone, so such lobes are not reciprocal: the two directions differ by the ratio of
-//! their E, a few percent below a roughness of 0.3. Paths here are traced from the camera only and never need it.
+//! A microfacet lobe counts one bounce and loses the rest. The tables here have the fraction E that one bounce keeps, and lobes are scaled
+//! up by the missing part: white metals and clear glasses then keep all light at every roughness and angle. Turquin 2019, "Practical
+//! multiple scattering compensation for microfacet models"; the colour that metals gain by further bounces from Kulla & Conty 2017. The
+//! scale depends only on the viewing direction, so such lobes are not reciprocal: the two directions differ by the ratio of their E, a few
+//! percent below a roughness of 0.3. Paths here are traced from the camera only and never need it.
 
 use super::{fresnel, ggx};
 use enfilade_math::{Rgb, Vec3, warp};
@@ -59,7 +59,7 @@ impl Kept {
     }
 }
 
-/// What a metal's lobe of roughness `alpha`, seen at the cosine `cos_o`, is multiplied by. `mean_fresnel` is the cosine-weighted mean
+/// Factor for a metal's lobe of roughness `alpha`, seen at the cosine `cos_o`. `mean_fresnel` is the cosine-weighted mean
 /// of its reflectance.
 #[inline]
 pub fn of_metal(cos_o: f32, alpha: f32, mean_fresnel: Rgb) -> Rgb {
@@ -91,7 +91,7 @@ impl GlassTable {
         }
     }
 
-    /// What the lobe of roughness `alpha`, seen at the cosine `cos_o` from outside or inside, is multiplied by.
+    /// Factor for the lobe of roughness `alpha`, seen at the cosine `cos_o` from outside or inside.
     #[inline]
     pub fn scale(&self, cos_o: f32, alpha: f32, outside: bool) -> f32 {
         if alpha < ggx::SMOOTH_ALPHA {

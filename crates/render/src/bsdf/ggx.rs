@@ -1,7 +1,7 @@
 //! The GGX (Trowbridge–Reitz) microfacet distribution with Smith's height-correlated masking, isotropic.
 //!
-//! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and lie
-//! above the surface (z > 0) unless said otherwise.
+//! Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function". Directions are in shading space and above the surface (z
+//! > 0) unless stated otherwise.
 
 use super::{beckmann, fresnel};
 use enfilade_math::{Vec3, angle, warp};
@@ -46,12 +46,12 @@ pub fn g2(wo: Vec3, wi: Vec3, alpha: f32) -> f32 {
 pub struct Facets {
     /// Roughness.
     pub alpha: f32,
-    /// Whose slopes the facets have. Directions are sampled by GGX's in any case: its density is nowhere far below Beckmann's.
+    /// Distribution of the facets' slopes. Directions are always sampled by GGX: its density is nowhere far below Beckmann's.
     distribution: Distribution,
     /// GGX's Λ of the viewing direction.
     lambda_o: f32,
-    /// What the masking of the viewing direction is multiplied by, and what is added to it, for each Λ of the incident direction: 1 + Λ and
-    /// 1 for height-correlated masking, for separable masking 1 + Λ and 1 + Λ.
+    /// Constant and slope of the reciprocal of the masking, which is linear in Λ of the incident direction: 1 + Λ and 1 for
+    /// height-correlated masking, 1 + Λ and 1 + Λ for separable masking, with Λ of the viewing direction.
     visible_o: f32,
     slope_i: f32,
 }
@@ -138,7 +138,7 @@ impl Facets {
         Mirrored { value, pdf: d / (1.0 + self.lambda_o), cos_half: (0.5 * length2.sqrt()).min(1.0) }
     }
 
-    /// Samples the direction from which a visible facet mirrors light to `wo`; it may lie below the surface.
+    /// Samples the direction from which a visible facet mirrors light to `wo`; it may be below the surface.
     #[inline]
     pub fn sample(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
         reflect(wo, sample_visible(wo, self.alpha, u))
@@ -190,8 +190,8 @@ pub fn refract(wo: Vec3, m: Vec3, eta: f32, cos_t: f32) -> Vec3 {
     m * (wo.dot(m) / eta - cos_t) - wo / eta
 }
 
-/// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the
-/// Jacobian from the solid angle of the normal to that of `wi`. `None` when no facet does.
+/// The microfacet normal (z > 0) that takes `wo` to `wi` by reflection or refraction, the Fresnel reflectance there, and the Jacobian from
+/// the normal's solid angle to the solid angle of `wi`. `None` if there is no such facet.
 #[inline]
 pub fn refraction_half_vector(wo: Vec3, wi: Vec3, eta: f32) -> Option<(Vec3, f32, f32)> {
     if wi.z > 0.0 {

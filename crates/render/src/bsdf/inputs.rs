@@ -1,11 +1,11 @@
-//! What a material's parameters are at one surface point.
+//! Values of a material's parameters at one surface point.
 
 use super::Tables;
 use crate::texture::{Footprint, Textures};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::{ColorParam, ScalarParam};
 
-/// What is needed to read a material at a point.
+/// Everything needed to evaluate a material's parameters at a point.
 #[derive(Clone, Copy)]
 pub struct Inputs<'a> {
     /// The scene's pictures.

@@ -213,7 +213,8 @@ impl<'a> Lobe<'a> {
         if reflects == (wi.z > 0.0) { self.finite(wo, wi) } else { None }
     }
 
-    /// Fraction of light from all around that goes to `wo`, about: the diffuse part for a reflectance of one, and everything else.
+    /// Approximate fraction of light from all directions that is scattered to `wo`: the diffuse part for a reflectance of one, and
+    /// everything else.
     pub fn albedo(&self, cos_o: f32) -> Value {
         match self {
             Self::Lambert => Value { diffuse: Rgb::WHITE, specular: Rgb::BLACK },

@@ -29,7 +29,7 @@ fn plain() -> Disney {
     }
 }
 
-/// Materials, whether they are seen from outside, and what `eval` of Mitsuba's `principled` and `principledthin` says for each pair of
+/// Materials, whether they are seen from outside, and the value of `eval` of Mitsuba's `principled` and `principledthin` for each pair of
 /// [`DIRECTIONS`].
 #[rustfmt::skip]
 fn cases() -> Vec<(Disney, bool, [[f32; 3]; 6])> {
@@ -99,7 +99,7 @@ fn samples_of_disneys_model_have_its_values_and_density() {
     }
 }
 
-/// A smooth sheet is a pane: Fresnel's part is mirrored, the rest goes straight on in the base's colour, to shadow rays as well.
+/// A smooth sheet is a pane: Fresnel's part is mirrored, the rest passes straight through in the base's colour, also for shadow rays.
 #[test]
 fn smooth_sheets_let_light_straight_through() {
     let sheet = Disney { thin: true, roughness: 0.0.into(), spec_trans: 1.0.into(), ..plain() };

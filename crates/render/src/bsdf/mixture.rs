@@ -9,13 +9,13 @@ use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 #[derive(Clone, Copy, Debug)]
 struct Entry<'a> {
     lobe: Lobe<'a>,
-    /// Multiplies the lobe's diffuse part: the fraction that its reflectance has in that of the whole.
+    /// Multiplies the lobe's diffuse part: the share of its reflectance in the reflectance of the whole.
     diffuse: Rgb,
     /// Multiplies everything else.
     specular: f32,
     /// Probability of being sampled.
     select: f32,
-    /// What lies above it, in [`Mixture::layers`].
+    /// The layers above it, in [`Mixture::layers`].
     under: Option<u8>,
 }
 
@@ -43,7 +43,7 @@ impl<'a> Mixture<'a> {
     }
 
     /// Adds the lobes of another mixture, whose diffuse reflectance is `reflectance`, as the given `fraction` of this one. `diffuse` is the
-    /// fraction that its reflectance has in that of the whole.
+    /// share of its reflectance in the reflectance of the whole.
     pub fn add_mixture(&mut self, other: &Self, reflectance: Rgb, diffuse: Rgb, fraction: f32, cos_o: f32) {
         let first = self.layers.len() as u8;
         self.layers.extend(&other.layers);
@@ -65,7 +65,7 @@ impl<'a> Mixture<'a> {
         self.entries.iter_mut().for_each(|e| e.under = Some(index));
     }
 
-    /// Turns importances into probabilities, none of them below a tenth of that of equal chances, so that every lobe keeps being sampled.
+    /// Turns importances into probabilities, each at least a tenth of the uniform probability, so that every lobe keeps being sampled.
     pub fn finish(&mut self) {
         let total: f32 = self.entries.iter().map(|e| e.select).sum();
         let n = self.entries.len() as f32;

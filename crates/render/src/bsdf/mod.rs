@@ -4,9 +4,9 @@
 //! diffuse part is kept apart and *demodulated* (its value is for a reflectance of one), because the ground truth splits
 //! radiance into reflectance × illumination + residual.
 //!
-//! A material of the scene becomes a [`Bsdf`] at a point in `resolve`. `Bsdf` is for one viewing direction: values, densities and samples
-//! are asked for with the `wo` that it was made for. Paths are followed from the camera, so `wo` is known and `wi` is sampled; values are
-//! those of radiance, not of importance.
+//! `resolve` turns a material of the scene into a [`Bsdf`] at a point. A `Bsdf` is for one viewing direction: request values, densities and
+//! samples only for the `wo` that it was made with. Paths are followed from the camera, so `wo` is known and `wi` is sampled; values are
+//! for radiance, not for importance.
 
 mod beckmann;
 pub mod coat;

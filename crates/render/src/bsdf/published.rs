@@ -1,4 +1,4 @@
-//! Every lobe against the formula as it was published, written again in double precision and integrated on a grid.
+//! Every lobe against the published formula, written again in double precision and integrated on a grid.
 //!
 //! Formulas here are values *without* the cosine; [`albedo`] multiplies by it. Nothing is shared with the lobes but the meaning of their
 //! parameters, so that a factor which a lobe forgets in its value, its density and its tables alike shows here.
@@ -256,7 +256,7 @@ fn fuzz_of_cloth() {
     }
 }
 
-/// What lies under sheen gets what it does not reflect in either direction, the clear-coat above takes Fresnel's share both ways.
+/// Layers under sheen get the light that sheen does not reflect in either direction; the clear-coat above takes Fresnel's share both ways.
 #[test]
 fn layers_dim_what_is_below() {
     let e = |cos: f64| albedo(|wi| sheen(viewer(cos), wi, 0.5), false);

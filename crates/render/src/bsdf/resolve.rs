@@ -37,7 +37,7 @@ impl<'a> Bsdf<'a> {
             }
             scene::Bsdf::ThinDielectric { eta, transmittance } => Self::one(thin(*eta, 0.0, at.reflectance(transmittance), at)),
             scene::Bsdf::Plastic { diffuse, alpha, specular, nonlinear, .. } => {
-                // What saturates reflects more on average than its average colour would, so no average is taken.
+                // A saturating base reflects more on average than its average colour would, so no average is taken.
                 let base = Inputs { footprint: if *nonlinear { Footprint::POINT } else { at.footprint }, ..*at };
                 coated(at, base.reflectance(diffuse), at.scalar(alpha), at.reflectance(specular), *nonlinear, 1.0)
             }
@@ -52,7 +52,7 @@ impl<'a> Bsdf<'a> {
     }
 }
 
-/// A diffuse base of which the fraction `covered` lies under the point's coat; without one (an index of one or less) the base alone.
+/// A diffuse base of which the fraction `covered` is under the point's coat; without a coat (an index of one or less) only the base.
 #[inline]
 fn coated<'a>(at: &Inputs<'a>, reflectance: Rgb, alpha: f32, tint: Rgb, saturating: bool, covered: f32) -> Bsdf<'a> {
     let Some(table) = at.tables.coat.as_ref().filter(|_| covered > 0.0) else { return Bsdf::lambert(reflectance) };
@@ -69,14 +69,14 @@ fn metal<'a>(facets: Facets, fresnel: Fresnel<'a>, tint: Rgb, cos_o: f32) -> Lob
     Lobe::Reflection { facets, fresnel, tint: tint * scale }
 }
 
-/// Indices of refraction this close to 1 count as 1: the directions that rough facets bend light to could not be told apart.
+/// Indices of refraction this close to 1 count as 1: rough facets would bend light into directions that cannot be distinguished.
 const NO_REFRACTION: f32 = 1e-3;
 
 /// The border of a transparent body of the index `ior`, with all bounces between its facets where these are GGX's.
 #[inline]
 fn glass<'a>(ior: f32, alpha: f32, distribution: Distribution, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     let eta = if at.outside { ior } else { 1.0 / ior };
-    // What does not bend light does not scatter it either, however rough.
+    // A surface that does not bend light does not scatter it either, at any roughness.
     let alpha = if (ior - 1.0).abs() < NO_REFRACTION { 0.0 } else { alpha };
     let scale = at.tables.glass.as_ref().map_or(1.0, |table| table.scale(at.cos_o, alpha, at.outside));
     let facets = match distribution {
@@ -90,7 +90,7 @@ fn glass<'a>(ior: f32, alpha: f32, distribution: Distribution, tint: Rgb, at: &I
 #[inline]
 fn thin<'a>(ior: f32, alpha: f32, tint: Rgb, at: &Inputs<'a>) -> Lobe<'a> {
     let facets = Facets::new(alpha, at.cos_o);
-    // Either all is reflected or goes where it would be, so the two together lose what a white metal loses.
+    // Transmitted light is scattered like reflected light, so the two together lose what a white metal loses.
     let scale = if facets.smooth() { 1.0 } else { energy::of_metal(at.cos_o, alpha, Rgb::WHITE).r };
     Lobe::Thin { facets, eta: ior, tint, scale }
 }
@@ -117,7 +117,7 @@ fn blend<'a>(parts: [&'a scene::Bsdf; 2], weight: f32, at: &Inputs<'a>) -> Bsdf<
     Bsdf { reflectance, model }
 }
 
-/// Adds a whole material to a mixture as the given `fraction` of it. `diffuse` is the fraction that its reflectance has in that of the
+/// Adds a whole material to a mixture as the given `fraction` of it. `diffuse` is the share of its reflectance in the reflectance of the
 /// whole.
 fn add<'a>(mixture: &mut Mixture<'a>, bsdf: &Bsdf<'a>, diffuse: Rgb, fraction: f32, cos_o: f32) {
     match &bsdf.model {
@@ -200,7 +200,7 @@ fn cover(mixture: &mut Mixture<'_>, p: &Principled, at: &Inputs<'_>, sheen_color
     }
 }
 
-/// Fraction of light that goes straight through thin panes of `bsdf` at a point; `None` when it has none, as rough ones have none.
+/// Fraction of light that passes straight through thin panes of `bsdf` at a point; `None` if it has no smooth pane.
 ///
 /// This is the [`Lobe::Thin`] of [`Bsdf::new`] as a shadow ray sees it.
 pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb> {
@@ -229,7 +229,7 @@ pub fn straight_transmittance(bsdf: &scene::Bsdf, at: &Inputs<'_>) -> Option<Rgb
     }
 }
 
-/// What a smooth border of a transparent body does with light that arrives along the viewing direction.
+/// How a smooth border of a transparent body reflects and refracts light that arrives along the viewing direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Border {
     /// Index beyond the border over the index on the viewer's side.

@@ -36,7 +36,7 @@ impl RoughDiffuse {
         let a = 1.0 / (1.0 + C1 * roughness);
         let once = a * (1.0 + roughness * fit(cos_o));
         let mean = a * (1.0 + roughness * MEAN);
-        // What further bounces send out in all, over the reflectance.
+        // The light that further bounces emit in total, over the reflectance.
         let color = reflectance.map(|r| r * mean / (1.0 - r * (1.0 - mean)));
         let lost = 1.0 - once;
         let further = if mean < 1.0 { color * (lost / (1.0 - mean)) } else { Rgb::BLACK };

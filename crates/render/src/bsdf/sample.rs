@@ -1,4 +1,4 @@
-//! What a BSDF answers: its value for a pair of directions, and sampled directions with their weight and density.
+//! Results of a BSDF: its value for a pair of directions, and sampled directions with their weight and density.
 
 use enfilade_math::{Rgb, Vec3};
 use std::ops::Mul;
@@ -35,7 +35,7 @@ pub enum Event {
     Finite,
     /// One of finitely many directions: light sampling cannot find it.
     Delta,
-    /// Straight on through a thin pane, as shadow rays go too: Mitsuba's `Null`.
+    /// Straight through a thin pane, like shadow rays: Mitsuba's `Null`.
     Straight,
 }
 
@@ -48,7 +48,7 @@ pub struct Sample {
     pub weight: Value,
     /// Density per solid angle; zero for [`Event::Delta`] and [`Event::Straight`].
     pub pdf: f32,
-    /// What kind of direction it is.
+    /// Kind of the direction.
     pub event: Event,
 }
 

@@ -426,7 +426,7 @@ fn frosted_sheets_transmit_by_the_formula_of_gltf() {
         let along = ((eta * cos_i - cos_t) / (eta * cos_i + cos_t)).powi(2);
         let r = 0.5 * (across + along);
         let expected = (1.0 - 2.0 * r / (1.0 + r)) * f64::from(base) * d * visible * l.z;
-        // What bounces between facets adds a little.
+        // Light that bounces between facets adds a little.
         assert!(found >= expected * 0.999 && found <= expected * 1.03, "cosine {cos_o}, {wi}: {found}, by the formula {expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! What a surface is made of, in the terms that most renderers share: base colour, metal, roughness, transmission.
+//! Material parameters of a surface in the terms that most renderers share: base colour, metal, roughness, transmission.
 
 use crate::bsdf::fresnel;
 use crate::prepared::RenderScene;
@@ -38,7 +38,7 @@ impl Appearance {
 }
 
 impl Surface<'_> {
-    /// What the surface is made of at this very point.
+    /// Material parameters of the surface at this point.
     pub(crate) fn appearance(&self, scene: &RenderScene<'_>) -> Appearance {
         At { textures: &scene.textures, uv: self.uv }.appearance(&self.material.bsdf)
     }

@@ -1,4 +1,4 @@
-//! Where one surface ends in front of another.
+//! Boundaries where one surface ends in front of another.
 
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
@@ -30,7 +30,7 @@ pub(super) fn boundaries(view: &CameraView<'_>, frame: &Frame) -> Vec<u8> {
     enfilade_parallel::map_up_to((width * height) as usize, |pixel| code(pixel as i64))
 }
 
-/// What one pixel shows.
+/// The surface that one pixel shows.
 struct Seen {
     origin: DVec3,
     direction: DVec3,
@@ -51,7 +51,7 @@ impl Seen {
         }
     }
 
-    /// Whether there is a jump between the two: each lies off the other's plane, and the two planes do not meet between them.
+    /// Whether there is a jump between the two: each is off the other's plane, and the two planes do not meet between them.
     fn is_apart(&self, other: &Self) -> bool {
         let (here, there) = (self.plane_along(other) - other.distance, other.plane_along(self) - self.distance);
         // Seen from its edge, a plane is anywhere.
@@ -60,7 +60,7 @@ impl Seen {
         off(here, other.distance) && off(there, self.distance) && !meet
     }
 
-    /// Where the plane at this point meets the ray of another pixel.
+    /// Intersection of the plane at this point with the ray of another pixel.
     fn plane_along(&self, other: &Self) -> f64 {
         let p = self.origin + self.distance * self.direction;
         (p - other.origin).dot(self.normal) / other.direction.dot(self.normal)

@@ -1,4 +1,4 @@
-//! Where a surface point is in another frame: the next one, or any. Scenes do not move; cameras do.
+//! Position of a surface point in another frame: the next one, or any. Scenes do not move; cameras do.
 
 use crate::prepared::{AlphaTest, RenderScene};
 use enfilade_math::{DVec3, Ray};
@@ -18,7 +18,7 @@ pub(crate) struct Flow {
     pub visible: bool,
 }
 
-/// From the image point of `view` that shows `p_world` to that of `next`. `None` for points that are not finite.
+/// From the image point of `view` that shows `p_world` to the image point of `next`. `None` for points that are not finite.
 pub(super) fn flow(
     scene: &RenderScene<'_>,
     view: &CameraView<'_>,

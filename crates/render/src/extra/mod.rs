@@ -1,5 +1,5 @@
-//! Further layers of what the ray through a pixel's centre meets: what it is made of, what lies behind it, where it is in the next
-//! frame. Point samples in the sense of `geometry_pass`, made after a frame and only where asked for.
+//! Further layers of the surface that the ray through a pixel's centre meets: its material, the surfaces behind it, its position in the
+//! next frame. They are point samples in the sense of `geometry_pass`, computed after a frame and only on request.
 
 mod appearance;
 mod boundary;
@@ -125,7 +125,7 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<&CameraVie
     })
 }
 
-/// The channels, at most what float16 can hold.
+/// The channels, limited to the range of float16.
 fn rgb(color: Rgb) -> [f32; 3] {
     [color.r, color.g, color.b].map(|v| v.min(f16::MAX.to_f32()))
 }

@@ -60,7 +60,7 @@ struct Met {
 impl Met {
     const NONE: Self = Self { distance_m: f32::NAN, entity: -1, side: 0, normal: [f16::NAN; 3] };
 
-    /// True where a surface before lies in the same place.
+    /// True if the surface `before` is in the same place.
     fn is_at(&self, before: &Self) -> bool {
         self.distance_m - before.distance_m <= SAME * self.distance_m
     }
@@ -113,7 +113,7 @@ fn along(scene: &RenderScene<'_>, first: &Sighting<'_>, met: &mut [Met]) {
         let Some(hit) = scene.bvh.closest_filtered(&ray, is_new) else { return };
         triangles.push(hit.triangle);
         surface = scene.surface(&hit, ray.direction, &Cone::POINT);
-        // Along the exact ray; where two surfaces lie in each other, rounding must not turn them round.
+        // Along the exact ray; where two surfaces coincide, rounding must not change their order.
         let exact = exact_distance(scene.triangles.get(hit.triangle).corners, origin, first.direction);
         distance_m = exact.unwrap_or(f64::from(hit.t)).max(distance_m);
     }

@@ -30,20 +30,20 @@ pub(crate) struct Connection {
     /// Fraction of the light that comes through.
     pub through: Rgb,
     /// For a light at a point, the irradiance across the way for an intensity of one, per square metre; for a light at infinity, the
-    /// irradiance across the way for one of one in the open.
+    /// irradiance across the way if it were one without the glass.
     pub spread: f32,
     /// True when only panes are on the way, so that sampled directions find the same light.
     pub parallel: bool,
-    /// What lies on it.
+    /// The panes and borders on it.
     pub passed: Passed,
-    /// How many ways this one stands for.
+    /// Estimated number of ways that this one represents.
     pub ways: f32,
 }
 
-/// What a way leads to.
+/// The end of a way.
 #[derive(Clone, Copy)]
 enum Goal {
-    /// A point, and the unit normal of the surface that it lies on, if it does.
+    /// A point, and the unit normal of its surface, if it is on one.
     Point(Vec3, Vec3),
     Direction(Vec3),
 }
@@ -154,7 +154,8 @@ impl<'s> RenderScene<'s> {
     }
 }
 
-/// The way that a shot has found. `determinant` is that of its end's derivatives, for a light at a point over the square of the `distance`.
+/// The way that a shot has found. `determinant` belongs to the derivatives of its end, for a light at a point divided by the square of
+/// `distance`.
 fn connection(wi: Vec3, shot: &Shot, goal: Goal, medium: Medium, determinant: f32, distance: f32) -> Option<Connection> {
     // Radiance over the square of the index is the same along a ray, so étendue is kept: what spreads light from here spreads it to here.
     let denser = shot.medium.compression / medium.compression;

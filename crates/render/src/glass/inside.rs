@@ -1,4 +1,4 @@
-//! What a path remembers of its way into a body, so that it continues unbent where it leaves through a parallel border.
+//! The state that a path keeps when it enters a body, so that it continues unbent where it leaves through a parallel border.
 
 use crate::light::LightPoint;
 use enfilade_math::{Rgb, Vec3};
@@ -37,8 +37,8 @@ pub(crate) fn refracted(direction: Vec3, n: Vec3, eta: f32) -> Option<Vec3> {
     (square > 0.0).then(|| (direction * ratio + n * (ratio * cosine - square.sqrt())).normalize())
 }
 
-/// What the reflections to and fro between two parallel borders, each of the reflectance `r`, add to the light that passes at once; `inner` is
-/// what the body absorbs on one way.
+/// Factor by which reflections between two parallel borders, each of reflectance `r`, increase the light that passes directly; `inner` is
+/// the body's transmittance for one crossing.
 #[inline]
 pub(crate) fn repeated(r: f32, inner: Rgb) -> Rgb {
     inner.map(|a| 1.0 / (1.0 - (r * a) * (r * a)).max(f32::MIN_POSITIVE))

@@ -1,14 +1,14 @@
-//! Light through solid glass, found from where it arrives.
+//! Light through solid glass, found from the point where it arrives.
 //!
-//! Glass bends light, so a straight shadow ray says nothing of what lies behind it. A *shot* ([`shot`]) goes through smooth borders by the
-//! law of refraction and carries along how its end moves with its first direction (Igehy 1999, "Tracing Ray Differentials"). Two things are
-//! made of that:
+//! Glass bends light, so a straight shadow ray finds no light behind it. A *shot* ([`shot`]) passes smooth borders by the law of refraction
+//! and carries the derivatives of its end by its first direction (Igehy 1999, "Tracing Ray Differentials"). It is used in two ways:
 //!
-//! - **Panes**: a ray that enters a body and leaves it through flat borders that lie parallel keeps its direction ([`inside`]). Light
+//! - **Panes**: a ray that enters a body and leaves it through flat parallel borders keeps its direction ([`inside`]). Light
 //!   samples of every light reach through them, and the power heuristic weights these against sampled directions as it does in the open: a
 //!   path that leaves a body so continues as if it had not been bent. The reflections between both borders are added up with the ray that
 //!   passes at once, a few millimetres beside where they leave: exact where the light and the pane are wide. For a light at a point the
-//!   direction is corrected until the shot meets it, and the light is spread as the shot's end says, so the shift by thick glass is exact.
+//!   direction is corrected until the shot meets it, and the spread of the light follows from the derivatives of the shot's end, so the
+//!   shift by thick glass is exact.
 //! - **Other glass** (globes, bulbs, blocks seen through two sides): lights without a surface, which no sampled direction meets, are aimed at
 //!   by Newton's method on the first direction ([`connect`]; Hanika, Droske & Fascione 2015, "Manifold Next Event Estimation"). It begins at
 //!   random directions, and how often another random one ends on the same way estimates how many ways there are, without bias (Zeltner,

@@ -14,10 +14,10 @@ const MAX_SURFACES: usize = 64;
 /// Shots meet borders at no smaller cosine, where their derivatives would lose all digits.
 const MIN_COSINE: f32 = 1e-3;
 
-/// Where a shot ends.
+/// The end of a shot.
 #[derive(Clone, Copy)]
 pub(super) enum End {
-    /// Where it comes nearest to a point or, where the point lies on a surface of this normal, in the plane of that.
+    /// The place nearest to a point or, if the point is on a surface with this normal, in the surface's plane.
     Near(Vec3, Vec3),
     /// After this length, metres.
     After(f32),
@@ -26,7 +26,7 @@ pub(super) enum End {
 /// A ray on its way through glass, or at its end.
 #[derive(Clone, Copy)]
 pub(super) struct Shot {
-    /// Where it is, and its unit direction.
+    /// Its position, and its unit direction.
     pub p: Vec3,
     pub direction: Vec3,
     /// Derivatives of both by the first direction, along the axes that [`Onb::from_z`] gives it.
@@ -38,7 +38,7 @@ pub(super) struct Shot {
     pub medium: Medium,
     /// True as long as every body on its way was left through a border parallel to the one that it was entered by.
     pub parallel: bool,
-    /// What it has passed.
+    /// The panes and borders that it has passed.
     pub passed: Passed,
 }
 
@@ -57,7 +57,7 @@ impl Passed {
         self.count += 1;
     }
 
-    /// What `name` calls the last of them that it has a name for.
+    /// The `name` of the last of them that has one.
     pub fn last_named<T>(&self, name: impl Fn(PartId) -> Option<T>) -> Option<T> {
         let oldest = self.count.saturating_sub(Self::KEPT);
         (oldest..self.count).rev().find_map(|k| name(self.parts[k % Self::KEPT]))
@@ -100,7 +100,7 @@ impl<'s> RenderScene<'s> {
                 return None;
             }
             let Some(hit) = self.closest(&Ray { t_max: ahead, ..Ray::new(shot.p, shot.direction) }, AlphaTest::Stochastic) else {
-                // What is known of infinitely far lights is their direction alone.
+                // Only the direction of infinitely far lights is known.
                 if ahead < f32::MAX {
                     shot.advance(ahead);
                 }
@@ -136,8 +136,8 @@ impl<'s> RenderScene<'s> {
         None
     }
 
-    /// What comes through panes, thin and solid, along a ray that keeps its direction, and what it has passed; black where anything else
-    /// is in the way. The shift by solid panes moves the end of a ray that has one.
+    /// The light that comes through panes, thin and solid, along a ray that keeps its direction, and the panes passed; black where anything
+    /// else is in the way. The shift by solid panes moves the end of a ray that has one.
     pub(crate) fn through_panes(&self, ray: &Ray) -> (Rgb, Passed) {
         let shot = self.shoot(ray, Medium::AIR, End::After(ray.t_max)).filter(|shot| shot.parallel);
         shot.map_or((Rgb::BLACK, Passed::default()), |shot| (shot.through, shot.passed))
@@ -187,7 +187,7 @@ impl<'s> RenderScene<'s> {
 }
 
 impl Shot {
-    /// Goes on for `t` metres.
+    /// Advances by `t` metres.
     fn advance(&mut self, t: f32) {
         self.p += self.direction * t;
         self.through *= self.medium.transmittance(t);
@@ -196,7 +196,7 @@ impl Shot {
         }
     }
 
-    /// Bends at a border. `None` where the light goes along it, or where what is seen is not the border's own shape.
+    /// Refracts at a border. `None` where the light grazes it, or where a normal map replaces the border's own shape.
     fn cross(&mut self, scene: &RenderScene<'_>, surface: &Surface<'_>, border: &Border) -> Option<()> {
         let (d, n, ratio) = (self.direction, surface.ns, 1.0 / border.eta);
         let (cosine, onto) = (-d.dot(n), d.dot(surface.ng));

@@ -6,7 +6,7 @@ use std::f32::consts::TAU;
 
 /// The most spheres that a cell aims at.
 pub(super) const MAX_AIMS: usize = 8;
-/// The smallest sine of half of a cone's angle: float32 hardly tells the directions of narrower cones apart.
+/// The smallest sine of half of a cone's angle: float32 can hardly distinguish the directions of narrower cones.
 const MIN_SINE: f32 = 0.005;
 /// The largest such sine: spheres in wider cones are too near to be aimed at, and bins are fine enough for them.
 const MAX_SINE: f32 = 0.3;
@@ -41,7 +41,7 @@ pub(super) struct Aims {
 impl Aim {
     const NONE: Self = Self { center: Vec3::ZERO, radius: 0.0, fraction: 0.0 };
 
-    /// True when `p` lies in the sphere.
+    /// True if `p` is in the sphere.
     pub fn contains(&self, p: Vec3) -> bool {
         p.distance_squared(self.center) <= self.radius * self.radius
     }
@@ -104,7 +104,7 @@ impl Aims {
         &self.aims[..self.count as usize]
     }
 
-    /// True when `p` lies in one of the spheres.
+    /// True if `p` is in one of the spheres.
     pub fn contains(&self, p: Vec3) -> bool {
         self.all().iter().any(|aim| aim.contains(p))
     }
@@ -130,7 +130,8 @@ impl Aims {
     }
 
     /// Density per solid angle with which [`Aims::sample`] finds a direction, and the probability that it aims at none. A direction that
-    /// was `sampled` by a sphere's number lies in its cone even if rounding puts it beside: it would count thousands of times otherwise.
+    /// was `sampled` by a sphere's number counts as in its cone even if rounding puts it outside; its weight would be thousands of times
+    /// too large otherwise.
     #[inline]
     pub fn pdf(&self, direction: Vec3, p: Vec3, sampled: Option<usize>) -> (f32, f32) {
         let (mut pdf, mut left) = (0.0, 1.0);

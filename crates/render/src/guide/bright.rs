@@ -1,7 +1,7 @@
 //! Small bright places, such as the inside of a lamp's shade, that few of the rays by bin happen to meet.
 //!
-//! What one cell's rays met is looked for from the cells around it: it counts for each of them that sees it. That is spatial resampling, as
-//! of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI"), for a radiosity system.
+//! Places that one cell's rays met are tested from the cells around it, and used by each cell that sees them. This is spatial resampling
+//! for a radiosity system, like the resampling of reservoirs of paths (Ouyang et al. 2021, "ReSTIR GI").
 
 use super::rays::{GatherHit, Rays, mean, site_of};
 use super::square::bin_of;
@@ -25,7 +25,7 @@ pub(super) struct Bright {
     pub bin: usize,
     /// Radiance that the place sends.
     pub radiance: Rgb,
-    /// Where it is.
+    /// Position.
     pub p: Vec3,
     /// From the cell's site to the place, metres.
     way: Vec3,
@@ -53,8 +53,8 @@ impl Rays<'_, '_> {
         bright
     }
 
-    /// A bright place of another cell as one of this cell's sites sees it: the bin that it lies in, and its radiance times how many times
-    /// more of this bin it fills than of its own. `None` where it is not seen.
+    /// A bright place of another cell as one of this cell's sites sees it: the bin that contains it, and its radiance times the ratio of
+    /// the parts that it fills of this bin and of its own. `None` where it is not seen.
     pub fn seen(&self, cell: usize, number: usize, bright: &Bright) -> Option<(usize, Rgb)> {
         let sites = self.sites(cell);
         let site = sites[number % sites.len()];

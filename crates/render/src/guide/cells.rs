@@ -18,7 +18,7 @@ pub(super) const SITES: usize = 4;
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What one voxel along each axis adds to a key. The lowest three bits tell the axis that the surface faces.
+/// Increment of a key by one voxel along each axis. The lowest three bits are the axis that the surface faces.
 const STEP_X: i64 = 1 << 43;
 const STEP_Y: i64 = 1 << 23;
 const STEP_Z: i64 = 1 << 3;
@@ -41,7 +41,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// The cells of `size` metres that the sites lie in.
+    /// The cells of `size` metres that contain the sites.
     pub fn new(origin: Vec3, size: f32, sites: &[Site]) -> Self {
         let mut cells = Self { origin, scale: 1.0 / size, slots: Vec::new(), keys: Vec::new(), sites: Vec::new() };
         let mut numbers = HashMap::new();
@@ -123,7 +123,7 @@ impl Cells {
     }
 }
 
-/// What tells keys apart in [`Cells::slots`]: bits of the hash that do not say where to look.
+/// Tag that distinguishes keys in [`Cells::slots`]: bits of the hash that do not determine the slot.
 #[inline]
 fn tag(hash: u64) -> u32 {
     (hash >> 32) as u32

@@ -2,10 +2,9 @@
 //!
 //! From every cell one ray goes out through each bin of the cosine-weighted hemisphere; what it meets is remembered as a cell and a
 //! reflectance. With the direct light of each cell this is a radiosity system (Goral et al. 1984), solved by a few sweeps without
-//! tracing another ray. With the cells' light known, rays through the bins, those that are there and further ones where many samples pay
-//! for them, say what rendering wants: where light comes from in each cell, and how much. What is small and bright is found by photons too
-//! (see [`super::spots`]), aimed at apart from the bins (see [`super::patch`]), and looked for from the cells around (see
-//! [`super::bright`]).
+//! tracing another ray. With the cells' light known, rays through the bins (the existing ones, and more where many samples justify them)
+//! give what rendering needs: where light comes from in each cell, and how much. Small bright places are also found by photons (see
+//! [`super::spots`]), aimed at separately from the bins (see [`super::patch`]), and searched from the cells around (see [`super::bright`]).
 
 use super::aim::Aims;
 use super::bright::Bright;
@@ -49,7 +48,7 @@ pub(crate) struct Field {
     lights: Vec<CellLight>,
 }
 
-/// How much may be done to know the light.
+/// Effort for learning the light.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
     /// About the largest number of cells.
@@ -85,7 +84,7 @@ impl Field {
         let gathered: Vec<(Rgb, Vec<GatherHit>)> = map_up_to(cells.len(), |cell| (rays.direct(cell), rays.gather(cell, 0).collect()));
 
         // Solve the radiosity system by Jacobi iteration: each sweep gathers the light of the one before, one bounce more. A spot has the
-        // indirect light of the cell that it lies in.
+        // indirect light of the cell that contains it.
         let mut indirect = vec![Rgb::BLACK; cells.len()];
         let cells_of_spots: Vec<usize> = spots.spots.iter().map(|spot| cells.find(spot.site.p, spot.site.n) as usize).collect();
         let total = |indirect: &[Rgb]| -> Vec<Rgb> {
@@ -127,8 +126,8 @@ impl Field {
         Some(Self { cells, lights })
     }
 
-    /// The cells of the sites, of `size` metres, or larger where there would be more than about `max`. They lie on surfaces, so their number
-    /// goes with the inverse square of their size.
+    /// The cells of the sites, of `size` metres, or larger where there would be more than about `max`. They are on surfaces, so their
+    /// number is proportional to the inverse square of their size.
     fn cells(bounds: Bounds3, sites: &[Site], size: f32, max: usize) -> Cells {
         let cells = Cells::new(bounds.min, size, sites);
         if cells.len() <= max {
@@ -218,7 +217,7 @@ impl BinnedLight {
         self.sum += by;
     }
 
-    /// What was learned of a cell; `near` is the luminance of the irradiance over π from near lamps in its brightest place.
+    /// The learned light of a cell; `near` is the luminance of the irradiance over π from near lamps in its brightest place.
     fn learned(&self, aimed: &[Aimed], near: f32) -> CellLight {
         let found = self.sum.map(|v| v.max(0.0)) / self.rays as f32 + aimed.iter().map(|(_, light)| *light).sum::<Rgb>();
         let aims = Aims::new(with_fractions(aimed, found.luminance()));
@@ -227,7 +226,7 @@ impl BinnedLight {
     }
 }
 
-/// Bins blended with a little of their neighbours: the few rays of a bin say little about its borders.
+/// Bins blended with a little of their neighbours: the few rays of a bin give little information about its borders.
 fn blurred(values: &[f32; BINS]) -> [f32; BINS] {
     std::array::from_fn(|bin| {
         let (x, y) = (bin % SIDE, bin / SIDE);

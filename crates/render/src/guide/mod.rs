@@ -1,7 +1,7 @@
-//! What is learned before a trajectory's frames are rendered: which lights reach where, and where indirect light comes from.
+//! The guide, learned before a trajectory's frames are rendered: which lights reach where, and where indirect light comes from.
 //!
-//! It steers samples and nothing else. Whatever was learned, every direction and every light keeps a chance, so a poor guide means
-//! more noise, never another mean.
+//! It only steers samples. Every direction and every light keeps a positive probability, so a poor guide means more noise, never another
+//! mean.
 
 mod aim;
 mod bright;
@@ -28,16 +28,16 @@ use field::Effort;
 const PATHS: u64 = 1 << 16;
 /// One cell for this many samples. A cell costs about as much as a hundred.
 const SAMPLES_PER_CELL: u64 = 1024;
-/// The most cells: more say no more about a room.
+/// Largest number of cells: more give no further information about a room.
 const MAX_CELLS: u64 = 1 << 14;
 /// One ray through each bin of a cell for this many samples per cell. Such a round of rays costs about as much as fifty.
 const SAMPLES_PER_ROUND: u64 = 4096;
-/// The most rounds: more rays say no more about a cell.
+/// Largest number of rounds: more rays give no further information about a cell.
 const MAX_ROUNDS: u64 = 16;
 /// Surfaces that a walk visits.
 const VERTICES: usize = 4;
 
-/// What was learned of a scene's light, for all frames of a trajectory: which lights reach where, and where indirect light comes from.
+/// The learned light of a scene, for all frames of a trajectory: which lights reach where, and where indirect light comes from.
 #[derive(Debug)]
 pub struct Guide {
     pub(crate) choice: LightChoice,
@@ -45,8 +45,9 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Learns from `views`, those of a whole trajectory or of some of its frames. The more samples they will take in all, the more is
-    /// learned; without views nothing is, and that is a valid guide. Depends on the arguments alone, whatever the number of threads.
+    /// Learns from `views` of a whole trajectory or of some of its frames. The effort grows with the total number of samples of these
+    /// views; without views nothing is learned, which is a valid guide. The result depends only on the arguments, not on the number of
+    /// threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         // Learn which light sources reach which places.
         let choice = LightChoice::learn(scene, views, config);

@@ -24,19 +24,19 @@ const CANDIDATES: usize = 16;
 /// How often it looks for one, the second time in the part that it saw the first time, and rays each time.
 const STEPS: usize = 2;
 const RAYS: usize = 16;
-/// What a ray meets belongs to a patch if it sends at least this fraction of the patch's light and lies within this many radii.
+/// A place that a ray meets belongs to a patch if it sends at least this fraction of the patch's light and is within this many radii.
 const DIMMEST: f32 = 0.25;
 const WITHIN: f32 = 1.2;
 /// A cell looks for a patch and aims at it if that sends it at least this fraction of what it receives from places that are not bright.
 const MIN_FRACTION: f32 = 0.005;
 /// The largest fraction of the directions that are aimed.
 const MAX_AIMED: f32 = 0.8;
-/// Cosine of a patch that lies on the horizon.
+/// Cosine of a patch on the horizon.
 const HORIZON: f32 = 0.1;
 /// Turns around the axis from one ray to the next: the golden section spreads them evenly.
 const TURNS: f32 = 0.618_034;
 
-/// A sphere around bright places that lie close together.
+/// A sphere around bright places that are close together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BrightPatch {
     /// World position.
@@ -51,7 +51,7 @@ pub(super) struct BrightPatch {
 pub(super) type Aimed = (Aim, Rgb);
 
 /// The bright patches among the places that the rays of all cells met and among `spots`, given the light of the cells and spots. `size` is
-/// that of the smallest cells, metres.
+/// the size of the smallest cells, metres.
 pub(super) fn patches<'a>(cells: impl Iterator<Item = &'a [GatherHit]>, spots: &[Spot], total: &[Rgb], size: f32) -> Vec<BrightPatch> {
     let mut left: Vec<(Vec3, f32)> = cells
         .flat_map(|hits| {
@@ -151,7 +151,7 @@ impl BrightPatch {
 }
 
 impl Rays<'_, '_> {
-    /// What a cell aims at, the brightest first.
+    /// The patches that a cell aims at, the brightest first.
     pub fn aimed(&self, cell: usize, hits: &[GatherHit], patches: &[BrightPatch], total: &[Rgb]) -> Vec<Aimed> {
         let sites = self.sites(cell);
         let min = MIN_FRACTION * dim_mean(hits, total);

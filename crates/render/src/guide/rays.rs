@@ -22,15 +22,15 @@ const DIRECT: usize = 0;
 const ROUNDS: usize = 1;
 pub(super) const LOOKING: usize = u16::MAX as usize;
 
-/// What a gathering ray met: a cell or spot and the fraction of its light that comes back along the ray, the same of one seen in a mirror
-/// or gloss, and the light of sources.
+/// Result of a gathering ray: the cell or spot that it met and the fraction of its light that comes back along the ray, the same for one
+/// seen in a mirror or gloss, and the light of sources.
 #[derive(Clone, Copy)]
 pub(super) struct GatherHit {
-    /// Where it was met, in the world.
+    /// Position of the hit, in the world.
     pub p: Vec3,
-    /// The number of what was met, see [`Rays::place`], and the fraction of its light that comes back.
+    /// The number of the cell or spot, see [`Rays::place`], and the fraction of its light that comes back.
     diffuse: (u32, Rgb),
-    /// Number and fraction of what is seen by way of mirrors, gloss and glass.
+    /// The same for the cell or spot seen in mirrors, gloss and glass.
     mirrored: (u32, Rgb),
     /// Luminance that sources send along the ray, weighted against light sampling.
     pub emitted: f32,
@@ -42,7 +42,7 @@ impl GatherHit {
         self.unmirrored(total) + self.mirrored(total)
     }
 
-    /// Luminance that arrives, that of sources included.
+    /// Luminance that arrives, including the light of sources.
     pub fn luminance(&self, total: &[Rgb]) -> f32 {
         self.emitted + self.radiance(total).luminance()
     }
@@ -86,8 +86,7 @@ impl Rays<'_, '_> {
         Rng::new(hash_u64(self.seed ^ hash_u64((purpose as u64) << 32 | cell as u64)))
     }
 
-    /// The number under which the light at a surface point is known: that of its cell or, after all cells, of the spot that it lies on;
-    /// [`NONE`] where neither is.
+    /// The number under which the light at a surface point is stored: its cell or, after all cells, its spot; [`NONE`] if it has neither.
     fn place(&self, p: Vec3, n: Vec3) -> u32 {
         self.spots.at(p, n).map_or_else(|| self.cells.find(p, n), |spot| (self.cells.len() + spot) as u32)
     }
@@ -99,7 +98,7 @@ impl Rays<'_, '_> {
         sites.iter().map(|site| lights.irradiance(self.scene, self.choice, site.p, site.n, &mut rng)).sum::<Rgb>() / sites.len() as f32
     }
 
-    /// What is met through each bin of a cell, from its sites in turn.
+    /// The hits through each bin of a cell, from its sites in turn.
     pub fn gather(&self, cell: usize, round: usize) -> impl Iterator<Item = GatherHit> {
         let (sites, mut rng) = (self.sites(cell), self.rng(cell, ROUNDS + round));
         (0..BINS).map(move |bin| {
@@ -110,13 +109,13 @@ impl Rays<'_, '_> {
         })
     }
 
-    /// What is met from a site in a unit direction, sampled with density `pdf`.
+    /// The hit from a site in a unit direction, sampled with density `pdf`.
     pub fn gather_one(&self, site: &Site, direction: Vec3, pdf: f32, rng: &mut Rng) -> GatherHit {
         let ray = Ray::new(offset_origin(site.p, site.n), direction);
         self.gather_hit(&LightPoint { p: site.p, n: site.n }, ray, pdf, rng)
     }
 
-    /// What a ray meets, beyond panes, and what is reflected there. It was sampled at `from` with density `pdf`.
+    /// The hit of a ray beyond panes, with the light reflected there. The ray was sampled at `from` with density `pdf`.
     fn gather_hit(&self, from: &LightPoint, ray: Ray, pdf: f32, rng: &mut Rng) -> GatherHit {
         let &Rays { scene, choice, .. } = self;
         let mut hit = GatherHit { p: Vec3::ZERO, diffuse: (NONE, Rgb::BLACK), mirrored: (NONE, Rgb::BLACK), emitted: 0.0 };
@@ -182,7 +181,7 @@ fn first_surface<'s>(
             ray = surface.ray(ray.direction);
             continue;
         }
-        // Light samples find what lies behind solid panes as well.
+        // Light samples also find sources behind solid panes.
         if let Some((transmittance, beyond)) = scene.beyond_pane(&surface, ray.direction) {
             through *= transmittance;
             ray = beyond;

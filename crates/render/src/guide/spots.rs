@@ -18,13 +18,13 @@ const BRIGHT: f32 = 4.0;
 const MIN_PHOTONS: usize = 8;
 /// Light from within this many spots' sizes is near.
 const NEAR: f32 = 8.0;
-/// Turns the seed of the field into that of the photons.
+/// Turns the seed of the field into the seed of the photons.
 const SEED: u64 = 0x9407;
 
 /// A small bright place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Where one of its photons arrived.
+    /// The place where one of its photons arrived.
     pub site: Site,
     /// The middle of all of them.
     pub p: Vec3,

@@ -11,12 +11,12 @@ pub(super) const BINS: usize = SIDE * SIDE;
 /// The fraction of the density that is uniform, so that every direction keeps a chance.
 const UNIFORM_FRACTION: f32 = 0.2;
 
-/// What the cumulative distributions of the rows and within a row end at.
+/// Final values of the cumulative distributions of the rows and within a row.
 const ROWS_END: u32 = 1 << 16;
 const COLUMNS_END: u32 = 1 << 8;
 
-/// The density, as cumulative distributions: of the rows, and within each row. The last entry, 1, is not stored. Small, because
-/// what a scene's cells need should stay in the processor's cache.
+/// The density, as cumulative distributions: of the rows, and within each row. The last entry, 1, is not stored. Small, because the data of
+/// a scene's cells should stay in the processor's cache.
 #[derive(Clone, Debug)]
 pub(super) struct SquareDensity {
     rows: [u16; SIDE],
@@ -52,7 +52,7 @@ impl SquareDensity {
     }
 }
 
-/// The bin that a point of the square lies in, row by row.
+/// The bin that contains a point of the square, row by row.
 pub(super) fn bin_of(u: [f32; 2]) -> usize {
     row_of(u[1]) * SIDE + row_of(u[0])
 }

@@ -1,7 +1,7 @@
-//! What a node of the light hierarchy knows of the emitters below it, and how much light they could send to a point.
+//! Bounds that a node of the light hierarchy has for the emitters below it, and how much light they could send to a point.
 //!
 //! Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting": a box, a cone of normals and a
-//! power. The importance never is zero where light could arrive: every angle is taken at its most favourable within the box.
+//! power. The importance is never zero where light could arrive: every angle is taken at its most favourable within the box.
 
 use super::sample::LightPoint;
 use enfilade_math::{Bounds3, Quat, Vec3};
@@ -11,14 +11,14 @@ use std::fmt::Debug;
 /// Cosine of the emission angle of cones, whose emission is straight ahead: zero up to rounding.
 const STRAIGHT_AHEAD: f32 = 0.99;
 
-/// What a node knows of the emitters below it.
+/// Bounds that a node has for the emitters below it.
 pub(super) trait Emitters: Copy {
-    /// What their importance follows from, ready for use.
+    /// Precomputed data for their importance.
     type Reach: Reach;
 
     /// The box around them.
     fn bounds(&self) -> Bounds3;
-    /// What they emit in all; those without are never drawn.
+    /// Their total emission; emitters without any are never drawn.
     fn power(&self) -> f32;
     /// Bounds of both together.
     fn union(&self, other: &Self) -> Self;
@@ -40,7 +40,7 @@ pub(super) struct LightBounds {
     pub bounds: Bounds3,
     /// Axis of the cone of normals; unit.
     pub axis: Vec3,
-    /// Cosine of the angle about `axis` within which all normals lie (θo).
+    /// Cosine of the angle about `axis` that contains all normals (θo).
     pub cos_normals: f32,
     /// Cosine of the angle about a normal beyond which nothing is emitted (θe).
     pub cos_emission: f32,
@@ -64,7 +64,7 @@ impl LightBounds {
 
     /// An emitter at a point that radiates within an angle about its axis.
     pub fn cone(p: Vec3, axis: Vec3, power: f32, outer_rad: f32) -> Self {
-        // Within the cone the intensity is about even: its directions count as those of normals that emit straight ahead.
+        // Within the cone the intensity is about uniform: its directions are treated as normals that emit straight ahead.
         Self { axis, cos_normals: outer_rad.clamp(0.0, PI).cos(), cos_emission: STRAIGHT_AHEAD, ..Self::point(p, power) }
     }
 }

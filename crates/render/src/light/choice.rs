@@ -44,7 +44,7 @@ pub(crate) struct LightChoice {
     windows: Option<Windows>,
 }
 
-/// What a trial found to arrive from a source at a point.
+/// Light from a source that a trial found to arrive at a point.
 pub(super) struct Arrival {
     pub at: LightPoint,
     pub source: u32,
@@ -52,7 +52,7 @@ pub(super) struct Arrival {
     pub value: f32,
 }
 
-/// What the probabilities of a row sum to. Sixteen bits keep a row in one or two lines of the processor's cache.
+/// Sum of the probabilities of a row. Sixteen bits keep a row in one or two lines of the processor's cache.
 const ONE: u32 = 1 << 16;
 
 /// The probabilities of the sources at a point: sums before each source, see [`starts`].
@@ -254,7 +254,7 @@ impl Learned {
         learned
     }
 
-    /// A cell's own statistics and, with less weight, those of its neighbours. `None` where there are none at all.
+    /// A cell's own statistics and, with less weight, its neighbours'. `None` if there are none.
     fn around(&self, choice: &LightChoice, place: usize, facing: usize) -> Option<Vec<Statistics>> {
         let [nx, ny, nz] = choice.size;
         let (x, y, z) = (place % nx, place / nx % ny, place / (nx * ny));

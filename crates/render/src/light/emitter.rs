@@ -24,7 +24,7 @@ pub(super) struct Patch {
     emission: Emission,
 }
 
-/// What a patch emits.
+/// Emission of a patch.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Emission {
     /// Even emission over the whole patch.
@@ -139,8 +139,8 @@ impl Patch {
         }
     }
 
-    /// Which triangle of the scene the point `q` is on, with its weights of the second and third corner; `corners` are those of a
-    /// triangle by its number.
+    /// The triangle of the scene that the point `q` is on, with its weights of the second and third corner; `corners` gives the corners of
+    /// a triangle by its number.
     #[inline]
     pub fn locate(&self, q: Vec3, corners: impl Fn(u32) -> [Vec3; 3]) -> (u32, [f32; 2]) {
         let first = self.triangle;
@@ -148,7 +148,7 @@ impl Patch {
         if matches!(self.shape, Shape::Triangle(_)) {
             return (first, inside(weights));
         }
-        // Beyond the diagonal lies the second triangle.
+        // Beyond the diagonal is the second triangle.
         let other = barycentric(q, &corners(first + 1));
         let depth = |[b, c]: [f32; 2]| b.min(c).min(1.0 - b - c);
         if depth(weights) >= depth(other) { (first, inside(weights)) } else { (first + 1, inside(other)) }

@@ -21,8 +21,8 @@ enum SkyLight<'s> {
 #[derive(Debug)]
 struct SkyMap<'s> {
     image: &'s Image,
-    /// The image's texels, where all are numbers of sixteen bits, as those of most files are: lookups go all over the sky and wait for
-    /// memory, of which these take half.
+    /// The image's texels as sixteen-bit numbers, if all fit exactly, as in most files: lookups are spread over the sky and wait for
+    /// memory, and this halves its size.
     halves: Option<Vec<[u16; 3]>>,
     texture: TextureRef,
     rows: MapRows,
@@ -165,7 +165,7 @@ fn pooled(texels: &[f32], image: &Image, limit: usize) -> (Vec<f32>, usize) {
     (cells, columns)
 }
 
-/// The cells that texel `i` of `texels` lies in, at most two of as many `cells` or fewer, with its fraction in each.
+/// The cells that texel `i` of `texels` overlaps, at most two if there are no more `cells` than texels, with its fraction in each.
 fn overlaps(i: usize, texels: usize, cells: usize) -> impl Iterator<Item = (usize, f32)> {
     let first = i * cells / texels;
     let inside = ((first + 1) * texels - i * cells).min(cells) as f32 / cells as f32;
@@ -173,7 +173,7 @@ fn overlaps(i: usize, texels: usize, cells: usize) -> impl Iterator<Item = (usiz
 }
 
 /// Luminance × solid angle of each texel, smeared over the neighbours, because lookups interpolate between texels: wherever
-/// radiance is positive, so must be the density. Rows from pole to pole lie less than one row off the cells: the neighbours cover that.
+/// radiance is positive, so must be the density. Rows from pole to pole are less than one row off the cells: the neighbours cover that.
 fn texel_weights(image: &Image, scale: Rgb) -> Vec<f32> {
     let (w, h) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..w * h).map(|i| (scale * image.texel(i % w, i / w).0).luminance().max(0.0)).collect();

@@ -1,8 +1,8 @@
-//! Fixtures: what lights a scene, thing by thing. The sky is one, the sun is one, and so is each window and each lamp with all its bulbs.
+//! Fixtures: the things that light a scene. The sky is one, the sun is one, and so is each window and each lamp with all its bulbs.
 //!
-//! Distance alone decides what belongs to one lamp, so that it needs no labels and no names: emissive parts and lights at a point are
-//! joined where their boxes are close, and large ones, such as a ceiling that glows, stand for themselves. The panes of a window are joined
-//! in the same way.
+//! Only distance decides what belongs to one lamp, so that no labels or names are needed: emissive parts and lights at a point are joined
+//! where their boxes are close, and large ones, such as a glowing ceiling, are fixtures by themselves. The panes of a window are joined in
+//! the same way.
 
 use super::bounds::{Emitters, LightBounds};
 use super::sample::{LightKind, LightSample};
@@ -13,17 +13,17 @@ use std::collections::BTreeMap;
 
 /// Bulbs of one lamp, and panes of one window, are at most this far apart along each axis, metres.
 const GAP_M: f32 = 0.25;
-/// Whatever is longer than this, metres, is a fixture of its own.
+/// Length above which an emitter is a separate fixture, metres.
 const LARGE_M: f32 = 2.0;
-/// The most windows that are told apart, so that there is room for lamps.
+/// Largest number of windows that are separate fixtures, so that there is room for lamps.
 const MAX_WINDOWS: usize = 12;
-/// Stands for no fixture in tables.
+/// Means no fixture in tables.
 const NONE: u16 = u16::MAX;
 
 /// Something that lights a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
-    /// What it is.
+    /// Kind of fixture.
     pub kind: FixtureKind,
     /// Name of its strongest emissive part or light, or of its largest pane; `sky`, `sun` and `rest` for these.
     pub name: String,
@@ -125,7 +125,7 @@ impl Fixtures {
             source_of_emitter.push(sources.len() - 1);
         }
 
-        // What is far away comes first.
+        // Far-away fixtures come first.
         let mut list = Vec::new();
         if has_sky {
             list.push(Fixture::of_kind(FixtureKind::Sky));
@@ -246,7 +246,7 @@ impl Source {
 
 /// The sources of each lamp, the strongest lamp first; of windows likewise.
 fn joined(sources: &[Source]) -> Vec<Vec<usize>> {
-    // Join those that are close: along x from left to right, so that each is compared with those alone that begin before it ends.
+    // Join those that are close: along x from left to right, so that each is compared only with those that begin before it ends.
     let mut group_of: Vec<usize> = (0..sources.len()).collect();
     let mut small: Vec<usize> = (0..sources.len()).filter(|&i| sources[i].bounds.extent().max_element() <= LARGE_M).collect();
     small.sort_by(|&a, &b| sources[a].bounds.min.x.total_cmp(&sources[b].bounds.min.x));
@@ -271,7 +271,7 @@ fn joined(sources: &[Source]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The first source of the group that a source belongs to, which all on the way are told.
+/// The first source of the group that a source belongs to; shortens the chain on the way.
 fn first_of(group_of: &mut [usize], mut source: usize) -> usize {
     while group_of[source] != source {
         group_of[source] = group_of[group_of[source]];

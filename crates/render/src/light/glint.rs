@@ -1,12 +1,12 @@
-//! Glints: sunlit glossy surfaces as sources of their own.
+//! Glints: sunlit glossy surfaces as light sources.
 //!
-//! The sun on a chair's metal frame lights the floor around it, and no light sample finds that: the floor's light samples reach for the sun
-//! itself, and only the few directions that happen to meet the frame where its lobe points back see how bright it is. So the triangles of
-//! glossy materials that the sun reaches are emitters here. A point samples one by its importance and a place on it, and the light is what
-//! the surface there reflects of the sun: a connection to a path that begins at the light, of one surface (Veach 1997, chapter 10),
-//! weighted by the power heuristic against paths that arrive there by sampled directions.
+//! The sun on a chair's metal frame lights the floor around it, and no light sample finds that: the floor's light samples aim at the sun
+//! itself, and only the few sampled directions that happen to meet the frame where its lobe points back see how bright it is. So the
+//! triangles of glossy materials that the sun reaches are emitters here. A point samples one by its importance and a place on it, and the
+//! light is the sunlight that the surface reflects there: a connection to a light path with one surface (Veach 1997, chapter 10), weighted
+//! by the power heuristic against paths that arrive there by sampled directions.
 //!
-//! What is not found here — other surfaces, other lights, places seen through panes — is left to sampled directions alone. This file has the
+//! Light that is not found here — from other surfaces and lights, or through panes — is left to sampled directions. This file has the
 //! hierarchy of the glints; [`super::sunlit`] finds and samples them.
 
 use super::bounds::{Emitters, Reach};
@@ -48,7 +48,7 @@ pub(super) struct Glinting {
     pub area: f32,
 }
 
-/// What a node of the hierarchy knows of the glints below it; means are weighted by power.
+/// Bounds and means that a node of the hierarchy has for the glints below it; means are weighted by power.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GlintBounds {
     pub bounds: Bounds3,
@@ -124,8 +124,8 @@ impl Emitters for GlintBounds {
 }
 
 impl Reach for GlintReach {
-    /// The lobe is that of GGX about the mean normal, made wider by how much the normals and the direction of the point vary within the
-    /// node: both move the half vector. (Heitz 2014 for the lobe; variances add as in Toksvig 2005, "Mipmapping Normal Maps".)
+    /// The lobe is GGX's about the mean normal, widened by the variation of the normals and of the direction to the point within the node:
+    /// both move the half vector. (Heitz 2014 for the lobe; variances add as in Toksvig 2005, "Mipmapping Normal Maps".)
     #[inline]
     fn importance(&self, at: &LightPoint) -> f32 {
         let to = self.center - at.p;
@@ -184,7 +184,7 @@ pub(super) fn depth(corners: &[Vec3; 3]) -> u32 {
 }
 
 /// The corners of a piece as weights of the triangle's `corners`. Each halving cuts the longest edge in its middle, and the bits of `index`,
-/// the highest first, say which half: the one with the edge's first corner, or with its second.
+/// the highest first, select the half: the one with the edge's first corner, or with its second.
 pub(super) fn piece(corners: &[Vec3; 3], index: u32, depth: u32) -> [Vec3; 3] {
     let mut piece = [Vec3::X, Vec3::Y, Vec3::Z];
     for level in (0..depth).rev() {
@@ -195,7 +195,7 @@ pub(super) fn piece(corners: &[Vec3; 3], index: u32, depth: u32) -> [Vec3; 3] {
     piece
 }
 
-/// The piece that the place with these `weights` lies in.
+/// The piece that contains the place with these `weights`.
 pub(super) fn piece_at(corners: &[Vec3; 3], mut weights: [f32; 3], depth: u32) -> u32 {
     let (mut piece, mut index) = ([Vec3::X, Vec3::Y, Vec3::Z], 0);
     for _ in 0..depth {

@@ -28,7 +28,7 @@ const TRIES: usize = 12;
 const FEW: usize = 4;
 
 impl LightChoice {
-    /// Learns from the points of view of a trajectory. A function of the arguments alone, whatever the number of threads.
+    /// Learns from the points of view of a trajectory. The result depends only on the arguments, not on the number of threads.
     pub fn learn(scene: &RenderScene<'_>, views: &[CameraView<'_>], config: &RenderConfig) -> Self {
         let cameras = views.len() as u64;
         let samples = pixel_samples(views, config);
@@ -112,22 +112,22 @@ fn contribution(
     if arriving.is_black() {
         return 0.0;
     }
-    // A glint is too seldom met at its brightest for a few trials to tell how bright it is. They tell how much of it is in sight.
+    // A glint is met at its brightest too seldom for a few trials to show how bright it is. They show how much of it is in sight.
     if light.glint.is_some() {
         return lights.prior(source, windows, at);
     }
     (lights.radiance_of(scene, &light, &Cone::POINT, u[0]) * arriving).luminance() * cos / light.pdf
 }
 
-/// What comes through along a shadow ray to a sample of light: through curved glass about so, which is enough to learn from.
+/// Transmittance along a shadow ray to a light sample: approximate through curved glass, which is enough for learning.
 fn arriving(scene: &RenderScene<'_>, ray: &Ray, light: &LightSample) -> Rgb {
     let through = scene.transmittance(ray);
     if scene.has_bodies && light.is_delta && through.is_black() { scene.about_through_glass(ray) } else { through }
 }
 
 impl Lights<'_> {
-    /// Estimate of the irradiance over π on a surface at `p` with the unit normal `n`: of each source by itself where they are few, so
-    /// that no source is rare.
+    /// Estimate of the irradiance over π on a surface at `p` with the unit normal `n`: of each source separately if there are few, so that
+    /// no source is rare.
     pub fn irradiance(&self, scene: &RenderScene<'_>, choice: &LightChoice, p: Vec3, n: Vec3, rng: &mut Rng) -> Rgb {
         let at = LightPoint { p, n };
         let origin = offset_origin(p, n);

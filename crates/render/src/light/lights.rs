@@ -1,4 +1,4 @@
-//! The light sources of a scene, collected once: what there is, and how strong each source is, without asking what lies in the way.
+//! The light sources of a scene, collected once: their list, and how strong each is, regardless of occlusion.
 
 use super::delta;
 use super::emissive_surfaces::EmissiveSurfaces;
@@ -22,7 +22,7 @@ pub(super) const MAX_DISTANT: usize = 16;
 #[derive(Debug, Default)]
 pub(crate) struct Lights<'s> {
     pub(super) surfaces: EmissiveSurfaces,
-    /// Point lights; in the tree their numbers follow those of the patches.
+    /// Point lights; in the tree their numbers follow the numbers of the patches.
     pub(super) points: Vec<Light>,
     pub(super) tree: LightTree,
     /// Nodes of the tree that are clusters; the first of the sources.
@@ -37,7 +37,7 @@ pub(crate) struct Lights<'s> {
     pub(super) sky: Option<Sky<'s>>,
 }
 
-/// One of the sources that light sampling chooses from.
+/// A source that light sampling can choose.
 #[derive(Clone, Copy)]
 pub(super) enum Source {
     /// A cluster of the light hierarchy.

@@ -2,13 +2,12 @@
 //!
 //! Emissive surfaces, cut into patches, and point lights are the leaves of a hierarchy ([`tree`]). Its upper end is a few dozen clusters.
 //! Clusters, distant lights, the sky, and portals in the windows through which the sky is seen are the *sources* that [`LightChoice`]
-//! chooses from, which has learned where the light of each arrives. Within a cluster the hierarchy chooses by distance, power and
-//! orientation.
+//! chooses from; it has learned where the light of each arrives. Within a cluster the hierarchy chooses by distance, power and orientation.
 //!
-//! Glossy surfaces that the sun reaches are sources as well ([`glint`]), in a hierarchy of their own.
+//! Glossy surfaces that the sun reaches are sources as well ([`glint`]), in a separate hierarchy.
 //!
-//! *Fixtures* ([`fixtures`]) are what people would call a lamp or a window; their light can be told apart. Windows among them are made of
-//! panes ([`panes`]) and are the same in every picture of a scene, unlike portals.
+//! *Fixtures* ([`fixtures`]) are what people would call a lamp or a window; their light can be stored separately. Windows among them are
+//! made of panes ([`panes`]) and are the same in every picture of a scene, unlike portals.
 //!
 //! A point light is one without a surface: point, spot and profile lights. A distant light is directional, and may have a disk.
 

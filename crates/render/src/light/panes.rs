@@ -1,5 +1,5 @@
-//! Finds the fixtures of a scene, and for them the panes that the sky shines through: the parts that windows are made of, whatever they are
-//! called.
+//! Finds the fixtures of a scene, and for them the panes that the sky shines through: the parts that windows are made of, regardless of
+//! their names.
 
 use super::bounds::LightBounds;
 use super::delta;
@@ -31,7 +31,7 @@ impl Lights<'_> {
     }
 }
 
-/// The panes of a scene, in the order of its parts. A function of the scene alone, whatever the number of threads.
+/// The panes of a scene, in the order of its parts. The result depends only on the scene, not on the number of threads.
 fn panes(ready: &RenderScene<'_>) -> Vec<Pane> {
     let scene = ready.scene;
     let is_glass = |part: &Part| scene.materials[part.material as usize].bsdf.transmits() && !emits(scene, part);

@@ -1,4 +1,4 @@
-//! Light on its way from its sources: photons, which find the places where much of it falls on little.
+//! Photons: light traced from its sources, to find small places that receive much light.
 
 use super::bounds::LightBounds;
 use super::choice::LightChoice;
@@ -40,7 +40,7 @@ impl<'a, 's> PhotonSources<'a, 's> {
         (sunny || by_flux.is_some()).then_some(Self { scene, choice, by_flux, of_the_sun })
     }
 
-    /// A photon: where it goes, and its flux over its probability. `None` for one that is lost.
+    /// A photon: its ray, and its flux over its probability. `None` for one that is lost.
     pub fn emit(&self, rng: &mut Rng) -> Option<(Ray, Rgb)> {
         let (photon, probability) = if rng.next_f32() < self.of_the_sun {
             (self.sunbeam(rng), self.of_the_sun)

@@ -1,5 +1,5 @@
-//! What light sampling is asked for and what it answers: points that receive light, samples of it, and the weight of a sample that
-//! another technique could have found too.
+//! Inputs and results of light sampling: points that receive light, samples of it, and the weight of a sample that another technique could
+//! have found too.
 
 use enfilade_geometry::Hit;
 use enfilade_math::{Rgb, Vec3};
@@ -9,7 +9,7 @@ use enfilade_math::{Rgb, Vec3};
 pub(crate) struct LightPoint {
     /// World position.
     pub p: Vec3,
-    /// Unit shading normal where light counts on its side alone; zero where light may come from anywhere.
+    /// Unit shading normal if only light on its side counts; zero if light may come from anywhere.
     pub n: Vec3,
 }
 
@@ -17,7 +17,7 @@ pub(crate) struct LightPoint {
 pub(crate) struct LightSample {
     /// Unit direction to the light.
     pub wi: Vec3,
-    /// Where the shadow ray ends, moved off the emitter's surface; `None` for infinitely far lights.
+    /// End of the shadow ray, moved off the emitter's surface; `None` for infinitely far lights.
     pub target: Option<Vec3>,
     /// Unit normal of the emitter's surface there; zero for lights without one.
     pub normal: Vec3,
@@ -28,7 +28,7 @@ pub(crate) struct LightSample {
     pub pdf: f32,
     /// True when no other technique can find this light.
     pub is_delta: bool,
-    /// Where the light is reflected that comes from the sun by way of a glossy surface; its `radiance` is `None`.
+    /// The place that reflects the light, if it comes from the sun by way of a glossy surface; its `radiance` is `None`.
     pub glint: Option<Glint>,
     /// The emitter of the light hierarchy that it comes from; `None` for what is far away.
     pub emitter: Option<u32>,
@@ -42,7 +42,7 @@ pub(crate) struct Glint {
     pub u: f32,
 }
 
-/// Kinds of light sources, as the layers of split light tell them apart.
+/// Kinds of light sources, as distinguished by the layers of parts of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LightKind {
     /// The sky.
@@ -62,7 +62,7 @@ impl LightSample {
         Self { wi, target, normal: Vec3::ZERO, radiance, pdf, is_delta: false, glint: None, emitter: None }
     }
 
-    /// What the light comes from.
+    /// Kind of the light's source.
     #[inline]
     pub fn kind(&self) -> LightKind {
         match (self.target, self.radiance) {

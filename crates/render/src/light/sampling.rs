@@ -29,7 +29,7 @@ impl Lights<'_> {
         (sample.pdf > 0.0).then_some(sample)
     }
 
-    /// Samples light of the source number `index`; the density is that of all sources that find it, of which each has its `probability`:
+    /// Samples light of the source number `index`; the density is summed over all sources that can find it, each with its `probability`:
     /// the sky itself and a portal find the same light.
     pub(super) fn sample_one(
         &self,
@@ -141,8 +141,8 @@ impl Lights<'_> {
         delta::sample(&self.points[point], &LightPoint { p, n: Vec3::ZERO }, [0.0; 2])?.radiance
     }
 
-    /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, whose place is `p`
-    /// and which lies in the unit direction `wi`.
+    /// Density per solid angle with which [`Lights::sample`] at `from` finds the emissive surface at `hit`, at the position `p` and in the
+    /// unit direction `wi`.
     pub fn surface_pdf(&self, scene: &RenderScene<'_>, choice: &LightChoice, from: &LightPoint, wi: Vec3, hit: &Hit, p: Vec3) -> f32 {
         let Some(patch) = self.surfaces.patch_at(&scene.triangles, hit.triangle, [hit.u, hit.v]) else { return 0.0 };
         let cluster = self.cluster_of_emitter[patch as usize] as usize;

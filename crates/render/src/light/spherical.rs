@@ -66,7 +66,7 @@ impl SphericalRectangle {
             return None;
         }
         let (x, y) = ([x0, x0 + length_u], [y0, y0 + length_v]);
-        // The z components of the side planes' normals; the inner angles lie between planes.
+        // The z components of the side planes' normals; the inner angles are between planes.
         let component = |v: f32| v / (v * v + z * z).sqrt();
         let (x_low, x_high, y_low, y_high) = (component(x[0]), component(x[1]), component(y[0]), component(y[1]));
         let (g0, g1) = (angle::acos(y_low * x_high), angle::acos(-x_high * y_high));
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use enfilade_testkit::ChiSquare;
 
-    /// Where the ray from the origin meets the plane of three points, in their two edge vectors.
+    /// Intersection of the ray from the origin with the plane of three points, in terms of their two edge vectors.
     fn place(d: Vec3, [a, b, c]: [Vec3; 3]) -> Option<[f32; 2]> {
         let (e1, e2) = (b - a, c - a);
         let n = e1.cross(e2);

@@ -118,7 +118,7 @@ impl Lights<'_> {
         power_heuristic(*pdf, choice.row(from).probability(self.first_glint() + cluster) * found)
     }
 
-    /// What the surface at `hit` reflects of the sun against the unit direction `wi` of a ray that met it; `u` is uniform on [0,1)².
+    /// Sunlight that the surface at `hit` reflects against the unit direction `wi` of a ray that met it; `u` is uniform on [0,1)².
     pub(super) fn reflected_sun(&self, scene: &RenderScene<'_>, hit: &Hit, wi: Vec3, cone: &Cone, u: [f32; 2]) -> Rgb {
         let surface = scene.surface(hit, wi, cone).lifted(scene);
         let bsdf = surface.bsdf(scene);
@@ -137,7 +137,7 @@ impl Lights<'_> {
     }
 }
 
-/// What the pieces of a triangle are as glints; `None` where it is none: not glossy, turned away from the sun, or in shadow.
+/// The pieces of a triangle as glints; `None` if it is not a glint: not glossy, turned away from the sun, or in shadow.
 fn glinting(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32) -> Option<(Glinting, Vec<GlintBounds>)> {
     let triangle = scene.triangles.get(number);
     let area = 0.5 * triangle.cross().length();
@@ -148,7 +148,7 @@ fn glinting(scene: &RenderScene<'_>, number: u32, to_sun: Vec3, irradiance: f32)
         return None;
     }
 
-    // The reflection straight back tells roughness and reflectance, whatever the model: its value is F·D/4, and D is 1/(π·α²).
+    // The reflection straight back gives roughness and reflectance for every model: its value is F·D/4, and D is 1/(π·α²).
     let middle = Hit { t: 0.0, triangle: number, u: 1.0 / 3.0, v: 1.0 / 3.0 };
     let bsdf = scene.surface(&middle, normal * -sign, &Cone::POINT).bsdf(scene);
     let albedo = bsdf.albedo(1.0);

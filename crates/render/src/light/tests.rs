@@ -30,7 +30,7 @@ fn quad(corner: Vec3, u: Vec3, v: Vec3) -> Mesh {
     }
 }
 
-/// What is learned from a few dozen trials of each source at a point.
+/// The choice learned from a few dozen trials of each source at a point.
 fn learned_at(scene: &RenderScene<'_>, at: &LightPoint) -> LightChoice {
     let mut rng = Rng::new(17);
     let sources = scene.lights.source_count(0);

@@ -69,7 +69,7 @@ impl<E: Emitters> LightTree<E> {
         let middle = if depth < MAX_DEPTH_BY_COST { partition(emitters, items) } else { None };
         let middle = middle.unwrap_or(items.len() / 2);
         let (left, right) = items.split_at_mut(middle);
-        // Holds the place until the children are known.
+        // A placeholder until the children are known.
         self.push(emitters[left[0] as usize], Kind::Inner { second: 0 });
         let first = self.build(emitters, left, depth + 1, index as u32);
         let second_index = self.nodes.len() as u32;
@@ -188,7 +188,7 @@ impl<E: Emitters> LightTree<E> {
     }
 }
 
-/// Orders `items` so that the cheapest split lies between two of them, and returns how many come first. `None` when no plane
+/// Orders `items` so that the cheapest split is between two of them, and returns how many come first. `None` when no plane
 /// separates them.
 fn partition<E: Emitters>(emitters: &[E], items: &mut [u32]) -> Option<usize> {
     let center = |i: u32| emitters[i as usize].bounds().center();
@@ -220,7 +220,7 @@ fn partition<E: Emitters>(emitters: &[E], items: &mut [u32]) -> Option<usize> {
         }
     }
     let (_, axis, plane) = best?;
-    // A stable partition: the order within the halves is that of the file.
+    // A stable partition: the order within the halves is the order of the file.
     let (first, second): (Vec<u32>, Vec<u32>) = items.iter().partition(|&&i| bucket_of(i, axis) < plane);
     items[..first.len()].copy_from_slice(&first);
     items[first.len()..].copy_from_slice(&second);

@@ -1,10 +1,10 @@
 //! Windows as portals: the environment reaches a room through them only, so its light is sampled there.
 //!
-//! A box is fitted around the room such that rays to the sky cross as little of its faces as possible: its faces then lie in the planes of
-//! the windows. Where light passes, the faces are covered with rectangular portals. Every direction from within the box leaves it
-//! in one point, hence through at most one portal, so a density costs the same for any number of windows. Portals are sampled
-//! uniformly over their area, regardless of the sky behind them: the simplest form of what Bitterli,
-//! Novák & Jarosz 2015, "Portal-Masked Environment Map Sampling", do exactly.
+//! A box is fitted around the room such that rays to the sky cross as little of its faces as possible: its faces are then in the planes of
+//! the windows. Where light passes, the faces are covered with rectangular portals. Every direction from within the box leaves it in one
+//! point, hence through at most one portal, so a density costs the same for any number of windows. Portals are sampled uniformly over their
+//! area, regardless of the sky behind them: the simplest form of what Bitterli, Novák & Jarosz 2015, "Portal-Masked Environment Map
+//! Sampling", do exactly.
 
 use enfilade_math::{Bounds3, Mat3, Vec3};
 
@@ -14,7 +14,7 @@ const CELLS: f32 = 48.0;
 const PORTAL_CELLS: usize = 8;
 /// The most portals.
 const MAX_PORTALS: usize = 32;
-/// The fewest rays to the sky that say enough about where its light comes from.
+/// Least number of rays to the sky that are enough to find where its light comes from.
 const MIN_GLIMPSES: usize = 64;
 /// Rays that place the box, at most.
 const PLACING: usize = 3000;
@@ -27,7 +27,7 @@ const MARGIN: f32 = 5e-4;
 /// Points nearer to a portal's plane than this do not sample it, in metres: they see it edge-on.
 const MIN_HEIGHT_M: f32 = 1e-3;
 
-/// What random walks through a scene have seen: surfaces, and directions in which the sky is visible from them.
+/// Results of random walks through a scene: surfaces, and directions in which the sky is visible from them.
 #[derive(Debug, Default)]
 pub(super) struct Glimpses {
     /// Places of surfaces and their normals.
@@ -78,7 +78,7 @@ impl Windows {
         let surfaces: Vec<Vec3> = seen.surfaces.iter().map(|(p, _)| box_from_world * *p).collect();
         let escapes: Vec<(Vec3, Vec3)> = seen.escapes.iter().map(|(p, d)| (box_from_world * *p, box_from_world * *d)).collect();
         let bounds = place_box(&surfaces, &escapes);
-        // Points of walls that lie on its faces count as inside in spite of rounding.
+        // Points of walls on its faces count as inside in spite of rounding.
         let margin = Vec3::splat(MARGIN * bounds.extent().max_element());
         let bounds = Bounds3 { min: bounds.min - margin, max: bounds.max + margin };
         let cell = bounds.extent().max_element() / CELLS;
@@ -123,8 +123,8 @@ impl Windows {
         Some(self.box_from_world.transpose() * (at - p).try_normalize()?)
     }
 
-    /// Where light that goes in the unit direction `d` enters the room, for `u` uniform on [0,1)³, and the area that it crosses there over
-    /// its probability, m². `None` from a portal that it leaves through.
+    /// Entry point into the room of light in the unit direction `d`, for `u` uniform on [0,1)³, and the area that it crosses there over its
+    /// probability, m². `None` from a portal that it leaves through.
     pub fn entry(&self, d: Vec3, u: [f32; 3]) -> Option<(Vec3, f32)> {
         let count = self.portals.len();
         let portal = &self.portals[((u[2] * count as f32) as usize).min(count - 1)];
@@ -133,8 +133,8 @@ impl Windows {
         (inwards > 0.0).then(|| (self.box_from_world.transpose() * at, inwards * portal.area * count as f32))
     }
 
-    /// The portal that the unit direction `d` from `p` goes through, and the density per solid angle with which
-    /// [`Windows::sample`] finds it there.
+    /// The portal that the unit direction `d` from `p` passes, and the density per solid angle with which [`Windows::sample`] finds it
+    /// there.
     #[inline]
     pub fn find_portal(&self, p: Vec3, d: Vec3) -> Option<(usize, f32)> {
         let (p, d) = (self.box_from_world * p, self.box_from_world * d);
@@ -171,7 +171,7 @@ impl Face {
     }
 }
 
-/// Where rays leave a box: counts in the cells of its faces.
+/// Counts of rays that leave a box, in the cells of its faces.
 struct Crossings {
     cell: f32,
     size: [[usize; 2]; 6],

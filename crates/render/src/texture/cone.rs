@@ -9,7 +9,7 @@ pub(crate) struct Cone {
     sharp: bool,
 }
 
-/// Width of a ray per metre and per square root of the solid angle that its direction stands for. A diffuse bounce spreads by about
+/// Width of a ray per metre and per square root of the solid angle that its direction represents. A diffuse bounce spreads by about
 /// 0.06, which averages no more than a hand's breadth across a room and still reads from coarse levels.
 const SPREAD: f32 = 1.0 / 32.0;
 
@@ -20,7 +20,7 @@ impl Cone {
     /// A ray without width: textures are read at points.
     pub const POINT: Self = Self { width: 0.0, spread: 0.0, sharp: true };
 
-    /// A ray from the camera; `spread` is the angle that it stands for.
+    /// A ray from the camera; `spread` is the angle that it covers.
     #[inline]
     pub fn camera(spread: f32) -> Self {
         Self { width: 0.0, spread, sharp: true }
@@ -50,7 +50,7 @@ impl Cone {
     }
 }
 
-/// The part of a texture that one reading stands for.
+/// The part of a texture that one lookup covers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Footprint {
     /// In squares of the texture coordinate.

@@ -1,4 +1,4 @@
-//! Textures read through a footprint: mip pyramids, and the ray cones that say how coarse a reading may be.
+//! Textures read through a footprint: mip pyramids, and the ray cones that determine how coarse a lookup may be.
 //!
 //! Level 0 is the scene's own picture. The others are built here, each texel the mean of the linear values that it covers, so that
 //! every level has the picture's mean: pictures of eight bits get levels of sixteen linear bits (a rounding of 8·10⁻⁶), others floats.
@@ -78,13 +78,13 @@ impl<'s> Textures<'s> {
     }
 }
 
-/// What a picture is for.
+/// Use of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Use {
     /// Nothing that is read through a footprint.
     Unused,
     /// A texture.
     Texture,
-    /// A texture whose alpha says where the surface is: colours count by it.
+    /// A texture whose alpha cuts out the surface: colours are weighted by it.
     CutOut,
 }

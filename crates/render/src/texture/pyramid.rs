@@ -41,7 +41,7 @@ enum Texels {
     Floats(Vec<[f32; 4]>),
 }
 
-/// How the texels of a level lie in memory.
+/// Storage of the texels of a level in memory.
 #[derive(Clone, Copy)]
 enum Stored<'a> {
     Bytes(&'a [[u8; 4]], &'static [f32; 256]),

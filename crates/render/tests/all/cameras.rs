@@ -93,13 +93,13 @@ fn a_point_out_of_focus_is_a_disk_of_the_diameter_of_the_circle_of_confusion() {
         assert!(farthest < expected + 2f64.sqrt() * (1.0 + spot_px) && farthest > expected - 1.0, "{farthest} for {expected}");
         // The light of the spot is the same, however it is spread: the image of its area.
         assert!((sum / (spot_px * spot_px) - 1.0).abs() < 0.05, "{sum}");
-        // Geometry has no blur: the pixels that see the spot are those of its own image.
+        // Geometry has no blur: the pixels that see the spot are exactly its image.
         let ids = frame.get(Layer::RenderEntityId).unwrap();
         assert!((1..=9).contains(&(0..ids.len()).filter(|&i| ids.get(i) == 1.0).count()));
     }
 }
 
-/// A glowing half plane at y = 4 that begins at x = 0.1 and goes to the right.
+/// A glowing half plane at y = 4 that begins at x = 0.1 and extends to the right.
 fn edge() -> Scene {
     scene(vec![(quad(Vec3::new(0.1, 4.0, -50.0), Vec3::X * 100.0, Vec3::Z * 100.0), glowing())])
 }
@@ -116,7 +116,7 @@ fn an_edge_that_moves_during_the_exposure_is_a_linear_ramp() {
     for (y, x) in (0..8).flat_map(|y| (0..64).map(move |x| (y, x))) {
         let expected = (0.5 + (f64::from(x) + 0.5 - edge_px) / 8.0).clamp(0.0, 1.0);
         assert!((color(&frame, x, y) - expected).abs() < 4e-3, "pixel {x}: {} instead of {expected}", color(&frame, x, y));
-        // Geometry is that of the middle of the exposure.
+        // Geometry is of the middle of the exposure.
         let id = frame.get(Layer::RenderEntityId).unwrap().get((y * 64 + x) as usize);
         assert_eq!(id == 1.0, f64::from(x) + 0.5 > edge_px, "pixel {x}");
     }

@@ -173,7 +173,7 @@ fn flow_leads_to_the_row_of_a_rolling_shutter_that_shows_the_point_however_fast_
         let seen = views[0].centre_ray(at.0, at.1).unwrap();
         let point = seen.origin + seen.direction * value(&frame, Layer::DepthMeters, p);
         let [x, y] = [at.0 + value(&frame, Layer::OpticalFlow, 2 * p), at.1 + value(&frame, Layer::OpticalFlow, 2 * p + 1)];
-        // What no row shows is where the border's row has it.
+        // A point that no row shows is projected at the moment of the border's row.
         let there = views[1].project_in_row(point, y.clamp(0.0, 36.0)).unwrap();
         assert!((there.0 - x).abs() < 1e-3 && (there.1 - y).abs() < 1e-3, "pixel {p}: ({x}, {y}), but its row has it at {there:?}");
         visible += usize::from(value(&frame, Layer::FlowVisibility, p) == 1.0);

@@ -147,7 +147,7 @@ fn parts_of_light_sum_to_the_whole_and_change_nothing_else() {
     }
 }
 
-/// What a fixture adds to each channel of the picture.
+/// Light that a fixture adds to each channel of the picture.
 fn light_of(frame: &Frame, fixture: usize) -> Vec<f64> {
     let reflectance = frame.get(Layer::DiffuseReflectance).unwrap();
     let light = &frame.fixtures()[fixture];
@@ -195,8 +195,8 @@ fn the_reflectance_of_sheer_cloth_is_exact_and_its_colour_as_even_as_samples_all
         layers.map(|layer| frame.get(layer).unwrap()).map(|values| (0..values.len()).map(|i| values.get(i)).collect::<Vec<f64>>())
     };
 
-    // One layer has the light of half the sky (E = 1), and what lies behind is black. If samples drew independently, colours would be spread
-    // by 0.09.
+    // One layer has the light of half the sky (E = 1), and the surface behind is black. If samples drew independently, colours would be
+    // spread by 0.09.
     let [reflectance, color] = seen(vec![velvet(), cloth(0.5, 0.3)], [Layer::DiffuseReflectance, Layer::Color]);
     for reflectance in reflectance {
         assert_close("one layer", reflectance, 0.8 * 0.3, 2e-4);
@@ -555,7 +555,7 @@ fn a_frame_stopped_by_noise_has_at_most_the_noise_that_was_asked_for() {
             while !rendering.is_done() {
                 rendering.pass(&Quiet);
             }
-            // As it is said, and as it is measured in what is stored.
+            // The reported noise, and the noise measured in the stored layers.
             let (said, measured) = (rendering.noise().unwrap(), rendering.frame().noise().unwrap());
             assert_eq!(said, measured);
             assert!(rendering.met_noise_target(), "{name}, seed {seed}: {said} after {} samples", rendering.samples());

@@ -40,7 +40,7 @@ fn ball(center: Vec3, radius: f32) -> Mesh {
     for i in 0..=rows {
         for j in 0..columns {
             let (theta, phi) = (f64::from(i) / f64::from(rows) * PI, f64::from(j) / f64::from(columns) * 2.0 * PI);
-            // Its poles lie aside, so that no axis of a test goes through one.
+            // Its poles are off the axes, so that no axis of a test passes through one.
             let n = DVec3::new(theta.cos(), theta.sin() * phi.cos(), theta.sin() * phi.sin()).as_vec3();
             mesh.positions.push(center + n * radius);
             mesh.normals.push(n);
@@ -118,14 +118,14 @@ fn fresnel(cos: f64) -> (f64, f64) {
     (0.5 * (across * across + along * along), inner)
 }
 
-/// What a pane lets through at a cosine: Fresnel's losses at both faces, Beer's absorption, and all reflections between the faces.
+/// Transmittance of a pane at a cosine: Fresnel's losses at both faces, Beer's absorption, and all reflections between the faces.
 fn pane_passes(cos: f64, thickness: f64, absorption: f64) -> f64 {
     let (r, inner) = fresnel(cos);
     let a = (-absorption * thickness / inner).exp();
     (1.0 - r).powi(2) * a / (1.0 - (r * a).powi(2))
 }
 
-/// What a pane lets through of light that is as bright from everywhere, on a surface that lies parallel.
+/// Transmittance of a pane for uniform light onto a parallel surface.
 fn diffuse_passes(thickness: f64, absorption: f64) -> f64 {
     let n = 100_000;
     (0..n).map(|i| pane_passes((1.0 - (f64::from(i) + 0.5) / f64::from(n)).sqrt(), thickness, absorption) / f64::from(n)).sum()
@@ -229,7 +229,7 @@ fn a_bright_ceiling_behind_a_thick_block_counts_once() {
 }
 
 /// Irradiance over π at (x, 0, 0) by a lamp at a height, `lamp` wide along x and from −1 to 1 along y, behind a block that fills x > 0 and
-/// whose face at x = 0 lets nothing through: what arrives past the block, and what arrives through it.
+/// whose face at x = 0 is opaque: the part that arrives past the block, and the part through it.
 fn lamp_beside_the_edge(x: f64, lamp: [f64; 2], [bottom, top, height]: [f64; 3]) -> [f64; 2] {
     // Points of the plane of the lamp, each seen past the edge in one direction; then directions, each shifted to one point.
     let (n, mut found) = (2000, [0.0; 2]);
@@ -260,7 +260,7 @@ fn a_lamp_that_only_a_thick_block_shifts_into_view_is_not_lost() {
     let (x, lamp, heights) = (-0.5, [0.7, 1.1], [1.0, 1.6, 3.0]);
     let expected = lamp_beside_the_edge(x, lamp, heights);
     assert!(expected[0] == 0.0 && expected[1] > 0.0, "{expected:?}");
-    // A third of it comes from points that lie behind the black face on the straight way.
+    // A third of it comes from points that are behind the black face along a straight line.
     let mut emitter = Material::diffuse("lamp", Rgb::BLACK);
     emitter.emission = Rgb::WHITE.into();
     let [left, right] = lamp.map(|x| x as f32);
@@ -348,7 +348,7 @@ fn a_lamp_within_glass_shines_out_of_it() {
     let reach = across + bent * 1.7;
     assert_close("aside", illumination(&floor_at(&scene, 0.0, &direct(64))), 0.96 * (-0.1f64).exp() * (psi / reach).powi(2) / PI, 0.02);
 
-    // In a block, as if it were farther away: below its middle through the lower face alone.
+    // In a block, as if it were farther away: below its middle only through the lower face.
     let mut scene = above_floor(vec![(block([-0.2, -0.2, 1.8], [0.2, 0.2, 2.2]), glass(0.0))]);
     scene.lights = lamp(Vec3::new(0.0, 0.0, 2.0));
     assert_close("block", illumination(&floor_at(&scene, 0.0, &direct(64))), 0.96 / (1.8 * ETA + 0.2).powi(2) / PI, 0.02);
@@ -365,6 +365,6 @@ fn a_lamp_in_a_hollow_globe_shines_through_both_sides_of_the_glass() {
     let mut scene = above_floor(vec![(globe, glass(0.0))]);
     scene.lights = vec![Light::Point { name: "lamp".into(), position: center, intensity: Rgb::WHITE }];
     assert_close("globe", illumination(&floor_at(&scene, 0.0, &direct(64))), 0.96 * 0.96 / 4.0 / PI, 0.02);
-    // Where a straight line of 45° goes through it as well.
+    // Here a straight line at 45° also passes through it.
     assert_close("globe aside", illumination(&floor_at(&scene, 2.0, &direct(64))), 0.96 * 0.96 / 8.0 * 0.5f64.sqrt() / PI, 0.02);
 }

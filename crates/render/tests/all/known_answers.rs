@@ -115,7 +115,7 @@ fn in_a_closed_box_that_glows_light_adds_up_to_one_over_one_minus_albedo() {
         let wall = Material { emission: Rgb::WHITE.into(), ..Material::diffuse("wall", Rgb::splat(albedo)) };
         let frame = picture(&scene(vec![("box", cube(true), wall)]), DVec3::new(0.1, 0.2, 0.0), DVec3::X, 16, 70.0, 256);
         assert_close(&format!("radiance, albedo {albedo}"), mean(&frame, Layer::Color, 1), 1.0 / (1.0 - f64::from(albedo)), 0.01);
-        // What falls on the walls is the same radiance from everywhere.
+        // The walls receive the same radiance from everywhere.
         let s = mean(&frame, Layer::DiffuseIllumination, 1);
         assert_close(&format!("illumination, albedo {albedo}"), s, 1.0 / (1.0 - f64::from(albedo)), 0.01);
         assert_close("residual is the emission", mean(&frame, Layer::Residual, 0), 1.0, 1e-3);

@@ -1,4 +1,4 @@
-//! Light on coarse smooth meshes fades as their normals say, where their faces alone would cut it off.
+//! Light on coarse smooth meshes fades by their normals, where their faces alone would cut it off.
 
 use enfilade_frame::{Frame, Layer};
 use enfilade_geometry::Mesh;
@@ -60,7 +60,7 @@ fn a_coarse_ball_in_the_sun_fades_by_the_cosine() {
     add(&mut scene, ball(8, 1.0), Material::diffuse("chalk", Rgb::splat(0.5)));
     let frame = picture(&scene, 160, 16);
     let (light, normal) = (frame.get(Layer::DiffuseIllumination).unwrap(), frame.get(Layer::NormalWorld).unwrap());
-    // What is found and what Lambert's law says of the interpolated normal, by bands of the cosine.
+    // The rendered light and Lambert's law for the interpolated normal, by bands of the cosine.
     let mut bands = [(0.05, 0.0, 0.0), (0.1, 0.0, 0.0), (0.2, 0.0, 0.0), (1.0, 0.0, 0.0)];
     for pixel in 0..frame.pixels() {
         let n = DVec3::new(normal.get(3 * pixel), normal.get(3 * pixel + 1), normal.get(3 * pixel + 2));

@@ -1,4 +1,4 @@
-//! The error of every camera setting: which field is out of its domain, what it holds, and what it must hold.
+//! The error of every camera setting: the field that is out of its domain, its value, and the expected values.
 
 /// A camera setting out of its domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -6,9 +6,9 @@
 pub struct CameraError {
     /// Name of the field.
     pub field: &'static str,
-    /// Value of the setting, as it was found.
+    /// Value found.
     pub found: String,
-    /// What it must be.
+    /// Expected value.
     pub expected: &'static str,
 }
 

@@ -57,7 +57,7 @@ impl Fisheye {
         Some(around.extend(-cos))
     }
 
-    /// The inverse of [`Fisheye::direction`], for vectors of any length. `None` for directions that the picture does not hold.
+    /// The inverse of [`Fisheye::direction`], for vectors of any length. `None` for directions that are not in the picture.
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let off_axis = direction.truncate();
         let theta = off_axis.length().atan2(-direction.z);

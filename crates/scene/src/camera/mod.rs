@@ -27,7 +27,7 @@ pub use start::StartCamera;
 pub use tilted::TiltedPinhole;
 pub use view::{CameraRay, CameraView};
 
-/// What frames are taken with.
+/// A camera that frames are taken with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// Image size, and which direction belongs to which image point.

@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 /// let (x, y) = panorama.project(DVec3::X).unwrap();
 /// assert!((x - 270.0).abs() < 1e-9 && (y - 90.0).abs() < 1e-9, "90 degrees to the right of the middle");
 ///
-/// // `project` inverts `ray`, whatever the model.
+/// // `project` inverts `ray` for every model.
 /// let fisheye = Projection::Fisheye(k, Fisheye::new([-0.01, 0.002, 0.0, 0.0]).unwrap());
 /// let (x, y) = fisheye.project(2.0 * fisheye.ray(10.5, 20.5).unwrap()).unwrap();
 /// assert!((x - 10.5).abs() < 1e-9 && (y - 20.5).abs() < 1e-9);
@@ -74,7 +74,7 @@ impl Projection {
             Self::Pinhole(k) => Some(k.ray(x, y)),
             Self::TiltedPinhole(tilted) => Some(tilted.ray(x, y)),
             Self::RadialTangential(k, distortion) => {
-                // OpenCV's y goes down.
+                // OpenCV's y points down.
                 let q = k.ray(x, y);
                 let p = distortion.undistort(DVec2::new(q.x, -q.y))?;
                 Some(DVec3::new(p.x, -p.y, -1.0))
@@ -90,7 +90,7 @@ impl Projection {
     }
 
     /// The viewing axis of K in camera space, unit length: planar depth that goes with K is measured along it. It is −z except for a tilted
-    /// image plane, whose K is that of a turned camera ([`TiltedPinhole::straightened`]).
+    /// image plane, whose K belongs to a turned camera ([`TiltedPinhole::straightened`]).
     pub fn image_axis(&self) -> DVec3 {
         match self {
             Self::TiltedPinhole(tilted) => tilted.straightened().1.transpose() * DVec3::NEG_Z,
@@ -98,8 +98,7 @@ impl Projection {
         }
     }
 
-    /// Image point of a camera-space point. `None` for points that no image point shows; what is returned may lie beyond the
-    /// image's border.
+    /// Image point of a camera-space point. `None` for points that no image point shows; the result may be beyond the image's border.
     pub fn project(&self, p_camera: DVec3) -> Option<(f64, f64)> {
         let in_front = p_camera.z < 0.0;
         if self.has_image_plane() && !in_front {
@@ -135,14 +134,14 @@ impl Projection {
         }
     }
 
-    /// The horizontal angle that the image holds, in radians, at most `limit`.
+    /// The horizontal field of view, in radians, at most `limit`.
     pub fn fov_x_rad(&self, limit: f64) -> f64 {
         let [width, height] = self.size().map(f64::from);
         let fov = match self {
             Self::Pinhole(k) if k.cx == 0.5 * width => k.fov_x_rad(),
             Self::Equirectangular { .. } => TAU,
             _ => {
-                // Where the picture ends before its border, the first ray inward counts.
+                // Where the picture ends before the image border, the first ray inward is used.
                 let side = |from: f64| (0..=64).find_map(|i| self.ray(from + (0.5 * width - from) * f64::from(i) / 64.0, 0.5 * height));
                 let angle = |ray: Option<DVec3>| ray.map_or(0.0, |r| r.x.atan2(-r.z));
                 angle(side(width)) - angle(side(0.0))

@@ -61,7 +61,7 @@ impl RadialTangential {
         [k1, k2, p1, p2, k3, k4, k5, k6]
     }
 
-    /// Where the lens puts a point of the undistorted image plane. `None` beyond the radii that the model is meant for.
+    /// The distorted position of a point of the undistorted image plane. `None` beyond the radii that the model is meant for.
     pub fn distort(&self, p: DVec2) -> Option<DVec2> {
         (p.length() <= self.r_max * (1.0 + END_SLACK)).then(|| self.map(p))
     }

@@ -20,7 +20,7 @@ pub struct StartCamera {
 }
 
 impl StartCamera {
-    /// Where it stands, as the pose of frame number `frame`; it looks at the point a metre ahead.
+    /// The pose of frame number `frame` at the start; it looks at the point a metre ahead.
     pub fn pose(&self, frame: u32) -> Pose {
         let look_at = self.position - self.world_from_camera.z_axis;
         Pose { frame, position: self.position, look_at, world_from_camera: self.world_from_camera }

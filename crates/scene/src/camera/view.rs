@@ -137,21 +137,21 @@ impl<'c> CameraView<'c> {
         self.camera.projection.project(world_from_camera.transpose() * (p_world - position))
     }
 
-    /// Image point of a world point; with a rolling shutter, where the row that shows it has it. `None` when it has none.
+    /// Image point of a world point, with a rolling shutter as seen at the moment of the row that shows it. `None` if it has no image.
     ///
-    /// A point that passes the upper or the lower border unseen is where that border's row has it, beyond the border. A camera that
-    /// turns as fast as it is read out may show a point in several rows; the result is one of them.
+    /// A point that passes the upper or the lower border unseen is projected at the moment of that border's row, to a place beyond the
+    /// border. A camera that turns as fast as it is read out may show a point in several rows; the result is one of them.
     pub fn project(&self, p_world: DVec3) -> Option<(f64, f64)> {
         if self.camera.shutter.is_none_or(|shutter| shutter.readout_s == 0.0) {
             return self.project_in_row(p_world, 0.0);
         }
         let height = f64::from(self.camera.size()[1]);
 
-        // The row that has the point in itself, in the first stretch of the image that contains one.
+        // The row that shows the point at its own moment, in the first stretch of the image that contains one.
         let rows: [Row; STRETCHES + 1] = std::array::from_fn(|i| self.row(p_world, height * i as f64 / STRETCHES as f64));
         let shown = (0..STRETCHES).find_map(|i| self.own_row(p_world, rows[i], rows[i + 1]));
 
-        // Else the border's row beyond which the point lies.
+        // Else the border's row beyond which the point is.
         let [upper, lower] = [rows[0], rows[STRETCHES]];
         let above = || upper.off.is_some_and(|off| off < 0.0).then_some(upper.y);
         let below = || lower.off.is_some_and(|off| off >= 0.0).then_some(lower.y);
@@ -207,7 +207,7 @@ impl<'c> CameraView<'c> {
     }
 }
 
-/// A row of the image, and how it has a point.
+/// A row of the image, and the image of a point at its moment.
 #[derive(Clone, Copy)]
 struct Row {
     /// Image coordinate.
@@ -293,7 +293,7 @@ mod tests {
         assert!((x(0.0) + 0.5).abs() < 1e-14 && (x(24.0)).abs() < 1e-14 && (x(48.0) - 0.5).abs() < 1e-14);
         let exposed = |time: f32| view.ray(32.0, 24.0, [0.5, 0.5], time).unwrap().origin.x;
         assert!((exposed(0.0) + 0.25).abs() < 1e-14 && (exposed(0.5)).abs() < 1e-14);
-        // What a row sees projects back to it.
+        // A point that a row sees projects back to that row.
         let seen = view.centre_ray(10.0, 40.0).unwrap();
         let (px, py) = view.project_in_row(seen.origin + seen.direction * 3.0, 40.0).unwrap();
         assert!((px - 10.0).abs() < 1e-9 && (py - 40.0).abs() < 1e-9);

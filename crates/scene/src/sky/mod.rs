@@ -20,7 +20,7 @@ const SOLAR_KLX: f32 = 133.3;
 /// Directions that sum up the light of the sky on the ground.
 const SKY_DIRECTIONS: u32 = 256;
 
-/// Daylight: where the sun stands and how hazy the air is.
+/// Daylight: the sun's position and the haze of the air.
 ///
 /// The atmosphere is computed as Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", does it.
 #[derive(Clone, Copy, Debug)]
@@ -39,8 +39,8 @@ impl Daylight {
         self.sun_through(&self.atmosphere())
     }
 
-    /// Radiance of the sky in unit directions (z up), in kilo-candela per square metre as linear RGB; below the horizon that of
-    /// the ground, a Lambert surface lit by sun and sky.
+    /// Radiance of the sky in unit directions (z up), in kilo-candela per square metre as linear RGB; below the horizon the radiance of the
+    /// ground, a Lambert surface lit by sun and sky.
     pub fn sky_radiance(&self) -> impl Fn(Vec3) -> Rgb + Sync + use<> {
         let air = self.atmosphere();
         let sun = self.sun_through(&air);

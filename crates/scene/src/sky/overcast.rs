@@ -20,7 +20,7 @@ const CLOUD_TINT: Rgb = Rgb::new(0.975, 1.0, 1.07);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Overcast {
-    /// Unit direction towards the sun above the clouds, z up; how high it stands decides how bright the clouds are.
+    /// Unit direction towards the sun above the clouds, z up; the sun's elevation decides how bright the clouds are.
     pub to_sun: Vec3,
 }
 

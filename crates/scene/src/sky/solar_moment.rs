@@ -1,14 +1,14 @@
-//! Where the sun stands at a moment of the year.
+//! The sun's position at a moment of the year.
 
 use enfilade_math::{DVec3, Vec3};
 use std::f64::consts::TAU;
 
-/// A moment of the year at a place, told by the sun itself, so that neither longitude nor time zone matter.
+/// A moment of the year at a place, in solar time, so that neither longitude nor time zone matter.
 ///
 /// ```
 /// use enfilade_scene::sky::SolarMoment;
 ///
-/// // At noon the sun is in the south of Zurich; on the longest day it stands 90 - 47.4 + 23.4 degrees high.
+/// // At noon the sun is in the south of Zurich; on the longest day its elevation is 90 - 47.4 + 23.4 degrees.
 /// let noon = SolarMoment { month: 6, day: 21, solar_hour: 12.0, latitude_deg: 47.4 };
 /// let to_sun = noon.to_sun();
 /// assert!((f64::from(to_sun.z).asin().to_degrees() - 66.0).abs() < 0.1 && to_sun.y < 0.0);
@@ -31,7 +31,7 @@ pub struct SolarMoment {
 const DAYS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
 
 impl SolarMoment {
-    /// What is wrong with it, as the end of a sentence; `None` when nothing is. The 29th of February counts as the 1st of March.
+    /// The problem with it, as the end of a sentence; `None` if there is none. The 29th of February counts as the 1st of March.
     pub fn problem(&self) -> Option<String> {
         let days = (self.month.checked_sub(1)).and_then(|m| DAYS.get(m as usize)).map(|days| days + u32::from(self.month == 2));
         match days {
@@ -87,7 +87,7 @@ mod tests {
             let found = elevation_deg(month, day, 12.0, latitude);
             assert!((found - expected).abs() < 0.5, "{month}-{day} at {latitude}: {found}, expected {expected}");
         }
-        // On the equinox it rises at six in the east, whatever the latitude, and sets at eighteen in the west.
+        // On the equinox it rises at six in the east, at every latitude, and sets at eighteen in the west.
         for latitude in [-50.0, 0.0, 35.0, 60.0] {
             let rise = SolarMoment { month: 3, day: 21, solar_hour: 6.0, latitude_deg: latitude }.to_sun();
             assert!(rise.z.abs() < 0.01 && rise.x > 0.99, "{latitude}: {rise}");

@@ -38,7 +38,7 @@ pub fn refused(text: &str) -> String {
     toml::from_str::<Sensors>(text).unwrap().check().unwrap_err().to_string()
 }
 
-/// What a sensor makes of a frame.
+/// The reading of a sensor for a frame.
 pub fn reading(text: &str, frame: &Frame) -> Reading {
     let projection = camera();
     sensor(text).sense(&Subject { scene: "room", camera: "cam_00", number: 0, projection: &projection, frame, motion: None }).unwrap()

@@ -94,7 +94,7 @@ fn a_second_eye_on_the_right_casts_a_shadow_to_the_left() {
             assert!(if shadow.contains(&x) { found.is_nan() } else { found == expected }, "{text}: column {x} has {found} m");
         }
     }
-    // What is thin covers no more than its own width.
+    // A thin thing covers no more than its own width.
     let thread = facing(|x, _| if x == 40 { 1.0 } else { 4.0 }, 0.5, [1.0; 3]);
     let sensed = depths("[[structured_light]]\nname = \"s\"\nbaseline_m = 0.2", &thread);
     assert_eq!((0..80).filter(|x| sensed[x + 800].is_nan()).collect::<Vec<usize>>(), [34]);
@@ -133,7 +133,7 @@ fn what_cannot_be_matched_has_no_depth() {
     assert!(depths("[[structured_light]]\nname = \"s\"\nmin_reflectance = 0.6", &frame).iter().all(|z| z.is_nan()));
     let holes = depths("[[structured_light]]\nname = \"s\"\ndropout = 0.1", &frame).iter().filter(|z| z.is_nan()).count();
     assert!((400..560).contains(&holes), "{holes} of 4800");
-    // Where a window has more of one depth, it takes it: the post loses no pixel, a thread of one vanishes.
+    // A window takes the depth that it has most of: the post loses no pixel, a thread of one pixel vanishes.
     let thread = facing(|x, _| if x == 40 { 1.0 } else { 4.0 }, 0.5, [1.0; 3]);
     let matched = depths("[[structured_light]]\nname = \"s\"\nbaseline_m = 0.001\nwindow_px = 3", &thread);
     assert!((matched[2440] - 4.0).abs() < 1e-5, "{}", matched[2440]);

@@ -19,7 +19,7 @@ fn motion(frames: u32) -> Motion {
     Motion::through(&(0..frames).map(pose).collect::<Vec<_>>(), FRAME_TIME_S).unwrap()
 }
 
-/// What a unit reads from a frame on: rows of time, rates and forces.
+/// Readings of a unit from a frame on: rows of time, rates and forces.
 fn read(text: &str, motion: &Motion, number: u32) -> Vec<[f64; 7]> {
     let (projection, frame) = (camera(), Frame::new(0, 0));
     let subject = Subject { scene: "room", camera: "cam_00", number, projection: &projection, frame: &frame, motion: Some(motion) };

@@ -91,3 +91,24 @@ test("every text has a contrast of 4.5, in both themes", async (t) => {
         assert.deepEqual(await faint(page), [], `${scheme}, a wrong number`);
     }
 });
+
+test("the theme is the system's until another is chosen, which stays, and scripts see its colours", async (t) => {
+    const page = await openRoom(t);
+    const ground = () =>
+        page.evaluate(async () => {
+            const { themeColor } = await import(document.querySelector("link[rel=stylesheet]").href.replace("theme.css", "theme.js"));
+            return [getComputedStyle(document.body).backgroundColor, themeColor("--ground")];
+        });
+    const [dark, light] = ["rgb(22, 24, 28)", "rgb(238, 240, 243)"];
+    for (const [colorScheme, expected] of [["dark", dark], ["light", light]]) {
+        await page.emulateMedia({ colorScheme });
+        assert.deepEqual(await ground(), [expected, expected], colorScheme);
+    }
+    await page.keyboard.press("Shift+T");
+    assert.deepEqual(await ground(), [dark, dark]);
+    await page.reload();
+    await shown(page);
+    assert.deepEqual(await ground(), [dark, dark]);
+    await page.keyboard.press("Shift+T");
+    assert.deepEqual(await ground(), [light, light]);
+});

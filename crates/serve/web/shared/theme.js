@@ -11,7 +11,18 @@ export function takeChosenTheme() {
 
 /** Chooses the other theme. */
 export function toggleTheme() {
-    const other = getComputedStyle(root).colorScheme === "dark" ? "light" : "dark";
+    const shown = root.dataset.theme ?? (matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
+    const other = shown === "dark" ? "light" : "dark";
     root.dataset.theme = other;
     localStorage.setItem(STORE, other);
+}
+
+/** A colour of the theme that is shown, as `rgb(…)`. @param {string} name Its property, such as `--ground`. */
+export function themeColor(name) {
+    const probe = document.createElement("span");
+    probe.style.color = `var(${name})`;
+    root.append(probe);
+    const { color } = getComputedStyle(probe);
+    probe.remove();
+    return color;
 }

@@ -14,7 +14,7 @@ use crate::sheet::canvas::Color;
 /// A place on the page.
 pub(crate) type Point = [f32; 2];
 
-/// What a shape is drawn with.
+/// How a shape is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ink {
     /// sRGB.
@@ -35,7 +35,7 @@ impl Ink {
     }
 }
 
-/// Which point of a text stands at its place.
+/// The point of a text that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Anchor {
     Start,
@@ -48,7 +48,7 @@ pub(crate) enum Anchor {
 pub(crate) struct Text {
     /// Anchor of the text on the baseline.
     pub at: Point,
-    /// What it says.
+    /// The text.
     pub words: String,
     /// Height of capitals, pixels.
     pub height: f32,

@@ -9,14 +9,14 @@ use std::fmt::Write;
 /// Height of capitals over the font size of usual sans-serif fonts.
 const CAPITAL_HEIGHT: f32 = 0.72;
 
-/// What paper and inks become where a browser shows dark pages.
+/// Colours of paper and inks where a browser shows dark pages.
 pub(crate) struct Dark<'a> {
     pub paper: [u8; 3],
     /// Colours and what they become; others stay.
     pub inks: &'a [([u8; 3], [u8; 3])],
 }
 
-/// The page's file. Pictures lie within it as PNG, so that it can be shown by itself.
+/// The page's file. Pictures are embedded as PNG, so that it can be shown by itself.
 pub(crate) fn svg(drawing: &Drawing) -> String {
     written(drawing, "")
 }

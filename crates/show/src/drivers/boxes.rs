@@ -54,7 +54,7 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
     Ok(files.into_iter().flatten().collect())
 }
 
-/// `None` for a file that is not there.
+/// `None` if the file does not exist.
 fn optional<T>(read: Result<T, DatasetError>) -> Result<Option<T>, DatasetError> {
     match read {
         Err(error) if error.is_not_found() => Ok(None),
@@ -62,11 +62,11 @@ fn optional<T>(read: Result<T, DatasetError>) -> Result<Option<T>, DatasetError>
     }
 }
 
-/// What boxes are drawn over.
+/// The picture that boxes are drawn over, with its data.
 struct Backdrop<'a> {
     picture: Picture,
     depth: &'a Values,
-    /// What the frame shows: number and class of each instance, and whether it is large enough for text.
+    /// Instances in the frame: number and class of each, and whether it is large enough for text.
     instances: Vec<(i16, i16, bool)>,
 }
 

@@ -1,4 +1,4 @@
-//! How a camera's frames are exposed.
+//! Exposure of a camera's frames.
 
 use super::present::read_present;
 use crate::display::Display;
@@ -8,7 +8,7 @@ use enfilade_frame::Layer;
 use enfilade_frame::tonemap::{GAMMA, PERCENTILE, ToneMap};
 use std::path::PathBuf;
 
-/// Pixels that the exposure of a trajectory is measured from, at most: as many as say it within a thousandth.
+/// Largest number of pixels that the exposure of a trajectory is measured from: enough for an error of a thousandth.
 const SAMPLES: usize = 4_000_000;
 
 /// The exposures of a camera's frames, in their order; without frames, what shows radiance 1 as white.

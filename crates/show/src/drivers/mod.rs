@@ -22,8 +22,8 @@ use present::read_present;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Writes every preview that the layers of the given frames allow, and returns the files. The exposures are those of the same frames.
-/// Of the frames `made`, where [`preview_frame_alone`] has been, only those that need the whole trajectory.
+/// Writes every preview that the layers of the given frames allow, and returns the files. The exposures belong to the same frames. For the
+/// frames `made`, which [`preview_frame_alone`] has handled, only previews that need the whole trajectory are written.
 ///
 /// # Errors
 /// When a layer cannot be read or a file cannot be written.
@@ -162,7 +162,7 @@ pub enum InspectError {
         scene: String,
         /// Name of the camera.
         camera: String,
-        /// The frame asked for.
+        /// The requested frame.
         frame: u32,
         /// The first and last frame that are there.
         there: String,
@@ -238,7 +238,7 @@ mod tests {
         std::fs::write(dataset.layout().metadata_cameras("room"), format!("camera_name\n{}\n", cameras.join("\n"))).unwrap();
         let sheet =
             image::open(write_overview(&dataset, &["room".to_string()], "homes", &SheetConfig { width: 600, frames: 1 }).unwrap()).unwrap();
-        // Four columns of pictures 113 x 85 pixels large: 50 rows with their captions, and what stands above and below.
+        // Four columns of pictures 113 x 85 pixels large: 50 rows with their captions, and the text above and below.
         assert_eq!((sheet.width(), sheet.height()), (600, 50 * (85 + 64) + 140));
     }
 

@@ -1,8 +1,8 @@
 //! Boxes drawn over a picture, with true occlusion.
 //!
-//! Every edge is followed in small steps through the camera that took the picture, whatever its model, and compared with the
-//! frame's `depth_meters`: what lies behind the surface seen there is dashed and faint. Hypersim's toolkit draws its overlays with a
-//! centred pinhole of 60 degrees whatever the camera was.
+//! Every edge is followed in small steps through the camera that took the picture, for every camera model, and compared with the frame's
+//! `depth_meters`: parts behind the visible surface are dashed and faint. Hypersim's toolkit draws its overlays with a centred pinhole of
+//! 60 degrees for every camera.
 
 use stencil::Stencil;
 mod stencil;
@@ -16,7 +16,7 @@ use enfilade_scene::CameraView;
 
 /// An edge counts as hidden when the surface seen is nearer than this share of its distance, and [`SLACK_M`].
 const SLACK: f64 = 0.01;
-/// Sides that lie on a surface count as visible.
+/// Sides that are on a surface count as visible, metres.
 const SLACK_M: f64 = 0.01;
 /// Length of a dash and of the gap after it, in widths of the line.
 const DASH: f32 = 3.0;
@@ -30,11 +30,11 @@ const STRAIGHT_PX: f64 = 3.0;
 /// A box to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnBox {
-    /// Where it is.
+    /// Position, orientation and size.
     pub shape: OrientedBox,
     /// Colour of the edges.
     pub color: Color,
-    /// What stands at its upper corner; empty for nothing.
+    /// Text at its upper corner; empty for none.
     pub text: String,
 }
 
@@ -135,7 +135,7 @@ fn seen_depth(depth: &Values, [width, height]: [f64; 2], at: [f64; 2]) -> Option
     Some(seen.fold(0.0, f64::max))
 }
 
-/// Writes what a box is beside its highest visible point, unless something stands there already.
+/// Writes the text of a box beside its highest visible point, unless that place is taken.
 fn write_text(canvas: &mut Canvas, drawn: &DrawnBox, pieces: &[Piece], taken: &mut Vec<[f32; 4]>) {
     let highest = pieces.iter().filter(|piece| !piece.hidden).min_by(|a, b| a.from[1].total_cmp(&b.from[1]));
     let Some(Piece { from: [x, y], .. }) = highest.filter(|_| !drawn.text.is_empty()) else { return };

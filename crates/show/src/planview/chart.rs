@@ -1,4 +1,4 @@
-//! Where the world lies on a page.
+//! The placement of the world on a page.
 
 use super::cut::Cut;
 use crate::drawing::Point;
@@ -7,7 +7,7 @@ use enfilade_math::DVec3;
 /// A rectangle of the page that shows a cut at a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Chart {
-    /// What is shown.
+    /// The cut that is shown.
     pub cut: Cut,
     /// Left, top, width and height on the page, whole pixels.
     pub place: [u32; 4],
@@ -31,7 +31,7 @@ impl Chart {
         Self { cut, place: [left, top, width, height], scale, middle }
     }
 
-    /// Where a world point appears.
+    /// The point of the page at which a world point appears.
     pub fn to_page(self, p: DVec3) -> Point {
         let [right, up, _] = self.cut.look.axes();
         let [x, y] = self.page_middle();

@@ -14,7 +14,7 @@ const HEADER: u32 = 92;
 /// Pictures in a row: for up to [`FEW`] of them, and for more.
 const COLUMNS: [usize; 2] = [6, 8];
 const FEW: usize = 48;
-/// Pictures on a sheet, at most: where they are four times as high as wide it has 36,268 rows of pixels, and JPEG holds 65,535.
+/// Largest number of pictures on a sheet: if they are four times as high as wide it has 36,268 rows of pixels, and JPEG can have 65,535.
 const MOST: usize = 384;
 const GAP: u32 = 12;
 /// Below a picture: frame number and score.
@@ -26,12 +26,12 @@ pub(super) fn shown(poses: usize) -> Vec<usize> {
     (0..pictures).map(|k| k * (poses - 1) / (pictures - 1).max(1)).collect()
 }
 
-/// Which of the views of a trajectory `pictures` on its sheet are, in words; `all` are those for every one.
+/// Words for the views of a trajectory that its sheet with this number of `pictures` shows; `all` is the text for every view.
 pub(super) fn which(pictures: usize, poses: usize, all: &str) -> String {
     if pictures == poses { all.into() } else { format!("{pictures} of {poses} views, evenly spread") }
 }
 
-/// A view as it is on the sheet.
+/// A view on the sheet.
 pub(super) struct Thumbnail {
     /// Index of its pose.
     pose: usize,
@@ -39,7 +39,7 @@ pub(super) struct Thumbnail {
 }
 
 impl Thumbnail {
-    /// What the pose of index `pose` sees, for a sheet of so many `pictures`.
+    /// The view of the pose of index `pose`, for a sheet of this number of `pictures`.
     pub fn new(pose: usize, sight: &Sight, pictures: usize) -> Self {
         let width = width(columns(pictures));
         let height = (width * sight.height).div_ceil(sight.width);

@@ -7,9 +7,9 @@ use enfilade_scene::{Camera, CameraView, Trajectory};
 
 /// Points spread over all surfaces; a share of them is known to within half a per cent.
 const POINTS: usize = 40_000;
-/// How far from a surface free space is looked for, voxels: within the first, surfaces make their voxel occupied.
+/// Distance from a surface within which free space is searched, voxels: within the first, surfaces make their voxel occupied.
 const REACH_VOXELS: [f64; 3] = [1.0, 1.5, 2.0];
-/// A surface this much nearer than a point does not hide it, metres: the points lie on surfaces in single precision.
+/// A surface this much nearer than a point does not hide it, metres: the points are on surfaces in single precision.
 const SLACK_M: f64 = 2e-3;
 
 /// A point of a surface that borders free space.

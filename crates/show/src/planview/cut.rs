@@ -15,7 +15,7 @@ pub(super) enum Look {
 }
 
 impl Look {
-    /// World directions to the right on the page, up the page, and toward who looks at it. Right-handed.
+    /// World directions to the right on the page, up the page, and toward the viewer. Right-handed.
     pub fn axes(self) -> [DVec3; 3] {
         match self {
             Self::Down => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -44,7 +44,7 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// Metres from the plane toward who looks; negative behind it.
+    /// Metres from the plane toward the viewer; negative behind it.
     pub fn height_over(&self, p: DVec3) -> f64 {
         (p - self.through).dot(self.look.axes()[2])
     }

@@ -1,4 +1,4 @@
-//! A trajectory on a chart: surfaces that the plane cuts, the way of the camera, its frusta and targets.
+//! A trajectory on a chart: surfaces that the plane cuts, the path of the camera, its frusta and targets.
 
 use super::chart::Chart;
 use super::coverage::SurfacePoint;
@@ -30,7 +30,7 @@ const NUMBERED: usize = 10;
 
 const WHITE: Ink = Ink::solid([255; 3]);
 
-/// The page that shows `subject` cut by the chart's plane. `title` says what kind of drawing it is.
+/// The page that shows `subject` cut by the chart's plane. `title` names the kind of drawing.
 pub(super) fn figure(subject: &Subject<'_>, cut: Cut, title: &str) -> Drawing {
     let (mut page, chart) = ground(subject, cut, &format!("{title} at"));
     draw_way(&mut page, subject, &chart);
@@ -92,7 +92,7 @@ fn draw_surfaces(page: &mut Drawing, planned: &Planned<'_>, chart: &Chart) {
     page.lines(runs.into_iter().flat_map(inside).collect(), WALL_PX, WALL);
 }
 
-/// The pieces of a run that lie in the chart. A segment across the border is cut at it (Liang & Barsky 1984).
+/// The pieces of a run that are in the chart. A segment across the border is cut at it (Liang & Barsky 1984).
 fn clipped(chart: &Chart, run: Vec<Point>) -> Vec<Vec<Point>> {
     let [left, top, width, height] = chart.place.map(|v| v as f32);
     let (low, high) = ([left, top], [left + width, top + height]);
@@ -254,7 +254,7 @@ mod tests {
             let measures = [FrameMeasures { score: 1.0, ..FrameMeasures::default() }];
             let subject = Subject { planned, camera, trajectory: &one, measures: &measures, points: &[], report: None };
             let mut page = figure(&subject, Cut { look: Look::Down, through: one.poses[0].position }, "Plan");
-            // Their bytes as text may say anything.
+            // Their bytes as text may be anything.
             page.shapes.retain(|shape| !matches!(shape, Shape::Picture { .. }));
             assert!(!svg(&page).contains("NaN"));
         });

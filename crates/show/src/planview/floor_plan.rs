@@ -1,11 +1,11 @@
-//! The plan of a scene alone, without cameras: its outlines at one height, as SVG.
+//! The plan of a scene without cameras: its outlines at one height, as SVG.
 
 use super::cut::{Cut, Look, joined};
 use enfilade_math::DVec3;
 use enfilade_scene::WorldMesh;
 use std::fmt::Write;
 
-/// Where the scene is cut, as a share of its height: above tables and seats, through windows, below what hangs from ceilings.
+/// Height of the cut, as a share of the scene's height: above tables and seats, through windows, below things that hang from ceilings.
 const CUT: f64 = 0.4;
 
 /// Draws the lines in which surfaces meet a level plane at two fifths of the scene's height, seen from above: x to the right, y up. The

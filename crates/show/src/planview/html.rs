@@ -19,7 +19,7 @@ pub(super) struct Shown {
     pub file: String,
     /// File of the picture as SVG, beside the page, if there is one.
     pub svg: Option<String>,
-    /// What it shows.
+    /// Caption.
     pub caption: String,
 }
 

@@ -1,4 +1,4 @@
-//! What stands around a chart: title, scale, axes, and what each sign means.
+//! Lettering around a chart: title, scale, axes, and the meaning of each sign.
 
 use super::chart::{Chart, round_below};
 use super::cut::Look;

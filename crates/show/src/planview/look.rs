@@ -1,4 +1,4 @@
-//! What a pose sees: one ray per pixel of a small image.
+//! The view from a pose: one ray per pixel of a small image.
 
 use crate::palette::{id_color, viridis};
 use crate::picture::{Picture, from_pixels};
@@ -10,7 +10,7 @@ use std::collections::HashSet;
 /// Width of the pictures, the toolkit's. Their height follows the camera's aspect.
 const WIDTH: u32 = 256;
 
-/// What one pixel sees.
+/// The surface that one pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Seen {
     /// Index into the triangles of the world.
@@ -25,7 +25,7 @@ pub(super) struct Seen {
     pub cosine: f64,
 }
 
-/// What all pixels see, row by row; `None` in the void.
+/// The surfaces that all pixels see, row by row; `None` in the void.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sight {
     pub width: u32,
@@ -94,10 +94,10 @@ impl Sight {
         self.colored(|seen| colors[seen.part as usize])
     }
 
-    /// Parts in colours that tell neighbours apart, lit from the camera. The void is dark.
+    /// Parts in colours that distinguish neighbours, lit from the camera. The void is dark.
     pub fn lit(&self) -> Picture {
         self.colored(|seen| {
-            // Ids repeat after so many that colours are told apart by place rather than by hue.
+            // Ids repeat only after a number so large that colours are distinguished by place rather than by hue.
             let color = id_color((seen.part % 30_000 + 1) as i16);
             // Paler than for a layer of ids: large walls would glare.
             color.map(|v| ((0.72 * f64::from(v) + 62.0) * (0.3 + 0.7 * seen.cosine)).round() as u8)

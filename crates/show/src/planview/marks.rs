@@ -42,7 +42,7 @@ pub(super) fn dashes(from: Point, to: Point) -> Vec<Vec<Point>> {
     (0..(length / (2.0 * DASH)).ceil() as usize).map(|i| 2.0 * DASH * i as f32).map(|s| vec![at(s), at(s + DASH)]).collect()
 }
 
-/// A ring with a gap for what stands within.
+/// A ring with a gap for the mark inside it.
 pub(super) fn start_mark(page: &mut Drawing, [x, y]: Point) {
     let ring = |radius: f32| -> Vec<Point> {
         (0..=48).map(|i| (f64::from(i) / 48.0 * TAU) as f32).map(|a| [x + radius * a.cos(), y + radius * a.sin()]).collect()

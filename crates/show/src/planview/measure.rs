@@ -7,7 +7,7 @@ use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Pose, Trajectory};
 use serde::Serialize;
 
-/// What is measured of one frame.
+/// Measures of one frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct FrameMeasures {
     /// Number of the frame.
@@ -20,11 +20,11 @@ pub(super) struct FrameMeasures {
     pub pitch_deg: f64,
     /// From the camera centre of the frame before, metres.
     pub step_m: Option<f64>,
-    /// Angle turned since the frame before, about whatever axis, degrees.
+    /// Angle turned since the frame before, about any axis, degrees.
     pub turn_deg: Option<f64>,
     /// To the nearest surface, metres, exactly.
     pub clearance_m: f64,
-    /// Share of what is seen that the frame before sees too.
+    /// Share of the visible surfaces that the frame before sees too.
     pub overlap: Option<f64>,
     /// Share of the pixels that see no surface.
     pub void_share: f64,
@@ -32,7 +32,7 @@ pub(super) struct FrameMeasures {
     pub triangles: usize,
     /// Distinct parts seen.
     pub parts: usize,
-    /// What the plan says that the view is worth; without that n·(1 − e)², Hypersim's view saliency, with n the number of triangles
+    /// The view's score in the plan; without one n·(1 − e)², Hypersim's view saliency, with n the number of triangles
     /// and e the void share.
     pub score: f64,
 }

@@ -1,10 +1,9 @@
-//! Pictures of what was planned: plan, sections, every view, and statistics, from the files of a dataset alone.
+//! Pictures of planned trajectories: plan, sections, every view, and statistics, made only from the files of a dataset.
 //!
-//! [`write_plan_preview`] makes, for every trajectory of a scene, a plan at the height of the camera and two sections as
-//! architects draw them (what a plane cuts in thick lines, what lies behind it as relief) with the free space, the way of the
-//! camera, its frusta and targets; a picture of every view coloured by part, as Hypersim's toolkit writes them and where; the
-//! views on one sheet, of thousands some hundreds; and how measures of the frames are distributed. One page for a browser shows it
-//! all.
+//! [`write_plan_preview`] makes, for every trajectory of a scene, a plan at the height of the camera and two sections as architects draw
+//! them (cut surfaces in thick lines, surfaces behind the plane as relief) with the free space, the path of the camera, its frusta and
+//! targets; a picture of every view coloured by part, in the format and place of Hypersim's toolkit; the views on one sheet, or a few
+//! hundred of them if there are thousands; and the distributions of the frames' measures. One page for a browser shows it all.
 //!
 //! Every page is a list of shapes (`drawing/`) that is painted as PNG and written as SVG. The same plan gives the same bytes.
 
@@ -22,8 +21,8 @@ mod measure;
 mod planned;
 mod relief;
 mod report;
+mod rooms;
 mod statistics;
-mod structure_plan;
 mod subject;
 
 use crate::drawing::{Drawing, paint, svg};
@@ -42,9 +41,9 @@ use look::{Sight, toolkit_colors};
 use measure::{FrameMeasures, Measuring};
 pub use planned::Planned;
 pub use report::Report;
+pub use rooms::rooms_svg;
 use statistics::Distances;
 use std::path::PathBuf;
-pub use structure_plan::structure_svg;
 use subject::Subject;
 
 /// Draws everything planned for a scene into the dataset, and returns the files written. Old previews of the scene are removed.
@@ -109,7 +108,7 @@ fn write_page(dataset: &Dataset, scene: &str, file: &str, bytes: Vec<u8>) -> Res
 /// Views in memory at a time: one takes megabytes.
 const AT_A_TIME: usize = 64;
 
-/// What is kept of the views of a trajectory.
+/// The data kept of the views of a trajectory.
 #[derive(Default)]
 struct Digest {
     /// Measures of every frame.
@@ -156,7 +155,7 @@ fn see(
 struct Page {
     /// In the names of its files.
     name: &'static str,
-    /// What it shows.
+    /// Caption.
     caption: String,
     drawing: Drawing,
     format: Format,
@@ -172,7 +171,7 @@ enum Format {
 }
 
 impl Page {
-    /// Writes the page's files, appends them to `files`, and says how the page for browsers shows them.
+    /// Writes the page's files, appends them to `files`, and returns how the page for browsers shows them.
     fn write(&self, dataset: &Dataset, subject: &Subject<'_>, files: &mut Vec<PathBuf>) -> Result<Shown, DatasetError> {
         let file = |extension: &str| format!("{}_{}.{extension}", subject.trajectory.name, self.name);
         let picture = paint(&self.drawing);
@@ -188,7 +187,7 @@ impl Page {
     }
 }
 
-/// What the statistics mean.
+/// Definitions of the statistics.
 const DEFINITIONS: &str = "Step, turn and overlap are those since the frame before, clearance is the distance to the nearest surface, and \
                            the void share counts pixels that see no surface. Surfaces are those that border free space";
 

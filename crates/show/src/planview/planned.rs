@@ -1,10 +1,10 @@
-//! What was planned for a scene, and the scene as rays meet it.
+//! The plan of a scene, and the scene prepared for rays.
 
 use enfilade_geometry::{Bvh, OccupancyTree, Voxel};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, StartCamera, Trajectory, WorldMesh};
 
-/// What was planned for a scene, and the scene as rays meet it.
+/// The plan of a scene, and the scene prepared for rays.
 pub struct Planned<'a> {
     /// Name of the scene in the dataset.
     pub scene: &'a str,
@@ -14,9 +14,9 @@ pub struct Planned<'a> {
     pub bvh: &'a Bvh,
     /// Free space of the scene.
     pub tree: &'a OccupancyTree,
-    /// Where carving and planning began.
+    /// Start cameras of carving and planning.
     pub starts: &'a [StartCamera],
-    /// The trajectories, and what each is filmed with.
+    /// The trajectories, each with its camera.
     pub filmed: &'a [(Camera, Trajectory)],
 }
 

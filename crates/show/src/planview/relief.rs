@@ -8,13 +8,13 @@ use enfilade_geometry::Voxel;
 use enfilade_math::DVec3;
 use enfilade_math::quantile;
 
-/// sRGB of what is free, where a surface lies far behind the plane.
+/// sRGB of free space, where the surface behind is far from the plane.
 pub(super) const FREE: [u8; 3] = [224, 238, 250];
 /// Free, and no surface behind it.
 pub(super) const FREE_OVER_VOID: [u8; 3] = [252, 226, 214];
 /// A voxel that a surface passes through.
 pub(super) const OCCUPIED: [u8; 3] = [160, 156, 152];
-/// What no ray has reached.
+/// Space that no ray has reached.
 pub(super) const UNKNOWN: [u8; 3] = [243, 241, 237];
 pub(super) const UNKNOWN_HATCH: [u8; 3] = [221, 217, 210];
 /// Furniture just behind the plane.
@@ -33,7 +33,7 @@ const HATCH_PX: u32 = 12;
 /// From this share of the depths on, surfaces are shown as far.
 const FAR_QUANTILE: f64 = 0.9;
 
-/// Space at one sample of the plane, and what lies behind it where it is free.
+/// Space at one sample of the plane, and the surface behind it where it is free.
 #[derive(Clone, Copy)]
 enum Ground {
     Unknown,

@@ -8,7 +8,7 @@ use std::path::Path;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub struct Report {
-    /// What kind of trajectory was asked for.
+    /// Requested kind of trajectory.
     pub mode: String,
     per_frame: Values,
 }
@@ -31,7 +31,7 @@ impl Report {
         serde_json::from_slice(&std::fs::read(path).ok()?).ok()
     }
 
-    /// Replaces what was measured by what the report says. False, and nothing changed, when it is about other frames.
+    /// Replaces the measures by those of the report. Returns false and changes nothing if it is about other frames.
     pub(super) fn put_into(&self, measures: &mut [FrameMeasures]) -> bool {
         let values = &self.per_frame;
         if !measures.iter().map(|m| m.frame).eq(values.frame.iter().copied()) {

@@ -33,7 +33,7 @@ const PUBLISHED: Ink = Ink::solid([222, 120, 20]);
 /// Edge of a bin of [`HYPERSIM_DISTANCE`], metres.
 const DISTANCE_BIN_M: f64 = 0.5;
 
-/// Share of the valid pixels of all images of Hypersim by distance, in bins of 0.5 m from 0 to 20 m; 6 % lie beyond. From the
+/// Share of the valid pixels of all images of Hypersim by distance, in bins of 0.5 m from 0 to 20 m; 6 % are beyond. From the
 /// image statistics that the toolkit publishes (`metadata_depth_hist_linear`, 59.9 billion pixels).
 const HYPERSIM_DISTANCE: [f64; 40] = [
     0.0092, 0.0230, 0.0372, 0.0514, 0.0619, 0.0683, 0.0718, 0.0717, 0.0685, 0.0630, 0.0557, 0.0490, 0.0421, 0.0357, 0.0306, 0.0263, 0.0225,
@@ -41,7 +41,7 @@ const HYPERSIM_DISTANCE: [f64; 40] = [
     0.0028, 0.0026, 0.0023, 0.0022, 0.0021, 0.0020,
 ];
 
-/// What one panel is about.
+/// The quantity of one panel.
 struct Quantity {
     name: &'static str,
     unit: &'static str,
@@ -72,7 +72,7 @@ const QUANTITIES: [Quantity; 9] = [
 pub(super) struct Distances {
     /// Counts by the bins of [`HYPERSIM_DISTANCE`].
     counts: [u64; HYPERSIM_DISTANCE.len()],
-    /// What lies beyond the last bin counted in.
+    /// All pixels, including those beyond the last bin.
     total: u64,
 }
 
@@ -94,7 +94,7 @@ impl Distances {
     }
 }
 
-/// The page for `subject`, whose poses see as far as `distances` says.
+/// The page for `subject`; `distances` are of the surfaces that its poses see.
 pub(super) fn statistics(subject: &Subject<'_>, distances: &Distances) -> Drawing {
     let rows = (QUANTITIES.len() + 3).div_ceil(COLUMNS);
     let height = 2.0 * MARGIN + HEADER + rows as f32 * PANEL[1] + (rows - 1) as f32 * GAP;

@@ -19,7 +19,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// What the scores are, in words.
+    /// Name of the scores.
     pub fn score_name(&self) -> &'static str {
         match self.report {
             Some(_) => "the plan's",

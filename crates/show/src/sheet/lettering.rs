@@ -12,7 +12,7 @@ use super::canvas::{Canvas, Color};
 const CAPITAL: f32 = 10.0;
 /// Height of small letters.
 const SMALL: f32 = 7.0;
-/// Where the middle of a letter is, for marks.
+/// Horizontal middle of a letter, for marks.
 const MIDDLE: f32 = 3.0;
 /// Free space between two glyphs, in grid units.
 const SPACING: f32 = 3.4;
@@ -86,7 +86,7 @@ fn strokes(c: char) -> Vec<Vec<[f32; 2]>> {
     let aside = 0.5 * (left + right) - MIDDLE;
     mark.iter_mut().flatten().for_each(|p| *p = [p[0] + aside, p[1] + up]);
     strokes.append(&mut mark);
-    // A mark that is wider than its letter would stand in the one before.
+    // A mark that is wider than its letter would overlap the letter before.
     let left = extent(&strokes)[0].min(0.0);
     strokes.iter_mut().flatten().for_each(|p| p[0] -= left);
     strokes
@@ -183,7 +183,7 @@ fn glyph(c: char) -> &'static str {
 /// A box.
 const UNKNOWN: &str = "03636d0d03";
 
-/// Marks as they stand at a small letter around [`MIDDLE`], and after each the letters that have it, each before the one without it.
+/// Marks as drawn at a small letter around [`MIDDLE`], and after each the letters that have it, each before the letter without it.
 #[rustfmt::skip]
 const MARKS: [(&str, &str); 13] = [
     ("2c4e", "áaéeíıóoúuýyćcńnśsźzŕrÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZ"),
@@ -246,7 +246,7 @@ mod tests {
         assert!("³°·".chars().all(|c| written.contains(&c)), "{written:?}");
         let boxes: Vec<&char> = written.iter().filter(|&&c| marked(c).is_none() && glyph(c) == UNKNOWN).collect();
         assert!(boxes.is_empty(), "{boxes:?}");
-        // What nobody has drawn is seen to be missing.
+        // A missing letter is visibly missing.
         assert_eq!(glyph('\u{416}'), UNKNOWN);
     }
 

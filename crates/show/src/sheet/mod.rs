@@ -25,15 +25,15 @@ const TITLE: Style = Style { height: 26.0, weight: 0.13, color: [244, 244, 240] 
 
 const MARGIN: u32 = 44;
 const GAP: u32 = 10;
-/// From the lower edge of a picture to that of its caption.
+/// From the lower edge of a picture to the lower edge of its caption.
 const CAPTION_SPACE: u32 = 22;
 const ROW_GAP: u32 = 20;
 const HEADER: u32 = 72;
 /// Width of a picture in the overview at most: a single one need not fill the sheet.
 const LARGEST_TILE: u32 = 900;
-/// Trajectories that the overview shows at most: JPEG holds 65535 rows of pixels.
+/// Largest number of trajectories in the overview: JPEG can have 65535 rows of pixels.
 pub const MOST_TILES: usize = 200;
-/// Least width over height of the field of a picture, for the same reason; a narrower picture stands in its middle.
+/// Least width over height of the field of a picture, for the same reason; a narrower picture is centred in it.
 const NARROWEST: f64 = 0.4;
 
 /// How large contact sheets are.
@@ -52,7 +52,7 @@ impl Default for SheetConfig {
     }
 }
 
-/// What stands above a trajectory's sheet.
+/// Title of a trajectory's sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetTitle<'a> {
     /// Name of the scene.
@@ -63,7 +63,7 @@ pub struct SheetTitle<'a> {
     pub frames: usize,
 }
 
-/// What stands above a dataset's sheet.
+/// Title of a dataset's sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct OverviewTitle<'a> {
     /// Name of the dataset.
@@ -75,7 +75,7 @@ pub struct OverviewTitle<'a> {
 }
 
 impl OverviewTitle<'_> {
-    /// How much there is, and how much of it is shown.
+    /// The total, and how much of it is shown.
     fn subtitle(&self, shown: usize) -> String {
         let mut parts = vec![counted(self.scenes, "scene"), counted(self.cameras, "camera")];
         if shown < self.cameras {
@@ -90,7 +90,7 @@ impl OverviewTitle<'_> {
 pub struct OverviewTile {
     /// Name of the scene.
     pub scene: String,
-    /// What else to say: camera, frames, size.
+    /// Details: camera, frames, size.
     pub detail: String,
     /// Tone-mapped colour of one frame.
     pub picture: Picture,

@@ -1,4 +1,4 @@
-//! How words of a sheet are set, by what they are.
+//! Styles of the texts of a sheet, by their role.
 
 use super::lettering::Style;
 

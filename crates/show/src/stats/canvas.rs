@@ -1,5 +1,5 @@
-//! Where `plotters` draws: on a page of shapes, which then becomes a picture and a file that scales, with our lettering and without
-//! fonts of the system.
+//! The canvas of `plotters`: a page of shapes, which then becomes a picture and a scalable file, with our lettering and without system
+//! fonts.
 
 use crate::drawing::{Anchor, Drawing, Ink, Point, Text};
 use crate::sheet::lettering::{self, Style};
@@ -7,7 +7,7 @@ use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind};
 use std::convert::Infallible;
 
-/// `plotters` counts in whole units; so many of them make a pixel, and lines lie where they should.
+/// Units of `plotters` per pixel: it has whole units only, and smaller ones place lines exactly.
 pub const UNITS: u32 = 8;
 /// Height of capitals over the size of a font, as most have it.
 const CAPITAL: f64 = 0.72;

@@ -1,5 +1,5 @@
-//! One chart: axes with their ticks, and what is drawn between them. Colours are Okabe and Ito's, which people with colour-blindness
-//! can tell apart.
+//! One chart: axes with their ticks, and the series between them. Colours are Okabe and Ito's, which people with colour-blindness can
+//! distinguish.
 
 use super::canvas::{Canvas, UNITS};
 use crate::drawing::{Anchor, Dark, Drawing, Ink, Text};
@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// Colour of our values.
 pub const BLUE: Color = [0, 114, 178];
-/// What ours is compared with.
+/// Colour of the dataset that ours is compared with.
 pub const VERMILION: Color = [213, 94, 0];
 pub(super) const PAPER: Color = [255; 3];
 pub(super) const INK: Color = [34, 35, 42];
@@ -44,7 +44,7 @@ pub struct Axis {
     pub low: f64,
     /// Last value.
     pub high: f64,
-    /// Where values are labelled.
+    /// Values with labels.
     pub ticks: Vec<(f64, String)>,
 }
 
@@ -80,7 +80,7 @@ fn round_step(step: f64) -> f64 {
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|s| *s >= step * (1.0 - 1e-9)).unwrap_or(step)
 }
 
-/// What is drawn between the axes.
+/// A series drawn between the axes.
 #[derive(Clone, Debug)]
 pub enum Series {
     /// Filled down to the lower border.
@@ -99,7 +99,7 @@ pub type Named = (String, Color, Series);
 /// A chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// One line below the title, such as the name of the vertical axis.
     pub note: String,

@@ -20,7 +20,7 @@ const HOUR_S: f64 = 3600.0;
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
 
-/// What the given images cost; `None` when no time is known of any.
+/// The cost of the given images; `None` if no times are known.
 ///
 /// # Errors
 /// When the table of times cannot be read.

@@ -1,7 +1,7 @@
-//! What frames cost: processor hours and dollars at given prices.
+//! The cost of frames: processor hours and dollars at given prices.
 //!
-//! A vCPU-hour is what a cloud bills: an hour of one thread of a machine, busy or idle. A frame takes its time on the wall clock
-//! times the threads at work.
+//! A vCPU-hour is the unit that clouds bill: an hour of one thread of a machine, busy or idle. A frame takes its wall-clock time times the
+//! number of threads at work.
 
 use enfilade_dataset::{FrameTime, Price};
 use serde::{Deserialize, Serialize};
@@ -12,16 +12,16 @@ const HOUR_S: f64 = 3600.0;
 /// Bytes of a gibibyte.
 const GIB: f64 = 1_073_741_824.0;
 
-/// What one frame, or many together, took.
+/// Time and memory of one frame, or of many together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Cost {
     /// Frames.
     pub frames: u64,
-    /// Seconds on the wall clock, one frame after the other.
+    /// Wall-clock seconds, one frame after the other.
     pub wall_s: f64,
     /// Seconds of all threads together.
     pub cpu_s: f64,
-    /// Hours on the wall clock times threads at work.
+    /// Wall-clock hours times threads at work.
     pub vcpu_hours: f64,
     /// Most memory that the process ever had, GiB; `None` where it was not recorded.
     pub peak_memory_gib: Option<f64>,
@@ -71,7 +71,7 @@ impl Cost {
     }
 }
 
-/// What one frame cost.
+/// The cost of one frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameCost {
     /// Name of the scene.
@@ -80,17 +80,17 @@ pub struct FrameCost {
     pub camera: String,
     /// Frame number.
     pub frame: u32,
-    /// What it took.
+    /// Its time and memory.
     #[serde(flatten)]
     pub cost: Cost,
     /// Dollars by name of the price.
     pub dollars: BTreeMap<String, f64>,
 }
 
-/// `costs.json`: what the frames cost, one by one and together. Times differ from run to run, so it stands apart.
+/// `costs.json`: the cost of the frames, one by one and together. Times differ from run to run, so it is a separate file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CostReport {
-    /// What is paid.
+    /// Prices.
     pub prices: Vec<Price>,
     /// All frames.
     pub total: Cost,

@@ -1,4 +1,5 @@
-//! From the frames of a dataset to images, scenes and the whole: one frame in memory per thread, whatever their number.
+//! From the frames of a dataset to statistics of images, scenes and the whole: with one frame in memory per thread, for any number of
+//! frames.
 
 use super::measure::{Counts, Image, WANTED, measure};
 use enfilade_dataset::{BoxKind, Dataset, DatasetError};
@@ -19,7 +20,7 @@ pub struct NamedImage {
     pub frame: u32,
     /// Mean samples per pixel, where they are recorded.
     pub samples_per_pixel: Option<f64>,
-    /// What it comes to.
+    /// Its statistics.
     #[serde(flatten)]
     pub image: Image,
 }

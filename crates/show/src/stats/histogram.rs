@@ -21,7 +21,7 @@ pub struct Bins {
     pub high: f64,
     /// How many.
     pub count: usize,
-    /// How they lie.
+    /// Their spacing.
     pub scale: Scale,
 }
 
@@ -36,7 +36,7 @@ impl Bins {
         Self { low, high, count, scale: Scale::Log }
     }
 
-    /// Where a value lies: 0 at the lower border of the first bin, `count` at the upper one of the last.
+    /// Position of a value: 0 at the lower border of the first bin, `count` at the upper border of the last.
     fn place(&self, value: f64) -> f64 {
         let share = match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -55,7 +55,7 @@ impl Bins {
     }
 }
 
-/// How many values lie in each bin, below the first and above the last.
+/// The number of values in each bin, below the first and above the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// Bins of the histogram.
@@ -102,8 +102,8 @@ impl Histogram {
         self.below + self.counts.iter().sum::<u64>() + self.above
     }
 
-    /// The value below which the share `q` of all lies, to within a bin, values within one being taken as spread evenly; the outer
-    /// border where it lies beyond the bins. `None` without values.
+    /// The value with the share `q` of all values below it, to within a bin: values within a bin are taken as spread evenly. It is the
+    /// outer border if it is beyond the bins. `None` without values.
     pub fn quantile(&self, q: f64) -> Option<f64> {
         let total = self.total();
         let wanted = q.clamp(0.0, 1.0) * total as f64;
@@ -129,7 +129,7 @@ impl Histogram {
         Self { bins: Bins { count: counts.len(), ..self.bins }, counts, below: self.below, above: self.above }
     }
 
-    /// A histogram without what lies beyond the bins, which stored histograms do not have.
+    /// A histogram without the values beyond the bins, which stored histograms do not have.
     pub fn within(&self) -> Self {
         Self { below: 0, above: 0, ..self.clone() }
     }

@@ -1,4 +1,4 @@
-//! `statistics.html`: the numbers, the charts, and a picture of every image that stands apart.
+//! `statistics.html`: the numbers, the charts, and a picture of every outlier.
 
 use super::costs::CostReport;
 use super::outlier::Outlier;
@@ -8,26 +8,26 @@ use crate::page::{contents, page};
 use enfilade_dataset::counted;
 use maud::{Markup, html};
 
-/// Cards of images that stand apart, at most; the files have them all.
+/// Largest number of cards of outliers; the files list them all.
 const MOST_CARDS: usize = 60;
 
-/// What the page shows.
+/// The contents of the page.
 pub struct Shown<'a> {
     /// Name of the dataset.
     pub dataset: &'a str,
     /// The numbers.
     pub report: &'a Report,
-    /// What the frames cost, where that is asked for and known.
+    /// The cost of the frames, if requested and known.
     pub costs: Option<&'a CostReport>,
     /// Charts of what the images show.
     pub plots: &'a [Plot],
     /// Charts of what they cost.
     pub cost_plots: &'a [Plot],
-    /// Images that stand apart.
+    /// Outliers among the images.
     pub outliers: &'a [Outlier],
     /// Path of an image's preview from the page.
     pub preview: &'a dyn Fn(&Outlier) -> String,
-    /// What ours is compared with.
+    /// The dataset that ours is compared with.
     pub reference: Option<&'a str>,
 }
 

@@ -20,7 +20,7 @@ const INSET: f32 = 26.0;
 /// Counts below this share of the largest are shown as this.
 const DIMMEST: f64 = 1e-4;
 
-/// What stands around a map.
+/// Lettering around a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
     /// A disc: hue by direction (red to the right, green up to the left), saturation from the middle.
@@ -114,7 +114,7 @@ fn around_square(page: &mut Drawing, left: f32) {
     write(page, [left - 8.0, bottom - 0.25 * MAP + 4.0], "down", NOTE, Anchor::End, Ink::solid(SOFT));
 }
 
-/// What the colours mean.
+/// The colour scale.
 fn scale(page: &mut Drawing, left: f32) {
     let (top, steps, least) = (TOP + MAP + 38.0, 96, "1/10000 or less");
     let bar = left + width_of(least, 8.5) + 10.0;

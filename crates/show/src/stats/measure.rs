@@ -1,4 +1,4 @@
-//! What is counted of an image. Bins, weights and rules are those of Hypersim's statistics, so that both can be compared.
+//! Counts of an image. Bins, weights and rules are the same as in Hypersim's statistics, so that both can be compared.
 
 use super::histogram::{Bins, Histogram, add_counts};
 use enfilade_frame::tonemap::brightness;
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub const SIDE: usize = 100;
 /// Classes from −1 (unlabelled) to 40; 0 is never used.
 pub const CLASSES: usize = 42;
-/// Objects per image that are told apart.
+/// Largest number of objects per image that are distinguished.
 pub const MOST_OBJECTS: usize = 10_000;
 
 /// Brightness, in four decades of 250 bins: 0.3 R + 0.59 G + 0.11 B.
@@ -177,21 +177,21 @@ impl Counts {
     }
 }
 
-/// Where a class is counted.
+/// The bin of a class.
 pub fn class_bin(class: i16) -> usize {
     usize::try_from(class + 1).unwrap_or(0)
 }
 
-/// Where the values of an image lie.
+/// Distribution of the values of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Mean of the values.
     pub mean: f64,
-    /// Share 0.05 lies below.
+    /// Quantile 0.05.
     pub q05: f64,
-    /// Half lies below.
+    /// Median.
     pub median: f64,
-    /// Share 0.95 lies below.
+    /// Quantile 0.95.
     pub q95: f64,
 }
 
@@ -236,7 +236,7 @@ pub struct Image {
 /// Bins of the dataset's histograms in a bin of an image's own.
 const COARSE: usize = 50;
 
-/// What one image comes to, its counts, and the instances that it shows. `projection` is that of its camera, where it is known.
+/// Statistics of one image, its counts, and the instances that it shows. `projection` is its camera's, if known.
 pub fn measure(frame: &Frame, projection: Option<&Projection>) -> (Image, Counts, BTreeSet<i16>) {
     let valid = valid_pixels(frame);
     let mut counts = Counts { images: 1, pixels: frame.pixels() as u64, valid: valid.len() as u64, ..Counts::default() };
@@ -312,7 +312,7 @@ fn count_light(values: &Values, valid: &[usize], counts: &mut LightCounts) -> (O
     (Spread::of(&mut all), (!valid.is_empty()).then(|| saturations / valid.len() as f64))
 }
 
-/// Hue in radians (0 red, 2π/3 green) and saturation from 0 to 1, whatever the brightness.
+/// Hue in radians (0 red, 2π/3 green) and saturation from 0 to 1, independent of brightness.
 fn hue_saturation([r, g, b]: [f64; 3]) -> (f64, f64) {
     let (high, low) = (r.max(g).max(b), r.min(g).min(b).max(0.0));
     let range = high - low;
@@ -406,7 +406,7 @@ mod tests {
         let (_, counts, instances) = measure(&frame, Some(&projection));
         assert_eq!([19, 80].map(|column| counts.normals.counts[50 * SIDE + column]), [1, 1]);
         assert_eq!((counts.valid, counts.depth.total(), instances), (2, 2, BTreeSet::from([3])));
-        // Of a camera that is not known nobody can say what faces it.
+        // Without a camera it is not known which surfaces face it.
         assert_eq!(measure(&frame, None).1.normals.counts[50 * SIDE + 80], 2);
     }
 

@@ -1,15 +1,15 @@
-//! Statistics of a dataset: what its images show and what they cost, as numbers, charts and one page for a browser.
+//! Statistics of a dataset: the contents of its images and their cost, as numbers, charts and one page for a browser.
 //!
 //! [`write_statistics`] counts every frame by the layers that it has, in Hypersim's bins, and draws the counts, over those of another
-//! dataset where one is named. What differs between two runs (times, costs) stands apart in `costs.json` and files of its own; all
-//! else is the same for the same dataset.
+//! dataset if one is named. Results that differ between two runs (times, costs) are in `costs.json` and other separate files; all else is
+//! the same for the same dataset.
 //!
 //! ```text
 //! statistics/statistics.json              dataset, scenes, images, outliers
 //! statistics/statistics.html              the page
 //! statistics/image_statistics/*.hdf5      counts of all images, as Hypersim's toolkit stores them
 //! statistics/plots/*.{png,svg}            the charts
-//! statistics/costs.json, metadata_rendering_{jobs,tasks}.csv     where costs are asked for
+//! statistics/costs.json, metadata_rendering_{jobs,tasks}.csv     if costs are requested
 //! ```
 
 mod canvas;
@@ -40,26 +40,26 @@ use plots::{Plot, Reference, cost_plots, plots};
 use report::{Report, cost_outliers, is_report};
 use std::path::{Path, PathBuf};
 
-/// Files of costs, which are removed where costs are not asked for.
+/// Files of costs, which are removed if costs are not requested.
 const COST_FILES: [&str; 3] = ["costs.json", cost_tables::JOBS, cost_tables::TASKS];
 
 /// Extensions of the files of a chart, as [`write_plot`] writes them.
 const EXTENSIONS: [&str; 2] = ["png", "svg"];
 
-/// What is asked for.
+/// The requested statistics.
 #[derive(Clone, Debug, Default)]
 pub struct StatsConfig {
-    /// Scenes to count; their order is that of the files.
+    /// Scenes to count; the files have the same order.
     pub scenes: Vec<String>,
     /// Folder to write instead of the dataset's own.
     pub folder: Option<PathBuf>,
     /// A folder of histograms to draw ours over: Hypersim's image statistics, or the statistics of another dataset.
     pub compare: Option<PathBuf>,
-    /// What is paid; costs are left out when this is empty.
+    /// Prices; costs are left out if this is empty.
     pub prices: Vec<Price>,
 }
 
-/// What was written.
+/// The written files, and a summary.
 #[derive(Clone, Debug)]
 pub struct StatsSummary {
     /// The page.
@@ -68,9 +68,9 @@ pub struct StatsSummary {
     pub files: Vec<PathBuf>,
     /// Images counted.
     pub images: u64,
-    /// Images that stand apart in some respect.
+    /// Number of images that are outliers in some respect.
     pub outliers: usize,
-    /// What all frames cost, where costs are asked for and times are known.
+    /// The cost of all frames, if costs are requested and times are known.
     pub cost: Option<Cost>,
 }
 
@@ -112,7 +112,7 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     });
     let path = folder.join("statistics.html");
     write_bytes(&path, page)?;
-    // Last: that it is there says that all is.
+    // Last: its existence means that all files are complete.
     let numbers = folder.join("statistics.json");
     write_json(&numbers, &report)?;
     files.extend([path.clone(), numbers]);
@@ -120,7 +120,7 @@ pub fn write_statistics(dataset: &Dataset, config: &StatsConfig, cx: &dyn Cx) ->
     Ok(StatsSummary { page: path, files, images: report.dataset.images, outliers: outliers.len(), cost })
 }
 
-/// The name that the dataset was given, or without one that of its folder.
+/// The dataset's name, or without one the name of its folder.
 fn name_of(dataset: &Dataset) -> Result<String, DatasetError> {
     let manifest = dataset.read_manifest()?;
     let given = manifest.as_ref().and_then(|manifest| manifest.config["name"].as_str());
@@ -146,7 +146,7 @@ fn remove_older(folder: &Path, is_own: bool) -> Result<(), DatasetError> {
     let holds = |name: &str, is_ours: fn(&[u8]) -> bool| is_own || std::fs::read(folder.join(name)).is_ok_and(|text| is_ours(&text));
     let mut older = Vec::new();
     if holds("statistics.json", is_report) {
-        // First: that it is there says that all is.
+        // First: its existence means that all files are complete.
         older.push("statistics.json".into());
         older.extend(plots::names().into_iter().flat_map(|name| EXTENSIONS.map(|extension| format!("plots/{name}.{extension}"))));
     }
@@ -171,7 +171,7 @@ fn write_plot(folder: &Path, plot: &Plot) -> Result<[PathBuf; 2], DatasetError> 
     Ok(files)
 }
 
-/// The tone-mapped preview of an image, from the page's folder where both lie in one dataset.
+/// The tone-mapped preview of an image, relative to the page's folder if both are in one dataset.
 fn preview_from(dataset: &Dataset, folder: &Path, outlier: &Outlier) -> String {
     let path = dataset.layout().preview(&outlier.scene, &outlier.camera, outlier.frame, Pass::Final, "tonemap.jpg");
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.into());
@@ -274,7 +274,7 @@ mod tests {
         let config = StatsConfig { scenes: vec!["room".into()], ..StatsConfig::default() };
         let page = write_statistics(&dataset, &config, &Quiet).unwrap().page;
         assert!(dataset.layout().statistics().is_file());
-        // A folder lies where the page should go.
+        // A folder is in the place of the page.
         std::fs::remove_file(&page).unwrap();
         std::fs::create_dir_all(page.join("in the way")).unwrap();
         write_statistics(&dataset, &config, &Quiet).unwrap_err();

@@ -1,19 +1,19 @@
-//! Frames that stand apart from the others.
+//! Outliers among the frames.
 //!
-//! A value's distance from the median is put in relation to the median distance (Iglewicz & Hoaglin 1993, "How to Detect and Handle
+//! The score is a value's distance from the median relative to the median distance (Iglewicz & Hoaglin 1993, "How to Detect and Handle
 //! Outliers": the modified z-score, outlying beyond 3.5), so that the outliers themselves do not widen the measure.
 
 use enfilade_math::quantile;
 use serde::Serialize;
 
-/// Beyond this score a value stands apart.
+/// Score beyond which a value is an outlier.
 pub const LIMIT: f64 = 3.5;
-/// With fewer values nothing can be said.
+/// With fewer values no outliers can be found.
 const FEWEST: usize = 5;
-/// Makes the score that of a normal distribution: its 0.75-quantile.
+/// Scales the score to a normal distribution's: the 0.75-quantile of that.
 const NORMAL: f64 = 0.674_5;
 
-/// A frame that stands apart in one respect.
+/// A frame that is an outlier in one respect.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outlier {
     /// Name of the scene.
@@ -34,7 +34,7 @@ pub struct Outlier {
 
 /// The modified z-score of each value; `None` for values that are not finite, and when there are fewer than five others.
 ///
-/// Where the values hardly differ, `least` stands in for their standard deviation, so that trifles are no outliers.
+/// Where the values hardly differ, `least` replaces their standard deviation, so that tiny differences are not outliers.
 pub fn scores(values: &[f64], least: f64) -> Vec<Option<f64>> {
     let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     let median = quantile(&mut finite.clone(), 0.5).filter(|_| finite.len() >= FEWEST);

@@ -1,4 +1,4 @@
-//! Which charts are drawn of a dataset, and what each one says.
+//! The charts of a dataset, and their contents.
 
 use super::chart::{Axis, BLUE, Chart, Named, Series, VERMILION};
 use super::costs::{CostReport, FrameCost};
@@ -54,7 +54,7 @@ pub fn names() -> Vec<String> {
     of_light.chain(NAMES.map(String::from)).collect()
 }
 
-/// Charts of what the pictures show, over those of a reference where there is one.
+/// Charts of the pictures' contents, over those of a reference if there is one.
 pub fn plots(counts: &Counts, reference: Option<&Reference>) -> Vec<Plot> {
     let both = Both { ours: counts, reference };
     let mut plots = Vec::new();
@@ -183,7 +183,7 @@ impl Both<'_> {
         let total: u64 = ours.iter().sum();
         let last = ours.iter().rposition(|n| *n > 0)?;
         let reference_last = self.reference.map_or(0, |r| quantile_of_counts(of(&r.counts), 0.98));
-        // Bars of several numbers each where there are too many to be told apart.
+        // Bars of several numbers each if there would be too many to distinguish.
         let last = last.max(reference_last).max(9);
         let step = (last + 1).div_ceil(60);
         let shares = |counts: &[u64]| -> Vec<f64> {
@@ -220,7 +220,7 @@ fn quantile_of_counts(counts: &[u64], q: f64) -> usize {
 }
 
 impl Series {
-    /// Places that it goes through.
+    /// Points that it passes through.
     fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Self::Area(points) | Self::Line(points) | Self::Dots(points) => points.clone(),
@@ -263,7 +263,7 @@ pub fn cost_plots(report: &CostReport) -> Vec<Plot> {
     plots
 }
 
-/// A dot per frame in the order of the dataset; scenes are told apart by lines between them.
+/// A dot per frame in the order of the dataset; scenes are separated by lines.
 fn by_frame(name: &str, title: &str, unit: &str, frames: &[FrameCost], of: impl Fn(&FrameCost) -> Option<f64>) -> Option<Plot> {
     let dots: Vec<(f64, f64)> = frames.iter().enumerate().filter_map(|(i, frame)| Some((i as f64, of(frame)?))).collect();
     let mut values: Vec<f64> = dots.iter().map(|dot| dot.1).collect();

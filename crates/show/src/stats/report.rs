@@ -1,4 +1,4 @@
-//! `statistics.json`: what the dataset, each scene and each image come to, and which images stand apart.
+//! `statistics.json`: the statistics of the dataset, each scene and each image, and the outliers among the images.
 
 use super::costs::{Cost, CostReport};
 use super::gather::{Gathered, NamedImage};
@@ -9,7 +9,7 @@ use enfilade_label::class_name;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What the file calls itself.
+/// Name of the file's format.
 const FORMAT: &str = "enfilade statistics 1";
 /// Stored bins in a bin of the file's histograms.
 const COARSE: usize = 10;
@@ -22,7 +22,7 @@ pub struct Report {
     pub dataset: Summary,
     /// By scene.
     pub scenes: BTreeMap<String, Summary>,
-    /// Images that stand apart by what they show, the farthest first.
+    /// Images that are outliers by their contents, the farthest first.
     pub outliers: Vec<Outlier>,
     /// Images by name.
     pub images: Vec<NamedImage>,
@@ -64,14 +64,14 @@ pub struct Summary {
     pub objects_per_class: BTreeMap<&'static str, u64>,
 }
 
-/// Where values lie, to within a bin (0.9 % of brightness, 1.2 % of depth), and how often they occur.
+/// Distribution of values, to within a bin (0.9 % of brightness, 1.2 % of depth), and how often they occur.
 #[derive(Clone, Debug, Serialize)]
 pub struct Quantity {
-    /// Share 0.05 lies below.
+    /// Quantile 0.05.
     pub q05: f64,
-    /// Half lies below.
+    /// Median.
     pub median: f64,
-    /// Share 0.95 lies below.
+    /// Quantile 0.95.
     pub q95: f64,
     low: f64,
     high: f64,
@@ -174,7 +174,7 @@ const COMPARED: [Compared; 8] = [
     ("objects", By::Difference(2.0), |i| i.image.objects.map(|n| n as f64)),
 ];
 
-/// Images that stand apart from the others by what they show.
+/// Images that are outliers by their contents.
 fn outliers(images: &[NamedImage]) -> Vec<Outlier> {
     let mut found = Vec::new();
     for (quantity, by, of) in COMPARED {
@@ -194,7 +194,7 @@ const COMPARED_COSTS: [ComparedCost; 3] = [
     ("utilization", |cost| Some(cost.utilization())),
 ];
 
-/// Frames that stand apart from the others by what they cost.
+/// Frames that are outliers by their cost.
 pub fn cost_outliers(report: &CostReport) -> Vec<Outlier> {
     let mut found = Vec::new();
     for (quantity, of) in COMPARED_COSTS {

@@ -11,7 +11,7 @@ use crate::suggester::{PartNames, Suggester, Suggestion};
 use crate::weights::CLASSES;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What stays together when scenes are held out.
+/// The unit that stays together when scenes are held out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// A scene.
@@ -20,16 +20,16 @@ pub enum Split {
     Volume,
 }
 
-/// What models say of groups that they have not seen.
+/// Results of models for groups that they have not seen.
 #[derive(Clone, Debug)]
 pub struct HeldOut {
-    /// Per group: what is suggested, with a confidence that is calibrated on other scenes than the group's.
+    /// Per group: the suggestion, with a confidence that is calibrated on other scenes than the group's.
     pub suggestions: Vec<Option<Suggestion>>,
     /// Per group with labelled objects and a suggestion: the score, and the share that is right.
     pub scores: Vec<Judged>,
     /// Per group with labelled objects and a suggestion: the confidence, and the share that is right.
     pub confidences: Vec<Judged>,
-    /// Labelled names of two, a thing and what is in it, each half asked for by itself.
+    /// Labelled names of two, a thing and its piece, with each half classified by itself.
     pub pairs: Vec<Pair>,
     /// Per pair: the class by both halves with its confidence, by shares of other scenes than the pair's.
     pub by_both: Vec<(i16, f32)>,
@@ -106,7 +106,7 @@ impl HeldOut {
     }
 }
 
-/// What pairs are by both halves, by shares and a curve that were learned from other folds.
+/// Classes of pairs by both halves, with shares and a curve that were learned from other folds.
 fn by_both(pairs: &[Pair], groups: &[NameGroup], fold_of: &[usize]) -> Vec<(i16, f32)> {
     let folds: BTreeSet<usize> = pairs.iter().map(|pair| fold_of[pair.group]).collect();
     let others = |fold: usize| around(&pairs.iter().filter(|pair| fold_of[pair.group] != fold).collect::<Vec<_>>(), groups);

@@ -1,4 +1,4 @@
-//! Tables of labelled names, and groups of those of a scene that differ in their numbers alone.
+//! Tables of labelled names, and groups of names of a scene that differ only in their numbers.
 
 use crate::lexicon::Lexicon;
 use crate::table::TableError;
@@ -28,7 +28,7 @@ pub struct NameGroup {
     pub scene: String,
     /// The words, perhaps none.
     pub words: Vec<String>,
-    /// How many of its objects have which class; −1 for those that nobody labelled.
+    /// Number of its objects by class; −1 for unlabelled ones.
     pub classes: BTreeMap<i16, usize>,
 }
 

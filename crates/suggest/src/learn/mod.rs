@@ -1,7 +1,7 @@
-//! Learning the tables from names that people have labelled: what `data/` was made with, open to tables of your own.
+//! Learning the tables from names that people have labelled. `data/` was made with it, and you can use it for your own tables.
 //!
-//! [`read_names`] reads a table of labelled names, [`group`] puts those of a scene together that differ in their numbers only,
-//! [`learn`] finds the weights, and [`held_out`] asks models about scenes that they have not seen.
+//! [`read_names`] reads a table of labelled names, [`group`] groups names of a scene that differ only in their numbers, [`learn`] finds the
+//! weights, and [`held_out`] tests models on scenes that they have not seen.
 
 mod folds;
 mod groups;

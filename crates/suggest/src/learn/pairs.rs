@@ -1,8 +1,8 @@
-//! What names around a part are worth, learned from Hypersim's names of two: `sofa leg` is to a hierarchy a *leg* in a *sofa*, and people
-//! have said what it is.
+//! The weight of names around a part, learned from Hypersim's names of two: `sofa leg` corresponds to a *leg* in a *sofa* in a hierarchy,
+//! and people have labelled it.
 //!
-//! Hypersim's scenes have no hierarchy, but a tenth of its names have a thing first and then what of it: its piece, a thing of its own
-//! (`ceiling lamp`), a form or a material. Both halves are asked for by themselves; the share of each [`Inner`] is the one under which the
+//! Hypersim's scenes have no hierarchy, but a tenth of its names have a thing first and then a detail: its piece, a separate thing
+//! (`ceiling lamp`), a form or a material. Both halves are classified separately; the share of each [`Inner`] is the one under which the
 //! labels are likeliest (expectation maximisation of a mixture of two).
 
 use super::groups::NameGroup;
@@ -15,7 +15,7 @@ const STEPS: usize = 100;
 /// Pairs of each kind that are taken as half shared before any is seen.
 const PRIOR: f32 = 1.0;
 
-/// A name of two, as models say that have not seen it.
+/// A name of two halves, as classified by models that have not seen it.
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// Index of its group.
@@ -32,7 +32,7 @@ impl Pair {
         Self { group, inner: level(inner), outer: level(outer) }
     }
 
-    /// What the own half is in the other; `None` for a thing.
+    /// Kind of the inner half; `None` for a thing.
     pub fn kind(&self) -> Option<Inner> {
         Inner::of(&self.inner.role, self.inner.best().1, self.outer.best().0)
     }

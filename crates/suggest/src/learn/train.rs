@@ -8,7 +8,7 @@ use crate::lexicon::Lexicon;
 use crate::weights::{CLASSES, Weights, softmax};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Labelled groups that need to mean a class for their names to say more of it than the word list alone.
+/// Number of labelled groups of a class from which their names count more than the word list.
 pub const FEW: usize = 5;
 
 /// How weights are learned. The defaults did best on held-out scenes.
@@ -26,11 +26,11 @@ pub struct LearnConfig {
     pub count_power: f32,
     /// Scenes that need to have a feature. Default 1.
     pub fewest_scenes: usize,
-    /// What a word of the word list counts, as a name that has its class, beside 1 for a name of a scene. Without these, rare classes
-    /// would be known by nothing. Default 1.
+    /// Weight of a word of the word list as an example of its class, relative to 1 for a name of a scene. Without these, rare classes would
+    /// have no examples. Default 1.
     pub word_list: f32,
-    /// What such a word counts whose class is meant by the names of fewer than five labelled groups: nothing else is known of it, and what
-    /// its letters seem to say is chance. Default 30.
+    /// Weight of such a word if fewer than five labelled groups have its class: there is no other evidence, and correlations with its
+    /// letters are chance. Default 30.
     pub unseen_word: f32,
 }
 
@@ -60,7 +60,7 @@ struct State {
 pub fn learn(groups: &[&NameGroup], lexicon: &Lexicon, config: &LearnConfig) -> Weights {
     let labelled: Vec<(&NameGroup, Vec<String>)> =
         groups.iter().filter(|g| g.labelled() > 0 && !g.words.is_empty()).map(|&g| (g, features(&g.words, lexicon))).collect();
-    // Only what the list says, so that its word is learned as one that no scene has.
+    // Only features from the list, so that its word is learned like one that no scene has.
     let said = |features: Vec<String>| features.into_iter().filter(|f| f.starts_with("means ") || f.starts_with("head "));
     let listed: Vec<(Vec<String>, i16)> =
         lexicon.entries().iter().map(|(words, class)| (said(features(words, lexicon)).collect(), *class)).collect();
@@ -119,7 +119,7 @@ fn step(example: &Example, states: &mut [[State; CLASSES]], config: &LearnConfig
     let mut gradient = softmax(&sums);
     example.shares.iter().for_each(|&(class, share)| gradient[class] -= share);
     for &feature in &example.features {
-        // What every name has is not penalised.
+        // The feature that every name has is not penalised.
         let l1 = if feature == 0 { 0.0 } else { config.l1 };
         for (state, gradient) in states[feature].iter_mut().zip(&gradient) {
             let g = gradient * example.weight;

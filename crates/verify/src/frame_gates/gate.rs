@@ -38,14 +38,14 @@ impl Limit {
     }
 }
 
-/// What a gate asks.
+/// The definition of a gate.
 #[derive(Clone, Copy, Debug)]
 pub struct GateSpec {
     /// Which one.
     pub gate: Gate,
     /// In a few words, as the head of a column.
     pub name: &'static str,
-    /// What is measured.
+    /// The measure.
     pub measure: &'static str,
     /// Which side of the bound is good.
     pub limit: Limit,
@@ -53,9 +53,9 @@ pub struct GateSpec {
     pub bound: f64,
     /// Unit of value and bound; empty for pure numbers.
     pub unit: &'static str,
-    /// Whose rule it is.
+    /// Source of the rule.
     pub source: &'static str,
-    /// What a rejection may mean, and what to do.
+    /// Possible causes of a rejection, and what to do.
     pub meaning: &'static str,
 }
 

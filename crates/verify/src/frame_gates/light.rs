@@ -5,10 +5,10 @@ use enfilade_frame::tonemap::{ToneMap, brightness};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::quantile;
 
-/// Where shading and residual are cut before they are put together again.
+/// Quantile at which shading and residual are clipped before they are recombined.
 const CLIP_QUANTILE: f64 = 0.98;
 
-/// What equal pictures score, dB.
+/// Score of equal pictures, dB.
 const EQUAL_PSNR: f64 = 100.0;
 
 /// The values of the gates of colour, as far as the layers are there.
@@ -47,12 +47,12 @@ fn byte(tone: ToneMap, radiance: f64) -> f64 {
 }
 
 fn rgb_range(color: &Values, tone: ToneMap) -> f64 {
-    // What is brighter is shown brighter.
+    // A brighter radiance is shown brighter.
     let (least, greatest) = numbers(color).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     byte(tone, greatest) - byte(tone, least)
 }
 
-/// How well the picture survives that its light is cut at the 98th percentile of shading.
+/// Similarity of the picture to one whose light is clipped at the 98th percentile of shading.
 fn recomposition_psnr(frame: &Frame) -> Option<f64> {
     let [color, albedo, shading, residual] =
         [Layer::Color, Layer::DiffuseReflectance, Layer::DiffuseIllumination, Layer::Residual].map(|layer| frame.get(layer));

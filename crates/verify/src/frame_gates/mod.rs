@@ -1,8 +1,8 @@
-//! Gates: what those who train on such data ask of a frame before they take it.
+//! Gates: requirements that users of training data have for a frame.
 //!
-//! [`GATES`] is the one table: what is measured, the limit, and whose rule it is. A frame that a gate rejects is not wrong (that is
-//! for the laws of `verify`), but nobody will use it. [`view_values`] needs geometry layers alone, so that views can be judged before light
-//! is computed; [`light_values`] needs the colour layers.
+//! [`GATES`] is the one table: the measure, the limit, and the source of the rule. A frame that a gate rejects is not wrong (errors are
+//! found by the laws of `verify`), but it is not useful for training. [`view_values`] needs only geometry layers, so that views can be
+//! judged before light is computed; [`light_values`] needs the colour layers.
 
 mod gate;
 mod light;

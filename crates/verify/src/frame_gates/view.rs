@@ -1,4 +1,4 @@
-//! Gates that geometry layers alone decide: what a view shows, whatever its light.
+//! Gates that need only geometry layers: what a view shows, independent of its light.
 
 use super::{Gate, GateValues};
 use enfilade_frame::vector;
@@ -9,8 +9,8 @@ use enfilade_math::DVec3;
 /// hundredth, since a plane's border cuts at most a few cells per row.
 const COLUMNS: usize = 64;
 
-/// Points are of one plane when the cosine between their normals is at least this (1.8 degrees), and each lies this near to the plane of
-/// the other, in metres: coarser than float16 stores a normal, finer than a picture or carpet is thick.
+/// Points are in one plane if the cosine between their normals is at least this (1.8 degrees), and each is this near to the plane of the
+/// other, in metres: coarser than float16 stores a normal, finer than a picture or carpet is thick.
 const SAME_NORMAL: f64 = 0.9995;
 const SAME_OFFSET_M: f64 = 0.01;
 
@@ -35,9 +35,9 @@ pub fn view_values(frame: &Frame, seeing: usize) -> GateValues {
     values
 }
 
-/// Share of the image that the largest plane fills, whatever parts lie in it; `None` without positions or normals.
+/// Share of the image that the largest plane fills, over all parts in it; `None` without positions or normals.
 ///
-/// Normals are those of the triangles where the frame has them, else the smooth ones.
+/// Normals are the triangles' where the frame has them, else the smooth ones.
 pub fn largest_plane_share(frame: &Frame) -> Option<f64> {
     let normals = frame.get(Layer::NormalGeometricWorld).or(frame.get(Layer::NormalWorld))?;
     let positions = frame.get(Layer::Position)?;
@@ -105,7 +105,7 @@ mod tests {
         let values = view_values(&frame, frame.pixels());
         let void = share_of(&frame, |id| id == -1.0);
         assert!(void > 0.0 && (values[&Gate::InvalidShare] - void).abs() < 1e-12);
-        // The mirror lies in the wall's plane, as a picture on a wall does.
+        // The mirror is in the wall's plane, like a picture on a wall.
         let plane = share_of(&frame, |id| id == 1.0).max(share_of(&frame, |id| id >= 2.0));
         assert!((values[&Gate::PlaneShare] - plane).abs() < 1e-12, "{values:?} {plane}");
         let depth = frame.get(Layer::DepthZMeters).unwrap();

@@ -14,14 +14,14 @@ pub enum ViewGate {
     Invalid,
 }
 
-/// What a gate of views asks.
+/// The definition of a gate of views.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewGateSpec {
     /// Which one.
     pub gate: ViewGate,
     /// In files.
     pub name: &'static str,
-    /// What is measured.
+    /// The measure.
     pub measure: &'static str,
     /// Name of that in files.
     pub column: &'static str,

@@ -1,10 +1,10 @@
-//! What is measured of a view.
+//! Measures of a view.
 
 use super::ViewGate;
 use crate::frame_gates::{Gate, view_values};
 use enfilade_frame::{Frame, Layer};
 
-/// Where a camera stands, apart from what it looks at.
+/// Measures of a camera's place, independent of its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Share of all directions in which there is a back face, or a surface nearer than [`GateConfig::enclosed_m`](super::GateConfig).
@@ -13,7 +13,7 @@ pub struct Place {
     pub open_share: f64,
 }
 
-/// One value for each gate; [`super::VIEW_GATES`] says what each one is.
+/// One value for each gate; [`super::VIEW_GATES`] defines each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs, reason = "plain words")]
 pub struct ViewMeasures {
@@ -30,8 +30,8 @@ pub struct ViewMeasures {
 impl ViewMeasures {
     /// Measures from the geometry layers of a view, in metres, and the place where it is taken.
     ///
-    /// `wrong_side` says by pixel whether it shows the back of something that has a front. In `seeing` of the pixels the camera sees
-    /// at all; the others count for nothing. What is nearer than `min_depth_m` is too near.
+    /// `wrong_side` is true for pixels that show the back of something that has a front. In `seeing` of the pixels the camera sees
+    /// at all; the others are ignored. Surfaces nearer than `min_depth_m` are too near.
     ///
     /// # Panics
     /// When a layer that `Look` has is missing, or `wrong_side` is not of the frame's size.
@@ -84,7 +84,7 @@ mod tests {
         let measured = |seeing| ViewMeasures::new(&frame, &vec![false; ids.len()], seeing, PLACE, 0.3);
         let whole = measured(ids.len());
         assert!((whole.void_share - void as f64 / ids.len() as f64).abs() < 1e-12 && whole.void_share == whole.invalid_share);
-        // All that is void lies beyond the rim.
+        // All void pixels are beyond the rim.
         let rim = measured(ids.len() - void);
         assert_eq!((rim.void_share, rim.invalid_share), (0.0, 0.0));
         assert!(rim.plane_share > whole.plane_share && (rim.enclosed_share, rim.open_share) == (0.1, 0.2));

@@ -76,7 +76,7 @@ export const GROUPS = [
     { name: "Light by fixture", passes: ["fixtures"] },
     { name: "Mixes of fixtures", passes: ["mixes"] },
     { name: "Surfaces along rays", passes: ["surfaces"] },
-    { name: "Rooms", passes: ["layout"] },
+    { name: "Rooms", passes: ["rooms"] },
     { name: "To other frames", passes: ["pairs"] },
     { name: "Sensors", passes: ["sensors"] },
 ];

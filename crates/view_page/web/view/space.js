@@ -5,6 +5,7 @@ import { getBytes } from "../shared/api.js";
 import { byId, el } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
+import { themeColor } from "../shared/theme.js";
 import { toastError } from "../shared/toast.js";
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
@@ -123,10 +124,8 @@ export class Space {
     }
 
     theme() {
-        const style = getComputedStyle(document.documentElement);
-        const color = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
-        this.stage?.setTheme({ background: color("--ground"), accent: color("--accent"), paint: color("--warn") });
-        this.stage?.renderer.setClearColor(color("--ground"));
+        this.stage?.setTheme({ background: themeColor("--ground"), accent: themeColor("--accent"), paint: themeColor("--warn") });
+        this.stage?.renderer.setClearColor(themeColor("--ground"));
     }
 
     #choices() {

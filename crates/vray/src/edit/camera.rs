@@ -3,10 +3,10 @@
 use super::{add, set_on_settings, set_where_present, text};
 use enfilade_vrscene::{Document, Item, Plugin, Transform, Value};
 
-/// Where the camera is in a frame.
+/// The camera's pose in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraKeyframe {
-    /// Number of the frame; keyframes stand in rising order.
+    /// Number of the frame; keyframes are in rising order.
     pub frame: i64,
     /// Centre of the camera, asset units.
     pub position: [f64; 3],
@@ -25,7 +25,7 @@ pub struct CameraPath {
     pub fov_x_rad: f64,
     /// Width and height of the image, pixels.
     pub size: [u32; 2],
-    /// Where no pinhole says which ray belongs to a pixel.
+    /// The lens of a camera that is not a pinhole.
     pub lens: Option<LensTexture>,
 }
 
@@ -128,8 +128,8 @@ fn transforms(keyframes: &[CameraKeyframe]) -> Value {
     }
 }
 
-/// Buffer, texture and coordinates of a lens. The corners of the image fall on the centres of the corner texels. The picture holds
-/// numbers and no colours, so nothing may filter, tile or decode it.
+/// Buffer, texture and coordinates of a lens. The corners of the image are at the centres of the corner texels. The picture's values are
+/// numbers, not colours, so nothing may filter, tile or decode it.
 fn add_lens(scene: &mut Document, lens: &LensTexture) {
     let [c, r] = lens.size.map(|n| n as f32);
     let matrix = [[(c - 1.0) / c, 0.0, 0.0], [0.0, (r - 1.0) / r, 0.0], [0.0, 0.0, 1.0]];

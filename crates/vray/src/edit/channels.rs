@@ -37,7 +37,7 @@ pub const COLOR_CHANNELS: [ColorChannel; 13] = [
     light("VRaySSS2", 133),
 ];
 
-/// Light as it is: 32 bits, linear, nothing clamped, surroundings of a plain known colour, surfaces that are fully there.
+/// Unmodified light: 32 bits, linear, nothing clamped, surroundings of a plain known colour, surfaces without transparency.
 pub fn prepare_for_layers(scene: &mut Document) {
     set_on_settings(scene, "SettingsEXR", &[("bits_per_channel", Value::Int(32)), ("write_integer_ids", Value::Int(1))]);
     set_on_settings(
@@ -95,7 +95,7 @@ pub fn add_color_channels(scene: &mut Document) {
     }
 }
 
-/// What V-Ray's denoiser needs; it is run afterwards, if at all.
+/// Adds the channels for V-Ray's denoiser; it is run afterwards, if at all.
 pub fn add_denoiser(scene: &mut Document) {
     let parameters = [
         ("name", text("VRayDenoiser")),

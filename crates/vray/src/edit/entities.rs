@@ -1,4 +1,4 @@
-//! Numbers nodes and lights, so that images tell them apart, and hides those that have no object in the mesh.
+//! Numbers nodes and lights, so that images distinguish them, and hides those that have no object in the mesh.
 
 use enfilade_vrscene::{Document, Value};
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ const LIGHTS: [&str; 3] = ["LightRectangle", "LightMesh", "LightDome"];
 /// A node or light with its number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entity {
-    /// What `render_entity_id` shows, from 1.
+    /// Its value in `render_entity_id`, from 1.
     pub id: i64,
     /// The plugin's name.
     pub name: String,
@@ -19,7 +19,7 @@ pub struct Entity {
     pub light: bool,
 }
 
-/// What else is done to nodes and lights.
+/// Further changes to nodes and lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EntityOptions {
     /// Nodes that are no object of the mesh are made invisible, so that images show what the mesh has.

@@ -1,6 +1,6 @@
-//! What Hypersim's toolkit does to scenes of V-Ray before they are rendered, one file per purpose.
+//! The edits that Hypersim's toolkit makes to scenes of V-Ray before they are rendered, one file per purpose.
 //!
-//! Every function edits a [`Document`] in memory and says what it did; settings that a scene lacks are added.
+//! Every function edits a [`Document`] in memory and returns what it did; settings that a scene lacks are added.
 //! Constants are the toolkit's.
 //!
 //! ```

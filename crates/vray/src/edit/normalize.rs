@@ -3,8 +3,8 @@
 use super::{set_on_settings, set_where_present};
 use enfilade_vrscene::{Document, SceneTextError, Value};
 
-/// How an exporter's answers are put right; each does what the one before does, and more. Hypersim used the first for 414 scenes, the
-/// second for 33, the third for 35.
+/// Levels of correction of an exporter's settings; each does everything that the one before does, and more. Hypersim used the first for 414
+/// scenes, the second for 33, the third for 35.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Normalization {
     /// The frame buffer corrects no colours and shows them linearly.
@@ -31,7 +31,7 @@ pub(super) fn linear_frame_buffer() -> [(&'static str, Value); 2] {
     [("cc_settings", Value::Int(-1)), ("display_srgb", Value::Int(0))]
 }
 
-/// Metres per unit of the scene's coordinates; `None` where the scene does not say it.
+/// Metres per unit of the scene's coordinates; `None` if the scene does not state it.
 ///
 /// # Errors
 /// When the value cannot be read.

@@ -33,8 +33,8 @@ pub struct GiFiles {
     pub irradiance_map: bool,
 }
 
-/// Which files of indirect light a scene makes: those of its engines, and none where indirect light is off, as it is by
-/// default. Of keyframes the first counts.
+/// The files of indirect light that a scene makes: those of its engines, and none if indirect light is off, the default. Of keyframes the
+/// first is used.
 ///
 /// # Errors
 /// When a setting cannot be read.
@@ -55,7 +55,7 @@ pub fn gi_files(scene: &Document) -> Result<GiFiles, SceneTextError> {
     Ok(GiFiles { light_cache: on && [primary, secondary].contains(&LIGHT_CACHE), irradiance_map: on && primary == IRRADIANCE_MAP })
 }
 
-/// Makes the scene of one pass from that of all: what the pass does not need is removed.
+/// Makes the scene of one pass from the full scene by removing everything that the pass does not need.
 pub fn make_pass(scene: &mut Document, pass: Pass, caches: &GiCaches) {
     match pass {
         Pass::Geometry => {

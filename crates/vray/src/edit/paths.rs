@@ -1,4 +1,4 @@
-//! Paths in scenes are those of the machine that wrote them; here they become those of the machine that renders.
+//! Paths in scenes are valid on the machine that wrote them; this module changes them to paths on the machine that renders.
 
 use enfilade_vrscene::{Document, Item, Place, Value};
 
@@ -12,13 +12,13 @@ pub enum Platform {
 }
 
 impl Platform {
-    /// Platform that a path is written for, as far as it can be told.
+    /// Platform that a path is written for, as far as it can be recognised.
     pub fn of(path: &str) -> Self {
         let drive = path.as_bytes().get(1) == Some(&b':');
         if drive || path.contains('\\') { Self::Windows } else { Self::Unix }
     }
 
-    /// What stands between folders.
+    /// The separator between folders.
     pub fn separator(self) -> char {
         match self {
             Self::Unix => '/',
@@ -32,8 +32,8 @@ impl Platform {
     }
 }
 
-/// True for a parameter that holds the path of a file, whatever its plugin: whose name begins with `file`, as the toolkit has it, or ends
-/// in `_file` and is not that of the picture that V-Ray writes; and the cache of a simulation.
+/// True for a parameter whose value is the path of a file, in any plugin: its name begins with `file`, as in the toolkit, or ends in
+/// `_file` and does not name the picture that V-Ray writes; or it is the cache of a simulation.
 fn holds_path(parameter: &[u8]) -> bool {
     parameter.starts_with(b"file") || parameter == b"cache_path" || parameter.ends_with(b"_file") && parameter != b"img_file"
 }
@@ -45,13 +45,13 @@ pub struct FileReference {
     pub path: String,
     /// The plugin's name; `#include` for an included file.
     pub plugin: String,
-    /// The parameter that holds it; `#include` for an included file.
+    /// The parameter with the path; `#include` for an included file.
     pub parameter: String,
-    /// Where it stands.
+    /// Its place in the scene file.
     pub place: Place,
 }
 
-/// Every file that the scene refers to, in its order: what must lie on the machine that renders. Empty paths are none.
+/// Every file that the scene refers to, in its order: these must exist on the machine that renders. Empty paths are skipped.
 pub fn file_references(scene: &Document) -> Vec<FileReference> {
     let mut found = Vec::new();
     for item in &scene.items {

@@ -6,7 +6,7 @@ use enfilade_vrscene::{Document, Value};
 /// Radiance of the surroundings in Hypersim's scenes: arbitrary, and white after tone mapping.
 const SURROUNDINGS: f32 = 4.0;
 
-/// What rays see that leave the scene: in the picture, for indirect light, in mirrors, through glass, and from matte objects.
+/// Settings for rays that leave the scene: in the picture, for indirect light, in mirrors, through glass, and from matte objects.
 const SURROUNDINGS_OF: [&str; 5] = ["bg", "gi", "reflect", "refract", "secondary_matte"];
 
 /// Hypersim's settings of the image in place of the scene's: progressive sampling to a noise of 0.001 for 300 minutes at most, and an

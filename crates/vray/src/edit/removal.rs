@@ -17,7 +17,7 @@ pub const IMAGE_FILTERS: [&str; 10] = [
     "FilterArea",
 ];
 
-/// What was removed.
+/// Counts of removed items.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Removed {
     /// Plugins.
@@ -26,8 +26,8 @@ pub struct Removed {
     pub references: usize,
 }
 
-/// Removes all plugins of some kinds and every reference to them. A parameter that is such a reference is removed, so that V-Ray takes
-/// its default; of a list the entry is.
+/// Removes all plugins of some kinds and every reference to them. A parameter that is such a reference is removed, so that V-Ray takes its
+/// default; in a list only the entry is removed.
 pub fn remove_kinds(scene: &mut Document, kinds: &[&str]) -> Removed {
     let mut names = HashSet::new();
     let before = scene.items.len();
@@ -44,7 +44,7 @@ pub fn remove_kinds(scene: &mut Document, kinds: &[&str]) -> Removed {
     }
     for plugin in scene.plugins_mut() {
         plugin.parameters_mut().retain_mut(|parameter| {
-            // Most values cannot be references, and packed ones are long to decode: their beginning tells.
+            // Most values cannot be references, and packed ones take long to decode: the beginning of the text is enough to decide.
             let Ok(value) = (if may_refer(parameter.raw()) { parameter.value() } else { return true }) else { return true };
             match without(value.clone(), &names, &mut removed.references) {
                 Some(rest) if rest == value => true,

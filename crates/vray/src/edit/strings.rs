@@ -1,10 +1,10 @@
-//! The strings that a node leads to (names, paths of textures, notes), by which people tell what it is.
+//! The strings reachable from a node (names, paths of textures, notes), by which people recognise what it is.
 
 use enfilade_vrscene::{Document, Parameter, Plugin, Value};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// A string that a node leads to: names of plugins and materials, files of textures, notes of exporters. They tell people what the
-/// node is.
+/// A string reachable from a node: a name of a plugin or material, a file of a texture, a note of an exporter. People recognise from them
+/// what the node is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeString {
     /// From the node to the string: `<root>.parameter.parameter[i]…`.
@@ -13,12 +13,12 @@ pub struct NodeString {
     pub string: String,
 }
 
-/// All strings that a node leads to: its own name and, depth first, those behind its parameters, which are taken by their names.
+/// All strings reachable from a node: its own name and, depth first, the strings behind its parameters, in the order of their names.
 ///
-/// The paths and their order are the toolkit's, with two differences: a plugin that several ways lead to is named at each of them, but
-/// what lies behind it is listed at the first only, while the toolkit repeats it; and a reference to a plugin's output counts as one to
-/// the plugin, while the toolkit stops there. A way that closes a circle ends before it. Strings of parameters that the scene does not
-/// state are missing: only V-Ray knows them.
+/// The paths and their order are the toolkit's, with two differences: a plugin that is reached on several paths is named on each of them,
+/// but the strings behind it are listed only on the first, while the toolkit repeats them; and a reference to a plugin's output counts as
+/// one to the plugin, while the toolkit stops there. A path ends before it would become circular. Strings of parameters that the scene does
+/// not state are missing: only V-Ray knows them.
 pub fn node_strings(scene: &Document, node: &Plugin) -> Vec<NodeString> {
     let plugins: HashMap<&[u8], &Plugin> = scene.plugins().map(|plugin| (plugin.name(), plugin)).collect();
     let mut walk = Walk { plugins: &plugins, way: Vec::new(), visited: HashSet::new(), found: Vec::new() };

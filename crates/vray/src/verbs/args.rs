@@ -2,6 +2,7 @@
 
 use crate::CameraWish;
 use clap::{Args, Subcommand, ValueEnum};
+use enfilade_options::text::parse_size;
 use std::path::PathBuf;
 
 /// `vray`
@@ -289,10 +290,4 @@ pub enum PassArg {
     Pre,
     /// The image and its parts
     Final,
-}
-
-/// Width and height in pixels, as `640x480`.
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
-    parsed.ok_or_else(|| "expected width and height, as in 640x480".into())
 }

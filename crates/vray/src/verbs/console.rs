@@ -1,12 +1,12 @@
-//! What the verbs need of the program that has them.
+//! The interface of the verbs to the program that includes them.
 
 use enfilade_scene::Cx;
 
-/// Where the verbs say what they did, and how far they are.
+/// Receives the results and the progress of the verbs.
 pub trait Console {
-    /// Says a line of the result.
+    /// Prints a line of the result.
     fn say(&self, line: &str);
 
-    /// Begins long work on `name`, which is told as that of `verb` while the value lives.
+    /// Begins long work on `name`, which is reported as work of `verb` while the value lives.
     fn begin(&self, name: &str, verb: &'static str) -> Box<dyn Cx + '_>;
 }

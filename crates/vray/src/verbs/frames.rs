@@ -1,4 +1,4 @@
-//! Where scenes meet datasets: cameras, jobs, and images as frames.
+//! The verbs that connect scenes and datasets: cameras, jobs, and images as frames.
 
 use super::Console;
 use super::args::{CollectArgs, JobArgs};
@@ -9,7 +9,7 @@ use enfilade_dataset::{Dataset, quoted, write_bytes};
 use enfilade_vrscene::Document;
 use std::path::{Path, PathBuf};
 
-/// Metres per unit of a scene, if it says so.
+/// Metres per unit of a scene, if it states them.
 pub fn units(scene: &Document, file: &Path) -> Result<Option<f64>, VrayError> {
     meters_per_asset_unit(scene)
         .map_err(|error| VrayError::usage(format!("{}:{error}", file.display()), "export the scene again, or correct it at this place"))

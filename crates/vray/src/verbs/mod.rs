@@ -24,7 +24,7 @@ use std::path::Path;
 /// Does what the arguments of `enfilade vray` ask for.
 ///
 /// # Errors
-/// When a scene, a job or an image cannot be read, edited or written as asked; the error says what to do.
+/// When a scene, a job or an image cannot be read, edited or written as asked; the error states what to do.
 pub fn vray(args: &VrayArgs, console: &dyn Console) -> Result<(), VrayError> {
     match &args.edit {
         Edit::Copy(copy) => edited(copy, console, |_| Ok("copied".into())),
@@ -136,7 +136,7 @@ pub fn vray(args: &VrayArgs, console: &dyn Console) -> Result<(), VrayError> {
     }
 }
 
-/// Reads, edits and writes a scene, and says what the edit did. The output appears whole or not at all.
+/// Reads, edits and writes a scene, and reports what the edit did. The output appears whole or not at all.
 fn edited(copy: &Copy, console: &dyn Console, edit: impl FnOnce(&mut Document) -> Result<String, VrayError>) -> Result<(), VrayError> {
     let mut scene = read_scene(&copy.input)?;
     let done = edit(&mut scene)?;

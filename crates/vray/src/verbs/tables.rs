@@ -6,7 +6,7 @@ use enfilade_dataset::write_bytes;
 use enfilade_vrscene::Document;
 use std::path::Path;
 
-/// What stands for no object.
+/// Name that means no object.
 const NULL_OBJECT: &str = "_NULL_OBJECT";
 
 /// The names of `metadata_objects.csv`, in order.

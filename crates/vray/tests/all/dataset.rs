@@ -103,7 +103,7 @@ fn rendered() -> Vec<Layer> {
     LAYERS.iter().filter(|spec| matches!(spec.pass, Pass::Final | Pass::Geometry)).map(|spec| spec.layer).collect()
 }
 
-/// What the job says about its only camera.
+/// Settings of the job's only camera.
 fn of_job(folder: &Path) -> CollectConfig {
     let Job { scene, cameras, meters_per_unit, nodes, .. } = read_job(&folder.join("job.json")).unwrap();
     let camera = &cameras[0];
@@ -208,7 +208,7 @@ fn v_rays_images_become_the_frames_that_our_renderer_writes() {
                     assert!((0..theirs.len()).all(|i| theirs.get(i).is_nan()));
                     continue;
                 }
-                // What is subtracted and added again is rounded twice, and normals of 11 bits get unit length once more.
+                // Values that are subtracted and added again are rounded twice, and normals of 11 bits are normalised again.
                 Layer::Color | Layer::Residual => 1e-3,
                 Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam => 1.5e-3,
                 Layer::DepthMeters | Layer::DepthZMeters => 1e-6,
@@ -218,7 +218,7 @@ fn v_rays_images_become_the_frames_that_our_renderer_writes() {
             assert!(off <= bound, "{} differs by {off} in frame {}", layer.spec().name, pose.frame);
         }
     }
-    // What follows rendering works on them, and the laws hold.
+    // The stages after rendering work on them, and the laws are satisfied.
     for stage in [Stage::Label, Stage::Boxes, Stage::Preview] {
         let done = run_stage(&data, stage, None, false, &Silent).unwrap();
         assert!(done.ok(), "{:?}", done.scenes[0].failure.as_ref().map(|f| &f.message));

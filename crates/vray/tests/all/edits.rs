@@ -1,4 +1,4 @@
-//! What is done to scenes before they are rendered, on a scene of every kind of plugin concerned.
+//! The edits to scenes before they are rendered, on a scene with every kind of plugin concerned.
 
 use enfilade_vray::edit::*;
 use enfilade_vrscene::{Document, Plugin, Value, add_include, inline_includes};
@@ -72,7 +72,7 @@ fn surroundings_of_one_colour_leave_pictures_and_skies_alone() {
     hypersim_surroundings(&mut scene);
     assert_eq!(raw(&scene, "e", "bg_tex"), Some("sky::color"));
     assert_eq!((raw(&scene, "e", "bg_color"), raw(&scene, "e", "gi_color")), (Some("Color(4, 4, 4)"), Some("Color(4, 4, 4)")));
-    // What the scene does not state is a constant of V-Ray's.
+    // Values that the scene does not state are V-Ray's constants.
     assert_eq!((raw(&scene, "e", "gi_tex"), raw(&scene, "e", "reflect_tex")), (Some("AColor(4, 4, 4, 1)"), Some("AColor(4, 4, 4, 1)")));
 }
 

@@ -1,4 +1,5 @@
-//! What makes scenes Hypersim's: one quality for all, and cameras without motion blur and depth of field. What is not named stays.
+//! The edits that give scenes Hypersim's settings: one quality for all, and cameras without motion blur and depth of field. Other settings
+//! stay.
 
 use enfilade_vray::edit::*;
 use enfilade_vrscene::{Document, Value};

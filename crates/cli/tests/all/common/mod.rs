@@ -1,4 +1,4 @@
-//! What the tests of the binary share: tiny scenes, runs of the program, and a hash of a finished dataset.
+//! Helpers of the tests of the binary: tiny scenes, runs of the program, and a hash of a finished dataset.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ pub fn succeed(dir: &Path, args: &[&str]) -> String {
     out
 }
 
-/// A run that must end with `code`, and say each of `words` on standard output or error.
+/// A run that must exit with `code`, and print each of `words` on standard output or error.
 pub fn fail(dir: &Path, args: &[&str], code: i32, words: &[&str]) -> String {
     let (found, out, err) = run(dir, args);
     let text = format!("{out}\n{err}");
@@ -85,7 +85,7 @@ pub fn write_room(dir: &Path, name: &str, lamp: Lamp) -> PathBuf {
 pub const QUICK: &str =
     "seed = 3\nframes = 3\n[render]\nsize = [48, 36]\nsamples = 4\nmax_bounces = 4\n[carve]\nrays = 8192\niterations = 2\n";
 
-/// Where a camera stands in the test room (metres, z up).
+/// A camera in the test room (metres, z up).
 pub const CAMERA: &str = "cameras = [{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }]\n";
 
 /// A `[[scene]]` of the test room `name`.

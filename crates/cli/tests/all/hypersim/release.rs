@@ -19,7 +19,7 @@ pub const SIZE: [u32; 2] = [96, 72];
 /// Frames that have images; the one of pose 2 was removed.
 pub const FRAMES: [u32; 4] = [0, 1, 3, 4];
 
-/// Where the scenes lie.
+/// The folder structure of the scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tree {
     /// `scenes/ai_001_001`, with the table of cameras in the dataset's folder.

@@ -11,7 +11,7 @@ pub const CAMERA: &str = "cam_00";
 const BALL: (DVec3, f64) = (DVec3::new(0.2, -0.1, 0.5), 0.5);
 const FLOOR_HALF_M: f64 = 3.0;
 
-/// Floor and ball as parts; the ball's mesh is a stand-in, for no ray is traced.
+/// Floor and ball as parts; the ball's mesh is a placeholder, because no ray is traced.
 pub fn scene() -> Scene {
     let h = FLOOR_HALF_M as f32;
     let corners = vec![Vec3::new(-h, -h, 0.0), Vec3::new(h, -h, 0.0), Vec3::new(h, h, 0.0), Vec3::new(-h, h, 0.0)];

@@ -1,11 +1,11 @@
 //! Files of arrays in chunks whose tree of chunks is damaged on purpose.
 
-/// Where the root of the tree of chunks lies in a file.
+/// Position of the root of the tree of chunks in a file, in bytes.
 pub fn chunk_tree(file: &[u8]) -> usize {
     file.windows(5).position(|bytes| bytes == b"TREE\x01").expect("a tree of chunks")
 }
 
-/// The file `whole` of an array of so many axes with another tree of chunks: `levels` nodes above an empty leaf, each of which leads to the
+/// The file `whole` of an array of `axes` axes, with another tree of chunks: `levels` nodes above an empty leaf, each of which leads to the
 /// one below it twice, so that there are 2^levels ways down.
 pub fn branching_tree(whole: &[u8], axes: usize, levels: u8) -> Vec<u8> {
     let key = vec![0; 8 + 8 * (axes + 1)];
@@ -26,7 +26,7 @@ pub fn branching_tree(whole: &[u8], axes: usize, levels: u8) -> Vec<u8> {
         let below = file.len() + first.len();
         file.extend(node(level, below));
     }
-    // The superblock says where the file ends.
+    // The superblock stores the end of the file.
     let length = file.len() as u64;
     file[40..48].copy_from_slice(&length.to_le_bytes());
     file

@@ -88,7 +88,7 @@ fn a_view_of_backs_is_a_fault_unless_the_part_was_modelled_inside_out() {
     let outside = Pose::look_at(0, DVec3::new(3.0, 9.0, 1.3), DVec3::new(3.0, 5.0, 1.3), DVec3::Z).unwrap();
     let fault = |inside_out: bool| {
         let shell = cuboid(DVec3::ZERO, DVec3::new(5.9, 4.9, 2.6), !inside_out);
-        // Another building behind the camera, so that it does not stand in the open.
+        // Another building behind the camera, so that it is not in the open.
         let around = cuboid(DVec3::new(-9.0, -9.0, -1.0), DVec3::new(15.0, 15.0, 9.0), true);
         let room = Room::from_parts(vec![shell, around]);
         let space = carved(&room);
@@ -98,7 +98,7 @@ fn a_view_of_backs_is_a_fault_unless_the_part_was_modelled_inside_out() {
     };
     assert_eq!(fault(false).0, Some(Fault::BackFaces));
     assert!(fault(false).1 > 0.3);
-    // Seen from within, such a shell shows nothing but backs: there they say nothing.
+    // Seen from inside, such a shell shows nothing but backs, so backs are no sign of a fault there.
     assert_eq!(fault(true), (None, 0.0));
 }
 

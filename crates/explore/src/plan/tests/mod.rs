@@ -1,4 +1,4 @@
-//! What every trajectory keeps to, on analytic rooms.
+//! Rules that every trajectory keeps, on analytic rooms.
 
 mod gates;
 mod keyframes;
@@ -47,7 +47,7 @@ fn quick() -> PlanConfig {
     PlanConfig { frames: 30, queries: 300, test_width: 48, test_height: 36, ..PlanConfig::default() }
 }
 
-/// What modes work with, for tests of their parts.
+/// A planner for tests of parts of modes.
 fn with_planner<T>(room: &Room, space: &FreeSpace, config: &PlanConfig, test: impl FnOnce(&Planner) -> T) -> T {
     let rules = Rules::new(&room.bvh, space, config);
     let glancer = Glancer::new(&rules, &room.world);

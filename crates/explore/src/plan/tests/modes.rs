@@ -128,7 +128,7 @@ fn exponents_that_leave_no_choice_are_refused_and_great_scores_are_compared() {
         let error = trajectory(&room, &space, &start(), 0, &with(alpha), &Quiet).unwrap_err().to_string();
         assert!(error.contains("saliency") && error.contains("exponents from 0 to 16"), "{error}");
     }
-    // Hundreds of triangles to the power of 16 are more than single precision holds.
+    // Hundreds of triangles to the power of 16 are beyond the range of single precision.
     let config = PlanConfig { max_near_share: 1.0, ..with(16.0) };
     with_planner(&room, &space, &config, |planner| {
         let candidates = stills::candidates(planner, 0, start().position, &mut Rng::new(5));

@@ -1,4 +1,4 @@
-//! What the supplement of Hypersim's paper states of a walk, by its own numbers: nothing here is read from the configuration under test.
+//! Rules of a walk in the supplement of Hypersim's paper, with its own numbers: nothing here is read from the configuration under test.
 
 use super::*;
 use enfilade_geometry::{OccupancyTree, Voxel};

@@ -106,7 +106,7 @@ fn a_start_camera_that_cannot_be_is_moved_or_turned_with_a_warning() {
     };
     let still = PlanConfig { frames: 1, ..quick() };
     assert_eq!(first(&start(), &still).1, "");
-    // Asked for by keys that say so.
+    // With the keys that ask for a height.
     let high = PlanConfig { camera_height_m: Some([1.6, 1.7]), ..still.clone() };
     let (pose, warnings) = first(&start(), &high);
     assert!(warnings.contains("height asked for") && (1.57..=1.67).contains(&pose.position.z), "{warnings}");

@@ -1,4 +1,4 @@
-//! What classes are called: the words of ScanNet's raw vocabulary in `aggregation.json`, and the table by which loaders turn them into numbers.
+//! Names of classes: the words of ScanNet's raw vocabulary in `aggregation.json`, and the table by which loaders turn them into numbers.
 //!
 //! ScanNet's own `scannetv2-labels.combined.tsv` has a row for each raw category, with its number, NYU40's number and NYU40's name. The words
 //! here are raw categories of that table with the same NYU40 number, and of the list of 200 classes of its benchmark ScanNet200 (Rozenberszki

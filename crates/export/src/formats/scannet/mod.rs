@@ -24,7 +24,7 @@ use crate::mesh::missing_mesh_file;
 use crate::picture::{SHOWN, color_jpeg, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use enfilade_frame::{Frame, Layer, Values};
-use enfilade_scene::{Structure, Warning};
+use enfilade_scene::{Rooms, Warning};
 use names::scan;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -43,8 +43,8 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
             out.write(&format!("{folder}/intrinsic/intrinsic_{what}.txt"), intrinsic.as_bytes())?;
             out.write(&format!("{folder}/intrinsic/extrinsic_{what}.txt"), identity.as_bytes())?;
         }
-        let structure = selected.dataset.read_structure(&track.scene)?;
-        out.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k, structure.as_ref()).as_bytes())?;
+        let rooms = selected.dataset.read_rooms(&track.scene)?;
+        out.write(&format!("{folder}/{}.txt", scan(track)), about(track, &k, rooms.as_ref()).as_bytes())?;
     }
     let raw = raw_numbers(selected)?;
     selected.each(|view| write_frame(selected, out, view, &raw[&view.track.scene]))?;
@@ -139,7 +139,7 @@ fn matrix(rows: &[[f64; 4]; 4]) -> String {
 }
 
 /// The page that ScanNet has for every scan: its keys in their order, the kind of scene last, where loaders look for it.
-fn about(track: &Track, calibration: &Calibration, structure: Option<&Structure>) -> String {
+fn about(track: &Track, calibration: &Calibration, rooms: Option<&Rooms>) -> String {
     let k = calibration.intrinsics;
     let [[fx, _, mx], [_, fy, my], _] = k.opencv_k();
     let identity = matrix(&four_by_four(IDENTITY)).trim_end().replace('\n', " ");
@@ -149,13 +149,13 @@ fn about(track: &Track, calibration: &Calibration, structure: Option<&Structure>
         let _ = writeln!(text, "{key}_color = {value}\n{key}_depth = {value}");
     }
     let _ = writeln!(text, "numColorFrames = {0}\nnumDepthFrames = {0}\nnumIMUmeasurements = 0", track.chosen.len());
-    let _ = writeln!(text, "sceneType = {}", scene_type(structure));
+    let _ = writeln!(text, "sceneType = {}", scene_type(rooms));
     text
 }
 
 /// ScanNet's word for what the rooms of a scene are.
-fn scene_type(structure: Option<&Structure>) -> &'static str {
-    match structure.map(|structure| structure.rooms.as_slice()) {
+fn scene_type(rooms: Option<&Rooms>) -> &'static str {
+    match rooms.map(|rooms| rooms.outlines.as_slice()) {
         Some([room]) => match room.kind.as_str() {
             "bathroom" | "toilet" => "Bathroom",
             "bedroom" | "childrens" => "Bedroom / Hotel",

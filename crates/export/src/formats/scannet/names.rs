@@ -1,4 +1,4 @@
-//! What scans are called.
+//! Names of scans.
 
 use crate::selected_frames::Track;
 

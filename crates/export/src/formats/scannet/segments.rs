@@ -7,7 +7,7 @@
 use crate::mesh::SurfaceMesh;
 use enfilade_math::DVec3;
 
-/// How much the normals within a segment may differ, over its number of vertices: what the file's name `0.010000` says.
+/// Threshold of the difference of normals within a segment, divided by its number of vertices: the `0.010000` in the file's name.
 pub(super) const THRESHOLD: f64 = 0.01;
 
 /// Segments of fewer vertices join a neighbour.

@@ -1,4 +1,4 @@
-//! Triangles are cut until no edge is longer than asked, so that what a vertex says is true of a patch of that size.
+//! Subdivision of triangles until no edge is longer than a limit, so that the values of a vertex are valid for a patch of that size.
 //!
 //! In every round each edge that is too long gets a vertex in its middle. Its length alone decides, and triangles that share an edge share the
 //! middle, so a surface without gaps stays one without T-junctions.
@@ -13,10 +13,10 @@ pub(super) const LONGEST_M: f64 = 0.05;
 /// About how many vertices cutting may add to a scene; where it would be more, longer edges stay.
 const MOST_ADDED: f64 = 2e6;
 
-/// Shortest edges over the largest coordinate: what float32 tells apart, ten times.
+/// Shortest edges over the largest coordinate: about ten times the resolution of float32.
 const FINEST: f64 = 1e-6;
 
-/// By how much longer an edge may be in the next try.
+/// Factor by which the length limit grows in the next attempt.
 const LONGER: f64 = 1.25;
 
 /// Vertices per square of the longest edge: cut edges are between half of it and all of it.
@@ -40,8 +40,8 @@ pub(super) fn welded(mesh: &SurfaceMesh) -> SurfaceMesh {
     welded
 }
 
-/// The length that the edges of a scene are cut to, metres: [`LONGEST_M`], or as much more as float32 tells apart and
-/// as keeps the number of vertices in bounds.
+/// The length that the edges of a scene are cut to, metres: [`LONGEST_M`], or longer if the resolution of float32 or the limit on the
+/// number of vertices requires it.
 pub(super) fn edge_length_m<'m>(meshes: impl Iterator<Item = &'m SurfaceMesh> + Clone) -> f64 {
     let reach = |mesh: &SurfaceMesh| mesh.vertices.iter().map(|vertex| vertex.abs().max_element()).fold(0.0, f64::max);
     let mut longest_m = LONGEST_M.max(FINEST * meshes.clone().map(reach).fold(0.0, f64::max));
@@ -141,7 +141,7 @@ mod tests {
         mesh.faces.iter().map(of).sum()
     }
 
-    /// How many triangles have each edge.
+    /// Number of triangles of each edge.
     fn edges(mesh: &SurfaceMesh) -> BTreeMap<[u32; 2], usize> {
         let mut edges = BTreeMap::new();
         for face in &mesh.faces {

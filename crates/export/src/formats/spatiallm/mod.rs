@@ -11,12 +11,13 @@ use crate::ExportError;
 use crate::boxes::instance_boxes;
 use crate::export_folder::ExportFolder;
 use crate::formats::points::SurfacePoint;
-use crate::formats::room_cloud::{CloudSource, is_of_room, of_frames, of_mesh, ply};
+use crate::formats::room_cloud::{is_of_room, of_frames, of_mesh, ply};
 use crate::mesh::instance_meshes;
+use crate::options::CloudSource;
 use crate::selected_frames::{SelectedFrames, Track};
 use enfilade_dataset::Side;
 use enfilade_math::{DVec2, OrientedBox};
-use enfilade_scene::{NYU40, OpeningKind, Structure, Warning};
+use enfilade_scene::{NYU40, OpeningKind, Rooms, Warning};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -38,47 +39,47 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, cloud: Cl
     out.write("split.csv", format!("id,split\n{rows}").as_bytes())
 }
 
-/// Writes what is shown of a scene; false where that is no room.
+/// Writes the rooms of a scene that the cloud shows; false if there are none.
 fn write_scene(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Track], cloud: CloudSource) -> Result<bool, ExportError> {
     let scene = &tracks[0].scene;
-    let structure = selected.structure(scene)?;
-    let (mut points, rooms) = match cloud {
+    let rooms = selected.rooms(scene)?;
+    let (mut points, are_shown) = match cloud {
         CloudSource::Frames => {
             let points = of_frames(selected, tracks)?;
-            let rooms = shown::rooms(&structure, &points);
-            (points, rooms)
+            let are_shown = shown::rooms(&rooms, &points);
+            (points, are_shown)
         }
-        CloudSource::Mesh => (of_mesh(selected, tracks, &structure)?, vec![true; structure.rooms.len()]),
+        CloudSource::Mesh => (of_mesh(selected, tracks, &rooms)?, vec![true; rooms.outlines.len()]),
     };
     let left_out: Vec<&str> =
-        structure.rooms.iter().zip(&rooms).filter(|(_, shown)| !**shown).map(|(room, _)| room.name.as_str()).collect();
+        rooms.outlines.iter().zip(&are_shown).filter(|(_, shown)| !**shown).map(|(room, _)| room.name.as_str()).collect();
     if !left_out.is_empty() {
         let names = left_out[..left_out.len().min(3)].join(", ");
         let message = format!(
             "{} of {} rooms are left out, among them {names}: its frames do not show them to all their walls; --cloud mesh takes all",
             left_out.len(),
-            rooms.len()
+            are_shown.len()
         );
         selected.warn(Warning { place: scene.clone(), message });
     }
-    if !rooms.contains(&true) {
+    if !are_shown.contains(&true) {
         return Ok(false);
     }
-    let is_kept = |p| structure.rooms.iter().zip(&rooms).any(|(room, shown)| *shown && is_of_room(room, p));
+    let is_kept = |p| rooms.outlines.iter().zip(&are_shown).any(|(room, shown)| *shown && is_of_room(room, p));
     points.retain(|point| is_kept(point.position));
     let boxes = instance_boxes(selected.dataset, scene, &instance_meshes(selected.dataset, scene)?)?;
     let boxes: BTreeMap<i16, OrientedBox> = boxes.into_iter().filter(|(_, shape)| is_kept(shape.center)).collect();
-    let text = format!("{}{}", building(&structure, &rooms), things(selected, scene, &boxes, &points)?);
+    let text = format!("{}{}", building(&rooms, &are_shown), things(selected, scene, &boxes, &points)?);
     out.write(&format!("layout/{scene}.txt"), text.as_bytes())?;
     out.write(&format!("pcd/{scene}.ply"), &ply(&points, 1.0))?;
     Ok(true)
 }
 
 /// Walls, doors and windows of the rooms that are shown; a passage is a door.
-fn building(structure: &Structure, rooms: &[bool]) -> String {
+fn building(rooms: &Rooms, are_shown: &[bool]) -> String {
     let mut text = String::new();
     let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
-    for (face, wall) in structure.walls.iter().enumerate().filter(|(_, wall)| rooms[wall.room]) {
+    for (face, wall) in rooms.walls.iter().enumerate().filter(|(_, wall)| are_shown[wall.room]) {
         let ([ax, ay], [bx, by], z) = (wall.from, wall.to, wall.floor_z_m);
         let (height, number) = (wall.ceiling_z_m - z, numbers.len());
         // A face has no thickness of its own, as in SpatialLM's data.
@@ -89,11 +90,11 @@ fn building(structure: &Structure, rooms: &[bool]) -> String {
         ("door", "Door", (|kind| kind != OpeningKind::Window) as fn(OpeningKind) -> bool),
         ("window", "Window", |kind| kind == OpeningKind::Window),
     ] {
-        let of_kind = structure.openings.iter().filter(|opening| is_one(opening.kind));
+        let of_kind = rooms.openings.iter().filter(|opening| is_one(opening.kind));
         let on_face = of_kind.filter_map(|opening| Some((opening, *opening.walls.iter().find(|face| numbers.contains_key(face))?)));
         for (i, (opening, face)) in on_face.enumerate() {
-            // Its corners are on the first of its faces, which may be that of a room that is left out.
-            let wall = &structure.walls[face];
+            // Its corners are on the first of its faces, which may belong to a room that is left out.
+            let wall = &rooms.walls[face];
             let off = DVec2::from(wall.inward).extend(0.0) * wall.distance_m(opening.center());
             let center = if face == opening.walls[0] { opening.center() } else { opening.center() - off };
             let ([x, y, z], [width, height]) = (center.to_array(), opening.size_m());
@@ -129,7 +130,7 @@ fn things(
     Ok(text)
 }
 
-/// How far a box's x axis is turned about z, radians.
+/// Angle of a box's x axis about z, radians.
 fn angle(shape: &OrientedBox) -> f64 {
     let x = shape.world_from_box.x_axis;
     x.y.atan2(x.x)

@@ -1,20 +1,20 @@
-//! What a point cloud shows of a building. SpatialLM counts all coordinates of a layout from the least ones of its cloud, and what lies below
-//! them moves there: walls that no point is near to are wrong when they are learned.
+//! The part of a building that a point cloud shows. SpatialLM counts all coordinates of a layout from the least ones of its cloud, and
+//! moves everything below them there, so walls without points nearby would be learned in wrong positions.
 
 use crate::formats::points::SurfacePoint;
 use enfilade_math::{DVec2, OrientedBox};
-use enfilade_scene::{Structure, StructureRoom, WallFace};
+use enfilade_scene::{RoomOutline, Rooms, WallFace};
 
-/// How far the points of a room may end before its walls and above its floor, metres: two of the steps to which SpatialLM rounds.
+/// Greatest distance between a room's points and its walls or floor, metres: two of the steps to which SpatialLM rounds.
 const SHORT_M: f64 = 0.05;
 
-/// Points belong to a room that lie no further outside of it, metres.
+/// Greatest distance outside of a room of points that belong to it, metres.
 const OUTSIDE_M: f64 = 0.02;
 
 /// Width of the strips of a wall that are looked at, metres.
 const STRIP_M: f64 = 0.25;
 
-/// How near points are that show a strip, metres: what stands at a wall hides it and shows where it is.
+/// Greatest distance of points that show a strip of wall, metres: furniture at a wall hides the wall but shows where it is.
 const NEAR_M: f64 = 0.5;
 
 /// Share of a room's strips that points have to show.
@@ -25,14 +25,14 @@ const FEWEST_IN_BOX: usize = 100;
 const MARGIN_M: f64 = 0.15;
 
 /// Whether the points show each room: to its outline on all sides, its floor, and most of its walls.
-pub(super) fn rooms(structure: &Structure, points: &[SurfacePoint]) -> Vec<bool> {
-    structure.rooms.iter().enumerate().map(|(number, room)| is_shown(structure, number, room, points)).collect()
+pub(super) fn rooms(rooms: &Rooms, points: &[SurfacePoint]) -> Vec<bool> {
+    rooms.outlines.iter().enumerate().map(|(number, room)| is_shown(rooms, number, room, points)).collect()
 }
 
-fn is_shown(structure: &Structure, number: usize, room: &StructureRoom, points: &[SurfacePoint]) -> bool {
+fn is_shown(rooms: &Rooms, number: usize, room: &RoomOutline, points: &[SurfacePoint]) -> bool {
     let heights = room.floor_z_m - OUTSIDE_M..=room.ceiling_z_m + OUTSIDE_M;
     let own = points.iter().map(|point| point.position).filter(|p| heights.contains(&p.z) && room.reaches(p.truncate(), OUTSIDE_M));
-    let mut walls: Vec<(&WallFace, Vec<bool>)> = structure.walls.iter().filter(|wall| wall.room == number).map(strips).collect();
+    let mut walls: Vec<(&WallFace, Vec<bool>)> = rooms.walls.iter().filter(|wall| wall.room == number).map(strips).collect();
     let (mut low, mut high, mut lowest) = (DVec2::INFINITY, DVec2::NEG_INFINITY, f64::INFINITY);
     for p in own {
         (low, high, lowest) = (low.min(p.truncate()), high.max(p.truncate()), lowest.min(p.z));
@@ -68,18 +68,18 @@ mod tests {
     use enfilade_math::{DMat3, DVec3};
 
     /// Two rooms of 4 × 3 and 2 × 3 metres beside each other.
-    fn two_rooms() -> Structure {
-        let room = |name: &str, [left, right]: [f64; 2]| StructureRoom {
+    fn two_rooms() -> Rooms {
+        let room = |name: &str, [left, right]: [f64; 2]| RoomOutline {
             name: name.into(),
             kind: "living".into(),
             polygon: vec![[left, 0.0], [right, 0.0], [right, 3.0], [left, 3.0]],
             floor_z_m: 0.0,
             ceiling_z_m: 2.5,
         };
-        let mut structure = Structure::default();
-        structure.push_room(room("a", [0.0, 4.0]), &[(0.1, true); 4]);
-        structure.push_room(room("b", [4.1, 6.1]), &[(0.1, true); 4]);
-        structure
+        let mut rooms = Rooms::default();
+        rooms.push_room(room("a", [0.0, 4.0]), &[(0.1, true); 4]);
+        rooms.push_room(room("b", [4.1, 6.1]), &[(0.1, true); 4]);
+        rooms
     }
 
     /// Points ten centimetres apart on floor and walls of the box between two corners.
@@ -98,8 +98,8 @@ mod tests {
 
     #[test]
     fn a_room_is_shown_where_points_reach_its_walls_and_floor() {
-        let structure = two_rooms();
-        let shown = |part| rooms(&structure, &points(part));
+        let two = two_rooms();
+        let shown = |part| rooms(&two, &points(part));
         assert_eq!(shown([[0.0; 3], [4.0, 3.0, 2.5]]), [true, false], "the first whole, of the second nothing");
         assert_eq!(shown([[0.0; 3], [4.0, 3.0, 1.0]]), [true, false], "the ceiling need not be seen");
         assert_eq!(shown([[1.0, 0.0, 0.0], [4.0, 3.0, 2.5]]), [false, false], "a wall would move by a metre");
@@ -107,7 +107,7 @@ mod tests {
         // The outermost points alone do not make a room: a diagonal through it reaches all four sides.
         let diagonal = (0..=300).map(|i| DVec3::new(4.0, 3.0, 0.0) * f64::from(i) / 300.0);
         let diagonal: Vec<SurfacePoint> = diagonal.map(|position| SurfacePoint { position, color: [0; 3] }).collect();
-        assert_eq!(rooms(&structure, &diagonal), [false, false]);
+        assert_eq!(rooms(&two, &diagonal), [false, false]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
-//! Structured3D: `scene_<number>/annotation_3d.json`, the structure of a building as junctions, lines and planes, and `bbox_3d.json`, the boxes of
-//! its things; `scenes.csv` says which scene has which number. `point_cloud.ply`, which RoomFormer makes of panoramas, is taken from the mesh.
+//! Structured3D: `scene_<number>/annotation_3d.json`, the rooms of a building as junctions, lines and planes, and `bbox_3d.json`, the boxes
+//! of its things; `scenes.csv` lists the numbers of the scenes. `point_cloud.ply`, which RoomFormer makes of panoramas, is taken from the
+//! mesh.
 //!
 //! Millimetres, z up from the lowest floor, where the programs of the format look for it. A plane is the points p with
 //! normal · p + offset = 0; its normal points into the empty space. The lines of a wall are its outline and those of its openings. A door or
@@ -15,11 +16,11 @@ use crate::formats::room_cloud::{of_mesh, ply};
 use crate::mesh::{instance_meshes, missing_mesh_file};
 use crate::selected_frames::SelectedFrames;
 use enfilade_math::{DVec2, DVec3};
-use enfilade_scene::{OpeningKind, Structure, WallOpening, Warning};
+use enfilade_scene::{OpeningKind, Rooms, WallOpening, Warning};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 
-/// What is outside of the building.
+/// Name of the outside of the building.
 const OUTWALL: &str = "outwall";
 
 /// Millimetres in a metre.
@@ -88,15 +89,15 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
     let numbers = numbers::numbers(selected)?;
     for tracks in selected.scenes() {
         let scene = &tracks[0].scene;
-        let (folder, structure) = (numbers::folder(numbers[scene]), selected.structure(scene)?);
-        // Its programs take what lies at a height of 0 for the floor.
-        let lowest_m = structure.rooms.iter().map(|room| room.floor_z_m).fold(f64::INFINITY, f64::min);
+        let (folder, rooms) = (numbers::folder(numbers[scene]), selected.rooms(scene)?);
+        // Its programs take planes at a height of 0 for the floor.
+        let lowest_m = rooms.outlines.iter().map(|room| room.floor_z_m).fold(f64::INFINITY, f64::min);
         let raised = if lowest_m.is_finite() { DVec3::Z * -lowest_m } else { DVec3::ZERO };
         if raised.z.abs() > 1e-6 {
             let message = format!("its heights are counted from its lowest floor, which lies at {lowest_m:.3} m of the dataset's world");
             selected.warn(Warning { place: scene.clone(), message });
         }
-        let annotation = annotation(&structure, raised);
+        let annotation = annotation(&rooms, raised);
         if annotation.semantics.iter().all(|semantic| semantic.r#type != OUTWALL) {
             let message = "the outer sides of its walls do not close around it, so its annotation has no `outwall`";
             selected.warn(Warning { place: scene.clone(), message: message.into() });
@@ -104,7 +105,7 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder) -> Result
         out.write_json(&format!("{folder}/annotation_3d.json"), &annotation)?;
         out.write_json(&format!("{folder}/bbox_3d.json"), &boxes(selected, scene, raised)?)?;
         if missing_mesh_file(selected.dataset, scene).is_none() {
-            let mut points = of_mesh(selected, tracks, &structure)?;
+            let mut points = of_mesh(selected, tracks, &rooms)?;
             points.iter_mut().for_each(|point| point.position += raised);
             out.write(&format!("{folder}/point_cloud.ply"), &ply(&points, MILLIMETRES))?;
         }
@@ -124,28 +125,28 @@ fn boxes(selected: &SelectedFrames<'_>, scene: &str, raised: DVec3) -> Result<Ve
     Ok(boxes.into_iter().map(one).collect())
 }
 
-fn annotation(structure: &Structure, raised: DVec3) -> Annotation {
+fn annotation(rooms: &Rooms, raised: DVec3) -> Annotation {
     let mut net = Net { raised, ..Net::default() };
-    for (number, room) in structure.rooms.iter().enumerate() {
+    for (number, room) in rooms.outlines.iter().enumerate() {
         let at = |z: f64| room.polygon.iter().map(move |&corner| DVec2::from(corner).extend(z)).collect::<Vec<_>>();
         let (floor, ceiling) = (at(room.floor_z_m), at(room.ceiling_z_m));
         let mut planes = vec![net.plane("floor", DVec3::Z, &[floor]), net.plane("ceiling", DVec3::NEG_Z, &[ceiling])];
-        for (face, wall) in structure.walls.iter().enumerate().filter(|(_, wall)| wall.room == number) {
+        for (face, wall) in rooms.walls.iter().enumerate().filter(|(_, wall)| wall.room == number) {
             let [from, to] = [wall.from, wall.to].map(DVec2::from);
             let (low, high) = (wall.floor_z_m, wall.ceiling_z_m);
             let outline = vec![from.extend(low), to.extend(low), to.extend(high), from.extend(high)];
-            let holes = structure.openings.iter().filter_map(|opening| hole(structure, opening, face));
+            let holes = rooms.openings.iter().filter_map(|opening| hole(rooms, opening, face));
             let loops: Vec<Vec<DVec3>> = std::iter::once(outline).chain(holes).collect();
             planes.push(net.plane("wall", DVec2::from(wall.inward).extend(0.0), &loops));
         }
         net.name(words(&room.kind), planes);
     }
-    for opening in &structure.openings {
+    for opening in &rooms.openings {
         let kind = if opening.kind == OpeningKind::Window { "window" } else { "door" };
-        let planes = sides(&mut net, structure, opening);
+        let planes = sides(&mut net, rooms, opening);
         net.name(kind, planes);
     }
-    let outer = outer_sides(&mut net, structure);
+    let outer = outer_sides(&mut net, rooms);
     if !outer.is_empty() {
         net.name(OUTWALL, outer);
     }
@@ -153,17 +154,17 @@ fn annotation(structure: &Structure, raised: DVec3) -> Annotation {
 }
 
 /// The planes of the outer sides of all outer walls, storey by storey, each with the openings that go through it.
-fn outer_sides(net: &mut Net, structure: &Structure) -> Vec<usize> {
+fn outer_sides(net: &mut Net, rooms: &Rooms) -> Vec<usize> {
     let mut storeys: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
-    for (number, room) in structure.rooms.iter().enumerate() {
+    for (number, room) in rooms.outlines.iter().enumerate() {
         storeys.entry((room.floor_z_m * MILLIMETRES).round() as i64).or_default().push(number);
     }
-    let backs: Vec<Vec<DVec3>> = structure.openings.iter().filter_map(|opening| back(structure, opening)).collect();
+    let backs: Vec<Vec<DVec3>> = rooms.openings.iter().filter_map(|opening| back(rooms, opening)).collect();
     let mut planes = Vec::new();
-    for rooms in storeys.values() {
-        let Some(outlines) = outwall::outlines(structure, rooms) else { return Vec::new() };
-        let low = structure.rooms[rooms[0]].floor_z_m;
-        let high = rooms.iter().map(|&room| structure.rooms[room].ceiling_z_m).fold(low, f64::max);
+    for storey in storeys.values() {
+        let Some(outlines) = outwall::outlines(rooms, storey) else { return Vec::new() };
+        let low = rooms.outlines[storey[0]].floor_z_m;
+        let high = storey.iter().map(|&room| rooms.outlines[room].ceiling_z_m).fold(low, f64::max);
         for outline in outlines {
             for (i, &from) in outline.iter().enumerate() {
                 let to = outline[(i + 1) % outline.len()];
@@ -184,9 +185,9 @@ fn outer_sides(net: &mut Net, structure: &Structure) -> Vec<usize> {
     planes
 }
 
-/// Where an opening to the outside ends, on the outer side of its wall.
-fn back(structure: &Structure, opening: &WallOpening) -> Option<Vec<DVec3>> {
-    let wall = &structure.walls[*opening.walls.first().filter(|_| opening.walls.len() == 1)?];
+/// Outline of an opening to the outside, on the outer side of its wall.
+fn back(rooms: &Rooms, opening: &WallOpening) -> Option<Vec<DVec3>> {
+    let wall = &rooms.walls[*opening.walls.first().filter(|_| opening.walls.len() == 1)?];
     let inward = DVec2::from(wall.inward).extend(0.0);
     Some(opening.corners.iter().map(|&corner| DVec3::from(corner) - inward * wall.thickness_m).collect())
 }
@@ -207,20 +208,20 @@ fn words(kind: &str) -> &'static str {
 }
 
 /// The corners of an opening on one of its faces.
-fn hole(structure: &Structure, opening: &WallOpening, face: usize) -> Option<Vec<DVec3>> {
+fn hole(rooms: &Rooms, opening: &WallOpening, face: usize) -> Option<Vec<DVec3>> {
     let place = opening.walls.iter().position(|&wall| wall == face)?;
-    let first = &structure.walls[opening.walls[0]];
-    let deep = if place == 0 { 0.0 } else { structure.walls[face].distance_m(opening.center()) };
+    let first = &rooms.walls[opening.walls[0]];
+    let deep = if place == 0 { 0.0 } else { rooms.walls[face].distance_m(opening.center()) };
     let behind = DVec2::from(first.inward).extend(0.0) * deep.abs();
     Some(opening.corners.iter().map(|&corner| DVec3::from(corner) - behind).collect())
 }
 
-/// The planes of an opening: its outline on both sides of the wall, and what lies between them.
-fn sides(net: &mut Net, structure: &Structure, opening: &WallOpening) -> Vec<usize> {
-    let wall = &structure.walls[opening.walls[0]];
+/// The planes of an opening: its outline on both sides of the wall, and the planes between them.
+fn sides(net: &mut Net, rooms: &Rooms, opening: &WallOpening) -> Vec<usize> {
+    let wall = &rooms.walls[opening.walls[0]];
     let inward = DVec2::from(wall.inward).extend(0.0);
     let front: Vec<DVec3> = opening.corners.map(DVec3::from).to_vec();
-    let beyond = opening.walls.get(1).and_then(|&face| hole(structure, opening, face));
+    let beyond = opening.walls.get(1).and_then(|&face| hole(rooms, opening, face));
     let mut planes = vec![net.plane("wall", inward, std::slice::from_ref(&front))];
     // To the outside an opening is open: there is no face of the wall that it would be cut from.
     planes.extend(beyond.as_ref().map(|back| net.plane("wall", -inward, std::slice::from_ref(back))));

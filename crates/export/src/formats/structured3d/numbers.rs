@@ -1,4 +1,5 @@
-//! The numbers of scenes: Structured3D calls them `scene_00000` to `scene_03499`, and the number says on which side of its partition a scene is.
+//! The numbers of scenes: Structured3D calls them `scene_00000` to `scene_03499`, and the number determines on which side of its partition
+//! a scene is.
 
 use crate::ExportError;
 use crate::selected_frames::SelectedFrames;
@@ -52,7 +53,7 @@ pub(super) fn folder(number: u32) -> String {
     format!("scene_{number:05}")
 }
 
-/// The file that says which scene is where.
+/// The table of scenes and their numbers.
 pub(super) fn table(numbers: &BTreeMap<String, u32>) -> String {
     let row = |(scene, &number): (&String, &u32)| format!("{},{scene}\n", folder(number));
     "folder,scene\n".to_string() + &numbers.iter().map(row).collect::<String>()

@@ -4,18 +4,18 @@
 //! of the grown rooms' edges outside of all others is the outline.
 
 use enfilade_math::DVec2;
-use enfilade_scene::Structure;
+use enfilade_scene::Rooms;
 use std::collections::BTreeMap;
 
 /// Points nearer to each other are one, metres.
 const SAME_M: f64 = 1e-4;
 
-/// How far beside an edge it is asked what is there, metres: more than rounding, less than any gap between walls.
+/// Distance beside an edge of the point that is tested, metres: more than rounding, less than any gap between walls.
 const BESIDE_M: f64 = 1e-3;
 
-/// The closed lines around the grown `rooms`, interior on the left, that with the largest area first; `None` where they do not close.
-pub(super) fn outlines(structure: &Structure, rooms: &[usize]) -> Option<Vec<Vec<DVec2>>> {
-    let grown: Vec<Vec<DVec2>> = rooms.iter().map(|&room| grown(structure, room)).collect();
+/// The closed lines around the grown rooms of a storey, interior left, that with the largest area first; `None` where they do not close.
+pub(super) fn outlines(rooms: &Rooms, storey: &[usize]) -> Option<Vec<Vec<DVec2>>> {
+    let grown: Vec<Vec<DVec2>> = storey.iter().map(|&room| grown(rooms, room)).collect();
     let edges: Vec<[DVec2; 2]> = grown.iter().flat_map(|polygon| edges(polygon)).collect();
     let mut outer: BTreeMap<[i64; 4], [DVec2; 2]> = BTreeMap::new();
     for &[a, b] in &edges {
@@ -36,8 +36,8 @@ pub(super) fn outlines(structure: &Structure, rooms: &[usize]) -> Option<Vec<Vec
 }
 
 /// A room's outline, counter-clockwise, with every edge moved outward by the thickness of its wall.
-fn grown(structure: &Structure, room: usize) -> Vec<DVec2> {
-    let walls: Vec<_> = structure.walls.iter().filter(|wall| wall.room == room).collect();
+fn grown(rooms: &Rooms, room: usize) -> Vec<DVec2> {
+    let walls: Vec<_> = rooms.walls.iter().filter(|wall| wall.room == room).collect();
     let mut corners = Vec::new();
     for (i, next) in walls.iter().enumerate() {
         let before = walls[(i + walls.len() - 1) % walls.len()];
@@ -81,7 +81,7 @@ fn pieces([a, b]: [DVec2; 2], others: &[[DVec2; 2]]) -> Vec<[DVec2; 2]> {
     cuts.windows(2).map(|pair| [a + along * pair[0], a + along * pair[1]]).collect()
 }
 
-/// Whether a point lies in a polygon, by the parity of what a ray crosses.
+/// Whether a point is in a polygon, by the parity of the edges that a ray crosses.
 fn is_in(p: DVec2, polygon: &[DVec2]) -> bool {
     let crosses = |[a, b]: &[DVec2; 2]| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
     edges(polygon).filter(crosses).count() % 2 == 1
@@ -126,25 +126,25 @@ fn area(outline: &[DVec2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::StructureRoom;
+    use enfilade_scene::RoomOutline;
 
-    fn room(name: &str, polygon: Vec<[f64; 2]>) -> StructureRoom {
-        StructureRoom { name: name.into(), kind: "living".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 }
+    fn room(name: &str, polygon: Vec<[f64; 2]>) -> RoomOutline {
+        RoomOutline { name: name.into(), kind: "living".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 }
     }
 
     #[test]
     fn two_rooms_have_one_outline_around_their_walls() {
         // 4 x 3 and 2 x 3 metres, 10 cm apart, with 30 cm of wall around them: by hand 6.7 x 3.6.
-        let mut structure = Structure::default();
-        structure.push_room(
+        let mut rooms = Rooms::default();
+        rooms.push_room(
             room("a", vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]),
             &[(0.3, true), (0.1, false), (0.3, true), (0.3, true)],
         );
-        structure.push_room(
+        rooms.push_room(
             room("b", vec![[4.1, 0.0], [6.1, 0.0], [6.1, 3.0], [4.1, 3.0]]),
             &[(0.3, true), (0.3, true), (0.3, true), (0.1, false)],
         );
-        let found = outlines(&structure, &[0, 1]).unwrap();
+        let found = outlines(&rooms, &[0, 1]).unwrap();
         assert_eq!((found.len(), found[0].len()), (1, 4), "{found:?}");
         assert!((area(&found[0]) - 6.7 * 3.6).abs() < 1e-9);
         for corner in [[-0.3, -0.3], [6.4, -0.3], [6.4, 3.3], [-0.3, 3.3]].map(DVec2::from) {
@@ -155,10 +155,10 @@ mod tests {
     #[test]
     fn an_angle_and_a_shorter_neighbour_have_their_own_corners() {
         // An L of 3 x 3 without its upper right 2 x 2, walls of 20 cm all around: by hand 3.4 x 1.4 and 1.4 x 2.
-        let mut structure = Structure::default();
+        let mut rooms = Rooms::default();
         let polygon = vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
-        structure.push_room(room("l", polygon), &[(0.2, true); 6]);
-        let found = outlines(&structure, &[0]).unwrap();
+        rooms.push_room(room("l", polygon), &[(0.2, true); 6]);
+        let found = outlines(&rooms, &[0]).unwrap();
         assert_eq!((found.len(), found[0].len()), (1, 6));
         assert!((area(&found[0]) - (3.4 * 1.4 + 1.4 * 2.0)).abs() < 1e-9, "{}", area(&found[0]));
     }

@@ -7,7 +7,7 @@ use enfilade_frame::{Dtype, Frame, LAYERS, Layer, Pass, Values, f16};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_scene::{
-    Camera, CameraView, DoorLeaf, Hinge, Intrinsics, Labels, Material, OpeningKind, Part, PartLabel, Pose, Scene, Structure, StructureRoom,
+    Camera, CameraView, DoorLeaf, Hinge, Intrinsics, Labels, Material, OpeningKind, Part, PartLabel, Pose, RoomOutline, Rooms, Scene,
     Trajectory, WallOpening,
 };
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ pub fn pinhole_of(format: Format) -> Camera {
     }
 }
 
-/// What a ray meets: distance and part. The wall is 1.4 m high, and there is nothing above it.
+/// The first hit of a ray: distance and part. The wall is 1.4 m high, and there is nothing above it.
 fn meet(origin: DVec3, direction: DVec3) -> Option<(f64, usize)> {
     let mut best: Option<(f64, usize)> = None;
     let mut try_hit = |distance: f64, part: usize| {
@@ -141,7 +141,7 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
         dataset.write_scene(name, &scene()).unwrap();
         dataset.write_camera_parameters(name, camera).unwrap();
         let label = |&(semantic, instance): &(i16, i16)| PartLabel { semantic, instance };
-        dataset.write_structure(name, &structure()).unwrap();
+        dataset.write_rooms(name, &rooms()).unwrap();
         dataset.write_label_tables(name, &Labels { parts: LABELS.iter().map(label).collect() }).unwrap();
         let trajectory = Trajectory { name: camera_name.into(), poses };
         dataset.write_trajectory(name, &trajectory, camera, None).unwrap();
@@ -173,13 +173,13 @@ pub fn write(root: &Path, camera: &Camera) -> Dataset {
 }
 
 /// A room of four metres by five with a door to the outside and a window.
-fn structure() -> Structure {
+fn rooms() -> Rooms {
     let polygon = vec![[-2.0, -3.0], [2.0, -3.0], [2.0, 2.0], [-2.0, 2.0]];
-    let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 1.4 };
-    let mut structure = Structure::default();
-    structure.push_room(room, &[(0.3, true); 4]);
+    let room = RoomOutline { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 1.4 };
+    let mut rooms = Rooms::default();
+    rooms.push_room(room, &[(0.3, true); 4]);
     let opening = |kind, wall: usize, along: [f64; 2], z: [f64; 2], leaf| {
-        let corner = |i: usize, k: usize| structure.walls[wall].point(along[i], z[k]).to_array();
+        let corner = |i: usize, k: usize| rooms.walls[wall].point(along[i], z[k]).to_array();
         WallOpening { kind, walls: vec![wall], corners: [corner(1, 0), corner(0, 0), corner(0, 1), corner(1, 1)], leaf }
     };
     let leaf = DoorLeaf { hinge: Hinge::Left, open_deg: 0.0 };
@@ -187,7 +187,7 @@ fn structure() -> Structure {
         opening(OpeningKind::Door, 0, [1.0, 1.8], [0.0, 1.3], Some(leaf)),
         opening(OpeningKind::Window, 1, [1.0, 2.5], [0.5, 1.2], None),
     ];
-    Structure { openings, ..structure }
+    Rooms { openings, ..rooms }
 }
 
 /// The layer of a frame of the dataset.

@@ -1,7 +1,6 @@
 //! Bathtubs, of class bathtub: built in with one of three common sizes from 160 × 70 to 180 × 80 cm, or free-standing ovals of about the
 //! same size; and showers, of class other structure: closed with a tray of 80 to 100 cm or walk-in with 120 to 150 cm. A shower curtain is
-//! an object of its own. Their back, at −y, is at the wall; tub or tray lies off the middle of the footprint where taps or curtain stand
-//! out.
+//! an object of its own. Their back, at −y, is at the wall; tub or tray is off the middle of the footprint if taps or a curtain protrude.
 
 use super::ceramic::{Section, hollow, rectangle, rounding, waste};
 use super::tap::{fittings, shower_set, wall_mixer};
@@ -13,7 +12,7 @@ use crate::shape::{Reshape, curtain, grid, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// What keeps the water in.
+/// The screen that keeps the water in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TubScreen {
     /// No screen and no curtain.
@@ -29,13 +28,13 @@ pub enum TubScreen {
 pub struct Bathtub {
     /// Length and width of the rim.
     pub size: Vec2,
-    /// The tub stands free and is oval; otherwise it is built in, with its back and one end at walls.
+    /// The tub is free-standing and oval; otherwise it is built in, with its back and one end at walls.
     pub free: bool,
-    /// What keeps the water in; only built-in ones have a screen.
+    /// The screen that keeps the water in; only built-in tubs have one.
     pub screen: TubScreen,
     /// The panel below the rim is tiled instead of white.
     pub tiled: bool,
-    /// What taps and rails are made of.
+    /// Finish of taps and rails.
     pub metal: Finish,
 }
 
@@ -188,7 +187,7 @@ impl Furniture for Bathtub {
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
-        // The rim is off the middle of the footprint where taps stand out behind it or a curtain before it.
+        // The rim is off the middle of the footprint if taps protrude behind it or a curtain in front of it.
         let shift = 0.5 * (self.size().y - self.size.y) * if self.free { 1.0 } else { -1.0 };
         let pose = on(pose, Vec3::new(0.0, shift, 0.0), 0.0);
         let tub = b.object("bathtub", Class::Bathtub, pose);
@@ -214,7 +213,7 @@ pub struct Shower {
     pub stone: bool,
     /// A rain shower above the hand shower.
     pub rain: bool,
-    /// What fittings and profiles are made of.
+    /// Finish of fittings and profiles.
     pub metal: Finish,
 }
 
@@ -313,7 +312,7 @@ mod tests {
             let tub = Bathtub { size, free: false, screen: TubScreen::None, tiled: false, metal: Finish::Chrome };
             let found = bounds_of(&scene_of(&tub, 0), "bathtub_1/overflow");
             let wall = |z: f32| 0.5 * size.x - 0.075 - 0.045 * (RIM - 0.025 - z) / (RIM - 0.425);
-            // Its upper edge touches the wall, and its cover stands out before the middle.
+            // Its upper edge touches the wall, and its cover protrudes in the middle.
             assert!((found.max.x - wall(found.max.z)).abs() < 0.003, "{found:?}");
             assert!(found.min.x < wall(found.min.z) - 0.001, "{found:?}");
         }

@@ -12,7 +12,7 @@ use std::f32::consts::TAU;
 pub struct Section {
     /// The outline about the middle, counter-clockwise, with the same number of points in each section of a body.
     pub outline: Vec<Vec2>,
-    /// Where its middle lies along y.
+    /// Position of its middle along y.
     pub y: f32,
     /// Height of the section.
     pub z: f32,

@@ -28,7 +28,7 @@ pub struct TowelRail {
     pub length: f32,
     /// Towels on it.
     pub towels: usize,
-    /// What the rail is made of.
+    /// Finish of the rail.
     pub metal: Finish,
 }
 
@@ -36,7 +36,7 @@ pub struct TowelRail {
 const RAIL_OUT: f32 = 0.075;
 /// Radius of a rail and its arms, metres.
 const RAIL_RADIUS: f32 = 0.008;
-/// How far down the longest towel hangs from a rail, metres.
+/// Length by which the longest towel hangs down from a rail, metres.
 const TOWEL: f32 = 0.52;
 
 impl Furniture for TowelRail {
@@ -85,7 +85,7 @@ pub struct TowelRadiator {
     pub height: f32,
     /// Towels on it.
     pub towels: usize,
-    /// What the tubes are made of.
+    /// Finish of the tubes.
     pub finish: Finish,
 }
 
@@ -142,7 +142,7 @@ impl Furniture for TowelRadiator {
 /// Folded towels on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldedTowels {
-    /// How many.
+    /// Number of towels.
     pub count: usize,
     /// Width and depth of the largest.
     pub size: Vec2,

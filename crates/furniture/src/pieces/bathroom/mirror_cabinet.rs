@@ -17,7 +17,7 @@ pub struct MirrorCabinet {
     pub height: f32,
     /// A lamp on top.
     pub lamp: bool,
-    /// What the carcass is made of.
+    /// Finish of the carcass.
     pub finish: Finish,
 }
 

@@ -1,6 +1,6 @@
 //! Small things of a bathroom: a holder with toilet paper (class paper), soap dispensers, mugs with toothbrushes, bottles and jars, toilet
-//! brushes and pedal bins, all but the paper of class other prop. The origin of the paper holder is on the wall's face, that of the others
-//! on what they stand on.
+//! brushes and pedal bins, all but the paper of class other prop. The origin of the paper holder is on the wall's face, the origin of the
+//! others on what they stand on.
 
 use super::tap::fittings;
 use crate::builder::{Builder, Class};
@@ -17,7 +17,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 pub struct PaperHolder {
     /// Radius of what is left of the roll.
     pub roll: f32,
-    /// What the holder is made of.
+    /// Finish of the holder.
     pub metal: Finish,
 }
 
@@ -140,10 +140,10 @@ impl Furniture for ToothbrushMug {
     }
 }
 
-/// Bottles of shampoo, lotion and the like, side by side.
+/// Bottles of shampoo, lotion and similar, side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct Toiletries {
-    /// How many.
+    /// Number of bottles.
     pub count: usize,
 }
 
@@ -205,7 +205,7 @@ impl Furniture for Toiletries {
 /// A toilet brush in its pot.
 #[derive(Clone, Copy, Debug)]
 pub struct ToiletBrush {
-    /// What the pot is made of.
+    /// Finish of the pot.
     pub pot: Finish,
 }
 
@@ -241,7 +241,7 @@ pub struct PedalBin {
     pub radius: f32,
     /// Height of the bin.
     pub height: f32,
-    /// What body and lid are made of.
+    /// Finish of body and lid.
     pub finish: Finish,
 }
 

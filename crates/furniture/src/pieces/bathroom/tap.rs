@@ -20,7 +20,7 @@ pub enum TapForm {
     Square,
 }
 
-/// What taps are made of: chrome three times in five.
+/// Finish of taps: chrome three times in five.
 pub fn fittings(rng: &mut Rng) -> Finish {
     [Finish::Chrome, Finish::Chrome, Finish::Chrome, Finish::BlackMetal, Finish::Brass][rng.below(5)]
 }

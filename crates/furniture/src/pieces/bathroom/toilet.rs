@@ -19,7 +19,7 @@ pub struct Toilet {
     pub open: bool,
     /// From the wall to the front of the seat.
     pub depth: f32,
-    /// What the flush plate is made of.
+    /// Finish of the flush plate.
     pub plate: Finish,
 }
 

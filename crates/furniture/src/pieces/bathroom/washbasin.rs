@@ -12,7 +12,7 @@ use crate::shape::Reshape;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// What carries a washbasin.
+/// The support of a washbasin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BasinStand {
     /// The basin covers a cabinet with one or two drawers.
@@ -32,17 +32,17 @@ pub struct Washbasin {
     pub width: f32,
     /// Depth from the wall.
     pub depth: f32,
-    /// What carries it.
+    /// The support of the washbasin.
     pub stand: BasinStand,
     /// A bowl is round instead of rectangular.
     pub round: bool,
-    /// What the cabinet is made of.
+    /// Finish of the cabinet.
     pub finish: Finish,
     /// Handle of its drawers.
     pub handle: Handle,
     /// The form of the tap.
     pub tap: TapForm,
-    /// What tap and waste are made of.
+    /// Finish of tap and waste.
     pub metal: Finish,
 }
 
@@ -50,7 +50,7 @@ pub struct Washbasin {
 const RIM: f32 = 0.85;
 /// Height of a bowl that stands on a cabinet, metres.
 const BOWL: f32 = 0.125;
-/// How far the hollow of a basin lies before the middle of its depth, metres: the tap stands behind it.
+/// Distance of a basin's hollow in front of the middle of its depth, metres: the tap stands behind it.
 const FORWARD: f32 = 0.045;
 /// Thickness of the cabinet's boards, metres.
 const BOARD: f32 = 0.018;

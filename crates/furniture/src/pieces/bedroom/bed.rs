@@ -11,7 +11,7 @@ use crate::shape::{Reshape, padded_box, rounded_box, sphere};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
-/// What carries the mattress.
+/// The frame under the mattress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BedFrame {
     /// Wooden rails with a headboard of one panel.
@@ -33,9 +33,9 @@ pub struct Bed {
     pub width: f32,
     /// Length of the mattress.
     pub length: f32,
-    /// What carries it.
+    /// The frame under the mattress.
     pub frame: BedFrame,
-    /// How the bed is made.
+    /// The cover of the bed.
     pub cover: Cover,
     /// Scatter cushions.
     pub cushions: usize,
@@ -51,7 +51,7 @@ const BOARD: f32 = 0.04;
 const PADDED: f32 = 0.09;
 /// Height of the rails' upper edge, metres.
 const RAIL: f32 = 0.32;
-/// How far rails stand out beyond the mattress, metres.
+/// How far rails protrude beyond the mattress, metres.
 const OUT: f32 = 0.03;
 
 impl Bed {

@@ -10,7 +10,7 @@ use crate::shape::{Reshape, pillow, rounded_box, rounded_loop, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
-/// How a bed is made.
+/// The cover of a bed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cover {
     /// A duvet whose upper end is turned back below the pillows.
@@ -32,9 +32,9 @@ pub struct Bedding {
     pub thickness: f32,
     /// Half the width and length over the frame, around which the cover hangs.
     pub around: Vec2,
-    /// How far the cover hangs down.
+    /// Length by which the cover hangs down, metres.
     pub hang: f32,
-    /// How the bed is made.
+    /// The cover of the bed.
     pub cover: Cover,
     /// Sleeping places: 1 or 2.
     pub sleepers: usize,
@@ -69,7 +69,7 @@ impl Bedding {
         b.part(bed, "mattress_piping", piping, Finish::Mattress);
     }
 
-    /// How cloth hangs over mattress and frame.
+    /// The shape of cloth that hangs over mattress and frame.
     fn drape(&self, rng: &mut Rng) -> Drape {
         Drape {
             half: self.around + 0.006,

@@ -52,7 +52,7 @@ pub fn hang_garment(b: &mut Builder, pose: DAffine3, garment: Garment, rng: &mut
 /// Folded clothes on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldedClothes {
-    /// How many.
+    /// Number of clothes.
     pub count: usize,
 }
 

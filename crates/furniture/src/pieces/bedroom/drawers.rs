@@ -17,9 +17,9 @@ pub struct DrawerBody {
     pub feet_height: f32,
     /// Kind of the feet.
     pub feet: Feet,
-    /// What the carcass is made of.
+    /// Finish of the carcass.
     pub body: Finish,
-    /// What the fronts are made of.
+    /// Finish of the fronts.
     pub fronts: Finish,
     /// Fronts with a recessed panel.
     pub framed: bool,

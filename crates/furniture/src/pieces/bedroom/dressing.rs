@@ -17,7 +17,7 @@ use std::f32::consts::TAU;
 pub struct DressingTable {
     /// Width of the table.
     pub width: f32,
-    /// What the table is made of.
+    /// Finish of the table.
     pub finish: Finish,
     /// Handle of each drawer.
     pub handle: Handle,
@@ -33,9 +33,9 @@ const DEPTH: f32 = 0.44;
 const MIRROR_DEPTH: f32 = 0.13;
 /// Height of the stool's seat, metres.
 const STOOL: f32 = 0.46;
-/// Where the boards below the top end, metres below its upper face: the top and air that keeps faces out of one plane.
+/// Upper end of the boards below the top, metres below its upper face: the top and air that keeps faces out of one plane.
 const BELOW_TOP: f32 = 0.0202;
-/// Where rear and bottom begin from the ends of the top, metres: its overhang, a side, and such air.
+/// Distance of rear and bottom from the ends of the top, metres: its overhang, a side, and such air.
 const BESIDE: f32 = 0.0282;
 
 impl DressingTable {
@@ -211,7 +211,7 @@ impl Furniture for LaundryBasket {
         let basket = b.object("laundry_basket", Class::OtherProp, pose);
         let (r, h) = (self.radius, self.height);
         let finish = if self.plaited { Finish::Wicker } else { [Finish::Felt, Finish::WhitePlastic][rng.below(2)] };
-        // Every second band of the plaiting stands out.
+        // Every second band of the plaiting protrudes.
         let ripple = if self.plaited { 0.004 } else { 0.0 };
         let rows = 15;
         let wall = |t: f32, inset: f32| Vec2::new(r * (0.84 + 0.16 * t) - inset + ripple * (TAU * t * rows as f32).sin(), h * t);

@@ -63,7 +63,7 @@ impl Garment {
         matches!(self, Self::Shirt | Self::Jacket | Self::Coat)
     }
 
-    /// Width of the hem over that of the shoulders.
+    /// Width of the hem over the width of the shoulders.
     fn flare(self) -> f32 {
         match self {
             Self::Dress => 1.35,
@@ -95,13 +95,13 @@ impl Garment {
     }
 }
 
-/// How one garment hangs.
+/// The drape of one garment.
 struct Fall {
     garment: Garment,
     length: f32,
     /// Half the width over the shoulders.
     shoulder: f32,
-    /// How far shoulders drop from the collar outward.
+    /// Slope of the shoulders from the collar outward.
     slope: f32,
     droop: f32,
     folds: f32,
@@ -126,7 +126,7 @@ impl Fall {
         let (sin, cos) = ((i % AROUND) as f32 / AROUND as f32 * TAU).sin_cos();
         let down = (j.saturating_sub(2) as f32 / (DOWN - 3) as f32).powf(1.25);
         let z = -self.length * down;
-        // The collar stands, the shoulders round off from it, then the sides fall.
+        // The collar is upright, the shoulders round off from it, then the sides fall.
         let out = ((-z - self.stand()) / self.slope).clamp(0.0, 1.0);
         let yoke = (FRAC_PI_2 * out).sin();
         let flare = 1.0 + (self.garment.flare() - 1.0) * down - 0.10 * (PI * down).sin();
@@ -145,7 +145,7 @@ impl Fall {
         if j == 1 { Vec3::new(0.86 * x, 0.82 * y, z - cut - 0.012) } else { Vec3::new(x, y, z - cut) }
     }
 
-    /// How far the button band and the lapels stand before the cloth below them at (x, z).
+    /// Height of the button band and the lapels above the cloth below them at (x, z), metres.
     fn front(&self, x: f32, z: f32) -> f32 {
         if !self.garment.sleeves() {
             return 0.0;

@@ -11,7 +11,7 @@ use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// How a wardrobe is closed.
+/// The doors of a wardrobe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WardrobeDoors {
     /// Hinged doors, each half a metre wide.
@@ -29,13 +29,13 @@ pub struct Wardrobe {
     pub width: f32,
     /// Height.
     pub height: f32,
-    /// How it is closed.
+    /// The doors of the wardrobe.
     pub doors: WardrobeDoors,
     /// One door is a mirror.
     pub mirror: bool,
     /// Doors with a recessed panel.
     pub framed: bool,
-    /// What carcass and doors are made of.
+    /// Finish of carcass and doors.
     pub finishes: [Finish; 2],
     /// Handle of hinged doors.
     pub handle: Handle,

@@ -25,7 +25,7 @@ const RAIL: f32 = 0.85;
 const LOW: f32 = 0.27;
 /// Half the thickness of the posts, metres.
 const POST: f32 = 0.022;
-/// Where rails begin beside the axis of a post, metres: half a millimetre inside it.
+/// Distance of a rail's end from the axis of a post, metres: half a millimetre inside the post.
 const IN_POST: f32 = 0.0215;
 /// Half the height of the rails, metres.
 const HALF_RAIL: f32 = 0.025;

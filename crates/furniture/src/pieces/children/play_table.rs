@@ -14,15 +14,15 @@ pub struct PlayTable {
     pub width: f32,
     /// Round instead of square.
     pub round: bool,
-    /// What the top is made of.
+    /// Finish of the top.
     pub top: Finish,
 }
 
-/// Height of the table, metres: that of EN 1729 size mark 1.
+/// Height of the table, metres, by EN 1729 size mark 1.
 const TABLE: f32 = 0.46;
 /// Thickness of the top, metres.
 const BOARD: f32 = 0.022;
-/// Height of the seat, metres: that of EN 1729 size mark 1.
+/// Height of the seat, metres, by EN 1729 size mark 1.
 const SEAT: f32 = 0.26;
 
 impl Furniture for PlayTable {
@@ -60,7 +60,7 @@ impl Furniture for PlayTable {
 /// The chair that goes with a [`PlayTable`].
 #[derive(Clone, Copy, Debug)]
 pub struct ToyChair {
-    /// What seat and back are made of.
+    /// Finish of seat and back.
     pub finish: Finish,
 }
 

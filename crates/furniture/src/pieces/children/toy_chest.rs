@@ -16,13 +16,13 @@ pub struct ToyChest {
     pub width: f32,
     /// Without a lid, and full.
     pub open: bool,
-    /// What walls and lid are made of.
+    /// Finish of walls and lid.
     pub finish: Finish,
 }
 
 /// Depth over the lid, metres.
 const DEPTH: f32 = 0.40;
-/// Height of the closed chest, metres: that of a seat.
+/// Height of the closed chest, metres: the same as a seat.
 const HEIGHT: f32 = 0.42;
 /// Thickness of the walls, metres.
 const BOARD: f32 = 0.016;

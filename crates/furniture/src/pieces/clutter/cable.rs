@@ -14,7 +14,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 pub struct Cable {
     /// Radius of the loops.
     pub radius: f32,
-    /// How many loops lie on each other.
+    /// Number of loops on each other.
     pub loops: usize,
     /// White instead of black.
     pub white: bool,

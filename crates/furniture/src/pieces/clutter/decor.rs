@@ -16,7 +16,7 @@ use enfilade_textures::PaintingStyle;
 pub struct PhotoFrame {
     /// Width and height over the frame.
     pub size: Vec2,
-    /// What the frame is made of.
+    /// Finish of the frame.
     pub finish: Finish,
 }
 
@@ -275,7 +275,7 @@ impl Furniture for BoardGame {
 pub struct StorageBasket {
     /// Width, depth and height of the body.
     pub body: Vec3,
-    /// What it is woven of.
+    /// Finish of the weave.
     pub finish: Finish,
 }
 

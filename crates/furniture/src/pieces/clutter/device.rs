@@ -46,7 +46,7 @@ impl Furniture for RemoteControl {
 pub struct Phone {
     /// The screen is lit.
     pub on: bool,
-    /// What its case is made of.
+    /// Finish of its case.
     pub case: Finish,
 }
 

@@ -40,7 +40,7 @@ impl Furniture for FoldedBlanket {
 pub struct ScatterCushion {
     /// Length of its edges.
     pub size: Vec2,
-    /// Which of the accent colours it has.
+    /// Index of its accent colour.
     pub color: u8,
 }
 

@@ -19,7 +19,7 @@ pub struct DiningBench {
     pub legs: bool,
 }
 
-/// Height of the seat, metres: that of dining chairs.
+/// Height of the seat, metres: the same as for dining chairs.
 const SEAT: f32 = 0.45;
 /// Depth of the seat, metres.
 const DEPTH: f32 = 0.36;

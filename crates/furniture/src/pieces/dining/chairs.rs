@@ -21,7 +21,7 @@ pub struct SpindleChair {
     pub bow: bool,
     /// Spindles in the back.
     pub spindles: usize,
-    /// What all of it is made of.
+    /// Finish of all of it.
     pub finish: Finish,
 }
 
@@ -98,9 +98,9 @@ impl SpindleChair {
 /// A padded chair on slim legs.
 #[derive(Clone, Copy, Debug)]
 pub struct UpholsteredChair {
-    /// What seat and back are covered with.
+    /// Finish of seat and back.
     pub cloth: Finish,
-    /// What the legs are made of.
+    /// Finish of the legs.
     pub legs: Finish,
     /// The back reaches around the sides.
     pub tub: bool,
@@ -181,7 +181,7 @@ fn tub_back() -> Mesh {
 /// A chair with a moulded shell on a stand of wood or wire.
 #[derive(Clone, Copy, Debug)]
 pub struct ShellChair {
-    /// What the shell is made of.
+    /// Finish of the shell.
     pub shell: Finish,
     /// Wooden legs instead of a frame of steel.
     pub wooden: bool,

@@ -1,5 +1,5 @@
 //! A cabinet of 80 to 100 × 175 to 205 cm with glazed doors over closed ones, class cabinet, of wood or lacquer with brass knobs. Crockery
-//! stands on three shelves behind the glass. The cabinet stands half the depth of its knobs behind the middle of the footprint.
+//! stands on three shelves behind the glass. The cabinet is half the depth of its knobs behind the middle of the footprint.
 
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -16,13 +16,13 @@ pub struct GlassCabinet {
     pub width: f32,
     /// Height of the whole cabinet.
     pub height: f32,
-    /// What all but glass and knobs is made of.
+    /// Finish of all but glass and knobs.
     pub finish: Finish,
 }
 
 /// Depth without the knobs, metres.
 const DEPTH: f32 = 0.40;
-/// How far knobs stand out before the top, metres.
+/// How far knobs protrude beyond the top, metres.
 const KNOB: f32 = 0.022;
 /// Thickness of the boards, metres.
 const BOARD: f32 = 0.02;

@@ -16,17 +16,17 @@ pub struct LongTable {
     pub length: f32,
     /// Width along y.
     pub width: f32,
-    /// What it stands on.
+    /// The stand of the table.
     pub stand: Stand,
     /// The top is cut for a leaf in the middle, to be pulled out.
     pub extends: bool,
-    /// What the top is made of, and the stand unless it is of metal.
+    /// Finish of the top, and the stand unless it is of metal.
     pub finish: Finish,
-    /// What every place along the long sides is laid with, if the table is laid.
+    /// The setting of every place along the long sides, if the table is laid.
     pub laid: Option<PlaceSetting>,
 }
 
-/// What a long table stands on.
+/// The stand of a long table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stand {
     /// Square legs in the corners and an apron.
@@ -52,7 +52,7 @@ impl LongTable {
         ((self.length - 0.1) / 0.6) as usize
     }
 
-    /// Where people sit: the edge of the table before them and the direction in which they look.
+    /// Seats: the edge of the table in front of a person, and the direction in which the person looks.
     pub fn seats(&self) -> Vec<(Vec2, Vec2)> {
         let n = self.places();
         let x = |k: usize| ((k as f32 + 0.5) / n as f32 - 0.5) * (self.length - 0.1);

@@ -1,5 +1,5 @@
 //! A long low cabinet of 130 to 190 × 74 to 82 cm on splayed legs, class cabinet: doors that are plain, fluted or filled with rattan, and
-//! three drawers. The body is of wood; fronts may be lacquered. It stands half the depth of its knobs behind the middle of the footprint.
+//! three drawers. The body is of wood; fronts may be lacquered. It is half the depth of its knobs behind the middle of the footprint.
 
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -15,13 +15,13 @@ pub struct Sideboard {
     pub width: f32,
     /// Height of the top's surface.
     pub height: f32,
-    /// What the doors look like.
+    /// Style of the doors.
     pub doors: DoorStyle,
-    /// What doors and drawer fronts are made of.
+    /// Finish of doors and drawer fronts.
     pub fronts: Finish,
 }
 
-/// What a sideboard's doors look like.
+/// Styles of a sideboard's doors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum DoorStyle {
@@ -33,7 +33,7 @@ pub enum DoorStyle {
 
 /// Depth without the knobs, metres.
 const DEPTH: f32 = 0.43;
-/// How far knobs stand out before the top, metres.
+/// How far knobs protrude beyond the top, metres.
 const KNOB: f32 = 0.018;
 /// Height of the legs, metres.
 const LEG: f32 = 0.15;

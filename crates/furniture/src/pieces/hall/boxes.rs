@@ -13,7 +13,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 pub struct CardboardBox {
     /// Width, depth and height of the body.
     pub size: Vec3,
-    /// The flaps stand open.
+    /// The flaps are open.
     pub open: bool,
 }
 
@@ -32,7 +32,7 @@ impl CardboardBox {
         let (x, y, top) = (0.5 * self.size.x, 0.5 * self.size.y, self.size.z);
         let long = |side: f32, angle: f32| {
             let sheet = board([-x + 0.002, 0.0, 0.0], [x - 0.002, self.flap() - 0.002, BOARD], 0.001);
-            // The sheet lies inward when it is shut, and turns about the upper edge of its wall.
+            // The sheet points inward when it is shut, and turns about the upper edge of its wall.
             let turned = sheet.turned(Vec3::X, angle);
             let turned = if side > 0.0 { turned.turned(Vec3::Z, std::f32::consts::PI) } else { turned };
             turned.moved(Vec3::new(0.0, side * (y - 0.001), top + 0.0005))
@@ -105,7 +105,7 @@ pub struct StorageBox {
     pub size: Vec3,
     /// The box has a lid.
     pub lid: bool,
-    /// What its body is made of.
+    /// Finish of its body.
     pub finish: Finish,
 }
 

@@ -1,4 +1,4 @@
-//! Where coats and umbrellas go: hooks on a board on the wall (class other prop), stands 168 to 180 cm high (class other furniture) and
+//! Places for coats and umbrellas: hooks on a board on the wall (class other prop), stands 168 to 180 cm high (class other furniture) and
 //! umbrella stands. Each coat is an object of class clothes that hangs by the loop of its collar; each umbrella is other prop. The origin
 //! of the hooks is the middle of the board's back, on the wall; stands begin on the floor.
 
@@ -35,7 +35,7 @@ fn outdoor(rng: &mut Rng) -> Garment {
 pub struct CoatHooks {
     /// Hooks side by side.
     pub hooks: usize,
-    /// How many of them carry a coat.
+    /// Number of hooks with a coat.
     pub coats: usize,
     /// A shelf for hats is above the hooks.
     pub shelf: bool,
@@ -176,7 +176,7 @@ pub struct UmbrellaStand {
 
 /// Radius of a rolled umbrella where it leans on the rim, metres.
 const CLOTH: f32 = 0.029;
-/// How far beside the axis of the stand each of three umbrellas passes, metres: they do not cut into each other.
+/// Distance at which each of three umbrellas passes the axis of the stand, metres, so that they do not cut into each other.
 const ASIDE: f32 = 0.034;
 
 impl UmbrellaStand {

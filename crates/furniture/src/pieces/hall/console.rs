@@ -30,7 +30,7 @@ const TOP: f32 = 0.8;
 const DEPTH: f32 = 0.34;
 /// Thickness of the top, metres.
 const BOARD: f32 = 0.024;
-/// How far the box of the drawers stands back below the ends of the top, metres.
+/// Distance by which the box of the drawers is set back from the ends of the top, metres.
 const INSET: f32 = 0.012;
 
 impl Furniture for Console {
@@ -114,7 +114,7 @@ pub struct TallMirror {
     pub size: Vec2,
     /// Radius of its corners; half the width for an arch or an oval.
     pub corner: f32,
-    /// What its frame is made of.
+    /// Finish of its frame.
     pub frame: Finish,
 }
 
@@ -138,7 +138,7 @@ impl Furniture for TallMirror {
             let outline = rounded_rectangle(self.size.x - 2.0 * inset, self.size.y - 2.0 * inset, (self.corner - inset).max(0.003), 14);
             to_front(crate::pieces::form::cut_out(&outline, thickness, 0.002))
         };
-        // The lower edge stands away from the wall, and the mirror leans back against it.
+        // The lower edge is away from the wall, and the mirror leans back against it.
         let half = 0.5 * self.size.y;
         let foot = 0.5 * self.size().y - 0.034;
         let place = |mesh: enfilade_geometry::Mesh| mesh.moved(Vec3::Z * half).turned(Vec3::X, LEAN).moved(Vec3::new(0.0, foot, 0.0005));

@@ -112,7 +112,7 @@ pub struct ShoeCabinet {
     pub width: f32,
     /// Compartments above each other.
     pub rows: usize,
-    /// What carcass and fronts are made of.
+    /// Finish of carcass and fronts.
     pub finishes: [Finish; 2],
     /// Handle of each front.
     pub handle: Handle,
@@ -124,9 +124,9 @@ const DEPTH: f32 = 0.26;
 const ROW: f32 = 0.34;
 /// Height of the lowest compartment above the floor, metres.
 const FOOT: f32 = 0.12;
-/// Where sides and rear end below the upper face of the top, metres: the board and air that keeps faces out of one plane.
+/// Upper end of sides and rear, metres below the upper face of the top: the board and air that keeps faces out of one plane.
 const BELOW_TOP: f32 = 0.0222;
-/// Where bottom and rear begin from the ends, metres: a side and such air.
+/// Distance of bottom and rear from the ends, metres: a side and such air.
 const BESIDE: f32 = 0.0202;
 
 impl ShoeCabinet {

@@ -11,7 +11,7 @@ use crate::pieces::{CONTACT, board};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec3};
 
-/// Adds a hob that lies on the worktop; the pose stands on it, in the middle of the unit at the wall.
+/// Adds a hob on the worktop; the pose is on the worktop, in the middle of the unit at the wall.
 pub fn hob(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, rng: &mut Rng) {
     let hob = b.object("hob", Class::OtherStructure, pose);
     let gas = style.steel && rng.below(2) == 0;
@@ -120,7 +120,7 @@ pub fn dishwasher(b: &mut Builder, pose: DAffine3, x: [f32; 2], z: [f32; 2], sty
     b.part(&machine, "handle", bar, Finish::Steel);
 }
 
-/// Adds an extractor hood against the wall; the pose stands on the floor, in the middle of the unit at the wall.
+/// Adds an extractor hood against the wall; the pose is on the floor, in the middle of the unit at the wall.
 pub fn hood(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, rng: &mut Rng) {
     let low = WORKTOP + 0.66;
     let top = WALL_UNIT[1];

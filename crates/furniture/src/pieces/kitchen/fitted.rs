@@ -1,4 +1,4 @@
-//! Plans a fitted kitchen over the walls that it is given: which units stand along the main wall and along up to two wings, and what hangs
+//! Plans a fitted kitchen over the walls that it is given: the units along the main wall and along up to two wings, and the wall units
 //! above them. The kitchen's space has its origin on the floor in the middle of its footprint, with the main run at the back. A random
 //! kitchen is 2.7 to 4.2 m wide, and its wings reach 1.5 to 2.6 m from the back wall.
 
@@ -23,7 +23,7 @@ pub struct FittedKitchen {
     pub style: KitchenStyle,
 }
 
-/// What a run must contain; other units fill the rest.
+/// The units that a run must contain; other units fill the rest.
 #[derive(Clone, Copy)]
 struct Needs {
     sink: bool,
@@ -188,7 +188,8 @@ impl Furniture for FittedKitchen {
         Vec3::new(self.main.length(), self.depth(), TALL)
     }
 
-    /// A cook needs 1.1 m before the units (NKBA planning guideline 6: 1.07 m); between wings most of it lies within the kitchen's depth.
+    /// A cook needs 1.1 m in front of the units (NKBA planning guideline 6: 1.07 m); between wings most of it is within the kitchen's
+    /// depth.
     fn reach(&self) -> f32 {
         if self.wings.iter().all(Option::is_none) { 1.1 } else { 0.3 }
     }

@@ -1,5 +1,5 @@
 //! Doors and drawer fronts of kitchen units, smooth or framed around a panel, with their handles, and the style that the fronts of one
-//! kitchen share. A front lies in the xz plane of its unit and faces +y.
+//! kitchen share. A front is in the xz plane of its unit and faces +y.
 
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
@@ -9,7 +9,7 @@ use crate::shape::{Reshape, picture_frame};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Rng, Vec3};
 
-/// How doors and drawers are opened.
+/// The handles of doors and drawers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Handle {
@@ -20,7 +20,7 @@ pub enum Handle {
     Edge,
 }
 
-/// What the units of one kitchen have in common.
+/// The style that the units of one kitchen share.
 #[derive(Clone, Copy, Debug)]
 pub struct KitchenStyle {
     /// Fronts are framed around a panel instead of smooth.
@@ -73,7 +73,7 @@ impl KitchenStyle {
     }
 }
 
-/// How a front opens, which decides where its handle is.
+/// The way a front opens, which decides where its handle is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Opening {
     /// A door below eye height with its handle near the upper corner at −x (−1) or +x (+1).

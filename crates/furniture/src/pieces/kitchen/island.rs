@@ -1,5 +1,5 @@
 //! A kitchen island, 1.2 to 2.6 m long: units that open to the back (−y), where the cook stands, and a worktop that overhangs the front by
-//! 28 to 38 cm for people on stools. The body and its fronts are of class cabinet, the worktop of class counter; it may hold a sink or a
+//! 28 to 38 cm for people on stools. The body and its fronts are of class cabinet, the worktop of class counter; it may have a sink or a
 //! hob.
 
 use super::front::{FRONT, KitchenStyle, Opening, front};
@@ -13,7 +13,7 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// Thickness of the panels that clad the sides and the overhung front, metres.
 const PANEL: f32 = 0.0195;
-/// Where box and fronts begin, metres from the ends: a panel, and air that keeps faces out of one plane.
+/// Distance of box and fronts from the ends, metres: a panel, and air that keeps faces out of one plane.
 const INNER: f32 = 0.02;
 /// Width of a unit with a sink or a hob, metres.
 const FIXTURE: f32 = 0.6;
@@ -23,15 +23,15 @@ const FIXTURE: f32 = 0.6;
 pub struct KitchenIsland {
     /// Length along x.
     pub length: f32,
-    /// How far the worktop overhangs its front.
+    /// Overhang of the worktop at its front, metres.
     pub overhang: f32,
-    /// What is built into it.
+    /// Fixture that is built into it.
     pub fixture: Fixture,
     /// Style of the kitchen that it belongs to.
     pub style: KitchenStyle,
 }
 
-/// What an island's worktop holds.
+/// Fixtures of an island's worktop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Fixture {

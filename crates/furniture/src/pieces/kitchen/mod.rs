@@ -21,13 +21,13 @@ pub use unit::Unit;
 
 /// Depth of the worktop, metres.
 pub const DEPTH: f32 = 0.60;
-/// How far handles stand out before the worktop's front edge, metres.
+/// How far handles protrude beyond the worktop's front edge, metres.
 const HANDLES: f32 = 0.03;
 /// Height of the worktop's surface, metres.
 pub const WORKTOP: f32 = 0.91;
 /// Thickness of the worktop, metres.
 const THICKNESS: f32 = 0.038;
-/// Height of the plinth, and how far it stands back for the toes, metres.
+/// Height of the plinth, and the distance by which it is set back for the toes, metres.
 const PLINTH: [f32; 2] = [0.13, 0.055];
 /// Depth of a unit's box, without its front, metres.
 const BOX: f32 = 0.555;
@@ -35,5 +35,5 @@ const BOX: f32 = 0.555;
 const WALL_UNIT: [f32; 2] = [1.45, 2.17];
 /// Depth of wall units with their fronts, metres.
 const WALL_DEPTH: f32 = 0.36;
-/// Upper edge of tall units, metres: that of the wall units.
+/// Upper edge of tall units, metres: the same as for wall units.
 const TALL: f32 = 2.17;

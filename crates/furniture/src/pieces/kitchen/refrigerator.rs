@@ -12,15 +12,15 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 /// A free-standing refrigerator.
 #[derive(Clone, Copy, Debug)]
 pub struct Refrigerator {
-    /// How its doors are cut.
+    /// Arrangement of its doors.
     pub kind: Kind,
-    /// What body and doors are made of.
+    /// Finish of body and doors.
     pub finish: Finish,
-    /// How many notes hang on the door, each under a magnet.
+    /// Number of notes on the door, each under a magnet.
     pub notes: usize,
 }
 
-/// How a refrigerator's doors are cut.
+/// Arrangements of a refrigerator's doors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A cooling compartment over a freezer.

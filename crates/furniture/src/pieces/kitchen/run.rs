@@ -10,7 +10,7 @@ use crate::pieces::{CONTACT, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// What hangs above a unit.
+/// The things above a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Above {
@@ -24,7 +24,7 @@ pub enum Above {
 
 /// Height above the worktop of what covers the wall below a window, metres.
 const UPSTAND: f32 = 0.1;
-/// How far a window's sill reaches beyond the window at each side, metres.
+/// Length of a window's sill beyond the window at each side, metres.
 pub(super) const SILL_END: f32 = 0.06;
 
 /// Units in a line along a wall, in the run's own space: x from its left end, y from the wall, z from the floor.
@@ -63,7 +63,7 @@ impl Run {
         pieces
     }
 
-    /// Where small things can stand: the worktop but for sink and hob, in the run's space.
+    /// Surfaces for small things: the worktop except for sink and hob, in the run's space.
     pub fn surfaces(&self) -> Vec<Surface> {
         /// Distance that things keep from the end of a strip, metres.
         const MARGIN: f32 = 0.02;

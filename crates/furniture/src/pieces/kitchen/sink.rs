@@ -1,6 +1,6 @@
 //! An inset kitchen sink of steel, ceramic or black composite, with its waste and a mixer tap 25 to 36 cm high, of class sink. The bowl is
-//! as wide as its unit allows. The space stands on the worktop, in the middle of the unit: y is the distance from the wall, the bowl lies
-//! below z = 0.
+//! as wide as its unit allows. The space's origin is on the worktop, in the middle of the unit: y is the distance from the wall, the bowl
+//! is below z = 0.
 
 use super::front::KitchenStyle;
 use crate::builder::{Builder, Class};
@@ -15,7 +15,7 @@ pub fn cut_out(width: f32) -> [f32; 3] {
     [0.5 * width.min(0.8) - 0.07, 0.125, 0.515]
 }
 
-/// Adds an inset sink with its mixer. The pose stands on the worktop, in the middle of the unit at the wall.
+/// Adds an inset sink with its mixer. The pose is on the worktop, in the middle of the unit at the wall.
 pub fn build(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, rng: &mut Rng) {
     let [half, back, front] = cut_out(width);
     let (w, d, drop) = (2.0 * half - 0.004, front - back - 0.004, 0.185);

@@ -11,7 +11,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// Thickness of the boards of hollow and glazed boxes, metres.
 const SHELL: f32 = 0.016;
-/// How far boxes and plinths stay within the lines of the grid, metres: faces of neighbours do not lie in one plane.
+/// Distance of boxes and plinths from the lines of the grid, metres, so that faces of neighbours are not in one plane.
 const APART: f32 = 0.0003;
 /// Bevel of the boards behind fronts, metres.
 const BEVEL: f32 = 0.0005;
@@ -22,7 +22,7 @@ const OVEN_DRAWER: f32 = 0.13;
 /// Upper edge of low units, metres: just below the worktop.
 const UNDER_TOP: f32 = WORKTOP - THICKNESS - CONTACT;
 
-/// What stands on the floor; a number is the width in metres.
+/// A unit on the floor; a number is the width in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Unit {

@@ -14,7 +14,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 pub struct Vacuum {
     /// A stick with its motor in the handle, leaning back, instead of a canister.
     pub stick: bool,
-    /// What its body is made of.
+    /// Finish of its body.
     pub finish: Finish,
 }
 
@@ -59,7 +59,7 @@ impl Vacuum {
     }
 
     fn upright(&self, b: &mut Builder, vacuum: &crate::builder::Object) {
-        // All parts lie along one axis, which leans back from the nozzle.
+        // All parts are along one axis, which leans back from the nozzle.
         let (foot, top) = (Vec3::new(0.0, 0.07, 0.05), Vec3::new(0.0, -0.10, 1.08));
         let along = |t: f32| foot.lerp(top, t);
         b.part(
@@ -111,7 +111,7 @@ pub struct Bucket {
     pub radius: f32,
     /// A mop stands in it.
     pub mop: bool,
-    /// What the bucket is made of.
+    /// Finish of the bucket.
     pub finish: Finish,
 }
 

@@ -1,5 +1,5 @@
 //! A front-loading washing machine or dryer, 60 cm wide, 85 cm high and 50 to 60 cm deep, of class other furniture, in white or steel. Its
-//! door stands out before the cabinet at +y; the back is towards the wall.
+//! door protrudes from the cabinet at +y; the back is towards the wall.
 
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -9,7 +9,7 @@ use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// What a machine does.
+/// The kind of machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LaundryMachine {
     /// A clear door and a drawer for detergent.
@@ -25,9 +25,9 @@ pub struct WashingMachine {
     pub does: LaundryMachine,
     /// Depth of the cabinet.
     pub depth: f32,
-    /// What the cabinet is made of.
+    /// Finish of the cabinet.
     pub finish: Finish,
-    /// What the door's ring is made of.
+    /// Finish of the door's ring.
     pub ring: Finish,
 }
 
@@ -37,9 +37,9 @@ const WIDTH: f32 = 0.598;
 const HEIGHT: f32 = 0.85;
 /// Height of the door's middle, metres.
 const DOOR: f32 = 0.46;
-/// How far the door with its grip may stand out before the cabinet, metres.
+/// How far the door with its grip may protrude from the cabinet, metres.
 const OUT: f32 = 0.045;
-/// How far parts of the front begin inside the cabinet, metres.
+/// Depth inside the cabinet at which parts of the front begin, metres.
 const SUNK: f32 = 0.001;
 
 impl Furniture for WashingMachine {

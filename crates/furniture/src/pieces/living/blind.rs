@@ -17,9 +17,9 @@ pub struct Blind {
     pub width: f32,
     /// Height of what it covers, with the box.
     pub height: f32,
-    /// How far it is let down, on `[0,1]`.
+    /// Share by which it is lowered, on `[0,1]`.
     pub down: f32,
-    /// What the blind is made of, and how it is drawn up.
+    /// Finish of the blind, and how it is drawn up.
     pub kind: BlindKind,
 }
 
@@ -28,7 +28,7 @@ pub struct Blind {
 pub enum BlindKind {
     /// Horizontal slats.
     Venetian {
-        /// How far they are turned, radians.
+        /// Angle of the slats, radians.
         tilt: f32,
         /// Wood instead of sheet metal.
         wood: bool,
@@ -51,7 +51,7 @@ fn slat(length: f32, width: f32, wood: bool) -> Mesh {
     if wood {
         return bevelled_box(Vec3::new(length, width, 0.0028), 0.001);
     }
-    /// How far the middle of a metal slat rises above its edges, metres: the arch keeps it straight.
+    /// Height of the middle of a metal slat above its edges, metres: the arch keeps it straight.
     const ARCH: f32 = 0.0018;
     /// Half the thickness of the metal, metres.
     const SHEET: f32 = 0.0002;
@@ -78,7 +78,7 @@ impl Blind {
         let at = |z: f32| Vec3::new(0.0, middle, z);
         let slat = slat(w, deep, wood);
         let hung = (0..open).map(|k| slat.clone().turned(Vec3::X, tilt).moved(at(top - 0.6 * pitch - pitch * k as f32)));
-        // The slats that are not let down lie on each other on the bottom rail.
+        // The slats that are not lowered lie on each other on the bottom rail.
         let step = if wood { 0.0034 } else { 0.0014 };
         let low = top - 0.4 * pitch - pitch * open as f32;
         let packed = (open..slats).map(|k| slat.clone().moved(at(low - 0.004 - step * (k - open) as f32)));

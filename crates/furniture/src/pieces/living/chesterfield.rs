@@ -16,7 +16,7 @@ use std::f32::consts::PI;
 pub struct Chesterfield {
     /// Places to sit: one to three.
     pub seats: usize,
-    /// What all but feet and nails is covered with.
+    /// Finish of all but feet and nails.
     pub cover: Finish,
 }
 
@@ -28,7 +28,7 @@ const TOP: f32 = 0.73;
 const SEAT: f32 = 0.43;
 /// Height of the seat cushions, metres.
 const CUSHION: f32 = 0.15;
-/// How far below the seat the padding begins, metres: the cushions hide its lower edge.
+/// Distance of the padding's lower edge below the seat, metres: the cushions hide it.
 const BELOW_SEAT: f32 = 0.06;
 /// Height of the feet, metres.
 const LEG: f32 = 0.09;

@@ -18,7 +18,7 @@ pub struct WallClock {
     pub minutes: f32,
     /// A ring with spokes instead of a face.
     pub skeleton: bool,
-    /// What rim, spokes and works are made of.
+    /// Finish of rim, spokes and works.
     pub rim: Finish,
 }
 

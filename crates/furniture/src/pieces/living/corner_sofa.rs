@@ -14,11 +14,11 @@ use std::f32::consts::{FRAC_PI_2, PI};
 pub struct CornerSofa {
     /// Width of the long side, with its arm.
     pub width: f32,
-    /// How far the chaise reaches to the front from the back.
+    /// Length of the chaise from the back to the front, metres.
     pub chaise: f32,
-    /// Where the chaise is: −1 at −x, +1 at +x.
+    /// Side of the chaise: −1 at −x, +1 at +x.
     pub side: f32,
-    /// What everything but the legs is covered with.
+    /// Finish of everything but the legs.
     pub cloth: Finish,
     /// Scatter cushions.
     pub pillows: usize,

@@ -16,7 +16,7 @@ pub struct DayBed {
     pub length: f32,
     /// Bolsters: one or two.
     pub bolsters: usize,
-    /// What mattress and bolsters are covered with.
+    /// Finish of mattress and bolsters.
     pub cover: Finish,
     /// A throw lies over the foot.
     pub throw: bool,

@@ -1,6 +1,6 @@
 //! Fires: an open fireplace with a surround and a mantelpiece of 130 to 155 cm, and an iron stove 82 to 110 cm high whose pipe ends at the
-//! ceiling; class other structure. The logs in the fireplace are other prop. The wall is at −y, and a hearth or floor plate lies before the
-//! fire.
+//! ceiling; class other structure. The logs in the fireplace are other prop. The wall is at −y, and a hearth or floor plate is in front of
+//! the fire.
 
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -30,7 +30,7 @@ fn logs(length: f32, rng: &mut Rng) -> Mesh {
 pub struct Fireplace {
     /// Width of the mantelpiece.
     pub width: f32,
-    /// What the surround is made of.
+    /// Finish of the surround.
     pub surround: Finish,
     /// The surround has framed panels instead of plain slabs.
     pub panelled: bool,
@@ -38,7 +38,7 @@ pub struct Fireplace {
 
 /// Depth of the fireplace without the front part of its hearth, metres.
 const DEPTH: f32 = 0.40;
-/// How far the hearth reaches on before that, metres: sparks fall on it.
+/// Length of the hearth in front of that, metres: sparks fall on it.
 const HEARTH: f32 = 0.35;
 /// Height of the mantelpiece, metres.
 const MANTEL: f32 = 1.12;
@@ -70,7 +70,7 @@ impl Furniture for Fireplace {
         let fire = b.object("fireplace", Class::OtherStructure, pose);
         let (half, [w, h]) = (0.5 * self.width, OPENING);
         let low = 0.05;
-        // The chimney breast stands 28 cm before the wall and is open in the middle.
+        // The chimney breast is 28 cm in front of the wall and is open in the middle.
         let front = 0.28;
         let leg = half - 0.07;
         let face = plate_with_holes(Vec2::new(-leg, low), Vec2::new(leg, MANTEL - 0.05), 0.04, 0.003, &[[-0.5 * w, 0.5 * w, low, low + h]]);

@@ -11,7 +11,7 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 /// A record player with a record on it.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordPlayer {
-    /// What the plinth is made of.
+    /// Finish of the plinth.
     pub finish: Finish,
     /// A cover of clear plastic is on it, open.
     pub lid: bool,
@@ -83,7 +83,7 @@ impl Furniture for RecordPlayer {
 pub struct Speaker {
     /// Height of the box.
     pub height: f32,
-    /// What the box is made of.
+    /// Finish of the box.
     pub finish: Finish,
     /// A cloth hides the drivers.
     pub grille: bool,

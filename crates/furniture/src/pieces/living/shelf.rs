@@ -16,11 +16,11 @@ use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 pub struct WallShelf {
     /// Length along the wall.
     pub width: f32,
-    /// How many boards.
+    /// Number of boards.
     pub boards: usize,
     /// On brackets of metal instead of hidden bolts.
     pub brackets: bool,
-    /// What the boards are made of.
+    /// Finish of the boards.
     pub finish: Finish,
 }
 
@@ -107,7 +107,7 @@ pub struct CubeShelf {
     pub rows: usize,
     /// Share of the compartments with a basket, on `[0,1]`.
     pub baskets: f32,
-    /// What the boards are made of.
+    /// Finish of the boards.
     pub finish: Finish,
 }
 

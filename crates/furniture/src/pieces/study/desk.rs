@@ -16,15 +16,15 @@ pub struct Desk {
     pub width: f32,
     /// Depth along y.
     pub depth: f32,
-    /// What carries the top.
+    /// The stand under the top.
     pub stand: DeskStand,
-    /// What the top is made of.
+    /// Finish of the top.
     pub finish: Finish,
-    /// What its person works with.
+    /// The computer on the desk.
     pub computer: Computer,
 }
 
-/// What stands before the person at a desk.
+/// The computer in front of a person at a desk.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "plain words")]
 pub enum Computer {
@@ -56,7 +56,7 @@ impl Computer {
     }
 }
 
-/// What carries the top of a desk.
+/// The stand under the top of a desk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeskStand {
     /// Drawers on one side (−1 or +1), two legs on the other.
@@ -73,13 +73,13 @@ pub enum DeskStand {
 const TOP: f32 = 0.74;
 /// Thickness of the top, metres.
 const BOARD: f32 = 0.025;
-/// Where a stand ends, just below the top, metres: air keeps faces out of one plane.
+/// Upper end of a stand, just below the top, metres: air keeps faces out of one plane.
 const UNDER: f32 = TOP - BOARD - 0.0002;
 /// Height of the shelf's surface at the back of a writing desk, metres.
 const SHELF: f32 = TOP + 0.146;
 
 impl Desk {
-    /// Where a chair stands, facing the desk.
+    /// Position of a chair that faces the desk.
     pub fn seat(&self) -> Vec2 {
         let aside = if let DeskStand::Drawers(side) = self.stand { -0.2 * f32::from(side) } else { 0.0 };
         Vec2::new(aside, 0.5 * self.depth + 0.22)

@@ -1,4 +1,4 @@
-//! The study: desks, office chairs, computers and what lies around them.
+//! The study: desks, office chairs, computers and the small things around them.
 
 mod computer;
 mod desk;

@@ -21,7 +21,7 @@ pub struct OfficeChair {
     pub arms: bool,
     /// The back is a net in a frame instead of padded.
     pub net: bool,
-    /// What the padding is covered with.
+    /// Finish of the padding.
     pub cloth: Finish,
     /// The base is of polished metal instead of black plastic.
     pub polished: bool,
@@ -29,7 +29,7 @@ pub struct OfficeChair {
 
 /// Radius of the circle of the castors' swivels, metres.
 const BASE: f32 = 0.29;
-/// Where the spine holds the back, metres above its lower edge.
+/// Height at which the spine holds the back, metres above its lower edge.
 const HELD: f32 = 0.18;
 
 impl OfficeChair {
@@ -71,7 +71,7 @@ impl OfficeChair {
         Vec3::new(p.x * (1.0 - 0.18 * t * t), p.y + round + lumbar - 0.26 - 0.13 * t, p.z + self.seat + 0.07)
     }
 
-    /// What holds the back: it ends in the padding, or on a cross piece between the sides of a net's frame.
+    /// The spine that holds the back: it ends in the padding, or on a cross piece between the sides of a net's frame.
     fn spine(&self) -> Mesh {
         let behind = if self.net { 0.035 } else { 0.046 };
         let on_back = |z: f32| self.bend(Vec3::new(0.0, -behind, z)).to_array();

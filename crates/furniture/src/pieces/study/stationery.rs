@@ -72,7 +72,7 @@ fn heap(b: &mut Builder, pose: DAffine3, height: f32, disorder: f32, rng: &mut R
 /// Pens and pencils in a cup.
 #[derive(Clone, Copy, Debug)]
 pub struct PenCup {
-    /// How many.
+    /// Number of pens.
     pub pens: usize,
 }
 

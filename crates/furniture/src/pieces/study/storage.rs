@@ -15,7 +15,7 @@ pub struct FilingCabinet {
     pub drawers: usize,
     /// Low and on castors.
     pub low: bool,
-    /// What the sheet metal is painted with.
+    /// Finish of the sheet metal.
     pub finish: Finish,
 }
 

@@ -1,4 +1,4 @@
-//! To cook with, all of class other prop: pots and pans, cutting boards of 20 to 28 × 30 to 40 cm that lie or lean, a knife block and a jar
+//! Cookware, all of class other prop: pots and pans, cutting boards of 20 to 28 × 30 to 40 cm that lie or lean, a knife block and a jar
 //! of utensils. Knife block and jar have one size each; handles and grips of pans are at +x.
 
 use crate::builder::{Builder, Class};

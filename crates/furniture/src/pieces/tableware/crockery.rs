@@ -25,9 +25,9 @@ pub enum Crockery {
     Teapot,
 }
 
-/// How far a plate of a stack lies above the one below, metres.
+/// Distance between the plates of a stack, metres.
 const PLATE_STEP: f32 = 0.0075;
-/// How far a bowl of a stack lies above the one below, metres.
+/// Distance between the bowls of a stack, metres.
 const BOWL_STEP: f32 = 0.017;
 
 /// A plate with a flat rim, on z = 0.

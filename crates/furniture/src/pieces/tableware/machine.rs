@@ -50,7 +50,7 @@ impl Furniture for KitchenMachine {
             Self::Microwave => "microwave",
             Self::StandMixer => "stand_mixer",
         };
-        // A coffee machine stands further back, since its handle stands out far to the front.
+        // A coffee machine is further back, since its handle protrudes far to the front.
         let back = if *self == Self::CoffeeMachine { -0.025 } else { 0.0 };
         let object = b.object(name, Class::OtherProp, on(pose, Vec3::new(0.0, back, CONTACT), 0.0));
         let body = [Finish::Steel, Finish::BlackPlastic, Finish::CoatedWhite, Finish::ColoredMetal(rng.below(3) as u8)][rng.below(4)];

@@ -1,4 +1,4 @@
-//! What stands in a kitchen and on a laid table: crockery, glasses, pots, provisions, small machines.
+//! Things in a kitchen and on a laid table: crockery, glasses, pots, provisions, small machines.
 
 mod cookware;
 mod crockery;

@@ -137,7 +137,7 @@ impl FruitBowl {
 /// A loaf on a board, with slices cut off.
 #[derive(Clone, Copy, Debug)]
 pub struct Bread {
-    /// Slices that lie before it.
+    /// Number of slices in front of it.
     pub slices: usize,
 }
 
@@ -165,7 +165,7 @@ impl Furniture for Bread {
     }
 }
 
-/// Where a loaf is cut, as x in its own space, metres.
+/// Position of the cut of a loaf, as x in its own space, metres.
 const CUT: f32 = -0.07;
 
 /// From −1..1 across and 0..1 up to the section of a loaf: domed, a little wider in the middle than at the top.

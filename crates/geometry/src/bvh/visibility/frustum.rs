@@ -18,7 +18,7 @@ pub(super) struct Frustum {
     sides: [Vec3; 4],
     /// A box is outside when its point farthest along a normal has a smaller product with it than this.
     limits: [f32; 4],
-    /// By how much a box may be nearer than computed.
+    /// Error bound of a box's computed distance.
     slack: f32,
     /// Vectors whose products with a point at depth 1, less those with `corner`, are the point's column and row in the tile.
     pub pixel: [Vec3; 2],
@@ -50,7 +50,7 @@ impl Frustum {
 pub(super) struct Planes<W> {
     sides: [[W; 3]; 4],
     limits: [W; 4],
-    /// Which bound of a box is farthest along a side's normal.
+    /// Bound of a box that is farthest along a side's normal.
     farthest: [[usize; 3]; 4],
     forward: [W; 3],
     /// Depth of the world's origin, and what a box may be nearer than computed.

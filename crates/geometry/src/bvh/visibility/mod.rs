@@ -1,9 +1,9 @@
-//! What a pinhole camera sees, triangle by triangle: all pixels of a small image at once.
+//! The visibility buffer of a pinhole camera, drawn triangle by triangle: all pixels of a small image at once.
 //!
 //! A picture that is only asked "which triangle?" needs no rays. The hierarchy is walked once per tile of 16×16 pixels, the nearest
 //! children first; a triangle is drawn into the tile by its three edge functions, which are linear in the pixel (Olano & Greer 1997,
-//! "Triangle Scan Conversion using 2D Homogeneous Coordinates": no projection, so nothing is clipped), and what lies behind
-//! everything drawn so far is left out, whole subtrees at a time (Greene, Kass & Miller 1993, "Hierarchical Z-Buffer Visibility").
+//! "Triangle Scan Conversion using 2D Homogeneous Coordinates": no projection, so nothing is clipped), and what is behind everything drawn
+//! so far is left out, whole subtrees at a time (Greene, Kass & Miller 1993, "Hierarchical Z-Buffer Visibility").
 //!
 //! Edge functions are made of sums and differences of the edge's ends alone, so two triangles that share an edge get values of
 //! opposite sign in every bit: no pixel falls between them. The result does not depend on the machine: there is no fused
@@ -78,7 +78,7 @@ impl VisibilityBuffer {
     /// Draws everything that `bvh` holds, every triangle being solid and seen from both sides.
     ///
     /// # Panics
-    /// When there are placements in the hierarchy: this is for triangles that stand in the world.
+    /// When there are placements in the hierarchy: this is for triangles in world space.
     pub fn draw(&mut self, bvh: &Bvh, rays: &PinholeRays) {
         assert!(bvh.placed.is_empty(), "a hierarchy with placements cannot be drawn; build it of all triangles");
         let forward = rays.forward();

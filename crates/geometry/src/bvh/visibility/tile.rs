@@ -8,7 +8,7 @@ use crate::bvh::wide::Wide;
 pub(super) const TILE: usize = 16;
 pub(super) const BLOCK: usize = 4;
 
-/// Stands for no triangle in [`VisibilityBuffer::triangles`](super::VisibilityBuffer::triangles).
+/// Marks pixels without a triangle in [`VisibilityBuffer::triangles`](super::VisibilityBuffer::triangles).
 pub const NOTHING: u32 = u32::MAX;
 
 /// Block and lane of a pixel of a tile.
@@ -60,7 +60,7 @@ pub(super) struct Drawn {
     pub z: Linear<f32>,
     /// The inverse depths of its corners. Where it is seen from its edge, rounding could put it anywhere.
     pub z_range: [f32; 2],
-    /// Where it may cover a pixel.
+    /// The blocks in which it may cover a pixel.
     pub blocks: u32,
 }
 

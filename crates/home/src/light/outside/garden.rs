@@ -4,7 +4,7 @@ use super::{Surroundings, View, hazed};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_textures::noise::{fbm, smoothstep};
 
-/// A ring of trees: how high they rise in degrees, how hazy they are, how many crowns stand around.
+/// A ring of trees: how high they rise in degrees, how hazy they are, how many crowns there are around the full circle.
 pub(super) struct Trees {
     pub height_deg: f32,
     pub depth: f32,

@@ -12,7 +12,7 @@ struct Row {
     distance: f32,
     /// Houses on the ring.
     count: i32,
-    /// Share of their width that stands free between neighbours.
+    /// Gap between neighbours, as a share of their width.
     gap: f32,
     /// Minimum and maximum number of storeys.
     floors: [f32; 2],

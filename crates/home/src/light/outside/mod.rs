@@ -1,4 +1,4 @@
-//! What stands outside the windows, painted into the sky's picture: gardens, streets, a skyline, open country.
+//! The surroundings outside the windows, painted into the sky's picture: gardens, streets, a skyline, open country.
 //!
 //! A view is a stack of rings about the home, each as far away as its things would be: on a ring, x counts metres around and y metres
 //! above the ground. What is nearer hides what is farther.
@@ -36,7 +36,7 @@ impl Outside {
 
 /// Surroundings in the light of a moment. Illuminances are in kilo-lux, radiances in kcd/m².
 pub(super) struct Surroundings {
-    /// What there is.
+    /// The kind of surroundings.
     pub kind: Outside,
     /// Unit direction to the sun.
     pub to_sun: Vec3,
@@ -57,12 +57,13 @@ struct View {
     /// Tangent of the elevation.
     rise: f32,
     elevation_deg: f32,
-    /// What the air between here and a thing far away glows with.
+    /// Radiance of the haze between the viewer and a thing far away.
     haze: Rgb,
 }
 
 impl View {
-    /// Where the ring of this radius is met: metres around and, seen from `eye` metres above the ground, metres above the ground.
+    /// The point at which this direction meets a ring of the given radius: metres along the ring, and metres above the ground, seen from
+    /// `eye` metres above it.
     fn on_ring(&self, radius: f32, eye: f32) -> Vec2 {
         Vec2::new(self.turn * TAU * radius, eye + self.rise * radius)
     }
@@ -74,7 +75,7 @@ impl View {
 }
 
 impl Surroundings {
-    /// Radiance in the unit direction `d`; `sky` is that of the sky there, or mirrored at the horizon.
+    /// Radiance in the unit direction `d`; `sky` is the radiance of the sky there, or mirrored at the horizon.
     pub fn radiance(&self, d: Vec3, sky: Rgb) -> Rgb {
         if d.z > 0.75 {
             return sky;

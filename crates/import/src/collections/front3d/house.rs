@@ -48,7 +48,7 @@ pub(super) struct Paint {
     pub uid: String,
     #[serde(default, deserialize_with = "or_default")]
     pub jid: String,
-    /// Where the picture was on the authors' servers; empty where there is none.
+    /// Location of the picture on the authors' servers; empty if there is none.
     #[serde(default, deserialize_with = "or_default")]
     pub texture: String,
     /// Red, green, blue and opacity, 0 … 255, in sRGB.
@@ -72,7 +72,7 @@ pub(super) struct Room {
     pub children: Listed<Child>,
 }
 
-/// Something that stands in a room.
+/// Something in a room.
 #[derive(Deserialize)]
 pub(super) struct Child {
     pub r#ref: String,

@@ -1,8 +1,8 @@
 //! The lights of a house: V-Ray's, in JSON.
 //!
-//! 3D-FRONT's toolbox does not read them. Their form is that of programs that write such houses for V-Ray, and of V-Ray's own parameters;
-//! what these do not say is guessed, and told: that `size0` and `size1` are whole sides along the light's x and y (`up_vector`), that a light
-//! without `units` is in those of the image, V-Ray's default scale between them and lumens, and the sky around a sun.
+//! 3D-FRONT's toolbox does not read them. They have the form of programs that write such houses for V-Ray, and of V-Ray's own parameters;
+//! missing information is guessed and reported: that `size0` and `size1` are whole sides along the light's x and y (`up_vector`), that a
+//! light without `units` is in those of the image, V-Ray's default scale between them and lumens, and the sky around a sun.
 
 use super::super::json::{flag, number, text, vector};
 use crate::assembly::{Assembly, orthonormal};
@@ -53,10 +53,10 @@ pub(super) fn add(lights: &[Value], a: &mut Assembly) -> Result<(), ImportError>
 #[derive(Default)]
 struct Lamps {
     read: usize,
-    /// Surfaces whose size was taken as it stands.
+    /// Surfaces whose size was taken as written.
     surfaces: usize,
     suns: usize,
-    /// What is wrong with lights that were left out, and their names.
+    /// Faults of lights that were left out, and the lights' names.
     left_out: BTreeMap<&'static str, Vec<String>>,
 }
 

@@ -10,7 +10,7 @@
 //! | `furniture` | the model `<jid>/raw_model.obj`, if it is `valid`; its category is `category` of `model_info.json`, else the `super-category` there, else the house's own |
 //! | `mesh` | `xyz`, `normal`, `uv`, `faces`, as `<type> (<room>)`; the class by its type: walls, floors, ceilings, doors, windows and what is built in |
 //! | `material` | the picture `<jid>/texture.png` with the linear part of `UVTransform`, as in the toolbox; where that is not available, `color`; else grey |
-//! | `lights` | rectangles and spheres (`VRayLight`) with place, size, strength and temperature, and the sun (`VraySun`) with a sky; others are left out, and told |
+//! | `lights` | rectangles and spheres (`VRayLight`) with place, size, strength and temperature, and the sun (`VraySun`) with a sky; others are left out, with a warning |
 //! | `extension`, `groups` | not used |
 
 mod house;
@@ -33,7 +33,7 @@ use surface::{PICTURES, Placed, Surfaces};
 
 /// The folder of models.
 const MODELS: &str = "3D-FUTURE-model";
-/// How many folders above the house's may hold them.
+/// Number of folders above the house's in which they are sought.
 const ABOVE: usize = 3;
 /// Models that a warning names.
 const NAMED: usize = 6;

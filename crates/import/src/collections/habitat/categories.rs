@@ -1,4 +1,4 @@
-//! What objects are, by the tables of a dataset.
+//! Categories of objects, by the tables of a dataset.
 
 use super::super::assets::unless_odd;
 use super::super::json;

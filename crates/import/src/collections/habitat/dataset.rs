@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 pub(in crate::collections) const SCENE: &str = ".scene_instance.json";
 pub(in crate::collections) const DATASET: &str = ".scene_dataset_config.json";
 
-/// How many folders above the scene's may hold the configuration.
+/// Number of folders above the scene's in which the configuration is sought.
 const ABOVE: usize = 4;
-/// What stands for a template's own name in default attributes.
+/// Placeholder for a template's own name in default attributes.
 const OWN_NAME: &str = "%%CONFIG_NAME_AS_ASSET_FILENAME%%";
 
 /// A dataset: the folder of its configuration, and its templates.
@@ -25,7 +25,7 @@ pub(super) struct Dataset {
     pub objects: Templates,
     pub articulated: Templates,
     pub lights: Templates,
-    /// Files that say what semantic numbers mean, by their handles.
+    /// Files with the meanings of semantic numbers, by their handles.
     pub semantics: BTreeMap<String, String>,
 }
 
@@ -193,7 +193,7 @@ impl Templates {
         self.file(bare).map(|file| self.of_file(file, a)).transpose()
     }
 
-    /// The file of a handle: one that is it or ends with it, else the first that holds it.
+    /// The file of a handle: one that equals it or ends with it, else the first that contains it.
     fn file(&self, name: &str) -> Option<&Path> {
         let without = |name: &str| name.rsplit_once('.').map(|(bare, _)| bare.to_string());
         let ends = |name: &str| {

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Half the angle of a spot's cone unless it is said, radians.
+/// Default of half the angle of a spot's cone, radians.
 const CONE: f32 = std::f32::consts::FRAC_PI_2;
 
 /// A layout of lights.

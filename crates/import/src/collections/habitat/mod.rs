@@ -10,13 +10,13 @@
 //! | `template_name` | the template whose handle is it, or ends with it, or holds it, in this order |
 //! | `stage_instance` | the parts of the stage by their own names; those that are called wall, floor or ceiling have these classes. Scale is used, translation and rotation are not, as in habitat-sim |
 //! | `object_instances` | `translation`, `rotation` (w x y z), `uniform_scale`, `non_uniform_scale`, `translation_origin` of each or of all; those that are not visible are left out |
-//! | `*.stage_config.json`, `*.object_config.json` | `render_asset` (or `collision_asset`), `scale`, `up`, `front`, `COM`; a model alone is a template too. Stages from GLB files have z up unless they say otherwise |
-//! | `articulated_object_instances` | the visual meshes of the URDF at rest; primitive shapes are left out, told and counted |
+//! | `*.stage_config.json`, `*.object_config.json` | `render_asset` (or `collision_asset`), `scale`, `up`, `front`, `COM`; a model alone is a template too. Stages from GLB files have z up by default |
+//! | `articulated_object_instances` | the visual meshes of the URDF at rest; primitive shapes are left out, with a warning that counts them |
 //! | `*.lighting_config.json` | point, spot and directional lights of the frame `global`; color × intensity as W/sr or W/m², because Habitat states no unit. Lights of negative intensity, which cannot be, are left out |
 //! | categories | `semantics/objects.csv` by model (`main_category`, else the noun of `wnsynsetkey`), as in HSSD; else `semantic_id` in the dataset's lexicon |
 //! | `units_to_meters`, `origin`, physics, shaders, navigation | not used, as in habitat-sim; a `units_to_meters` other than 1 is reported |
 //!
-//! A translation is that of the middle of the box around the model (or of `COM`), unless `translation_origin` is `asset_local`.
+//! A translation is the position of the middle of the box around the model (or of `COM`), unless `translation_origin` is `asset_local`.
 
 mod categories;
 mod dataset;

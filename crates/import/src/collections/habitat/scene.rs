@@ -1,4 +1,4 @@
-//! A scene instance: the stage and the objects where they stand.
+//! A scene instance: the stage and the objects in their places.
 
 use super::super::assets::{Models, unless_odd};
 use super::super::listed::Listed;
@@ -34,7 +34,7 @@ pub(super) struct SceneInstance {
     pub semantic_scene_instance: Option<String>,
 }
 
-/// Something that stands somewhere.
+/// A placed stage or object.
 #[derive(Deserialize)]
 struct Instance {
     template_name: String,
@@ -239,7 +239,7 @@ impl<'s> Placer<'s> {
     }
 }
 
-/// True for `asset_local`, false for `COM`; `None` where it is not said.
+/// True for `asset_local`, false for `COM`; `None` if it is not stated.
 fn is_asset_local(origin: Option<&str>) -> Option<bool> {
     match origin.map(str::to_lowercase).as_deref() {
         Some("asset_local") => Some(true),
@@ -257,7 +257,7 @@ fn object_from_model(template: &Template, scale: DVec3, is_stage: bool, name: &s
     DAffine3::from_mat3(DMat3::from_diagonal(template.scale * scale) * frame)
 }
 
-/// The class that the name of a stage's part tells, as HSSD names them: `wall_0.003`, `geometry_wallTop.124`.
+/// The class in the name of a stage's part, as HSSD names them: `wall_0.003`, `geometry_wallTop.124`.
 fn class_in_stage(name: &str) -> Option<i16> {
     let lower = name.to_lowercase();
     let words = lower.split(|c: char| !c.is_alphabetic());

@@ -1,4 +1,4 @@
-//! What a stage or an object is: its model, its frame and its scale.
+//! The template of a stage or an object: its model, its frame and its scale.
 
 use super::super::lenient::Lenient;
 use super::dataset::Attributes;
@@ -59,7 +59,7 @@ impl Template {
         named.into_iter().flatten().find(|name| !name.is_empty()).map(|name| self.beside(name))
     }
 
-    /// A file that the template names, which lies beside it.
+    /// A file that the template names, in the template's folder.
     pub fn beside(&self, name: &str) -> PathBuf {
         self.file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"))
     }

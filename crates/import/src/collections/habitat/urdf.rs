@@ -80,7 +80,7 @@ fn add_visuals(
     Ok(shapes)
 }
 
-/// Where each link stands, by its name; links that no root leads to are not in it.
+/// The pose of each link, by its name; links that no root leads to are left out.
 fn base_from_link(robot: &Node, links: &[Node]) -> Result<HashMap<String, DAffine3>, String> {
     let mut joints: HashMap<&str, Vec<(&str, DAffine3)>> = HashMap::new();
     let mut has_parent: HashSet<&str> = HashSet::new();
@@ -121,7 +121,7 @@ fn numbers(node: &Node, attribute: &str) -> Result<Option<DVec3>, String> {
     let Some(text) = node.attribute(attribute) else { return Ok(None) };
     match vectors::numbers(text).as_deref() {
         Some(&[x, y, z]) => Ok(Some(DVec3::new(x, y, z))),
-        // Of a scale, one number is that of all axes.
+        // For a scale, one number applies to all axes.
         Some(&[all]) if attribute == "scale" => Ok(Some(DVec3::splat(all))),
         _ => Err(format!("found {text:?} as {attribute} of <{}>, expected three numbers", node.tag_name().name())),
     }

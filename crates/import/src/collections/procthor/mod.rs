@@ -8,11 +8,11 @@
 //! | in the file | what becomes of it |
 //! |---|---|
 //! | `rooms` | `<roomType> floor (<id>)` from `floorPolygon`, and a ceiling of that outline at the top of the room's walls |
-//! | `walls` | `wall (<id>)` from the four corners of `polygon`, with the holes of doors and windows. The two sheets of a wall between rooms stand 5 mm inside of their rooms, since Unity shows a sheet from its front alone. `empty` walls are left out |
+//! | `walls` | `wall (<id>)` from the four corners of `polygon`, with the holes of doors and windows. The two sheets of a wall between rooms are 5 mm inside of their rooms, since Unity shows a sheet from its front alone. `empty` walls are left out |
 //! | `doors`, `windows` | holes by `holePolygon` (or `boundingBox`), measured from the start of `wall0` and the end of `wall1`; frames and leaves where there is a model |
-//! | `objects` and their `children` | the model `<assetId>.glb`, `.gltf` or `.obj` of a folder `procthor-assets`, `assets`, `models` or `objects` beside the house or in the three folders above, by the middle of its box; without a model a box of the size in `asset-database.json`, looked for there too, told and counted; without that they are left out, told and counted |
+//! | `objects` and their `children` | the model `<assetId>.glb`, `.gltf` or `.obj` of a folder `procthor-assets`, `assets`, `models` or `objects` beside the house or in the three folders above, by the middle of its box; without a model a box of the size in `asset-database.json`, sought there too, with a warning that counts them; without that they are left out, with a warning that counts them |
 //! | categories | the object type of `asset-database.json`, else what the object's `id` begins with |
-//! | materials | `color` where it is said, else plaster or wood of one colour: the pictures are within AI2-THOR |
+//! | materials | `color` if it is stated, else plaster or wood of one colour: the pictures are within AI2-THOR |
 //! | `proceduralParameters.lights` | point and directional lights; Unity's strength × colour as W/sr or W/m², because Unity states no unit |
 
 mod house;

@@ -16,9 +16,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// Folders that may hold the models.
+/// Folders in which the models are sought.
 const FOLDERS: [&str; 4] = ["procthor-assets", "assets", "models", "objects"];
-/// How many folders above the house's may hold those.
+/// Number of folders above the house's in which those are sought.
 const ABOVE: usize = 3;
 /// ProcTHOR's table of its assets.
 const TABLE: &str = "asset-database.json";
@@ -50,7 +50,7 @@ pub(super) struct Library {
 }
 
 impl Library {
-    /// What lies beside the house and in the folders above.
+    /// The library of models beside the house and in the folders above.
     ///
     /// # Errors
     /// When the table of assets cannot be read.
@@ -176,7 +176,7 @@ fn mirrored(middle: DVec3, turn: DMat3) -> DAffine3 {
     DAffine3::from_mat3_translation(mirror * turn * mirror, middle * MIRROR)
 }
 
-/// Where a model stands whose box has its middle at a place.
+/// The placement of a model whose box has its middle at a point.
 fn standing(model: &Model, middle: DVec3, turn: DMat3, a: &Assembly) -> DAffine3 {
     let (min, max) = model.bounds_at(DAffine3::IDENTITY, a);
     let center = if min.is_finite() && max.is_finite() { 0.5 * (min + max) } else { DVec3::ZERO };

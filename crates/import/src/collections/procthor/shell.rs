@@ -12,7 +12,7 @@ use enfilade_math::{DAffine3, DMat3, DVec2, DVec3, Rgb, Vec3};
 use enfilade_scene::Material;
 use serde_json::Value;
 
-/// How far the sheet of a wall stands inside of its room, metres.
+/// Distance of a wall's sheet from the wall, inside its room, metres.
 const INSIDE: f64 = 0.005;
 /// Reflectances of walls and ceilings, and of floors, whose pictures are not available.
 const PLASTER: f32 = 0.75;
@@ -118,7 +118,7 @@ fn inward(wall: &Wall, sheet: &Sheet, house: &House) -> DVec2 {
     }
 }
 
-/// True where a point lies within a polygon, by the crossings of a ray.
+/// True if a point is within a polygon, by the crossings of a ray.
 fn holds(corners: impl Iterator<Item = DVec2> + Clone, p: DVec2) -> bool {
     let next = corners.clone().cycle().skip(1);
     let crossings = corners.zip(next).filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));

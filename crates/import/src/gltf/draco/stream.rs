@@ -16,7 +16,7 @@ impl Stream {
     /// Decodes a stream to at most the given number of bytes of attributes.
     ///
     /// # Errors
-    /// When it is damaged or holds more, as the rest of a sentence.
+    /// When it is damaged or contains more, as the rest of a sentence.
     pub(super) fn decode(bytes: &[u8], most: u64) -> Result<Self, String> {
         // A vertex has at least a position of three bytes.
         let limits = DecodeLimits::default().with_max_decoded_bytes(most).with_max_points(most / 3).with_max_faces(most / 3);

@@ -73,7 +73,8 @@ fn read_block(bytes: &mut Bytes, version: u8, count: usize, differences: &mut [[
     Ok(())
 }
 
-/// Reads 16 differences of the given number of bits; the largest number of fewer than eight bits says that a whole byte follows behind the group.
+/// Reads 16 differences of the given number of bits; with fewer than eight bits, the largest number means that a whole byte follows after
+/// the group.
 fn read_group(bytes: &mut Bytes, bits: u32, group: &mut [u8; 16]) -> Result<(), String> {
     if bits == 0 {
         group.fill(0);

@@ -1,6 +1,6 @@
 //! Packed bytes, read from front to back.
 
-/// What is left of packed data.
+/// The rest of packed data.
 pub(super) struct Bytes<'b>(pub &'b [u8]);
 
 /// Why data cannot be unpacked, as the rest of a sentence.

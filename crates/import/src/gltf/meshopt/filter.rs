@@ -1,4 +1,4 @@
-//! What is done to attributes after they have been unpacked: unit vectors, rotations, floats and colours from forms that pack better.
+//! Filters of attributes, applied after unpacking: unit vectors, rotations, floats and colours from forms that pack better.
 //!
 //! Appendix B of `KHR_meshopt_compression`.
 
@@ -39,7 +39,7 @@ fn of_words(bytes: &mut [u8], filter: impl Fn([u16; 4]) -> [u16; 4]) {
     }
 }
 
-/// A unit vector by its place on an octahedron; the third number stands for one, and the fourth is kept. Casts of the result saturate.
+/// A unit vector by its place on an octahedron; the third number represents one, and the fourth is kept. Casts of the result saturate.
 fn octahedral([x, y, one, w]: [f32; 4], largest: f32) -> [f32; 4] {
     let (x, y) = (x / one, y / one);
     let z = 1.0 - x.abs() - y.abs();
@@ -52,7 +52,8 @@ fn octahedral([x, y, one, w]: [f32; 4], largest: f32) -> [f32; 4] {
     [x, y, z, w]
 }
 
-/// A rotation by its three smaller components; the fourth number says which one is left out, and what stands for one.
+/// A rotation by its three smaller components; the fourth number contains the index of the one that is left out, and the value that
+/// represents one.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [i16; 4] {
     let scale = std::f32::consts::FRAC_1_SQRT_2 / f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|v| f32::from(v) * scale);
@@ -69,7 +70,7 @@ fn exponential(v: i32) -> f32 {
     2f32.powi(v >> 24) * (v << 8 >> 8) as f32
 }
 
-/// Red, green, blue and alpha from luma, orange and green (YCoCg); alpha's highest bit tells with how many bits all are stored.
+/// Red, green, blue and alpha from luma, orange and green (YCoCg); alpha's highest bit gives the number of bits of all channels.
 fn color([y, orange, green]: [i32; 3], alpha: u32, largest: u32) -> [u32; 4] {
     let mask = (2u32 << alpha.checked_ilog2().unwrap_or(0)) - 1;
     let low = alpha & mask >> 1;
@@ -107,7 +108,7 @@ mod tests {
             let rotation = quaternion([last | 3, 0, 0, last]);
             assert!(rotation.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1), "{rotation:?} {expected:?}");
         }
-        // What stands for one is negative in no file that was written well; the place is read from the lowest bits all the same.
+        // The value that represents one is never negative in a valid file; the index is read from the lowest bits all the same.
         assert_eq!(quaternion([0, 0, 0, -1]), [0, 0, 0, 32_767]);
     }
 

@@ -77,13 +77,13 @@ impl<T: Copy, const N: usize> Recent<T, N> {
         self.next = (self.next + 1) % N;
     }
 
-    /// What was met `ago` things ago; 0 is the last.
+    /// The thing that was met `ago` things ago; 0 is the last.
     fn get(&self, ago: u8) -> T {
         self.things[(self.next + 2 * N - 1 - usize::from(ago)) % N]
     }
 }
 
-/// What is known of the triangles so far.
+/// The decoder's state after the triangles so far.
 struct Triangles<'b> {
     data: Bytes<'b>,
     /// The vertex after the highest that was met in order.
@@ -116,7 +116,7 @@ impl Triangles<'_> {
         Ok([a, b, c])
     }
 
-    /// A triangle none of whose edges was met; `code` is a place in the table, or says that it is written out.
+    /// A triangle none of whose edges was met; `code` is an index into the table, or means that it is written out.
     fn without_edge(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], String> {
         let written = code >= 14;
         let pair = if written { self.data.byte()? } else { table[usize::from(code)] };

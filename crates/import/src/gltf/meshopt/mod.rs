@@ -1,7 +1,7 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views whose data are packed.
 //!
-//! Own code by the specification of the latter, which holds both versions of the packing; the crates for it are the C++ library, or panic
-//! on damaged data.
+//! Our own code, by the specification of the latter, which covers both versions of the packing. The crates for it are bindings of the C++
+//! library, or panic on damaged data.
 
 mod attributes;
 mod bytes;
@@ -16,8 +16,8 @@ use gltf::json::{Index, Root, buffer};
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Unpacks all packed buffer views, so that they lie in buffers of their own. Those that cannot be unpacked have their plain data, where the
-/// file has some; what is wrong with the others goes into `unreadable` by index.
+/// Unpacks all packed buffer views into buffers of their own. Those that cannot be unpacked have their plain data, if the file has it; the
+/// faults of the others go into `unreadable` by index.
 pub(super) fn unpack(
     root: &mut Root,
     buffers: &mut Buffers,

@@ -8,11 +8,11 @@ use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
 use std::panic::catch_unwind;
 
-/// What a channel of ETC1S holds.
+/// Content of a channel of ETC1S.
 const ETC1S_RED: u8 = 3;
 const ETC1S_GREEN: u8 = 4;
 
-/// What the channels of UASTC hold.
+/// Content of the channels of UASTC.
 const UASTC_RED_AND_ALPHA: u8 = 5;
 const UASTC_RED_AND_GREEN: u8 = 6;
 
@@ -45,13 +45,13 @@ pub(super) fn uastc(level: &[u8], header: &Header) -> Result<Vec<[u8; 4]>, Strin
     Ok(texels)
 }
 
-/// The texels of a level of ETC1S, whose palettes lie elsewhere in the file.
+/// The texels of a level of ETC1S, whose palettes are elsewhere in the file.
 ///
 /// # Errors
 /// When something is damaged, as the rest of a sentence.
 pub(super) fn etc1s(file: &[u8], level: &[u8], header: &Header) -> Result<Vec<[u8; 4]>, String> {
     let damaged = || "is a KTX2 of ETC1S whose palettes or blocks are damaged; copy or export it again".to_string();
-    // The library takes some of what stands in a file for granted, such as that no sum of it is beyond 32 bits.
+    // The library relies on some properties of a file without checking, such as sums within 32 bits.
     let texels = catch_unwind(|| try_etc1s(file, level, header)).ok().flatten().ok_or_else(damaged)?;
     let mut texels: Vec<[u8; 4]> = texels.as_chunks::<4>().0.to_vec();
     if let (Some(ETC1S_RED), Some(ETC1S_GREEN)) = header.channels.into() {

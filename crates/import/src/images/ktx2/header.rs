@@ -3,14 +3,14 @@
 use super::super::layout::{BGRA, Layout, RGBA};
 use ktx2::{ColorModel, KeyValueDataIterator, SupercompressionScheme, TransferFunction};
 
-/// Where the index of levels begins, and bytes of an entry there.
+/// Position of the index of levels, and size of an entry, in bytes.
 const LEVEL: usize = ktx2::Header::LENGTH;
 const ENTRY: usize = 24;
 
-/// What is read, for messages.
+/// The forms that are read, for messages.
 const KNOWN: &str = "save it as PNG, or with texels of 8 or 16 bits, floats, BC1 to BC7, ETC1S or UASTC";
 
-/// How texels are stored.
+/// The storage of texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Texels {
     Plain(Layout),
@@ -20,7 +20,7 @@ pub(super) enum Texels {
     Uastc,
 }
 
-/// How a level is packed besides.
+/// The additional packing of a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Packing {
     None,
@@ -29,7 +29,7 @@ pub(super) enum Packing {
     Zlib,
 }
 
-/// What the header says.
+/// The content of the header.
 #[derive(Debug)]
 pub(super) struct Header {
     pub width: u32,
@@ -38,15 +38,15 @@ pub(super) struct Header {
     pub packing: Packing,
     /// True when texels are in sRGB.
     pub srgb: bool,
-    /// What Basis Universal's channels hold: 0 colours, 3 red, 4 green and the like.
+    /// Content of Basis Universal's channels: 0 colours, 3 red, 4 green and so on.
     pub channels: [Option<u8>; 2],
     /// Pictures in the file: of all levels, layers and faces.
     pub pictures: u64,
-    /// Where the palettes of ETC1S and the like lie.
+    /// Position and length of global data, such as the palettes of ETC1S, in bytes.
     pub global: (u64, u64),
     /// True when the first row is the bottom.
     pub bottom_up: bool,
-    /// What red, green, blue and alpha are read from: `r`, `g`, `b`, `a`, `0` or `1`.
+    /// Sources of red, green, blue and alpha: `r`, `g`, `b`, `a`, `0` or `1`.
     pub swizzle: Option<[u8; 4]>,
 }
 
@@ -98,7 +98,8 @@ impl Header {
     }
 }
 
-/// Colour model, transfer function, and what the first two channels hold, of the data format descriptor; `None` where it ends before them.
+/// Colour model, transfer function, and content of the first two channels, from the data format descriptor; `None` where it ends before
+/// them.
 ///
 /// The crate reads descriptors too, but refuses files whose descriptor is damaged where it does not count, and panics on some.
 fn descriptor(bytes: &[u8], index: &ktx2::Index) -> [Option<u8>; 4] {
@@ -108,7 +109,7 @@ fn descriptor(bytes: &[u8], index: &ktx2::Index) -> [Option<u8>; 4] {
     [byte(12), byte(14), channel(28), channel(44)]
 }
 
-/// How texels are stored, by Vulkan's number of their format, the colour model where that is 0, and how they are packed.
+/// The storage of texels, by Vulkan's number of their format, the colour model if that is 0, and the packing.
 fn texels(format: u32, model: u8, packing: Packing) -> Result<Texels, String> {
     let [etc1s, uastc] = [ColorModel::ETC1S, ColorModel::UASTC].map(|of| of.value() == model);
     match (format, model, packing) {

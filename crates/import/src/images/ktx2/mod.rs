@@ -1,6 +1,6 @@
 //! KTX 2: the first picture of a file, uncompressed, in blocks (BC1 to BC7), or in Basis Universal's forms (ETC1S, UASTC).
 //!
-//! The layout is that of the KTX File Format Specification 2.0. Of cube maps, arrays, volumes and smaller copies (mipmaps) the first and
+//! The layout follows the KTX File Format Specification 2.0. Of cube maps, arrays, volumes and smaller copies (mipmaps) the first and
 //! largest picture is read. Two channels of Basis Universal are the x and y of normals, to which z is added, as for BC5.
 
 mod basis;
@@ -17,7 +17,7 @@ pub(super) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// Decodes a file.
 ///
 /// # Errors
-/// What is wrong with it, as the rest of a sentence that begins with its name.
+/// The fault, as the rest of a sentence that begins with its name.
 pub(super) fn decode(bytes: &[u8]) -> Result<Surface, String> {
     let header = Header::read(bytes)?;
     let Header { width, height, .. } = header;
@@ -38,7 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Surface, String> {
     Ok(arranged(surface, &header))
 }
 
-/// The picture with its rows from the top down, and its channels as the file says that they should be read.
+/// The picture with its rows from the top down, and its channels in the order that the file specifies.
 fn arranged(surface: Surface, header: &Header) -> Surface {
     fn from_top<T: Copy>(width: u32, texels: Vec<T>, header: &Header) -> Vec<T> {
         if header.bottom_up { texels.chunks_exact(width as usize).rev().flatten().copied().collect() } else { texels }
@@ -62,7 +62,7 @@ fn arranged(surface: Surface, header: &Header) -> Surface {
     }
 }
 
-/// What a letter of a swizzle stands for in a texel.
+/// The value of a texel that a letter of a swizzle refers to.
 fn channel<T: Copy + Default>(texel: [T; 4], from: u8, one: T) -> T {
     match from {
         b'r' => texel[0],

@@ -3,7 +3,7 @@
 use super::super::float_picture::FloatPicture;
 use super::*;
 
-/// A file of these texels; `level` is what its level holds.
+/// A file of these texels; `level` is the content of its level.
 fn file(format: u32, scheme: u32, size: [u32; 2], notes: &[u8], level: &[u8]) -> Vec<u8> {
     let notes_at = FIXED_AND_LEVEL + DESCRIPTOR.len();
     let words = [format, 1, size[0], size[1], 0, 0, 1, 1, scheme, FIXED_AND_LEVEL as u32, 44, notes_at as u32, notes.len() as u32];

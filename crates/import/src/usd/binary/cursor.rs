@@ -12,7 +12,7 @@ pub(super) struct Cursor<'a> {
     pub at: u64,
 }
 
-/// What is wrong at a byte.
+/// A result, or the position of a faulty byte and its fault.
 pub(super) type Checked<T> = Result<T, (u64, String)>;
 
 impl<'a> Cursor<'a> {
@@ -127,8 +127,8 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Integers as differences: the most common difference, two bits each that say how many bytes the difference takes (none for the
-/// common one), and the differences.
+/// Integers as differences: the most common difference, two bits each for the size of the difference in bytes (none for the common one),
+/// and the differences.
 fn integers(encoded: &[u8], count: usize, wide: bool) -> Option<Vec<i64>> {
     let sizes = if wide { [0, 2, 4, 8] } else { [0, 1, 2, 4] };
     let (common, rest) = encoded.split_at_checked(sizes[3])?;

@@ -1,8 +1,8 @@
 //! usdc: the binary encoding ("crate"), versions 0.4 to 0.13.
 //!
-//! Sections hold tokens, strings, fields (a name and where its value is), sets of fields, paths as a tree, and specs, which join a
-//! path and a set of fields. Values are read once however many specs share them, so that what a file unpacks to stays in proportion
-//! to its size. The layout is that of OpenUSD's `crateFile.cpp`.
+//! Sections contain tokens, strings, fields (a name and the position of its value), sets of fields, paths as a tree, and specs, which join
+//! a path and a set of fields. Values are read once however many specs share them, so that what a file unpacks to stays in proportion to
+//! its size. The layout follows OpenUSD's `crateFile.cpp`.
 
 mod cursor;
 mod numbers;
@@ -17,13 +17,13 @@ use values::Values;
 /// The first bytes of every crate file.
 pub(super) const MAGIC: &[u8] = b"PXR-USDC";
 
-/// What ends a set of fields.
+/// Terminator of a set of fields.
 const END_OF_SET: i64 = -1;
 
 /// Reads a layer from the bytes of a crate file.
 ///
 /// # Errors
-/// The byte, and what is wrong there.
+/// The byte, and the fault there.
 pub(super) fn parse(bytes: &[u8]) -> Result<Layer, (String, String)> {
     read(bytes).map_err(|(byte, problem)| (format!("byte {byte}"), problem))
 }

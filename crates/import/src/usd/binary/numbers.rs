@@ -6,7 +6,7 @@ use half::f16;
 /// Shorter arrays are not packed.
 pub(super) const SHORTEST_PACKED: usize = 16;
 
-/// How a number is stored.
+/// The type of a stored number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Bool,

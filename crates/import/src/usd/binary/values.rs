@@ -32,7 +32,7 @@ impl<'a> Values<'a> {
         Self { bytes, version, tokens, strings, paths, known: HashMap::new(), budget }
     }
 
-    /// The value that eight bytes stand for.
+    /// The value that eight bytes represent.
     pub(super) fn get(&mut self, rep: u64) -> Checked<Value> {
         self.nested(rep, 0)
     }
@@ -254,7 +254,7 @@ impl<'a> Values<'a> {
                 c.at = at.at;
             }
         }
-        // The layer's root stands for "no path" in references to the default prim.
+        // The layer's root means "no path" in references to the default prim.
         let path = if &*path == "/" { "" } else { &*path };
         Ok(Item { asset: asset.to_string(), path: path.to_string() })
     }

@@ -22,7 +22,7 @@ pub(super) enum Token<'a> {
 }
 
 impl Token<'_> {
-    /// How messages call the token.
+    /// Name of the token in messages.
     pub(super) fn named(&self) -> String {
         let short = |t: &str| t.chars().take(40).collect::<String>();
         match self {
@@ -68,7 +68,7 @@ impl<'a> Lexer<'a> {
     /// The next token.
     ///
     /// # Errors
-    /// What is wrong at this line, as a sentence.
+    /// The fault at this line, as a sentence.
     pub(super) fn next(&mut self) -> Result<Token<'a>, String> {
         loop {
             let Some(byte) = self.byte(0) else { return Ok(Token::End) };

@@ -1,4 +1,4 @@
-//! Metadata in usda: what stands in round brackets behind the layer, a prim, or a property.
+//! Metadata in usda: the text in parentheses after the layer, a prim, or a property.
 
 use super::lexer::Token;
 use super::parser::{Parsed, Parser, add_edit};

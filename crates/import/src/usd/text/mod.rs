@@ -11,7 +11,7 @@ use parser::Parser;
 /// Reads a layer from text.
 ///
 /// # Errors
-/// The line, and what is wrong there.
+/// The line, and the fault there.
 pub(super) fn parse(text: &str) -> Result<Layer, (String, String)> {
     let first = text.lines().next().unwrap_or("").trim();
     if !first.trim_start_matches('\u{feff}').starts_with("#usda") {

@@ -18,7 +18,7 @@ pub(super) struct Parser<'a> {
     depth: usize,
 }
 
-/// What was read, or what is wrong.
+/// The parsed value, or the fault.
 pub(super) type Parsed<T = ()> = Result<T, String>;
 
 impl<'a> Parser<'a> {
@@ -62,7 +62,7 @@ impl<'a> Parser<'a> {
         if self.at_sign(close)? { Ok(()) } else { Err(self.unexpected(&format!("`,` or `{}`", char::from(close)))) }
     }
 
-    /// What is wrong with the next token.
+    /// Message about an unexpected next token.
     pub(super) fn unexpected(&self, expected: &str) -> String {
         format!("found {}, expected {expected}; correct the file or export it again", self.token.named())
     }
@@ -109,7 +109,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// What stands between the braces of a prim or variant, or in the file.
+    /// Parses the text between the braces of a prim or variant, or of the file.
     fn block(&mut self, path: &str, fields: &mut Fields, end: Token) -> Parsed {
         loop {
             self.skip_lines()?;
@@ -288,7 +288,7 @@ fn add_name(fields: &mut Fields, list: &str, name: &str) {
     }
 }
 
-/// Adds an edit of a list; several edits of one list stand together.
+/// Adds an edit of a list; several edits of one list are kept together.
 pub(super) fn add_edit(fields: &mut Fields, list: &str, edit: Option<&str>, items: Vec<Item>) {
     let at = fields.iter().position(|(n, _)| &**n == list).unwrap_or_else(|| {
         fields.push((list.into(), Value::List(Rc::new(ListEdit::default()))));

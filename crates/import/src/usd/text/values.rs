@@ -7,7 +7,7 @@ use crate::usd::value::{Item, Numbers, Value};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What the elements of an array or a value turned out to be.
+/// The elements of an array or a value, gathered by type.
 #[derive(Default)]
 struct Gathered {
     numbers: Vec<f64>,

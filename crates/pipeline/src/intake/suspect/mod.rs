@@ -1,8 +1,9 @@
-//! Suspicions about unit and upward axis: the one judge that `import`, `look` and `run` hear.
+//! Suspicions about unit and upward axis, shared by `import`, `look` and `run`.
 //!
-//! A file in feet, or one whose rooms lie on their side, keeps every law of a dataset: all is consistent, and wrong. What tells is what
-//! things are: how high rooms are ([`room`]), how large what is called a chair or a door is ([`things`]), where floors and ceilings lie and
-//! how the file's cameras stand ([`upright`]). [`units`] weighs the sizes. Nothing is changed; a suspicion names the key and what to try.
+//! A file in feet, or one whose rooms lie on their side, satisfies every law of a dataset: all is consistent, and wrong. The evidence comes
+//! from known things: the height of rooms ([`room`]), the size of things named chair or door ([`things`]), the positions of floors and
+//! ceilings and the orientation of the file's cameras ([`upright`]). [`units`] weighs the sizes. Nothing is changed; a suspicion names the
+//! key and what to try.
 
 mod names;
 mod room;
@@ -22,13 +23,13 @@ use upright::{Lying, Witness};
 /// Formats whose files state which way is up.
 const STATE_UP: [&str; 10] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "zip", "vray", "sweethome", "collection"];
 
-/// What is suspected of a scene.
+/// The suspicions about a scene.
 pub(super) struct Suspicions {
-    /// Suspicion that it lies on its side or stands on its head, in a sentence that names the key.
+    /// Suspicion that it lies on its side or is upside down, in a sentence that names the key.
     pub axes: Option<String>,
-    /// What the sizes of rooms and things tell of its unit.
+    /// The judgement of its unit by the sizes of rooms and things.
     pub sizes: Sizes,
-    /// Whether it is furniture or a like thing by its names, and no building.
+    /// Whether its names show that it is furniture or a similar thing, not a building.
     pub is_thing: bool,
 }
 
@@ -64,10 +65,10 @@ fn of_axes(imported: &Imported, lying: &Lying) -> String {
     }
 }
 
-/// A suspicion about the unit, with the number that is to stand in the place of `source`'s.
+/// A suspicion about the unit, with the number to use in place of `source`'s.
 pub(super) fn of_unit(source: &FileSource, format: &str, unit: &Suspicion) -> String {
     let number = plain(source.meters_per_unit * unit.factor);
-    // The names are those of files of whose unit nothing was stated.
+    // Units are named only for files whose unit was not stated.
     let name = unit.name.filter(|_| source.meters_per_unit == 1.0);
     let called = name.map_or(String::new(), |name| format!(", for a file in {name}"));
     let (because, then) = (unit.because.join(", "), unit.then.join(", "));

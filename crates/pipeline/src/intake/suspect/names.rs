@@ -1,4 +1,4 @@
-//! What the parts of a scene are called, in NYU40's classes.
+//! The names of a scene's parts, as NYU40 classes.
 
 use crate::config::FileSource;
 use enfilade_import::{Imported, scene_name};
@@ -7,17 +7,17 @@ use enfilade_suggest::lexicon::Lexicon;
 use enfilade_suggest::words::words;
 use std::path::Path;
 
-/// What is known of parts by their labels and names.
+/// Classes of parts by their labels and names.
 pub(super) struct Named {
-    /// The class of every part; `None` where its names tell none, or several.
+    /// The class of every part; `None` if its names give none, or several.
     pub classes: Vec<Option<i16>>,
     /// The class of every object by its own name.
     pub objects: Vec<Option<i16>>,
-    /// Whether an object is called by one word.
+    /// Whether an object's name is one word.
     pub is_whole_object: Vec<bool>,
-    /// Whether a part is called by this one thing and nothing else, so that it is the whole of it and not its leg.
+    /// Whether a part's name is only this thing, so that it is the whole thing and not a leg of it.
     pub is_whole: Vec<bool>,
-    /// The class that the file's own name tells, where no part has one.
+    /// The class from the file's own name, if no part has one.
     pub of_file: Option<i16>,
 }
 
@@ -35,7 +35,7 @@ impl Named {
             let own = words(&part.name);
             let of_object = || part.object.and_then(|object| objects[object as usize]);
             let class = only(&lexicon.meanings(&own)).or_else(of_object);
-            // Exporters call shells by one name and tell floor and ceiling by the material.
+            // Exporters give shells one name and distinguish floor and ceiling by the material.
             let by_material = || only(&lexicon.meanings(&words(&scene.materials[part.material as usize].name)));
             let shell =
                 if class.is_none_or(|class| class == WALL) { by_material().filter(|c| matches!(*c, FLOOR | CEILING)) } else { None };

@@ -1,4 +1,4 @@
-//! How high the rooms of a scene are, whatever its unit.
+//! Heights of the rooms of a scene, for any unit.
 
 use super::names::Named;
 use crate::intake::seen::Look;
@@ -20,11 +20,11 @@ const LEAST_SHARE: f64 = 0.04;
 /// Quantile of the free heights within walls that is taken for the room's: furniture below or above makes most smaller.
 const MOSTLY: f64 = 0.8;
 
-/// How high rooms are.
+/// Heights of rooms.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Height {
     pub height_m: f64,
-    /// Whether it is known to be a room's: floor and ceiling are called so, or a camera of the file stands in it.
+    /// Whether it is known to be a room's: floor and ceiling are named so, or a camera of the file is in it.
     pub is_sure: bool,
 }
 
@@ -75,7 +75,7 @@ fn gaps(look: &Look, named: &Named, bounds: &Bounds3, up: Vec3, line: [usize; 2]
         let class = named.classes[look.world.sources[hit.triangle as usize].part as usize];
         if let Some((ceiling, upper)) = above.filter(|_| is_level) {
             let height = (ceiling - at).dot(up);
-            // What is known to be a thing is hollow, and no room.
+            // A known thing with a hollow is not a room.
             let may_be_room = upper.is_none_or(is_stuff) && height > 0.1 * size.dot(up.abs());
             let is_walled = may_be_room && is_walled(look, 0.5 * (ceiling + at), up);
             let (is_on_floor, is_under_ceiling) = (class == Some(FLOOR), upper == Some(CEILING));

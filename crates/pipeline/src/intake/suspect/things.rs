@@ -1,4 +1,4 @@
-//! How high things are that people give names to.
+//! Heights of things with recognised names.
 
 use super::names::Named;
 use crate::intake::seen::Look;
@@ -7,23 +7,23 @@ use enfilade_scene::Scene;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// How high a kind of thing is, metres.
+/// Heights of a kind of thing, metres.
 pub(super) struct Kind {
     /// NYU40 class.
     class: i16,
     /// In words.
     pub name: &'static str,
-    /// Nearly all of them.
+    /// Range of nearly all of them.
     pub usual_m: RangeInclusive<f64>,
-    /// Whatever was built of it.
+    /// Range of everything ever built of this kind.
     pub possible_m: RangeInclusive<f64>,
-    /// Whether a small one is evidence: what has this name and no other word in it is no piece, as the top of a table is, and no toy.
+    /// Whether a small one is evidence: true if things with only this name are neither pieces, such as a table's top, nor toys.
     tells_small: bool,
 }
 
-/// The table. Heights, since exporters often join all chairs of a room to one mesh, whose width tells nothing. Usual ones follow the furniture
-/// standards (EN 527-1 and EN 1729-1 for tables and seats, DIN 18101 for doors, EN 251 for bathtubs) with margins for what antiques, children
-/// and bars have; possible ones are about half as small and a third to two thirds larger.
+/// The table. It has heights, since exporters often join all chairs of a room to one mesh, whose width is meaningless. Usual ones follow
+/// the furniture standards (EN 527-1 and EN 1729-1 for tables and seats, DIN 18101 for doors, EN 251 for bathtubs) with margins for
+/// antiques and for furniture of children and bars; possible ones are about half as small and a third to two thirds larger.
 pub(super) const KINDS: [Kind; 16] = [
     Kind { class: 8, name: "door", usual_m: 1.8..=2.8, possible_m: 0.3..=4.5, tells_small: false },
     Kind { class: 5, name: "chair", usual_m: 0.55..=1.35, possible_m: 0.3..=2.0, tells_small: true },
@@ -49,7 +49,7 @@ pub(super) struct Thing {
     pub height_m: f64,
 }
 
-/// Finds the highest thing of every kind in the table; what is lower than usual only where that tells. An object that is called so is one
+/// Finds the highest thing of every kind in the table; lower ones than usual only if that is evidence. An object with such a name is one
 /// thing, else a part is.
 pub(super) fn things(scene: &Scene, look: &Look, named: &Named, up: DVec3) -> Vec<Thing> {
     let kind_of = |class: Option<i16>| class.and_then(|class| KINDS.iter().position(|kind| kind.class == class));
@@ -75,7 +75,7 @@ pub(super) fn things(scene: &Scene, look: &Look, named: &Named, up: DVec3) -> Ve
     highest.into_iter().filter_map(thing).collect()
 }
 
-/// Extent along `up` of each of so many things, metres; `thing_of` tells to which a part belongs.
+/// Extent along `up` of each of `count` things, metres; `thing_of` gives the thing that a part belongs to.
 fn heights(look: &Look, count: usize, up: DVec3, thing_of: impl Fn(usize) -> usize) -> Vec<f64> {
     let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; count];
     for (corners, source) in look.world.corners.iter().zip(&look.world.sources) {

@@ -1,4 +1,4 @@
-//! Whether sizes are those of rooms and furniture in metres, and which unit would make them so.
+//! Whether sizes are plausible for rooms and furniture in metres, and which unit would make them so.
 
 use super::names::Named;
 use super::room;
@@ -19,50 +19,50 @@ pub(in crate::intake) const UNITS: [(f64, &str); 8] = [
     (100.0, "metres, if its exporter took centimetres for its unit"),
     (1000.0, "metres, if its exporter took millimetres for its unit"),
 ];
-/// Heights of rooms, metres: of dwellings and offices (the International Residential Code, R305, asks for 2.13 m), and of whatever people
-/// can stand in and is a hall.
+/// Heights of rooms, metres: of dwellings and offices (the International Residential Code, R305, requires 2.13 m), and of everything from
+/// what people can stand in to halls.
 const USUAL_M: RangeInclusive<f64> = 2.0..=4.5;
 const POSSIBLE_M: RangeInclusive<f64> = 1.8..=30.0;
-/// What a room counts of which it is sure that it is one, and what all else counts: exporters join what has one name or material, over several
-/// storeys, to one thing that is as high as these.
+/// Weights of a room that certainly is one, and of all other evidence: exporters join meshes of one name or material over several storeys
+/// to one thing that is as high as these.
 const SURE: u32 = 4;
 const LIKELY: u32 = 1;
-/// Against nothing that is as usual, this much of what is merely unusual is enough.
+/// Total weight of merely unusual sizes that is enough if no size is usual.
 const UNUSUAL: u32 = 6;
 
-/// What sizes tell.
+/// The judgement from sizes.
 pub(in crate::intake) enum Sizes {
-    /// Nothing is known by name, or what is known contradicts itself.
+    /// Nothing is known by name, or the evidence is contradictory.
     Unknown,
-    /// The sizes are those of rooms or furniture.
+    /// The sizes are plausible for rooms or furniture.
     Fit,
-    /// The sizes are not.
+    /// The sizes are not plausible.
     Suspect(Suspicion),
 }
 
 /// A unit that seems to be another.
 pub(in crate::intake) struct Suspicion {
-    /// By what sizes are to be multiplied.
+    /// Factor for the sizes.
     pub factor: f64,
-    /// What the file's unit would be called then, where that is a usual one.
+    /// Name of the file's unit then, if it is a common one.
     pub name: Option<&'static str>,
-    /// Whether more speaks for it than a hollow that may be a room.
+    /// Whether there is more evidence than a hollow that may be a room.
     pub is_sure: bool,
-    /// What is too large or too small, in words.
+    /// The things that are too large or too small, in words.
     pub because: Vec<String>,
-    /// How large that is with the factor.
+    /// Their sizes with the factor.
     pub then: Vec<String>,
 }
 
 /// A size and what it should be.
 struct Evidence {
-    /// What has the size: "the chair is" or "rooms are".
+    /// The thing with this size: "the chair is" or "rooms are".
     subject: String,
     size_m: f64,
     usual_m: RangeInclusive<f64>,
     possible_m: RangeInclusive<f64>,
     weight: u32,
-    /// Whether it may tell by itself that things are too small.
+    /// Whether it is sufficient evidence that things are too small.
     tells_small: bool,
 }
 
@@ -84,7 +84,7 @@ impl Evidence {
         self.size_m > *self.possible_m.end() || (self.tells_small && self.size_m < *self.possible_m.start())
     }
 
-    /// What to multiply by for the middle of what is usual.
+    /// Factor to the middle of the usual range.
     fn ratio(&self) -> f64 {
         (self.usual_m.start() * self.usual_m.end()).sqrt() / self.size_m
     }

@@ -1,4 +1,4 @@
-//! Which way is up by what things are called, how cameras stand, and what surfaces a room has.
+//! The upward direction by names of things, orientation of cameras, and surfaces of a room.
 
 use super::names::Named;
 use crate::intake::seen::Look;
@@ -10,8 +10,8 @@ const FACING: f64 = 0.6;
 const ELSEWHERE: f64 = 0.25;
 /// Least distance between the middles of floor and ceiling, over the extent of the scene along that axis.
 const APART: f64 = 0.1;
-/// Cosines between an axis and a camera's upper side: of one that stands upright, and of one that tells another axis. One that looks down
-/// more steeply than the third is a bird's-eye view, whose upper side is level.
+/// Cosines between an axis and a camera's upward direction: for an upright camera, and for one that indicates another axis. A camera that
+/// looks down more steeply than the third is a bird's-eye view, whose upward direction is level.
 const UPRIGHT: f64 = 0.6;
 const TELLS: f64 = 0.8;
 const DOWN: f64 = -0.8;
@@ -20,22 +20,22 @@ const DOWN: f64 = -0.8;
 const STOREY_M: std::ops::RangeInclusive<f64> = 2.1..=4.5;
 const FLATTER: f64 = 1.5;
 
-/// A scene that lies.
+/// A scene that lies on its side.
 pub(super) struct Lying {
-    /// What is up in truth, in the world's axes.
+    /// The true upward direction, in the world's axes.
     pub up: DVec3,
-    /// What says so.
+    /// The evidence for it.
     pub witnesses: Vec<Witness>,
 }
 
-/// What says which way is up.
+/// Evidence for the upward direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Witness {
-    /// Where what is called floor and ceiling lies.
+    /// Positions of parts named floor and ceiling.
     Names,
-    /// The upper sides of the file's cameras.
+    /// The upward directions of the file's cameras.
     Cameras,
-    /// Extents, and where most area is.
+    /// Extents, and the sides with most area.
     Surfaces,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, 
     let lying = |up: DVec3, witnesses: &[Witness]| (up != DVec3::Z).then(|| Lying { up, witnesses: witnesses.to_vec() });
     match (of_names(look, named), cameras) {
         (Some((up, _)), Some(seen)) if seen == up => lying(up, &[Witness::Names, Witness::Cameras]),
-        // One of floor and ceiling alone may be called so by mistake.
+        // A floor or a ceiling alone may be named so by mistake.
         (Some((_, false)), Some(DVec3::Z)) => None,
         (Some((up, _)), _) => lying(up, &[Witness::Names]),
         (None, Some(seen)) => lying(seen, &[Witness::Cameras]),
@@ -55,7 +55,7 @@ pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, 
     }
 }
 
-/// The upward direction by names, and whether both floor and ceiling tell it.
+/// The upward direction by names, and whether both floor and ceiling indicate it.
 fn of_names(look: &Look, named: &Named) -> Option<(DVec3, bool)> {
     let [floor, ceiling, rest] = [Some(FLOOR), Some(CEILING), None].map(|class| Flat::of(look, named, class));
     let extent = look.bounds_of_building().extent().as_dvec3();
@@ -73,7 +73,7 @@ fn of_names(look: &Look, named: &Named) -> Option<(DVec3, bool)> {
     }
 }
 
-/// Where the area of some parts is, and which way it faces.
+/// Area of some parts, and the direction it faces.
 #[derive(Default)]
 struct Flat {
     area: f64,
@@ -111,7 +111,7 @@ impl Flat {
     }
 }
 
-/// The upward direction by the cameras that tell one, where they agree.
+/// The upward direction by the cameras that indicate one, if they agree.
 fn of_cameras(scene: &Scene) -> Option<DVec3> {
     let told = |camera: &enfilade_scene::StartCamera| {
         let (up, forward) = (camera.world_from_camera.y_axis, -camera.world_from_camera.z_axis);
@@ -126,8 +126,8 @@ fn of_cameras(scene: &Scene) -> Option<DVec3> {
     told.all(|other| other == first).then_some(first)
 }
 
-/// The upward direction of a storey on its side: its floor and ceiling have most of the area and lie as far apart as those of a storey,
-/// while what stands for its height is longer. What is in rooms is nearer to the floor.
+/// The upward direction of a storey on its side: its floor and ceiling have most of the area and are apart by the height of a storey, while
+/// the extent along the supposed height is longer. Things in rooms are nearer to the floor.
 fn of_surfaces(look: &Look, axes: DMat3) -> Option<DVec3> {
     let all = &mut Flat::default();
     for corners in &look.world.corners {
@@ -145,7 +145,7 @@ fn of_surfaces(look: &Look, axes: DMat3) -> Option<DVec3> {
     };
     let axis = [0, 1].into_iter().find(is_storey).filter(|_| extent.z > *STOREY_M.end())?;
     let below = 0.5 * (bounds.min.as_dvec3() + bounds.max.as_dvec3())[axis] - all.middle()?[axis];
-    // Where nothing tells up from down, the file's own axis is meant forward.
+    // If nothing distinguishes up from down, the file's own axis decides the sign.
     let sign = if below.abs() >= 0.02 * extent[axis] { below } else { (axes.transpose() * DVec3::AXES[axis]).element_sum() };
     Some(DVec3::AXES[axis] * sign.signum())
 }

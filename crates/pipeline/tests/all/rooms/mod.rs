@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A folder with a room in which a table and a lamp are, a broken scene and files of poses, and where a dataset goes.
+/// A folder with a room that contains a table and a lamp, a broken scene and files of poses; and the path for a dataset.
 pub fn place() -> (TempDir, PathBuf) {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path();

@@ -19,7 +19,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// What `stored.json` tells of the program that made the dataset.
+/// The program that made the dataset, from `stored.json`.
 #[derive(Deserialize)]
 struct Made {
     /// Versions of its stages.
@@ -39,7 +39,7 @@ impl Stored {
     fn unpack(archive: &Path) -> Self {
         let folder = tempfile::tempdir().unwrap();
         tar::Archive::new(GzDecoder::new(File::open(archive).unwrap())).unpack(folder.path()).unwrap();
-        // Where it lay then is told as it would be here.
+        // Its old path is replaced by the path here.
         let here = serde_json::to_string(folder.path().to_str().unwrap()).unwrap();
         for (path, text) in files(&folder.path().join("out/.enfilade")) {
             if let Ok(text) = String::from_utf8(text) {

@@ -1,4 +1,4 @@
-//! What a stored dataset holds, in short: a checksum of the decoded values of every layer.
+//! A short form of a stored dataset's contents: a checksum of the decoded values of every layer.
 
 use enfilade_dataset::Dataset;
 use enfilade_frame::LAYERS;

@@ -1,10 +1,10 @@
-//! The layout of a building as architects draw it: walls cut, doors with the arc of their leaf, windows as double lines, rooms with name
+//! The rooms of a building as architects draw it: walls cut, doors with the arc of their leaf, windows as double lines, rooms with name
 //! and area. x to the right, y up.
 
 use crate::drawing::{Anchor, Dark, Drawing, Ink, Point, Text, themed_svg};
 use crate::sheet::canvas::Color;
 use enfilade_math::DVec2;
-use enfilade_scene::{Hinge, OpeningKind, Structure, StructureRoom, WallFace, WallOpening};
+use enfilade_scene::{Hinge, OpeningKind, RoomOutline, Rooms, WallFace, WallOpening};
 use std::f64::consts::FRAC_PI_2;
 
 /// Pixels per metre.
@@ -22,13 +22,13 @@ const DARK: Dark =
 const ARC: usize = 12;
 
 /// The drawing as a file, 70 pixels to a metre.
-pub fn structure_svg(structure: &Structure) -> String {
-    themed_svg(&drawing(structure), &DARK)
+pub fn rooms_svg(rooms: &Rooms) -> String {
+    themed_svg(&drawing(rooms), &DARK)
 }
 
-fn drawing(structure: &Structure) -> Drawing {
-    let thickest = structure.walls.iter().map(|wall| wall.thickness_m).fold(0.0, f64::max);
-    let corners = || structure.rooms.iter().flat_map(|room| &room.polygon).map(|&corner| DVec2::from(corner));
+fn drawing(rooms: &Rooms) -> Drawing {
+    let thickest = rooms.walls.iter().map(|wall| wall.thickness_m).fold(0.0, f64::max);
+    let corners = || rooms.outlines.iter().flat_map(|room| &room.polygon).map(|&corner| DVec2::from(corner));
     let frame = DVec2::splat(thickest + MARGIN_M);
     let low = corners().reduce(DVec2::min).unwrap_or_default() - frame;
     let high = corners().reduce(DVec2::max).unwrap_or_default() + frame;
@@ -36,26 +36,26 @@ fn drawing(structure: &Structure) -> Drawing {
     let size = ((high - low) * SCALE).ceil();
     let mut drawing = Drawing::new(size.x as u32, size.y as u32, PAPER);
     // Walls first, as dark ground; floors and openings are cut out of it.
-    for wall in &structure.walls {
+    for wall in &rooms.walls {
         let [from, to] = ends(wall);
         // Corners belong to both walls.
         let along = (to - from).normalize_or_zero() * if wall.outer { wall.thickness_m } else { 0.0 };
         drawing.area(&page.strip(from - along, to + along, wall, wall.thickness_m), Ink::solid(INK));
     }
-    for room in &structure.rooms {
+    for room in &rooms.outlines {
         let outline: Vec<Point> = room.polygon.iter().map(|&corner| page.at(corner.into())).collect();
         drawing.area(&outline, Ink::solid(FLOOR));
     }
-    for opening in &structure.openings {
-        draw_opening(&mut drawing, &page, &structure.walls[opening.walls[0]], opening);
+    for opening in &rooms.openings {
+        draw_opening(&mut drawing, &page, &rooms.walls[opening.walls[0]], opening);
     }
-    for room in &structure.rooms {
+    for room in &rooms.outlines {
         write_name(&mut drawing, &page, room);
     }
     drawing
 }
 
-/// Where the building lies on the page.
+/// Placement of the building on the page.
 struct Page {
     low: DVec2,
     high: DVec2,
@@ -93,7 +93,7 @@ fn draw_opening(drawing: &mut Drawing, page: &Page, wall: &WallFace, opening: &W
             }
         }
         OpeningKind::Door => {
-            // Drawn open at a right angle, whatever it stands at.
+            // Drawn open at a right angle, regardless of its angle.
             let is_left = opening.leaf.is_none_or(|leaf| leaf.hinge == Hinge::Left);
             let (hinge, free) = if is_left { (left, right) } else { (right, left) };
             let quarter = |i: usize| {
@@ -107,7 +107,7 @@ fn draw_opening(drawing: &mut Drawing, page: &Page, wall: &WallFace, opening: &W
     }
 }
 
-fn write_name(drawing: &mut Drawing, page: &Page, room: &StructureRoom) {
+fn write_name(drawing: &mut Drawing, page: &Page, room: &RoomOutline) {
     let middle = room.polygon.iter().map(|&corner| DVec2::from(corner)).sum::<DVec2>() / room.polygon.len() as f64;
     let [x, y] = page.at(middle);
     let line = |words: String, y: f32, height: f32, ink: Color| Text {
@@ -130,15 +130,15 @@ mod tests {
     #[test]
     fn rooms_are_drawn_to_scale_with_names_and_openings() {
         let polygon = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
-        let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
-        let mut structure = Structure::default();
-        structure.push_room(room, &[(0.4, true); 4]);
+        let room = RoomOutline { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+        let mut rooms = Rooms::default();
+        rooms.push_room(room, &[(0.4, true); 4]);
         let corners = [[3.0, 0.0, 0.9], [1.0, 0.0, 0.9], [1.0, 0.0, 2.1], [3.0, 0.0, 2.1]];
-        structure.openings.push(WallOpening { kind: OpeningKind::Window, walls: vec![0], corners, leaf: None });
-        let page = drawing(&structure);
+        rooms.openings.push(WallOpening { kind: OpeningKind::Window, walls: vec![0], corners, leaf: None });
+        let page = drawing(&rooms);
         // Two metres more than the room in each direction: walls and margins on both sides.
         assert_eq!([page.width, page.height], [6.0, 5.0].map(|metres: f64| (metres * SCALE) as u32));
-        let svg = structure_svg(&structure);
+        let svg = rooms_svg(&rooms);
         assert!(svg.contains("study_1") && svg.contains("12.0 m²") && svg.contains("prefers-color-scheme:dark"), "{svg}");
     }
 }

@@ -1,24 +1,24 @@
-//! Doors and windows as rectangles of the faces of walls that they lie in.
+//! Doors and windows as rectangles of the wall faces that contain them.
 
 use super::surfaces::{DOOR, LabelledTriangle, WINDOW};
 use enfilade_math::{DVec2, DVec3, quantile};
 use enfilade_scene::{OpeningKind, WallFace, WallOpening};
 
-/// Faces of different rooms so far apart at most belong to one wall, metres.
+/// Largest distance between faces of different rooms that belong to one wall, metres.
 pub const WALL_THICKNESS_M: f64 = 0.8;
-/// Doors and windows lie this near to the plane of their face, metres: frames stand before it, panes deep in the wall.
+/// Doors and windows are within these distances of the plane of their face, metres: frames protrude from it, panes are deep in the wall.
 const BEFORE_M: f64 = 0.12;
 const BEHIND_M: f64 = 0.45;
-/// Cosine of the angle between a pane and its face from which on they are parallel.
+/// Cosine of the angle between a pane and its face above which they count as parallel.
 const PARALLEL: f64 = 0.95;
 /// Surfaces that are farther apart along the wall belong to two openings, metres.
 const GAP_M: f64 = 0.12;
-/// Narrower and lower ones are handles, letter slots and edges of frames, metres.
+/// Least width and height of an opening, metres: smaller ones are handles, letter slots and edges of frames.
 const LEAST_M: f64 = 0.35;
 /// Surfaces fill at least this share of their rectangle: frames alone do, scattered pieces do not.
 const LEAST_FILLED: f64 = 0.15;
 
-/// A rectangle of a face: along it and in height, from and to, metres.
+/// A rectangle of a face: its ranges along the face and in height, metres.
 struct Found {
     wall: usize,
     kind: OpeningKind,
@@ -46,7 +46,7 @@ pub fn find(walls: &[WallFace], triangles: &[LabelledTriangle]) -> Vec<WallOpeni
                 let wall = opening.wall;
                 kept.push((opening, vec![wall]));
             }
-            // The other side of the same hole; anything else in its place is the same thing seen from a face farther off.
+            // The other side of the same hole; anything else there is the same thing seen from a more distant face.
             Some((first, through)) => {
                 let [a, b] = [&walls[first.wall], &walls[opening.wall]].map(|wall| DVec2::from(wall.inward));
                 if through.len() == 1 && a.dot(b) < 0.0 {

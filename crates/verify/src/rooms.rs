@@ -1,21 +1,21 @@
-//! The law of a scene's layout: what frames show of walls, floors and ceilings lies on its planes. One that was fitted says itself how far
-//! it is off.
+//! The law of a scene's rooms: the walls, floors and ceilings in frames are on their planes. Fitted rooms say themselves how far they
+//! are off.
 
 use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
-use enfilade_scene::{CEILING, FLOOR, LAYOUT_NEAR_M as NEAR_M, Structure, WALL, WallFace, WallOpening};
+use enfilade_scene::{CEILING, FLOOR, PLANE_NEAR_M as NEAR_M, Rooms, WALL, WallFace, WallOpening};
 
 /// Checks a frame.
-pub(super) fn check(structure: &Structure, frame: &Frame, place: &str, card: &mut Card) {
+pub(super) fn check(rooms: &Rooms, frame: &Frame, place: &str, card: &mut Card) {
     let (Some(positions), Some(classes)) = (frame.get(Layer::Position), frame.get(Layer::Semantic)) else { return };
-    if structure.fit.is_some() {
+    if rooms.fit.is_some() {
         return;
     }
     let is_off = |pixel: usize| {
         let p: DVec3 = vector(positions, pixel);
-        p.is_finite().then(|| is_elsewhere(structure, classes.get(pixel) as i16, p)).flatten()
+        p.is_finite().then(|| is_elsewhere(rooms, classes.get(pixel) as i16, p)).flatten()
     };
     let found: Vec<(usize, bool)> = (0..frame.pixels()).filter_map(|pixel| Some((pixel, is_off(pixel)?))).collect();
     let off: Vec<usize> = found.iter().filter(|(_, off)| *off).map(|(pixel, _)| *pixel).collect();
@@ -29,13 +29,13 @@ pub(super) fn check(structure: &Structure, frame: &Frame, place: &str, card: &mu
     });
 }
 
-/// Whether a point of a wall, floor or ceiling is off the planes of the layout; `None` for other classes.
-fn is_elsewhere(structure: &Structure, class: i16, p: DVec3) -> Option<bool> {
+/// Whether a point of a wall, floor or ceiling is off the planes of the rooms; `None` for other classes.
+fn is_elsewhere(rooms: &Rooms, class: i16, p: DVec3) -> Option<bool> {
     let near = |z: f64| (p.z - z).abs() <= NEAR_M;
     let is_there = match class {
-        WALL => structure.walls.iter().any(|wall| is_on(wall, p)) || structure.openings.iter().any(|o| is_reveal(structure, o, p)),
-        FLOOR => structure.rooms.iter().any(|room| near(room.floor_z_m)),
-        CEILING => structure.rooms.iter().any(|room| near(room.ceiling_z_m)),
+        WALL => rooms.walls.iter().any(|wall| is_on(wall, p)) || rooms.openings.iter().any(|o| is_reveal(rooms, o, p)),
+        FLOOR => rooms.outlines.iter().any(|room| near(room.floor_z_m)),
+        CEILING => rooms.outlines.iter().any(|room| near(room.ceiling_z_m)),
         _ => return None,
     };
     Some(!is_there)
@@ -48,9 +48,9 @@ fn is_on(wall: &WallFace, p: DVec3) -> bool {
         && within(p.z - wall.floor_z_m, wall.ceiling_z_m - wall.floor_z_m)
 }
 
-/// Whether a point lies on the sides of an opening, in the depth of the wall.
-fn is_reveal(structure: &Structure, opening: &WallOpening, p: DVec3) -> bool {
-    let wall = &structure.walls[opening.walls[0]];
+/// Whether a point is on the sides of an opening, in the depth of the wall.
+fn is_reveal(rooms: &Rooms, opening: &WallOpening, p: DVec3) -> bool {
+    let wall = &rooms.walls[opening.walls[0]];
     let [left, right, upper, _] = opening.corners.map(DVec3::from);
     let (low, high) = (wall.along_m(right) - NEAR_M, wall.along_m(left) + NEAR_M);
     (-wall.thickness_m - NEAR_M..=NEAR_M).contains(&wall.distance_m(p))
@@ -61,16 +61,16 @@ fn is_reveal(structure: &Structure, opening: &WallOpening, p: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::{OpeningKind, StructureRoom};
+    use enfilade_scene::{OpeningKind, RoomOutline};
 
-    fn room() -> Structure {
+    fn room() -> Rooms {
         let polygon = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
-        let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
-        let mut structure = Structure::default();
-        structure.push_room(room, &[(0.4, true); 4]);
+        let room = RoomOutline { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+        let mut rooms = Rooms::default();
+        rooms.push_room(room, &[(0.4, true); 4]);
         let corners = [[3.0, 0.0, 0.9], [1.0, 0.0, 0.9], [1.0, 0.0, 2.1], [3.0, 0.0, 2.1]];
-        structure.openings.push(WallOpening { kind: OpeningKind::Window, walls: vec![0], corners, leaf: None });
-        structure
+        rooms.openings.push(WallOpening { kind: OpeningKind::Window, walls: vec![0], corners, leaf: None });
+        rooms
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a building is made of: rooms, the faces of their walls, the doors and windows in them, and what its things are called.
+//! The rooms of a building: their outlines, the faces of their walls, the doors and windows in them, and the names of its things.
 //!
 //! World coordinates in metres, z up. Every wall face is a vertical rectangle that bounds one room; a wall between two rooms has two faces,
 //! `thickness_m` apart. It is stored as `_detail/layout.json`.
@@ -9,43 +9,44 @@ use serde::{Deserialize, Serialize};
 /// First key of the file, and its version.
 const FORMAT: &str = "enfilade layout 1";
 
-/// Rooms, wall faces and openings; they refer to each other by their places in these lists.
+/// Outlines of rooms, wall faces and openings; they refer to each other by their places in these lists.
 ///
 /// ```
-/// use enfilade_scene::{Structure, StructureRoom};
-/// let kitchen = StructureRoom {
+/// use enfilade_scene::{Rooms, RoomOutline};
+/// let kitchen = RoomOutline {
 ///     name: "kitchen_1".into(),
 ///     kind: "kitchen".into(),
 ///     polygon: vec![[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]],
 ///     floor_z_m: 0.0,
 ///     ceiling_z_m: 2.6,
 /// };
-/// let mut structure = Structure::default();
-/// structure.push_room(kitchen, &[(0.12, false), (0.35, true), (0.35, true), (0.12, false)]);
-/// assert_eq!(structure.rooms[0].area_m2(), 6.0);
-/// assert_eq!((structure.walls[1].from, structure.walls[1].inward), ([3.0, 0.0], [-1.0, 0.0]));
+/// let mut rooms = Rooms::default();
+/// rooms.push_room(kitchen, &[(0.12, false), (0.35, true), (0.35, true), (0.12, false)]);
+/// assert_eq!(rooms.outlines[0].area_m2(), 6.0);
+/// assert_eq!((rooms.walls[1].from, rooms.walls[1].inward), ([3.0, 0.0], [-1.0, 0.0]));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Structure {
+pub struct Rooms {
     /// Kind and version of the file.
     pub format: String,
-    /// Rooms.
-    pub rooms: Vec<StructureRoom>,
+    /// Kind and outline of each room; `rooms` in the file.
+    #[serde(rename = "rooms")]
+    pub outlines: Vec<RoomOutline>,
     /// Faces of walls, room after room, along each room's polygon.
     pub walls: Vec<WallFace>,
     /// Doors, passages and windows.
     pub openings: Vec<WallOpening>,
     /// The labelled instances, in ascending order.
     #[serde(default)]
-    pub things: Vec<StructureThing>,
+    pub things: Vec<RoomThing>,
     /// How well it agrees with the scene's surfaces, where it was fitted to them; `None` where the building was made after it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fit: Option<StructureFit>,
+    pub fit: Option<RoomsFit>,
 }
 
-/// How far the surfaces of walls, floors and ceilings are from the planes of a layout that was fitted to them, evenly by area.
+/// How far the surfaces of walls, floors and ceilings are from the planes of rooms that were fitted to them, evenly by area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StructureFit {
+pub struct RoomsFit {
     /// Share of them within 2 cm; the reveals of openings are not.
     pub near_share: f64,
     /// Half of them are nearer than this.
@@ -54,25 +55,25 @@ pub struct StructureFit {
     pub p95_m: f64,
 }
 
-/// What a labelled instance is, finer than by its class.
+/// A labelled instance, described more finely than by its class.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StructureThing {
+pub struct RoomThing {
     /// Number of the thing, as in the images.
     pub instance: i16,
     /// Family and number: `coffee_table_1`.
     pub name: String,
-    /// What people call it: `coffee_table`.
+    /// Common name: `coffee_table`.
     pub family: String,
-    /// Unit vector to where its front looks, seen from above; `None` for what lies on its back.
+    /// Unit vector in the direction of its front, seen from above; `None` for things that lie on their back.
     pub front: Option<[f64; 2]>,
 }
 
 /// A room between floor and ceiling, both level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StructureRoom {
+pub struct RoomOutline {
     /// Kind and number: `bedroom_2`.
     pub name: String,
-    /// What it is for: `bedroom`.
+    /// Kind of the room: `bedroom`.
     pub kind: String,
     /// Outline of the room seen from above, counter-clockwise; edge i begins at corner i.
     pub polygon: Vec<[f64; 2]>,
@@ -87,9 +88,9 @@ pub struct StructureRoom {
 pub struct WallFace {
     /// The room that it bounds.
     pub room: usize,
-    /// Where it begins, its left end for someone in the room who faces it being `to`.
+    /// Start of the face. For someone in the room who faces it, `to` is its left end.
     pub from: [f64; 2],
-    /// Where it ends.
+    /// End of the face.
     pub to: [f64; 2],
     /// Height of its lower edge.
     pub floor_z_m: f64,
@@ -103,7 +104,7 @@ pub struct WallFace {
     pub outer: bool,
 }
 
-/// What is in an opening.
+/// The kind of an opening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "plain words")]
@@ -127,22 +128,22 @@ impl OpeningKind {
 /// A rectangular hole through a wall.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WallOpening {
-    /// What is in it.
+    /// The kind of the opening.
     pub kind: OpeningKind,
-    /// The faces that it goes through: one if the outside is behind it, else two, that of the room first into which a door swings.
+    /// The wall faces that it goes through: one if the outside is behind it, else two, starting with the room into which the door swings.
     pub walls: Vec<usize>,
     /// Corners of the opening on the first face: lower left for someone in that room, then counter-clockwise.
     pub corners: [[f64; 3]; 4],
-    /// How its door hangs; `None` without one.
+    /// How its door is hinged; `None` without a door.
     pub leaf: Option<DoorLeaf>,
 }
 
-/// How a door hangs, for someone in the room into which it swings.
+/// How a door is hinged, for someone in the room into which it swings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DoorLeaf {
-    /// Which edge of the opening the hinges are at.
+    /// The edge of the opening with the hinges.
     pub hinge: Hinge,
-    /// How far it stands open, degrees; 0 is shut.
+    /// Angle by which it is open, degrees; 0 is shut.
     pub open_deg: f64,
 }
 
@@ -155,27 +156,27 @@ pub enum Hinge {
     Right,
 }
 
-impl Default for Structure {
+impl Default for Rooms {
     fn default() -> Self {
-        Self { format: FORMAT.into(), rooms: Vec::new(), walls: Vec::new(), openings: Vec::new(), things: Vec::new(), fit: None }
+        Self { format: FORMAT.into(), outlines: Vec::new(), walls: Vec::new(), openings: Vec::new(), things: Vec::new(), fit: None }
     }
 }
 
-impl Structure {
-    /// Checks what was read: the version, and that its lists refer to each other.
+impl Rooms {
+    /// Checks the version, and that the lists refer to each other.
     ///
     /// # Errors
-    /// What was found and what was expected.
+    /// The problem found, and what was expected.
     pub fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("found the format {:?}, expected {FORMAT:?}", self.format));
         }
-        let short = self.rooms.iter().find(|room| room.polygon.len() < 3);
+        let short = self.outlines.iter().find(|room| room.polygon.len() < 3);
         if let Some(room) = short {
             return Err(format!("the polygon of {:?} has {} corners, expected at least 3", room.name, room.polygon.len()));
         }
-        if let Some(wall) = self.walls.iter().find(|wall| wall.room >= self.rooms.len()) {
-            return Err(format!("a wall is of room {}, but there are {}", wall.room, self.rooms.len()));
+        if let Some(wall) = self.walls.iter().find(|wall| wall.room >= self.outlines.len()) {
+            return Err(format!("a wall is of room {}, but there are {}", wall.room, self.outlines.len()));
         }
         let is_wrong = |o: &&WallOpening| o.walls.is_empty() || o.walls.iter().any(|&wall| wall >= self.walls.len());
         if let Some(opening) = self.openings.iter().find(is_wrong) {
@@ -185,8 +186,8 @@ impl Structure {
     }
 
     /// Adds a room and the faces of its walls, whose thickness and being outer walls are given edge by edge; gives its place.
-    pub fn push_room(&mut self, room: StructureRoom, edges: &[(f64, bool)]) -> usize {
-        let number = self.rooms.len();
+    pub fn push_room(&mut self, room: RoomOutline, edges: &[(f64, bool)]) -> usize {
+        let number = self.outlines.len();
         let corners = room.polygon.len();
         for (i, &(thickness_m, outer)) in edges.iter().enumerate().take(corners) {
             let (from, to) = (room.polygon[i], room.polygon[(i + 1) % corners]);
@@ -204,7 +205,7 @@ impl Structure {
                 outer,
             });
         }
-        self.rooms.push(room);
+        self.outlines.push(room);
         number
     }
 
@@ -213,9 +214,9 @@ impl Structure {
         opening.walls.iter().map(|&wall| self.walls[wall].room)
     }
 
-    /// The room above whose polygon a point lies, between its floor and ceiling.
+    /// The room that contains a point: above its polygon, between floor and ceiling.
     pub fn room_at(&self, point: DVec3) -> Option<usize> {
-        self.rooms.iter().position(|room| room.contains(point))
+        self.outlines.iter().position(|room| room.contains(point))
     }
 
     /// The room that a point is in or, in a wall or its openings, the one whose wall is nearest, up to `reach_m` away.
@@ -226,18 +227,18 @@ impl Structure {
     }
 }
 
-impl StructureRoom {
+impl RoomOutline {
     /// Area of the floor.
     pub fn area_m2(&self) -> f64 {
         0.5 * self.edges().map(|(a, b)| a.perp_dot(b)).sum::<f64>()
     }
 
-    /// Whether a point lies within the room.
+    /// Whether a point is within the room.
     pub fn contains(&self, point: DVec3) -> bool {
         (self.floor_z_m..=self.ceiling_z_m).contains(&point.z) && self.is_above(point.truncate())
     }
 
-    /// Whether a point, seen from above, lies in its outline or this near to it.
+    /// Whether a point, seen from above, is in its outline or this near to it.
     pub fn reaches(&self, p: DVec2, near_m: f64) -> bool {
         let off = |(a, b): (DVec2, DVec2)| {
             let along = (b - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
@@ -273,7 +274,7 @@ impl WallFace {
         (DVec2::from(self.from) + self.direction() * along_m).extend(z_m)
     }
 
-    /// The way along the face from its beginning to the foot of a point; [`WallFace::point`] goes back.
+    /// Distance along the face from its start to the foot of a point; [`WallFace::point`] is the inverse.
     pub fn along_m(&self, point: DVec3) -> f64 {
         (point.truncate() - DVec2::from(self.from)).dot(self.direction())
     }
@@ -301,18 +302,18 @@ impl WallOpening {
 mod tests {
     use super::*;
 
-    fn l_shaped() -> Structure {
+    fn l_shaped() -> Rooms {
         let polygon = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
-        let room = StructureRoom { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
-        let mut structure = Structure::default();
-        structure.push_room(room, &[(0.1, true); 6]);
-        structure
+        let room = RoomOutline { name: "hall_1".into(), kind: "hall".into(), polygon, floor_z_m: 0.0, ceiling_z_m: 2.5 };
+        let mut rooms = Rooms::default();
+        rooms.push_room(room, &[(0.1, true); 6]);
+        rooms
     }
 
     #[test]
     fn points_are_in_the_room_within_its_outline_and_height() {
-        let structure = l_shaped();
-        assert_eq!(structure.rooms[0].area_m2(), 6.0);
+        let rooms = l_shaped();
+        assert_eq!(rooms.outlines[0].area_m2(), 6.0);
         for (point, inside) in [
             ([0.5, 2.0, 1.0], true),
             ([3.0, 0.5, 2.4], true),
@@ -320,32 +321,32 @@ mod tests {
             ([0.5, 2.0, 2.6], false),
             ([-0.1, 1.0, 1.0], false),
         ] {
-            assert_eq!(structure.room_at(point.into()), inside.then_some(0), "{point:?}");
+            assert_eq!(rooms.room_at(point.into()), inside.then_some(0), "{point:?}");
         }
     }
 
     #[test]
     fn faces_look_into_the_room_and_measure_from_their_planes() {
-        let structure = l_shaped();
+        let rooms = l_shaped();
         let inside = DVec3::new(0.5, 0.5, 1.0);
-        for wall in &structure.walls {
+        for wall in &rooms.walls {
             assert!(wall.distance_m(inside) > 0.0, "{wall:?}");
             assert!(wall.distance_m(wall.point(0.3 * wall.length_m(), 1.0)).abs() < 1e-12);
         }
-        assert_eq!(structure.walls[4].length_m(), 1.0);
+        assert_eq!(rooms.walls[4].length_m(), 1.0);
     }
 
     #[test]
     fn it_survives_being_written_and_what_is_wrong_is_told() {
-        let structure = l_shaped();
-        let text = serde_json::to_string(&structure).unwrap();
+        let rooms = l_shaped();
+        let text = serde_json::to_string(&rooms).unwrap();
         assert!(text.starts_with("{\"format\":\"enfilade layout 1\""), "{text}");
-        assert_eq!(serde_json::from_str::<Structure>(&text).unwrap(), structure);
-        assert_eq!(structure.check(), Ok(()));
-        let newer = Structure { format: "enfilade layout 2".into(), ..structure.clone() };
+        assert_eq!(serde_json::from_str::<Rooms>(&text).unwrap(), rooms);
+        assert_eq!(rooms.check(), Ok(()));
+        let newer = Rooms { format: "enfilade layout 2".into(), ..rooms.clone() };
         assert_eq!(newer.check().unwrap_err(), "found the format \"enfilade layout 2\", expected \"enfilade layout 1\"");
         let opening = WallOpening { kind: OpeningKind::Window, walls: vec![6], corners: [[0.0; 3]; 4], leaf: None };
-        let torn = Structure { openings: vec![opening], ..structure };
+        let torn = Rooms { openings: vec![opening], ..rooms };
         assert_eq!(torn.check().unwrap_err(), "a window is in walls [6], but there are 6");
     }
 }

@@ -77,16 +77,16 @@ fn flat() -> Model {
     model
 }
 
-fn areas(structure: &Structure) -> Vec<f64> {
-    structure.rooms.iter().map(|room| (100.0 * room.area_m2()).round() / 100.0).collect()
+fn areas(rooms: &Rooms) -> Vec<f64> {
+    rooms.outlines.iter().map(|room| (100.0 * room.area_m2()).round() / 100.0).collect()
 }
 
 #[test]
 fn a_flat_is_found_as_it_is() {
-    let found = fit_structure(&flat().0).unwrap();
+    let found = fit_rooms(&flat().0).unwrap();
     assert_eq!(areas(&found), [16.0, 5.7], "{found:?}");
-    assert_eq!(found.rooms.iter().map(|room| room.polygon.len()).collect::<Vec<_>>(), [6, 4]);
-    assert_eq!(found.rooms.iter().map(|room| [room.floor_z_m, room.ceiling_z_m]).collect::<Vec<_>>(), [[0.0, 2.6], [0.0, 2.4]]);
+    assert_eq!(found.outlines.iter().map(|room| room.polygon.len()).collect::<Vec<_>>(), [6, 4]);
+    assert_eq!(found.outlines.iter().map(|room| [room.floor_z_m, room.ceiling_z_m]).collect::<Vec<_>>(), [[0.0, 2.6], [0.0, 2.4]]);
     let fit = found.fit.unwrap();
     assert!(fit.near_share > 0.999 && fit.p95_m < 1e-6, "{fit:?}");
     let inner: Vec<&WallFace> = found.walls.iter().filter(|wall| !wall.outer).collect();
@@ -103,9 +103,9 @@ fn a_flat_is_found_as_it_is() {
 #[test]
 fn a_turned_flat_is_found_too() {
     for deg in [0.4, 17.0, 44.0, 90.0] {
-        let found = fit_structure(&flat().turned(deg).0).unwrap();
-        let total: f64 = found.rooms.iter().map(StructureRoom::area_m2).sum();
-        assert!((total - 21.7).abs() < 0.01 && found.rooms.len() == 2 && found.openings.len() == 2, "{deg}: {found:?}");
+        let found = fit_rooms(&flat().turned(deg).0).unwrap();
+        let total: f64 = found.outlines.iter().map(RoomOutline::area_m2).sum();
+        assert!((total - 21.7).abs() < 0.01 && found.outlines.len() == 2 && found.openings.len() == 2, "{deg}: {found:?}");
         assert!(found.fit.unwrap().p95_m < 1e-3, "{deg}: {:?}", found.fit);
     }
 }
@@ -117,22 +117,22 @@ fn an_open_side_is_closed_by_floor_and_ceiling_and_a_table_tells_nothing() {
     for way in [[[0.0, 0.0], [4.0, 0.0]], [[4.0, 0.0], [4.0, 3.0]], [[0.0, 3.0], [0.0, 0.0]]] {
         model.upright(WALL, way, [0.0, 2.5]);
     }
-    let found = fit_structure(&model.0).unwrap();
-    assert_eq!((areas(&found), found.rooms[0].kind.as_str()), (vec![12.0], "room"));
-    assert_eq!(found.rooms[0].ceiling_z_m, 2.5);
+    let found = fit_rooms(&model.0).unwrap();
+    assert_eq!((areas(&found), found.outlines[0].kind.as_str()), (vec![12.0], "room"));
+    assert_eq!(found.outlines[0].ceiling_z_m, 2.5);
     // A roof above the ceiling, of which the whole was labelled as wall, is another side of it.
     model.level([[-0.3, -0.3], [4.3, 3.3]], [0.0, 2.8]);
-    assert_eq!(fit_structure(&model.0).unwrap().rooms[0].ceiling_z_m, 2.5);
-    assert!(fit_structure(&[]).is_none());
+    assert_eq!(fit_rooms(&model.0).unwrap().outlines[0].ceiling_z_m, 2.5);
+    assert!(fit_rooms(&[]).is_none());
     let floor: Vec<LabelledTriangle> = model.0.into_iter().filter(|t| t.label.semantic == FLOOR).collect();
-    assert!(fit_structure(&floor).is_none(), "a floor without walls is no room");
+    assert!(fit_rooms(&floor).is_none(), "a floor without walls is no room");
     let far = LabelledTriangle {
         corners: [DVec3::ZERO, DVec3::new(1e9, 0.0, 0.0), DVec3::new(0.0, 1.0, 2.0)],
         label: PartLabel { semantic: WALL, instance: -1 },
     };
-    assert!(fit_structure(&[far, floor[0], floor[1]]).is_none(), "what is far too large costs no memory");
+    assert!(fit_rooms(&[far, floor[0], floor[1]]).is_none(), "what is far too large costs no memory");
     let nan = LabelledTriangle { corners: [DVec3::NAN; 3], ..floor[0] };
-    assert!(fit_structure(&[nan]).is_none());
+    assert!(fit_rooms(&[nan]).is_none());
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn storeys_lie_above_each_other() {
             model.upright(WALL, way, [z, z + 2.5]);
         }
     }
-    let found = fit_structure(&model.0).unwrap();
-    let told: Vec<[f64; 2]> = found.rooms.iter().map(|room| [room.area_m2(), room.floor_z_m].map(|v| (1e6 * v).round() / 1e6)).collect();
+    let found = fit_rooms(&model.0).unwrap();
+    let told: Vec<[f64; 2]> = found.outlines.iter().map(|room| [room.area_m2(), room.floor_z_m].map(|v| (1e6 * v).round() / 1e6)).collect();
     assert_eq!(told, [[12.0, 0.0], [9.0, 2.8]]);
 }

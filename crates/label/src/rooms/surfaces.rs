@@ -32,7 +32,7 @@ impl LabelledTriangle {
     }
 }
 
-/// The triangles of a scene's mesh folder; those of parts without labels have none.
+/// The triangles of a scene's mesh folder, with the labels of their parts.
 ///
 /// # Errors
 /// When a file of the mesh folder is missing or damaged.

@@ -1,10 +1,10 @@
 //! The rooms of a scene that came without a plan, fitted to the surfaces that are labelled as walls, floors, ceilings, doors and windows.
 //!
 //! Storey by storey, seen from above: upright wall surfaces are gathered on straight lines (`lines.rs`), which cut the plan into convex cells
-//! (`cells.rs`). A cell lies inside where floor and ceiling cover it (`cover.rs`), and cells belong together unless a wall stands on the edge
-//! between them. What is left of the outlines is a polygon per room. Doors and windows are then put into the faces that they lie in
-//! (`openings.rs`), and how well all of that agrees with the surfaces is measured (`residual.rs`). The idea, cells of an arrangement of wall
-//! lines joined where no wall is seen, is that of Mura et al. 2014 ("Automatic room detection and reconstruction in cluttered indoor
+//! (`cells.rs`). A cell is inside where floor and ceiling cover it (`cover.rs`), and cells belong together unless there is wall on the edge
+//! between them. What is left of the outlines is a polygon per room. Doors and windows are then assigned to the wall faces that they are in
+//! (`openings.rs`), and how well all of that agrees with the surfaces is measured (`residual.rs`). The idea, cells of an arrangement of
+//! wall lines joined where no wall is seen, is from Mura et al. 2014 ("Automatic room detection and reconstruction in cluttered indoor
 //! environments with complex room layouts").
 
 mod cells;
@@ -25,7 +25,7 @@ pub use surfaces::{LabelledTriangle, labelled_triangles};
 use cells::Cells;
 use cover::Cover;
 use enfilade_math::DVec2;
-use enfilade_scene::{Structure, StructureRoom, WallFace};
+use enfilade_scene::{RoomOutline, Rooms, WallFace};
 use kinds::Kinds;
 use lines::WallLine;
 use openings::WALL_THICKNESS_M;
@@ -34,25 +34,25 @@ use storeys::Storey;
 
 /// The rooms, walls, doors and windows of a scene, from its labelled surfaces; `None` where they enclose no room.
 ///
-/// Walls are straight and upright, floors and ceilings level, rooms have one outline without holes. Passages that are wider than 1.3 m
-/// and have no door make one room of two. How a door hangs, and what a thing is beyond its class, is not found.
-pub fn fit_structure(triangles: &[LabelledTriangle]) -> Option<Structure> {
-    let mut structure = Structure::default();
+/// Walls are straight and upright, floors and ceilings level, rooms have one outline without holes. Passages that are wider than 1.3 m and
+/// have no door make one room of two. How doors are hinged, and details of things beyond their class, are not found.
+pub fn fit_rooms(triangles: &[LabelledTriangle]) -> Option<Rooms> {
+    let mut rooms = Rooms::default();
     let mut kinds = Kinds::new(triangles);
     for storey in storeys::find(triangles) {
-        add_rooms(&mut structure, &storey, &mut kinds);
+        add_rooms(&mut rooms, &storey, &mut kinds);
     }
-    if structure.rooms.is_empty() {
+    if rooms.outlines.is_empty() {
         return None;
     }
-    tell_inner_walls(&mut structure.walls);
-    structure.openings = openings::find(&structure.walls, triangles);
-    structure.fit = Some(residual::of(&structure, triangles));
-    Some(structure)
+    tell_inner_walls(&mut rooms.walls);
+    rooms.openings = openings::find(&rooms.walls, triangles);
+    rooms.fit = Some(residual::of(&rooms, triangles));
+    Some(rooms)
 }
 
 /// Adds the rooms of a storey, from left to right.
-fn add_rooms(structure: &mut Structure, storey: &Storey<'_>, kinds: &mut Kinds) {
+fn add_rooms(rooms: &mut Rooms, storey: &Storey<'_>, kinds: &mut Kinds) {
     let lines = WallLine::find(storey);
     let Some(cover) = Cover::new(storey) else { return };
     let cells = Cells::new(&lines, &cover);
@@ -60,13 +60,13 @@ fn add_rooms(structure: &mut Structure, storey: &Storey<'_>, kinds: &mut Kinds) 
         let ceiling_z_m = storey.ceiling_z_m(&outline);
         let polygon: Vec<[f64; 2]> = outline.iter().map(|corner| corner.to_array()).collect();
         let (kind, name) = kinds.of_room(&outline, [storey.floor_z_m, ceiling_z_m]);
-        let room = StructureRoom { name, kind, polygon, floor_z_m: storey.floor_z_m, ceiling_z_m };
+        let room = RoomOutline { name, kind, polygon, floor_z_m: storey.floor_z_m, ceiling_z_m };
         let behind: Vec<(f64, bool)> = edges(&outline).map(|edge| (lines::thickness_behind(&lines, edge), true)).collect();
-        structure.push_room(room, &behind);
+        rooms.push_room(room, &behind);
     }
 }
 
-/// Faces that another room's face stands close behind, back to back, are those of an inner wall as thick as the two are apart.
+/// Marks faces that have another room's face close behind them, back to back, as inner walls; the thickness is their distance.
 fn tell_inner_walls(walls: &mut [WallFace]) {
     let faces = walls.to_vec();
     for wall in walls {

@@ -1,4 +1,4 @@
-//! The structure of buildings, exported and read back: Structured3D's files by our importer, which is made from its own description.
+//! The rooms of buildings, exported and read back: Structured3D's files by our importer, which is made from its own description.
 
 use crate::common::write;
 use enfilade_dataset::{Dataset, PartitionRow, Side};
@@ -6,19 +6,19 @@ use enfilade_export::{CloudSource, Existing, ExportConfig, Format, export};
 use enfilade_home::{FloorPlan, RoomKind};
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{Rng, Vec3};
-use enfilade_scene::{Heard, Part, Quiet, Scene, Structure};
+use enfilade_scene::{Heard, Part, Quiet, Rooms, Scene};
 use std::path::{Path, PathBuf};
 
-fn home(seed: u64) -> Structure {
-    FloorPlan::new(&[RoomKind::Living, RoomKind::Kitchen, RoomKind::Hall, RoomKind::Bathroom], &Rng::new(seed)).structure()
+fn home(seed: u64) -> Rooms {
+    FloorPlan::new(&[RoomKind::Living, RoomKind::Kitchen, RoomKind::Hall, RoomKind::Bathroom], &Rng::new(seed)).to_rooms()
 }
 
-fn exported(folder: &Path, format: Format, structure: Option<&Structure>) -> Result<PathBuf, String> {
+fn exported(folder: &Path, format: Format, rooms: Option<&Rooms>) -> Result<PathBuf, String> {
     let dataset: Dataset = write(&folder.join("dataset"), &crate::common::pinhole());
     let layout = dataset.layout();
-    match structure {
-        Some(structure) => dataset.write_structure("room", structure).unwrap(),
-        None => std::fs::remove_file(layout.structure("room")).unwrap(),
+    match rooms {
+        Some(rooms) => dataset.write_rooms("room", rooms).unwrap(),
+        None => std::fs::remove_file(layout.rooms("room")).unwrap(),
     }
     let out = folder.join("out");
     let config = ExportConfig::new(format, vec!["room".into()]);
@@ -26,10 +26,10 @@ fn exported(folder: &Path, format: Format, structure: Option<&Structure>) -> Res
 }
 
 /// Area of the floors, and of the walls without what opens in them.
-fn areas(structure: &Structure) -> [f64; 2] {
-    let holes: f64 = structure.openings.iter().map(|o| o.walls.len() as f64 * o.size_m().iter().product::<f64>()).sum();
-    let walls: f64 = structure.walls.iter().map(|wall| wall.length_m() * (wall.ceiling_z_m - wall.floor_z_m)).sum();
-    [structure.rooms.iter().map(|room| room.area_m2()).sum(), walls - holes]
+fn areas(rooms: &Rooms) -> [f64; 2] {
+    let holes: f64 = rooms.openings.iter().map(|o| o.walls.len() as f64 * o.size_m().iter().product::<f64>()).sum();
+    let walls: f64 = rooms.walls.iter().map(|wall| wall.length_m() * (wall.ceiling_z_m - wall.floor_z_m)).sum();
+    [rooms.outlines.iter().map(|room| room.area_m2()).sum(), walls - holes]
 }
 
 fn area(scene: &Scene, part: &Part) -> f64 {
@@ -44,9 +44,9 @@ fn area(scene: &Scene, part: &Part) -> f64 {
 #[test]
 fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
     for seed in [3, 4] {
-        let structure = home(seed);
+        let rooms = home(seed);
         let folder = tempfile::tempdir().unwrap();
-        let out = exported(folder.path(), Format::Structured3d, Some(&structure)).unwrap();
+        let out = exported(folder.path(), Format::Structured3d, Some(&rooms)).unwrap();
         let imported = load(&out.join("scene_00000/annotation_3d.json"), &ImportOptions::default(), &Quiet).unwrap();
         let mut found = [0.0; 2];
         for label in imported.labels.iter().flatten() {
@@ -61,7 +61,7 @@ fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
             };
             found[place] += area(&imported.scene, part);
         }
-        let expected = areas(&structure);
+        let expected = areas(&rooms);
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-3 * expected, "seed {seed}: {found} m2, expected {expected}");
         }
@@ -69,7 +69,7 @@ fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
 }
 
 #[test]
-fn rooms_that_frames_do_not_show_are_in_no_layout() {
+fn rooms_that_frames_do_not_show_are_left_out() {
     let folder = tempfile::tempdir().unwrap();
     // The frames look to one side of the room.
     let room = folder.path().join("room");
@@ -94,9 +94,9 @@ fn rooms_that_frames_do_not_show_are_in_no_layout() {
 fn numbers_of_structured3d_say_the_side_and_its_lists_know_every_word() {
     let folder = tempfile::tempdir().unwrap();
     let dataset: Dataset = write(&folder.path().join("dataset"), &crate::common::pinhole());
-    let mut structure = dataset.read_structure("room").unwrap().unwrap();
-    structure.rooms[0].kind = "childrens".into();
-    dataset.write_structure("room", &structure).unwrap();
+    let mut rooms = dataset.read_rooms("room").unwrap().unwrap();
+    rooms.outlines[0].kind = "childrens".into();
+    dataset.write_rooms("room", &rooms).unwrap();
     let row = |scene: &str, partition| PartitionRow { scene: scene.into(), camera: "cam_00".into(), frame: 0, side: Ok(partition) };
     dataset.write_partition(&[row("room", Side::Test), row("room-two", Side::Train)]).unwrap();
     let out = folder.path().join("out");
@@ -114,7 +114,7 @@ fn numbers_of_structured3d_say_the_side_and_its_lists_know_every_word() {
 }
 
 #[test]
-fn a_scene_without_a_layout_is_refused_by_name() {
+fn a_scene_without_rooms_is_refused_by_name() {
     for format in [Format::Spatiallm, Format::Structured3d] {
         let folder = tempfile::tempdir().unwrap();
         let message = exported(folder.path(), format, None).unwrap_err();

@@ -6,18 +6,18 @@ use enfilade_math::{DVec2, quantile};
 use enfilade_scene::{CEILING, FLOOR, WALL};
 use std::ops::Range;
 
-/// Cosine of the angle to the vertical from which on a surface counts as level.
+/// Cosine of the normal's angle to the vertical above which a surface counts as level.
 const LEVEL: f64 = 0.95;
-/// Limit below which a surface counts as upright.
+/// Cosine of that angle below which a surface counts as upright.
 const UPRIGHT: f64 = 0.17;
-/// Floors that lie closer together belong to one storey, metres.
+/// Floors closer together than this belong to one storey, metres.
 const STOREY_M: f64 = 1.8;
 /// Steps of the search for floors, metres.
 const STEP_M: f64 = 0.05;
-/// A storey has so much floor at least, square metres, and this share of that of the largest.
+/// Least area of floor of a storey, square metres, and as a share of the largest storey's.
 const LEAST_FLOOR_M2: f64 = 1.0;
 const LEAST_SHARE: f64 = 0.1;
-/// Height of a room whose ceiling nobody labelled and whose walls end nowhere, metres.
+/// Height of a room without labelled ceiling whose walls have no upper end, metres.
 const USUAL_HEIGHT_M: f64 = 2.5;
 
 /// A storey with its surfaces.
@@ -49,7 +49,7 @@ pub fn find(triangles: &[LabelledTriangle]) -> Vec<Storey<'_>> {
                 DOOR | WINDOW if is_upright => found.panes.push(triangle),
                 FLOOR if !is_upright => found.floors.push(triangle),
                 CEILING if !is_upright => found.ceilings.push(triangle),
-                // Many label a room's shell as wall, its ceiling too.
+                // Often a room's whole shell is labelled as wall, including its ceiling.
                 WALL if is_level && triangle.center().z > floor_z_m + STOREY_M => found.ceilings.push(triangle),
                 _ => {}
             }
@@ -108,7 +108,7 @@ fn area_within(triangle: &LabelledTriangle, low: DVec2, high: DVec2) -> f64 {
     area(&polygon).abs()
 }
 
-/// The run of sorted (value, weight) within a step that weighs most, with its weight.
+/// The run of sorted (value, weight) pairs within one step that has the largest total weight, with that weight.
 pub fn richest(sorted: &[(f64, f64)], step: f64) -> Option<(f64, Range<usize>)> {
     let (mut first, mut weight, mut best) = (0, 0.0, None);
     for (i, &(value, own)) in sorted.iter().enumerate() {
@@ -136,8 +136,8 @@ pub fn weighted_median(sorted: &[(f64, f64)]) -> f64 {
 }
 
 impl Storey<'_> {
-    /// The height of the ceiling above an outline, of two the lower: a shell has another side. Where none is labelled, that of the walls'
-    /// upper end.
+    /// The height of the ceiling above an outline, the lower of two: a shell has another side. Where none is labelled, the height of the
+    /// walls' upper end.
     pub fn ceiling_z_m(&self, outline: &[DVec2]) -> f64 {
         let Some((low, high)) = bounds_of(outline.iter().copied()) else { return self.floor_z_m + USUAL_HEIGHT_M };
         let above = self.ceilings.iter().filter(|t| t.center().z > self.floor_z_m + STOREY_M);

@@ -1,22 +1,16 @@
-//! Which plane of its scene's layout each pixel of a frame shows.
+//! The plane of its scene's rooms that each pixel of a frame shows.
 
 use enfilade_dataset::{Dataset, DatasetError};
 use enfilade_frame::{Layer, vector};
 use enfilade_math::DVec3;
-use enfilade_scene::{Cx, Structure};
+use enfilade_scene::{Cx, Rooms};
 
-/// Writes the table of a layout's planes, and which of them each pixel of these frames of a camera shows.
+/// Writes the table of the planes of rooms, and which of them each pixel of these frames of a camera shows.
 ///
 /// # Errors
 /// When a layer of a frame is missing or damaged, or a file cannot be written.
-pub fn write_planes(
-    dataset: &Dataset,
-    [scene, camera]: [&str; 2],
-    structure: &Structure,
-    frames: &[u32],
-    cx: &dyn Cx,
-) -> Result<(), DatasetError> {
-    let planes = structure.planes();
+pub fn write_planes(dataset: &Dataset, [scene, camera]: [&str; 2], rooms: &Rooms, frames: &[u32], cx: &dyn Cx) -> Result<(), DatasetError> {
+    let planes = rooms.planes();
     dataset.write_plane_table(scene, &planes)?;
     let total = frames.len() as u64;
     for (done, &number) in frames.iter().enumerate() {
@@ -29,7 +23,7 @@ pub fn write_planes(
         };
         let plane = |pixel: usize| {
             let p: DVec3 = vector(positions, pixel);
-            structure.plane_at(classes.get(pixel) as i16, p).map_or(-1, |place| place as i16 + 1)
+            rooms.plane_at(classes.get(pixel) as i16, p).map_or(-1, |place| place as i16 + 1)
         };
         let ids = (0..frame.pixels()).map(plane).collect();
         dataset.write_plane_ids([scene, camera], number, [frame.height, frame.width].map(|side| side as usize), ids)?;

@@ -55,9 +55,9 @@ fn rooms_are_fitted_where_a_scene_has_none_and_go_with_its_labels() {
     assert_eq!(fs::read_to_string(detail.join("metadata_planes.csv")).unwrap().lines().count(), 1 + 6);
     assert!(detail.join("cam_00/planes/frame.0002.plane_id.hdf5").is_file());
     let text = succeed(d, &["verify", "out"]);
-    assert!(text.contains("laws hold over 3 frames") && text.contains("pixels of a plane of the layout"), "{text}");
+    assert!(text.contains("laws hold over 3 frames") && text.contains("pixels with a plane of the rooms"), "{text}");
 
-    // What was told by labels goes when these change.
+    // Files derived from labels are removed when the labels change.
     fs::write(d.join("labels.csv"), "part,nyu40_id,instance\ntable,7,1\n").unwrap();
     succeed(d, &["run", "dataset.toml", "-o", "out"]);
     assert!(!detail.join("layout.json").exists() && !detail.join("metadata_planes.csv").exists() && !detail.join("cam_00/planes").exists());

@@ -1,11 +1,12 @@
-//! What a room is for, by the things that stand in it.
+//! The kind of a room, by the things in it.
 
 use super::surfaces::LabelledTriangle;
 use enfilade_math::{DVec2, DVec3};
-use enfilade_scene::{NYU40, StructureRoom};
+use enfilade_scene::{NYU40, RoomOutline};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Kinds by what tells them: the first whose things are there. The kinds are those of generated homes.
+/// Kinds of room with the things that identify them; the first kind with a thing in the room is taken. The kinds are those of generated
+/// homes.
 const TELLTALES: [(&str, &[&str]); 6] = [
     ("bathroom", &["toilet", "bathtub", "showercurtain"]),
     ("bedroom", &["bed"]),
@@ -14,7 +15,7 @@ const TELLTALES: [(&str, &[&str]); 6] = [
     ("study", &["desk"]),
     ("dining", &["table"]),
 ];
-/// A room that nothing tells.
+/// A room that no thing identifies.
 const UNKNOWN: &str = "room";
 
 /// Middles of things by class, and how many rooms of each kind there were.
@@ -39,7 +40,7 @@ impl Kinds {
     /// Kind and name of the room over an outline, between these heights.
     pub fn of_room(&mut self, outline: &[DVec2], [floor_z_m, ceiling_z_m]: [f64; 2]) -> (String, String) {
         let polygon = outline.iter().map(|p| p.to_array()).collect();
-        let room = StructureRoom { name: String::new(), kind: String::new(), polygon, floor_z_m, ceiling_z_m };
+        let room = RoomOutline { name: String::new(), kind: String::new(), polygon, floor_z_m, ceiling_z_m };
         let there = self.things.iter().filter(|(_, middle)| room.contains(*middle));
         let rank = there.filter_map(|(class, _)| telltale(NYU40[*class as usize - 1].name)).min();
         let kind = rank.map_or(UNKNOWN, |rank| TELLTALES[rank].0);

@@ -1,10 +1,10 @@
-//! A floor plan as rooms, wall faces and openings: the exact layout that a dataset of a generated home states.
+//! A floor plan as rooms, wall faces and openings: exactly as a dataset of a generated home states them.
 
 use super::FloorPlan;
 use crate::room::{Filling, Opening, Room, Wall};
 use enfilade_furniture::Leaf;
 use enfilade_math::{DVec2, DVec3, Vec2};
-use enfilade_scene::{DoorLeaf, Hinge, OpeningKind, Structure, StructureRoom, WallOpening};
+use enfilade_scene::{DoorLeaf, Hinge, OpeningKind, RoomOutline, Rooms, WallOpening};
 use std::collections::BTreeMap;
 
 /// Rooms have four walls, in the order of [`Wall::ALL`].
@@ -18,28 +18,28 @@ impl FloorPlan {
     /// ```
     /// use enfilade_home::{FloorPlan, RoomKind};
     /// use enfilade_math::Rng;
-    /// let structure = FloorPlan::new(&[RoomKind::Hall, RoomKind::Bedroom], &Rng::new(7)).structure();
-    /// assert_eq!(structure.rooms[1].name, "bedroom_1");
-    /// assert_eq!(structure.walls.len(), 8);
+    /// let rooms = FloorPlan::new(&[RoomKind::Hall, RoomKind::Bedroom], &Rng::new(7)).to_rooms();
+    /// assert_eq!(rooms.outlines[1].name, "bedroom_1");
+    /// assert_eq!(rooms.walls.len(), 8);
     /// ```
-    pub fn structure(&self) -> Structure {
-        let mut structure = Structure::default();
+    pub fn to_rooms(&self) -> Rooms {
+        let mut rooms = Rooms::default();
         let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
         for room in &self.rooms {
             let number = numbers.entry(room.kind.name()).or_default();
             *number += 1;
             let edges = Wall::ALL.map(|wall| (f64::from(room.thickness(wall)), room.outer[wall as usize]));
-            structure.push_room(outline(room, *number), &edges);
+            rooms.push_room(outline(room, *number), &edges);
         }
         let leading = self.rooms.iter().enumerate().flat_map(|(number, room)| room.openings.iter().map(move |o| (number, room, o)));
         let leading = leading.filter(|(_, _, opening)| !is_other_side(opening));
-        structure.openings = leading.map(|(number, room, opening)| self.opening(number, room, opening, &structure)).collect();
-        structure
+        rooms.openings = leading.map(|(number, room, opening)| self.opening(number, room, opening, &rooms)).collect();
+        rooms
     }
 
-    fn opening(&self, number: usize, room: &Room, opening: &Opening, structure: &Structure) -> WallOpening {
+    fn opening(&self, number: usize, room: &Room, opening: &Opening, rooms: &Rooms) -> WallOpening {
         let first = SIDES * number + opening.wall as usize;
-        let face = &structure.walls[first];
+        let face = &rooms.walls[first];
         let along = opening.x.map(|x| 0.5 * face.length_m() + f64::from(x));
         let [low, high] = opening.z.map(f64::from);
         let corner = |along: f64, z: f64| DVec3::to_array(&face.point(along, z));
@@ -79,10 +79,10 @@ fn is_other_side(opening: &Opening) -> bool {
     matches!(opening.filling, Filling::DoorBack | Filling::Passage { lined: false })
 }
 
-fn outline(room: &Room, number: u32) -> StructureRoom {
+fn outline(room: &Room, number: u32) -> RoomOutline {
     let (center, half) = (room.center.as_dvec2(), 0.5 * room.size.truncate().as_dvec2());
     let corner = |x: f64, y: f64| (center + half * DVec2::new(x, y)).to_array();
-    StructureRoom {
+    RoomOutline {
         name: format!("{}_{number}", room.kind.name()),
         kind: room.kind.name().into(),
         polygon: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
@@ -104,32 +104,32 @@ mod tests {
     #[test]
     fn every_opening_is_there_once_and_leads_where_the_plan_says() {
         for plan in plans() {
-            let structure = plan.structure();
+            let rooms = plan.to_rooms();
             let windows = plan.rooms.iter().flat_map(Room::windows).count();
-            let of = |kind: OpeningKind| structure.openings.iter().filter(move |o| o.kind == kind);
+            let of = |kind: OpeningKind| rooms.openings.iter().filter(move |o| o.kind == kind);
             assert_eq!(of(OpeningKind::Window).count(), windows);
-            assert_eq!(structure.openings.len() - windows, plan.doorways.len());
+            assert_eq!(rooms.openings.len() - windows, plan.doorways.len());
             let mut ways: Vec<Vec<usize>> =
-                structure.openings.iter().filter(|o| o.kind != OpeningKind::Window).map(|o| structure.rooms_of(o).collect()).collect();
+                rooms.openings.iter().filter(|o| o.kind != OpeningKind::Window).map(|o| rooms.rooms_of(o).collect()).collect();
             for way in &plan.doorways {
-                let mut rooms: Vec<usize> = way.from.into_iter().chain([way.into]).collect();
-                rooms.sort_unstable();
+                let mut ends: Vec<usize> = way.from.into_iter().chain([way.into]).collect();
+                ends.sort_unstable();
                 let found = ways.iter().position(|found| {
                     let mut found = found.clone();
                     found.sort_unstable();
-                    found == rooms
+                    found == ends
                 });
-                ways.swap_remove(found.unwrap_or_else(|| panic!("{way:?} of {structure:?}")));
+                ways.swap_remove(found.unwrap_or_else(|| panic!("{way:?} of {rooms:?}")));
             }
-            assert!(of(OpeningKind::Window).all(|o| o.walls.len() == 1 && structure.walls[o.walls[0]].outer));
+            assert!(of(OpeningKind::Window).all(|o| o.walls.len() == 1 && rooms.walls[o.walls[0]].outer));
         }
     }
 
     #[test]
     fn openings_lie_in_their_faces_and_faces_of_a_wall_are_as_far_apart_as_it_is_thick() {
-        for structure in plans().map(|plan| plan.structure()) {
-            for opening in &structure.openings {
-                let face = &structure.walls[opening.walls[0]];
+        for rooms in plans().map(|plan| plan.to_rooms()) {
+            for opening in &rooms.openings {
+                let face = &rooms.walls[opening.walls[0]];
                 for corner in opening.corners.map(DVec3::from) {
                     assert!(face.distance_m(corner).abs() < 1e-6);
                     assert!((face.floor_z_m..=face.ceiling_z_m).contains(&corner.z));
@@ -138,7 +138,7 @@ mod tests {
                 // Counter-clockwise for someone in the room.
                 assert!((b - a).cross(c - b).truncate().dot(face.inward.into()) > 0.0);
                 if let Some(&beyond) = opening.walls.get(1) {
-                    let beyond = &structure.walls[beyond];
+                    let beyond = &rooms.walls[beyond];
                     assert!((beyond.distance_m(opening.center()) + face.thickness_m).abs() < 1e-3);
                     assert_eq!(beyond.inward.map(|x| -x + 0.0), face.inward.map(|x| x + 0.0));
                 }

@@ -6,12 +6,12 @@ use super::outline::{area, edges};
 use enfilade_math::DVec2;
 use std::collections::HashMap;
 
-/// Floor and ceiling cover more than this share of a cell that lies inside.
+/// Share of a cell that floor and ceiling cover, above which it is inside.
 const INSIDE: f64 = 0.5;
-/// Wall stands on more than this share of an edge that parts two rooms.
+/// Share of an edge with wall on it, above which the edge separates two rooms.
 const PARTED: f64 = 0.5;
-/// What is smaller (square metres) or narrower (metres, twice the area by the length of the outline) is no room but the inside of a wall or
-/// a shaft, and what has less of its outline along walls is a terrace.
+/// An outline that is smaller (square metres) or narrower (metres, twice the area by the length of the outline) is no room but the inside
+/// of a wall or a shaft, and what has less of its outline along walls is a terrace.
 const LEAST_M2: f64 = 1.0;
 const LEAST_WIDTH_M: f64 = 0.5;
 const LEAST_WALLED: f64 = 0.6;

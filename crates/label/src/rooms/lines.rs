@@ -1,4 +1,4 @@
-//! Straight lines on which walls stand, seen from above, and where along them.
+//! Straight lines of walls, seen from above, and the intervals with wall on them.
 
 use super::grid::Grid;
 use super::storeys::Storey;
@@ -6,36 +6,36 @@ use super::surfaces::LabelledTriangle;
 use enfilade_math::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Surfaces on one line differ by so much at most: in direction (radians), and in distance from it (metres).
+/// Largest differences between surfaces on one line: in direction (radians), and in distance from it (metres).
 const ANGLE: f64 = 0.035;
 const OFFSET_M: f64 = 0.04;
-/// Directions this near to those of most walls, or at right angles to them, are taken for them, radians.
+/// Directions within this angle of the main direction of walls, or of its perpendicular, are snapped to it, radians.
 const SNAP: f64 = 0.026;
-/// A line has so much wall at least, square metres; and there are so many at most.
+/// Least area of wall on a line, square metres; and the largest number of lines.
 const LEAST_M2: f64 = 0.3;
 const MOST_LINES: usize = 120;
-/// Doors and windows stand for the wall whose line is this near, metres.
+/// Doors and windows count as wall on a line that is this near, metres.
 const PANE_M: f64 = 0.4;
-/// Corners this near to a line lie on it, metres.
+/// Distance below which a corner is on a line, metres.
 pub const ON_LINE_M: f64 = 1e-3;
 /// Squares in which a line looks for wall: along and up, metres; longer where there would be more than `MOST_COLUMNS`.
 const STEP: DVec2 = DVec2::new(0.05, 0.1);
 const MOST_COLUMNS: f64 = 1e4;
-/// Wall stands where so much of the height between these is covered, metres above the floor: below a window is enough.
+/// There is wall where the share `STANDS` of the height between these is covered, metres above the floor: below a window is enough.
 const BAND_M: [f64; 2] = [0.2, 2.2];
 const STANDS: f64 = 0.25;
 /// Least length of wall in a run of wall, doors and windows, metres, or half of the run.
 const LEAST_STANDING_M: f64 = 0.4;
 /// Gaps up to here are doorways, which do not make one room of two, metres.
 const DOORWAY_M: f64 = 1.3;
-/// The back of a wall is between these behind its face, metres.
+/// Range of distances of a wall's back behind its face, metres.
 const BEHIND_M: [f64; 2] = [0.03, 0.6];
 
 /// A line: the points p with normal · p = offset.
 pub struct WallLine {
     pub normal: DVec2,
     pub offset_m: f64,
-    /// From where to where wall stands, along `normal.perp()`, ascending.
+    /// Intervals with wall along `normal.perp()`, ascending.
     standing: Vec<[f64; 2]>,
 }
 
@@ -76,7 +76,7 @@ impl WallLine {
         self.normal.dot(p) - self.offset_m
     }
 
-    /// The share of a piece of this line on which wall stands.
+    /// The share of a piece of this line that has wall.
     pub fn share([a, b]: [DVec2; 2], lines: &[Self]) -> f64 {
         let is_on = |line: &&Self| [a, b].iter().all(|&p| line.distance_m(p).abs() <= 2.0 * ON_LINE_M);
         lines.iter().filter(is_on).map(|line| line.own_share([a, b])).fold(0.0, f64::max)
@@ -90,7 +90,7 @@ impl WallLine {
     }
 }
 
-/// How far behind an edge of a room, which has the room on its left, the other side of its wall is; 0 where none is known.
+/// Thickness of the wall behind an edge of a room, which has the room on its left; 0 if it is not known.
 pub fn thickness_behind(lines: &[WallLine], edge: [DVec2; 2]) -> f64 {
     let outward = -(edge[1] - edge[0]).normalize_or_zero().perp();
     let middle = 0.5 * (edge[0] + edge[1]);
@@ -115,12 +115,12 @@ fn between(a: f64, b: f64) -> f64 {
     d.min(PI - d)
 }
 
-/// The direction that most wall has or stands at right angles to.
+/// The direction that most wall is parallel or perpendicular to.
 fn main_direction(pieces: &[Piece]) -> f64 {
     // The angle of the sum of vectors whose angles are four times as large, so that right angles coincide.
     let sum = pieces.iter().map(|(angle, _, area)| DVec2::from_angle(4.0 * angle) * *area).sum::<DVec2>();
     let rough = sum.to_angle() / 4.0;
-    // Again, without what is turned otherwise.
+    // Again, without surfaces in other directions.
     let near = |angle: f64| (angle - rough + FRAC_PI_2 / 2.0).rem_euclid(FRAC_PI_2) - FRAC_PI_2 / 2.0;
     let (mut total, mut weight) = (0.0, 0.0);
     for (angle, _, area) in pieces.iter().filter(|(angle, ..)| near(*angle).abs() < 2.0 * ANGLE) {
@@ -132,7 +132,7 @@ fn main_direction(pieces: &[Piece]) -> f64 {
     if found.sin().abs().min(found.cos().abs()) < 1e-3 { (found / FRAC_PI_2).round() * FRAC_PI_2 } else { found }
 }
 
-/// The direction around which most wall lies, if that is enough for a line.
+/// The direction around which there is most wall, if that is enough for a line.
 fn richest_direction(pieces: &[Piece]) -> Option<f64> {
     const BINS: usize = 360;
     let mut areas = [0.0; BINS];
@@ -167,7 +167,7 @@ fn offsets(pieces: &[Piece], normal: DVec2) -> Vec<(f64, f64)> {
     found
 }
 
-/// Where wall, doors and windows stand along a line.
+/// Intervals with wall, doors and windows along a line.
 fn standing(storey: &Storey<'_>, normal: DVec2, offset_m: f64) -> Vec<[f64; 2]> {
     let along = normal.perp();
     let near = |reach_m: f64| {

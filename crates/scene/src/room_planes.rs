@@ -1,13 +1,13 @@
-//! The planes of a layout: floors, ceilings and faces of walls, numbered, and which of them a point lies on.
+//! The planes of rooms: floors, ceilings and faces of walls, numbered, and the plane that a point is on.
 
-use crate::{CEILING, FLOOR, Structure, WALL, WallFace};
+use crate::{CEILING, FLOOR, Rooms, WALL, WallFace};
 use enfilade_math::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Surfaces this near to a plane of the layout lie on it, metres: plaster, gaps between boards.
-pub const LAYOUT_NEAR_M: f64 = 0.02;
+/// Distance from a plane below which a surface counts as on it, metres: plaster, gaps between boards.
+pub const PLANE_NEAR_M: f64 = 0.02;
 
-/// What a plane bounds a room with.
+/// The kind of a plane of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "plain words")]
@@ -27,7 +27,7 @@ impl PlaneKind {
         }
     }
 
-    /// The class of what lies on it, of NYU40.
+    /// The NYU40 class of surfaces on it.
     pub const fn class(self) -> i16 {
         match self {
             Self::Floor => FLOOR,
@@ -37,14 +37,14 @@ impl PlaneKind {
     }
 }
 
-/// A plane of a layout: the points p with normal · p = offset.
+/// A plane of a room: the points p with normal · p = offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LayoutPlane {
-    /// What it is.
+pub struct RoomPlane {
+    /// Kind of the plane.
     pub kind: PlaneKind,
-    /// The room that it bounds, by its place in the layout.
+    /// The room that it bounds, by its place in `Rooms::outlines`.
     pub room: usize,
-    /// The face of a wall, by its place in the layout.
+    /// The face of a wall, by its place in `Rooms::walls`.
     pub wall: Option<usize>,
     /// Unit normal, into the room.
     pub normal: DVec3,
@@ -52,37 +52,37 @@ pub struct LayoutPlane {
     pub offset_m: f64,
 }
 
-impl Structure {
+impl Rooms {
     /// All planes: floor and ceiling of each room, then the faces of walls.
-    pub fn planes(&self) -> Vec<LayoutPlane> {
-        let level = |(room, of): (usize, &crate::StructureRoom)| {
-            let plane = |kind, normal: DVec3, z: f64| LayoutPlane { kind, room, wall: None, normal, offset_m: normal.z * z };
+    pub fn planes(&self) -> Vec<RoomPlane> {
+        let level = |(room, of): (usize, &crate::RoomOutline)| {
+            let plane = |kind, normal: DVec3, z: f64| RoomPlane { kind, room, wall: None, normal, offset_m: normal.z * z };
             [plane(PlaneKind::Floor, DVec3::Z, of.floor_z_m), plane(PlaneKind::Ceiling, DVec3::NEG_Z, of.ceiling_z_m)]
         };
         let upright = |(i, wall): (usize, &WallFace)| {
             let inward = DVec2::from(wall.inward);
             let offset_m = inward.dot(wall.from.into());
-            LayoutPlane { kind: PlaneKind::Wall, room: wall.room, wall: Some(i), normal: inward.extend(0.0), offset_m }
+            RoomPlane { kind: PlaneKind::Wall, room: wall.room, wall: Some(i), normal: inward.extend(0.0), offset_m }
         };
-        self.rooms.iter().enumerate().flat_map(level).chain(self.walls.iter().enumerate().map(upright)).collect()
+        self.outlines.iter().enumerate().flat_map(level).chain(self.walls.iter().enumerate().map(upright)).collect()
     }
 
-    /// The plane, by its place among [`Structure::planes`], on which a point of a surface of this class lies, within 2 cm of it and of its
-    /// borders. Where walls and ceiling are labelled as one shell, what is on no wall may be on the ceiling. `None` for other classes and for
-    /// what lies on none, such as the reveals of openings.
+    /// The plane, by its place among [`Rooms::planes`], that a point of a surface of this class is on: within 2 cm of it and of its
+    /// borders. Where walls and ceiling are labelled as one shell, a point on no wall may be on the ceiling. `None` for other classes and
+    /// for points on no plane, such as the reveals of openings.
     pub fn plane_at(&self, class: i16, p: DVec3) -> Option<usize> {
         let nearest = |found: &mut dyn Iterator<Item = (usize, f64)>| {
-            found.filter(|(_, off)| *off <= LAYOUT_NEAR_M).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
+            found.filter(|(_, off)| *off <= PLANE_NEAR_M).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
         };
-        let level = |z: fn(&crate::StructureRoom) -> f64, second: usize| {
-            let rooms = self.rooms.iter().enumerate().filter(|(_, room)| room.reaches(p.truncate(), LAYOUT_NEAR_M));
+        let level = |z: fn(&crate::RoomOutline) -> f64, second: usize| {
+            let rooms = self.outlines.iter().enumerate().filter(|(_, room)| room.reaches(p.truncate(), PLANE_NEAR_M));
             nearest(&mut rooms.map(|(i, room)| (2 * i + second, (p.z - z(room)).abs())))
         };
         match class {
             FLOOR => level(|room| room.floor_z_m, 0),
             CEILING => level(|room| room.ceiling_z_m, 1),
             WALL => {
-                let first = 2 * self.rooms.len();
+                let first = 2 * self.outlines.len();
                 let faces = self.walls.iter().enumerate().map(|(i, wall)| (first + i, wall.off_m(p)));
                 nearest(&mut faces.into_iter()).or_else(|| level(|room| room.ceiling_z_m, 1))
             }
@@ -96,10 +96,10 @@ impl Structure {
     pub fn off_m(&self, class: i16, p: DVec3) -> Option<f64> {
         let least = |found: &mut dyn Iterator<Item = f64>| found.min_by(f64::total_cmp);
         match class {
-            FLOOR => least(&mut self.rooms.iter().map(|room| (p.z - room.floor_z_m).abs())),
-            CEILING => least(&mut self.rooms.iter().map(|room| (p.z - room.ceiling_z_m).abs())),
+            FLOOR => least(&mut self.outlines.iter().map(|room| (p.z - room.floor_z_m).abs())),
+            CEILING => least(&mut self.outlines.iter().map(|room| (p.z - room.ceiling_z_m).abs())),
             WALL => {
-                let ceilings = self.rooms.iter().map(|room| (p.z - room.ceiling_z_m).abs());
+                let ceilings = self.outlines.iter().map(|room| (p.z - room.ceiling_z_m).abs());
                 least(&mut self.walls.iter().map(|wall| wall.off_m(p)).chain(ceilings))
             }
             _ => None,
@@ -120,23 +120,23 @@ impl WallFace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StructureRoom;
+    use crate::RoomOutline;
 
     /// Two rooms side by side, with a wall of 20 cm between them.
-    fn two_rooms() -> Structure {
-        let mut structure = Structure::default();
+    fn two_rooms() -> Rooms {
+        let mut rooms = Rooms::default();
         for (x, ceiling_z_m) in [(0.0, 2.5), (4.2, 2.4)] {
             let polygon = vec![[x, 0.0], [x + 4.0, 0.0], [x + 4.0, 3.0], [x, 3.0]];
-            let room = StructureRoom { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m };
-            structure.push_room(room, &[(0.2, false); 4]);
+            let room = RoomOutline { name: "study_1".into(), kind: "study".into(), polygon, floor_z_m: 0.0, ceiling_z_m };
+            rooms.push_room(room, &[(0.2, false); 4]);
         }
-        structure
+        rooms
     }
 
     #[test]
     fn points_on_planes_are_told_which_and_others_are_on_none() {
-        let structure = two_rooms();
-        let planes = structure.planes();
+        let rooms = two_rooms();
+        let planes = rooms.planes();
         assert_eq!(planes.len(), 2 * 2 + 8);
         for (class, p, kind, room) in [
             (FLOOR, [1.0, 1.0, 0.01], PlaneKind::Floor, 0),
@@ -146,23 +146,23 @@ mod tests {
             (WALL, [4.19, 1.0, 1.0], PlaneKind::Wall, 1),
             (WALL, [1.0, 0.0, 2.51], PlaneKind::Wall, 0),
         ] {
-            let plane = planes[structure.plane_at(class, p.into()).unwrap_or_else(|| panic!("{class} {p:?}"))];
+            let plane = planes[rooms.plane_at(class, p.into()).unwrap_or_else(|| panic!("{class} {p:?}"))];
             assert_eq!((plane.kind, plane.room, plane.kind.class()), (kind, room, class));
-            assert!((plane.normal.dot(p.into()) - plane.offset_m).abs() <= LAYOUT_NEAR_M, "{plane:?}");
+            assert!((plane.normal.dot(p.into()) - plane.offset_m).abs() <= PLANE_NEAR_M, "{plane:?}");
             assert!(plane.normal.dot(DVec3::new(if room == 0 { 2.0 } else { 6.0 }, 1.5, 1.2)) > plane.offset_m, "into the room: {plane:?}");
         }
         // Under the door, in the wall, the wrong class, and another one.
         for (class, p) in [(FLOOR, [4.1, 1.0, 0.0]), (WALL, [4.1, 1.0, 1.0]), (CEILING, [1.0, 1.0, 0.0]), (5, [4.0, 1.0, 1.0])] {
-            assert_eq!(structure.plane_at(class, p.into()), None, "{class} {p:?}");
+            assert_eq!(rooms.plane_at(class, p.into()), None, "{class} {p:?}");
         }
     }
 
     #[test]
     fn distances_are_to_the_nearest_of_a_kind() {
-        let structure = two_rooms();
-        let off = |class, p: [f64; 3]| structure.off_m(class, p.into());
+        let rooms = two_rooms();
+        let off = |class, p: [f64; 3]| rooms.off_m(class, p.into());
         assert!((off(CEILING, [1.0, 1.0, 2.46]).unwrap() - 0.04).abs() < 1e-12);
         assert!((off(WALL, [-0.3, 3.4, 1.0]).unwrap() - 0.5).abs() < 1e-12);
-        assert_eq!((off(5, [0.0; 3]), Structure::default().off_m(WALL, DVec3::ZERO)), (None, None));
+        assert_eq!((off(5, [0.0; 3]), Rooms::default().off_m(WALL, DVec3::ZERO)), (None, None));
     }
 }

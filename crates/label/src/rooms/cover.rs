@@ -1,4 +1,4 @@
-//! Where there is floor and ceiling, seen from above, on a grid.
+//! Areas with floor and ceiling, seen from above, on a grid.
 
 use super::grid::Grid;
 use super::storeys::Storey;
@@ -9,7 +9,7 @@ use enfilade_math::{DVec2, DVec3};
 const STEP_M: f64 = 0.05;
 const MOST: f64 = 2e3;
 
-/// What of floor and ceiling covers the squares of a storey.
+/// Which squares of a storey are covered by floor and by ceiling.
 pub struct Cover {
     grid: Grid,
     floor: Vec<bool>,
@@ -37,7 +37,7 @@ impl Cover {
         [self.grid.low, self.grid.low + self.grid.step * DVec2::new(self.grid.columns as f64, self.grid.rows as f64)]
     }
 
-    /// From where to where, along a direction, there are both floor and ceiling; only floor, where no ceiling is labelled.
+    /// The range along a direction in which there are both floor and ceiling; only floor, where no ceiling is labelled.
     pub fn extent(&self, direction: DVec2) -> [f64; 2] {
         let own = |list: &Vec<DVec2>| {
             let along = || list.iter().map(|p| direction.dot(*p));
@@ -47,7 +47,7 @@ impl Cover {
         ends.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]).unwrap_or_default()
     }
 
-    /// The mean of the shares of a convex polygon that floor and ceiling cover; that of floor, where no ceiling is labelled.
+    /// The mean of the shares of a convex polygon that floor and ceiling cover; the share of floor alone, where no ceiling is labelled.
     pub fn share(&self, polygon: &[DVec2]) -> f64 {
         let (mut squares, mut covered) = (0.0, 0.0);
         self.grid.each_in(polygon, |i| {
@@ -55,7 +55,7 @@ impl Cover {
             squares += 1.0;
             covered += self.ceiling.as_ref().map_or(one(&self.floor), |ceiling| 0.5 * (one(&self.floor) + one(ceiling)));
         });
-        // Between the middles of squares lies nothing that could be a room.
+        // A polygon that contains no square's centre is too small to be a room.
         if squares > 0.0 { covered / squares } else { 0.0 }
     }
 }
