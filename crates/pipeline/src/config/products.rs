@@ -14,7 +14,7 @@ use std::path::PathBuf;
 #[derive(Clone)]
 pub(super) enum ProductKey {
     /// By its options.
-    Options(Product, ProductOptions),
+    Options(Product, Box<ProductOptions>),
     /// By a file, as written.
     File(Product, String),
 }
@@ -93,7 +93,7 @@ impl<'de> Deserialize<'de> for ProductKey {
                 let product = on_request(word).ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(word), &self))?;
                 match file_of(product) {
                     Some(file) => Err(E::custom(format!("{word} needs a file: {{ {word} = \"{file}\" }}"))),
-                    None => Ok(ProductKey::Options(product, ProductOptions::default())),
+                    None => Ok(ProductKey::Options(product, Box::default())),
                 }
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ProductKey, A::Error> {
@@ -130,7 +130,7 @@ impl<'de> DeserializeSeed<'de> for OfProduct {
         }
         let ends: &[&str] = if product == Product::Pairs { &ENDS } else { &[] };
         let keys: TableKeys = read_keys_of(deserializer, &[product.keys(), ends].concat())?;
-        keys.options().map(|options| ProductKey::Options(product, options))
+        keys.options().map(|options| ProductKey::Options(product, Box::new(options)))
     }
 }
 
