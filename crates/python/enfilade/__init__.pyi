@@ -314,11 +314,6 @@ def make(
     dataset: Path,
     what: Names | None = None,
     *,
-    stale: bool = False,
-    force: bool = False,
-    scenes: Names | None = None,
-    cameras: Names | None = None,
-    frames: int | range | None = None,
     # options: ProductOptions
     pairs: Path | None = None,
     overlap: Sequence[float] | None = None,
@@ -333,6 +328,11 @@ def make(
     sensors: Path | None = None,
     mixes: Path | None = None,
     # end of options
+    stale: bool = False,
+    force: bool = False,
+    scenes: Names | None = None,
+    cameras: Names | None = None,
+    frames: int | range | None = None,
     camera_table: Path | None = None,
     progress: bool | None = None,
 ) -> list[dict[str, Any]]: ...
@@ -342,14 +342,14 @@ def export(
     format: str,
     output: Path,
     *,
-    scenes: Names | None = None,
-    cameras: Names | None = None,
-    frames: int | range | None = None,
     # options: ExportOptions
     layers: Names | None = None,
     shard_mb: int = 1000,
     cloud: Literal["frames", "mesh"] = "frames",
     # end of options
+    scenes: Names | None = None,
+    cameras: Names | None = None,
+    frames: int | range | None = None,
     force: bool = False,
     camera_table: Path | None = None,
     progress: bool | None = None,

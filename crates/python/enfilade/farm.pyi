@@ -23,7 +23,6 @@ def submit(
     job: Path,
     engine: Literal["slurm", "kubernetes", "aws-batch", "openjd"],
     *,
-    output: Path = ".",
     # options: SubmitOptions
     dry_run: bool = False,
     program: str | None = None,
@@ -36,6 +35,7 @@ def submit(
     queue: str | None = None,
     definition: str | None = None,
     # end of options
+    output: Path = ".",
 ) -> dict[str, list[str]]: ...
 def work(
     job: Path, tasks: int | str | Sequence[int] | None = None, *, shard: tuple[int, int] | None = None, scratch: Path | None = None
