@@ -6,7 +6,7 @@
 //! that is killed at any point leaves a frame without colour, and the next run makes it.
 
 use crate::atomic::{link, remove_if_there};
-use crate::frames::Problem;
+use crate::whole_frames::Problem;
 use crate::{ColorKind, Dataset, DatasetError, Denoised, FileRecord, FrameRecord, write_json};
 use enfilade_frame::{DENOISED, Frame, Layer};
 use std::path::{Path, PathBuf};

@@ -58,6 +58,7 @@ mod tables;
 mod times;
 mod tonemap_files;
 mod track_files;
+mod whole_frames;
 mod wording;
 mod work_lock;
 
