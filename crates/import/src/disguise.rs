@@ -10,6 +10,22 @@ use std::path::Path;
 /// Bytes that are looked at.
 pub(crate) const HEAD: u64 = 1 << 16;
 
+const EMPTY_ZIP: &str = "an empty ZIP archive";
+/// Libraries of materials, which OBJ files refer to.
+const MATERIALS: &str = "a library of materials (MTL)";
+/// Reasons that servers give in text, in lower case.
+const SERVER_ERRORS: [&str; 9] = [
+    "not found",
+    "access denied",
+    "forbidden",
+    "bad request",
+    "unauthorized",
+    "too many requests",
+    "internal server error",
+    "bad gateway",
+    "service unavailable",
+];
+
 /// Signatures, the contents of files that begin with them, and the extension of scenes in that format.
 const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
     (b"glTF", "a binary glTF", Some("glb")),
@@ -21,7 +37,7 @@ const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
     (b"; FBX", "an FBX as text", Some("fbx")),
     (b"BLENDER", "a file of Blender", None),
     (b"PK\x03\x04", "a ZIP archive", Some("zip")),
-    (b"PK\x05\x06", "an empty ZIP archive", None),
+    (b"PK\x05\x06", EMPTY_ZIP, None),
     (b"\x1f\x8b", "packed by gzip", None),
     (b"BZh", "packed by bzip2", None),
     (b"\xfd7zXZ\0", "packed by xz", None),
@@ -75,6 +91,8 @@ pub(crate) enum Content {
     Nothing(&'static str),
     /// A page of the web, with its title.
     Page(Option<String>),
+    /// What a server answers in place of a file, in a line of text.
+    ServerError(String),
     /// XML with this outermost element, in lower case; true for a scene of Nori.
     Xml(String, bool),
     /// A list in JSON.
@@ -109,7 +127,7 @@ impl Content {
                 let is_table = text[1..].trim_start().starts_with(['"', '}']);
                 is_table.then(|| Self::JsonTable(text.contains("\"asset\"") && text.contains("\"version\"")))
             }
-            _ => None,
+            _ => server_error(text),
         }
     }
 
@@ -118,6 +136,7 @@ impl Content {
         match self {
             Self::Nothing(what) => (*what).to_string(),
             Self::Page(title) => format!("a web page{}", title.as_ref().map_or(String::new(), |title| format!(" ({title:?})"))),
+            Self::ServerError(line) => format!("the error message of a server ({line:?})"),
             Self::Xml(_, true) => "a scene of Nori".into(),
             Self::Xml(root, false) => match ROOTS.iter().find(|(known, ..)| known == root) {
                 Some((_, what, _)) => (*what).to_string(),
@@ -135,7 +154,9 @@ impl Content {
         let rename = |extension: &str| format!("if it is the scene, let its name end with .{extension}");
         let known = |extension: &str| Format::ALL.iter().any(|(_, all)| all.contains(&extension));
         match self {
-            Self::Nothing(_) | Self::Page(_) => "download or copy the file again".into(),
+            Self::Nothing(_) | Self::Page(_) | Self::ServerError(_) | Self::Signed(EMPTY_ZIP, _) => {
+                "download or copy the file again".into()
+            }
             Self::Xml(root, _) if root == "error" => "download or copy the file again".into(),
             Self::Xml(_, true) => "write it as a scene of Mitsuba, whose elements are much the same, or give its meshes (OBJ)".into(),
             Self::Xml(root, false) => {
@@ -149,7 +170,7 @@ impl Content {
             Self::Signed(what, None) if what.contains("packed") || what.contains("archive") => {
                 "unpack it, and give the scene file in it".into()
             }
-            Self::Signed(what, None) if what.contains("picture") => "give the scene file that it belongs to".into(),
+            Self::Signed(what, None) if what.contains("picture") || *what == MATERIALS => "give the scene file that it belongs to".into(),
             Self::Signed(..) => "open it in a program that reads it, and export the scene as glTF".into(),
         }
     }
@@ -163,7 +184,7 @@ impl Content {
     fn is_foreign(&self, format: Format) -> bool {
         let signed = |extensions: &[&str]| matches!(self, Self::Signed(_, Some(extension)) if extensions.contains(extension));
         match format {
-            _ if matches!(self, Self::Nothing(_) | Self::Page(_)) => true,
+            _ if matches!(self, Self::Nothing(_) | Self::Page(_) | Self::ServerError(_)) => true,
             Format::Gltf => !(signed(&["glb"]) || matches!(self, Self::JsonTable(_))),
             Format::Mitsuba => !matches!(self, Self::Xml(root, false) if root == "scene"),
             Format::Obj | Format::VRay => true,
@@ -200,9 +221,28 @@ pub(crate) fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<()
     if is_git_lfs_pointer(head) {
         return Ok(());
     }
-    let Some(content) = Content::of(head).filter(|content| content.is_foreign(format)) else { return Ok(()) };
-    let problem = format!("it is {}, not {}; {}", content.words(), format.words(), content.remedy());
+    let content = Content::of(head).or_else(|| material_library(head));
+    let Some(content) = content.filter(|content| content.is_foreign(format)) else { return Ok(()) };
+    let other = match content {
+        Content::Signed(EMPTY_ZIP, _) if format == Format::Zip => String::new(),
+        _ => format!(", not {}", format.words()),
+    };
+    let problem = format!("it is {}{other}; {}", content.words(), content.remedy());
     Err(ImportError::malformed(path, "whole file", problem))
+}
+
+/// The error of a server, perhaps after its number, if the text is nothing else.
+fn server_error(text: &str) -> Option<Content> {
+    let line = text.trim();
+    let reason = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_matches([' ', ':', '.', '-']).to_ascii_lowercase();
+    SERVER_ERRORS.contains(&reason.as_str()).then(|| Content::ServerError(line.into()))
+}
+
+/// A library of materials by its first statement; only scenes must not begin so.
+fn material_library(head: &[u8]) -> Option<Content> {
+    let text = String::from_utf8_lossy(head);
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    first.starts_with("newmtl ").then_some(Content::Signed(MATERIALS, None))
 }
 
 /// Whether JSON may continue so within a list.
@@ -275,11 +315,21 @@ mod tests {
             (b"glTF\x02\0\0\0", "a binary glTF"),
             (b"\x89PNG\r\n", "a PNG picture"),
             (b"\x1f\x8b\x08", "packed by gzip"),
+            (b"404: Not Found", "the error message of a server (\"404: Not Found\")"),
+            (b"Not Found\n", "the error message of a server (\"Not Found\")"),
+            (b"404 is a house\n", "unknown"),
             (b"# a comment\nv 0 0 0\n", "unknown"),
             (b"[INCLUDE] x", "unknown"),
         ] {
             assert_eq!(words(bytes), expected, "{}", String::from_utf8_lossy(bytes));
         }
+    }
+
+    #[test]
+    fn a_library_of_materials_is_no_scene() {
+        let refused = refuse_head(Path::new("a.obj"), b"# Blender MTL file\n\nnewmtl a\nKd 1 1 1\n", Format::Obj).unwrap_err();
+        assert!(refused.to_string().contains("it is a library of materials (MTL), not an OBJ"), "{refused}");
+        assert!(refuse_head(Path::new("a.obj"), b"# a\nmtllib newmtl.mtl\n", Format::Obj).is_ok());
     }
 
     #[test]

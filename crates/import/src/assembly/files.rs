@@ -132,14 +132,23 @@ impl Assembly<'_> {
     /// The index of a picture, decoded at first use. `user` is the material or light that wants it. `None` when it is missing
     /// and the options allow that; then a plain value must replace it.
     pub(crate) fn image(&mut self, source: &Source, usage: Use, user: &str) -> Result<Option<u32>, ImportError> {
+        self.image_or(source, usage, user, "a plain grey stands in")
+    }
+
+    /// The index of a picture of light, as [`Assembly::image`] gives it; `None` when it is missing, and then the light is left out.
+    pub(crate) fn light_image(&mut self, source: &Source, user: &str) -> Result<Option<u32>, ImportError> {
+        self.image_or(source, Use::Color, user, "the light is left out")
+    }
+
+    fn image_or(&mut self, source: &Source, usage: Use, user: &str, instead: &str) -> Result<Option<u32>, ImportError> {
         let (key, problem) = match self.try_image(source, usage, user)? {
             Ok(index) => return Ok(Some(index)),
             Err(failed) => failed,
         };
         if self.images.insert((key.clone(), usage), None).is_some() {
-            self.warn(user, format!("the texture {key} is missing here as well; a plain grey stands in"));
+            self.warn(user, format!("the texture {key} is missing here as well; {instead}"));
         } else if self.options.allow_missing_textures {
-            self.warn(user, format!("the texture {key} {problem}; a plain grey stands in"));
+            self.warn(user, format!("the texture {key} {problem}; {instead}"));
         } else {
             return Err(ImportError::Texture { file: self.file.clone(), user: user.to_string(), texture: key, problem });
         }

@@ -39,7 +39,7 @@ impl Assembly<'_> {
     }
 
     /// Reports it if the names of `path` and `file` differ in case.
-    pub(super) fn report_case(&mut self, path: &str, file: &Path) {
+    pub(crate) fn report_case(&mut self, path: &str, file: &Path) {
         let slashes = path.replace('\\', "/");
         let names = [path, &slashes].map(|written| Path::new(written).file_name());
         if let Some(found) = file.file_name()
@@ -63,7 +63,7 @@ impl Assembly<'_> {
     }
 
     /// The only file in the folder of `file` whose name differs from its name in case alone. Archives ignore case themselves.
-    fn in_other_case(&self, file: &Path) -> Option<PathBuf> {
+    pub(crate) fn in_other_case(&self, file: &Path) -> Option<PathBuf> {
         let wanted = file.file_name().filter(|_| self.archive.is_none())?.to_str()?.to_lowercase();
         let folder = Some(folder_of(file)).filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let names = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name());

@@ -9,7 +9,6 @@
 use super::container::Document;
 use crate::ImportError;
 use crate::assembly::{Assembly, Source};
-use crate::images::Use;
 use crate::pbrt::PBRT_FROM_MAP;
 use enfilade_math::{DMat3, DVec3, Rgb};
 use enfilade_scene::{Environment, MapRows};
@@ -62,7 +61,7 @@ fn own(document: &Document, environment: &Value, a: &mut Assembly) -> Result<(),
         Ok((bytes, _)) => bytes,
         Err(problem) => return Err(a.malformed(PLACE, problem)),
     };
-    if let Some(image) = a.image(&Source::Embedded(PLACE.to_string(), bytes), Use::Color, "the environment")? {
+    if let Some(image) = a.light_image(&Source::Embedded(PLACE.to_string(), bytes), "the environment")? {
         a.set_environment_map(image, rows, Rgb::WHITE, file_from_map, PLACE);
     }
     Ok(())
@@ -70,7 +69,7 @@ fn own(document: &Document, environment: &Value, a: &mut Assembly) -> Result<(),
 
 fn add(a: &mut Assembly, place: &str, file: &str, file_from_map: DMat3, scale: Rgb) -> Result<(), ImportError> {
     a.warn(place, format!("glTF has no environment; {file} was guessed to be one from the scene's extras"));
-    if let Some(image) = a.image(&Source::File(file), Use::Color, "the environment")? {
+    if let Some(image) = a.light_image(&Source::File(file), "the environment")? {
         a.set_environment_map(image, MapRows::Bands, scale, file_from_map, place);
     }
     Ok(())

@@ -66,7 +66,7 @@ impl<'n> Reader<'n, '_> {
         let path = node.raw_text("filename").ok_or_else(|| node.error("the envmap has no filename"))?;
         let scale = Rgb::splat(node.float_or("scale", 1.0)? as f32);
         let file_from_map = transform::of(node, "to_world")?.matrix3;
-        if let Some(image) = self.a.image(&Source::File(path), Use::Color, &node.place())? {
+        if let Some(image) = self.a.light_image(&Source::File(path), &node.place())? {
             self.a.set_environment_map(image, MapRows::PoleToPole, scale, file_from_map, &node.place());
         }
         Ok(())

@@ -10,7 +10,6 @@ use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
 use crate::assembly::Source;
-use crate::images::Use;
 use enfilade_math::{DMat3, DVec3, Rgb, Vec2};
 use enfilade_scene::{Environment, Image, MapRows, Pixels, direction_from_uv};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -39,7 +38,7 @@ impl Reader<'_> {
             self.a.set_environment(Environment::Constant { radiance: strength * factor as f32 }, &place);
             return Ok(());
         };
-        let Some(mut image) = self.a.image(&Source::File(path), Use::Color, &place)? else { return Ok(()) };
+        let Some(mut image) = self.a.light_image(&Source::File(path), &place)? else { return Ok(()) };
         let mut scale = strength;
         if self.version == Version::V4 {
             let source = self.a.image_at(image);

@@ -107,6 +107,7 @@ impl Shapes {
             a.note_missing(&self.from.with_file_name(bare(path).1));
             return a.mesh_or_none(absent, path, name).map(drop);
         };
+        a.report_case(path, &file);
         let model = self.models.get(&file, a);
         let Some(model) = unless_odd(model, name, "a mesh", a)?.flatten() else { return Ok(()) };
         let several = model.pieces.len() > 1;
@@ -196,7 +197,8 @@ pub(super) fn find(path: &str, from: &Path, a: &Assembly) -> Option<PathBuf> {
         }
         folder = folder.join("..");
     }
-    candidates.into_iter().find(|file| a.is_file(file))
+    let exact = candidates.iter().find(|file| a.is_file(file)).cloned();
+    exact.or_else(|| candidates.iter().find_map(|file| a.in_other_case(file)))
 }
 
 /// A path without its scheme, and whether it begins with the name of a package.

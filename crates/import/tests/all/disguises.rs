@@ -84,6 +84,24 @@ fn comments_among_the_rows_of_a_ply_file_are_passed_over() {
 }
 
 #[test]
+fn a_missing_picture_of_the_surroundings_is_not_said_to_be_grey() {
+    let folder = Folder::new();
+    let cube = "<shape type=\"cube\"/><emitter type=\"envmap\"><string name=\"filename\" value=\"sky.exr\"/></emitter>";
+    folder.write("a.xml", format!("<scene version=\"3.0.0\">{cube}</scene>"));
+    let options = ImportOptions { allow_missing_textures: true, ..ImportOptions::default() };
+    let imported = folder.load_with("a.xml", &options).unwrap();
+    assert!(imported.scene.environment.is_none());
+    assert!(warnings(&imported).contains("sky.exr cannot be read") && warnings(&imported).contains("the light is left out"));
+}
+
+#[test]
+fn an_interrupted_archive_is_one_and_not_another_thing() {
+    let folder = Folder::new();
+    let message = folder.write("a.zip", b"PK\x05\x06\0\0").error("a.zip");
+    assert!(message.contains("it is an empty ZIP archive; download or copy the file again"), "{message}");
+}
+
+#[test]
 fn options_behind_the_name_of_a_picture_are_read_as_three_js_does() {
     let folder = Folder::new();
     folder.write("a.mtl", "newmtl m\nmap_Kd wood.png -s 2 3 1\n").write("a.obj", format!("mtllib a.mtl\nusemtl m\n{TRIANGLE}"));

@@ -158,3 +158,13 @@ fn pictures_of_urdf_are_found_by_their_package() {
     let imported = folder.load("furniture/urdf/a.urdf").unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(imported.report.counts.images, 1);
 }
+
+#[test]
+fn meshes_of_robots_are_found_in_other_case_and_reported() {
+    let folder = Folder::new();
+    let urdf = "<robot name=\"a\"><link name=\"l\"><visual><geometry><mesh filename=\"package://a/meshes/handle.stl\"/></geometry></visual>\
+        </link></robot>";
+    let imported = folder.write("meshes/Handle.STL", TEXT).write("a.urdf", urdf).load("a.urdf").unwrap();
+    assert_bounds(&imported, "l", [0.0, 0.0, 1.0], [2.0, 2.0, 1.0]);
+    assert!(warnings(&imported).contains("\"Handle.STL\", which differs in case"), "{}", warnings(&imported));
+}
