@@ -55,7 +55,7 @@ impl<const MOST: u32> Interval<MOST> {
         is_interval(ends, MOST).then_some(Self(ends))
     }
 
-    /// Its ends.
+    /// The two ends, the smaller one first.
     pub const fn ends(self) -> [f64; 2] {
         self.0
     }

@@ -38,7 +38,7 @@ pub struct NyuV2 {
     arguments: Arguments,
 }
 
-/// Its arguments, so that pickling can make it again in another process.
+/// The constructor's arguments, so that pickling can make it again in another process.
 #[derive(Clone, IntoPyObject)]
 struct Arguments {
     split: Option<String>,

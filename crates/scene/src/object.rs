@@ -11,7 +11,7 @@ pub type ObjectId = u32;
 /// A thing that the scene's file names as one, or a group of such things.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Object {
-    /// Its name in the file, without its parents; others may have the same name.
+    /// The object's name in the file, without its parents; others may have the same name.
     pub name: String,
     /// The object that contains it, which comes before it in [`Scene::objects`](crate::Scene::objects).
     pub parent: Option<ObjectId>,

@@ -38,7 +38,7 @@ pub enum CameraFormat {
 pub struct CameraSensor {
     /// Name of its folder.
     pub name: String,
-    /// Its output.
+    /// What the camera outputs.
     #[serde(default)]
     pub format: CameraFormat,
     /// Radiance is multiplied by this, and 1 saturates the sensor. Unless it is given, pictures are exposed as in Hypersim's tone map, by the

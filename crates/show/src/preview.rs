@@ -22,7 +22,7 @@ pub struct PreviewSpec {
     pub pass: Pass,
     /// Name with extension, as in `frame.IIII.<name>`.
     pub name: &'static str,
-    /// Its subject.
+    /// The subject of the preview.
     pub subject: Subject,
 }
 

@@ -51,7 +51,7 @@ const SEEN: f64 = 0.99;
 /// A frame for comparison with others.
 pub(super) struct Sight<'a> {
     pub frame: &'a Frame,
-    /// Its camera and pose.
+    /// The frame's camera and pose.
     pub view: CameraView<'a>,
     /// How its distances were rounded.
     pub rounding: Rounding,

@@ -6,7 +6,7 @@ use enfilade_scene::{CameraView, Labels, PartLabel};
 /// The reference of a frame's checks.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// Its camera and pose.
+    /// The frame's camera and pose.
     pub camera: CameraView<'a>,
     /// How its distances and positions, which are in metres, were rounded when they were stored.
     pub rounding: Rounding,

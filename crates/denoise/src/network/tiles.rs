@@ -15,7 +15,7 @@ const GRID: usize = 64;
 pub(super) struct Span {
     /// The pixels that are filtered.
     pub read: Range<usize>,
-    /// Those of them that are kept.
+    /// The filtered pixels that are kept.
     pub kept: Range<usize>,
 }
 

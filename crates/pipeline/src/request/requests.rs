@@ -67,7 +67,7 @@ pub enum Request {
     },
     /// The contact sheet of the dataset.
     Sheet {
-        /// Its title.
+        /// The sheet's title.
         title: String,
         /// Names the pictures of all scenes.
         pictures: String,

@@ -79,7 +79,7 @@ impl CoatTable {
         Self { spec, rows }
     }
 
-    /// Its parameters.
+    /// The parameters of the coat.
     pub fn spec(&self) -> CoatSpec {
         self.spec
     }

@@ -26,7 +26,7 @@ pub(super) enum End {
 /// A ray on its way through glass, or at its end.
 #[derive(Clone, Copy)]
 pub(super) struct Shot {
-    /// Its position, and its unit direction.
+    /// The position, and the unit direction in which the ray goes on.
     pub p: Vec3,
     pub direction: Vec3,
     /// Derivatives of both by the first direction, along the axes that [`Onb::from_z`] gives it.

@@ -80,7 +80,7 @@ pub struct FrameCost {
     pub camera: String,
     /// Frame number.
     pub frame: u32,
-    /// Its time and memory.
+    /// The time and memory.
     #[serde(flatten)]
     pub cost: Cost,
     /// Dollars by name of the price.

@@ -20,7 +20,7 @@ pub struct NamedImage {
     pub frame: u32,
     /// Mean samples per pixel, where they are recorded.
     pub samples_per_pixel: Option<f64>,
-    /// Its statistics.
+    /// The statistics.
     #[serde(flatten)]
     pub image: Image,
 }

@@ -9,7 +9,7 @@ const LIGHTS: [&str; 3] = ["LightRectangle", "LightMesh", "LightDome"];
 /// A node or light with its number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entity {
-    /// Its value in `render_entity_id`, from 1.
+    /// The entity's value in `render_entity_id`, from 1.
     pub id: i64,
     /// The plugin's name.
     pub name: String,

@@ -47,7 +47,7 @@ pub struct FileReference {
     pub plugin: String,
     /// The parameter with the path; `#include` for an included file.
     pub parameter: String,
-    /// Its place in the scene file.
+    /// The position in the scene file.
     pub place: Place,
 }
 
