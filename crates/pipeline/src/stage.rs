@@ -47,7 +47,7 @@ impl Stage {
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,
-            Self::Render => 20,
+            Self::Render => 21,
             Self::Denoise => 3,
             Self::Label => 3,
             Self::Boxes => 1,

@@ -45,7 +45,7 @@ impl Integrator<'_, '_> {
         let vertex = Vertex::new(self.guide, surface.lifted(self.scene), bsdf);
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;
-        if let Some(Direct { weight, light, from, crosses, scattered }) = self.sample_lights(&vertex, 0, sampler, segment.medium) {
+        for Direct { weight, light, from, crosses, scattered } in self.sample_lights(&vertex, 0, sampler, segment.medium) {
             let mut arriving = Arriving::default();
             arriving.add(from, light, !scattered);
             if scattered {

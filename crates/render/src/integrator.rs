@@ -5,6 +5,7 @@
 
 use crate::bsdf::{Bsdf, Value};
 use crate::config::RenderConfig;
+use crate::glass::Connection;
 use crate::guide::Guide;
 use crate::light::{Background, LightKind, LightPoint, LightSample, power_heuristic};
 use crate::light_parts::{Arriving, Origin};
@@ -241,7 +242,7 @@ impl<'a, 's> Integrator<'a, 's> {
             // Sample a light and add its contribution. The sun's light on a glossy surface could have been found as a glint as well.
             let by_glints = segment.sampled.as_ref().filter(|_| !segment.straight);
             let sun = self.scene.lights.glint_weight(self.scene, &self.guide.choice, by_glints, &vertex.surface);
-            if let Some(Direct { weight, light, from, scattered, .. }) = self.sample_lights(&vertex, bounce, sampler, segment.medium) {
+            for Direct { weight, light, from, scattered, .. } in self.sample_lights(&vertex, bounce, sampler, segment.medium) {
                 let part = if from.kind == LightKind::Distant && !scattered { sun } else { 1.0 };
                 radiance.add(from, throughput * weight.total(reflectance) * light * part, false);
             }
@@ -268,9 +269,20 @@ impl<'a, 's> Integrator<'a, 's> {
         if brightest > max { light.scaled(max / brightest) } else { light }
     }
 
-    /// Direct light by one light sample at surface number `bounce`, or by a glint; `None` where that contributes nothing. `medium` is in
-    /// front of the surface, on the viewer's side.
-    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, bounce: u32, sampler: &Sampler, medium: Medium) -> Option<Direct> {
+    /// Direct light by one light sample at surface number `bounce`, or by a glint, and the same light once more where glass bends it there.
+    /// `medium` is in front of the surface, on the viewer's side.
+    pub fn sample_lights(&self, vertex: &Vertex<'_, 's>, bounce: u32, sampler: &Sampler, medium: Medium) -> impl Iterator<Item = Direct> {
+        let (seen, bent) = self.sample_light(vertex, bounce, sampler, medium).unwrap_or_default();
+        seen.into_iter().chain(bent)
+    }
+
+    fn sample_light(
+        &self,
+        vertex: &Vertex<'_, 's>,
+        bounce: u32,
+        sampler: &Sampler,
+        medium: Medium,
+    ) -> Option<(Option<Direct>, Option<Direct>)> {
         // Choose a light and a point on it, above the shading and the geometric surface alike.
         let (surface, u) = (&vertex.surface, sampler.set(light_set(bounce)));
         let wanted = |wi: Vec3| sides_agree(wi.dot(vertex.onb.z), surface.side(wi));
@@ -304,24 +316,32 @@ impl<'a, 's> Integrator<'a, 's> {
             false => (self.scene.unbent_transmittance(&ray), None),
         };
         let arriving = through * absorbed;
-        if arriving.is_black() {
-            let number = hash_u64(u64::from(u[0].to_bits()) << 32 ^ u64::from(u[1].to_bits())) ^ u64::from(u[3].to_bits());
-            let behind = self.scene.has_bodies && !scattered;
-            return if behind { self.light_through_glass(vertex, &light, medium, Rng::new(number)) } else { None };
-        }
+        let seen = if !arriving.is_black() {
+            // Weight the sample against the BSDF's own chance to find the light.
+            let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
+            let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
+            let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.told_apart().of_sample(&light, window)) };
+            Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
+        } else if self.scene.bodies.any && !scattered {
+            self.scene.connect(surface, medium, &light).and_then(|way| self.light_through_glass(vertex, &light, &way))
+        } else {
+            None
+        };
 
-        // Weight the sample against the BSDF's own chance to find the light.
-        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) } / light.pdf;
-        let radiance = self.scene.lights.radiance_of(self.scene, &light, &surface.cone.scattered(pdf), u[3]);
-        let from = Origin { kind: light.kind(), fixture: self.fixture(|| self.scene.told_apart().of_sample(&light, window)) };
-        Some(Direct { weight: value * weight, light: radiance * arriving, from, crosses, scattered })
+        // Lights with a surface are found behind other glass than panes by sampled directions.
+        let bends = light.is_delta && !scattered && self.scene.bodies.any && (seen.is_none() || self.scene.bodies.are_curved());
+        let bent = bends.then(|| {
+            let number = hash_u64(u64::from(u[0].to_bits()) << 32 ^ u64::from(u[1].to_bits())) ^ u64::from(u[3].to_bits());
+            let way = self.scene.connect_bent(surface, medium, &light, seen.is_none(), Rng::new(number))?;
+            self.light_through_glass(vertex, &light, &way)
+        });
+        Some((seen, bent.flatten()))
     }
 
-    /// Direct light by a light sample behind solid glass; `medium` is on the light's side of the surface.
-    fn light_through_glass(&self, vertex: &Vertex<'_, 's>, light: &LightSample, medium: Medium, rng: Rng) -> Option<Direct> {
-        // Find the way, and what the surface makes of light from there.
+    /// Direct light by a light sample that arrives through solid glass.
+    fn light_through_glass(&self, vertex: &Vertex<'_, 's>, light: &LightSample, way: &Connection) -> Option<Direct> {
+        // Find what the surface makes of light from there.
         let (scene, surface) = (self.scene, &vertex.surface);
-        let way = scene.connect(surface, medium, light, rng)?;
         let wi = vertex.onb.to_local(way.wi);
         if !sides_agree(wi.z, way.wi.dot(surface.ng)) {
             return None;
@@ -353,7 +373,7 @@ impl<'a, 's> Integrator<'a, 's> {
     pub fn irradiance(&self, surface: &Surface<'s>, sampler: &Sampler) -> Rgb {
         let vertex = Vertex::new(self.guide, surface.clone(), Bsdf::lambert(Rgb::WHITE));
         let direct = self.sample_lights(&vertex, 0, sampler, Medium::AIR);
-        let mut irradiance = direct.map_or(Rgb::BLACK, |direct| direct.weight.diffuse * direct.light);
+        let mut irradiance = direct.fold(Rgb::BLACK, |sum, direct| sum + direct.weight.diffuse * direct.light);
         let u = sampler.set(bsdf_set(0));
         let nowhere = Segment::from_camera(Ray::new(surface.p, -surface.wo), Cone::POINT);
         if let Some((weight, segment)) = vertex.scatter([u[0], u[1], u[2]], &nowhere) {

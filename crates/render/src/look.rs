@@ -5,6 +5,7 @@ use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
 use crate::extra::{add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
+use crate::glass::Bodies;
 use crate::light::Lights;
 use crate::prepared::RenderScene;
 use crate::texture::Textures;
@@ -95,7 +96,7 @@ impl<'s> Lookout<'s> {
                 bvh,
                 lights,
                 tables: Vec::new(),
-                has_bodies: false,
+                bodies: Bodies::default(),
                 fixtures: OnceLock::new(),
             },
         })

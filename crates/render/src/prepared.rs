@@ -3,12 +3,13 @@
 use crate::bsdf::{TableMaker, Tables};
 use crate::config::RenderConfig;
 use crate::error::RenderError;
+use crate::glass::Bodies;
 use crate::light::{Fixture, Fixtures, Lights};
 use crate::texture::{Cone, Footprint, Textures};
 use crate::triangles::Triangles;
 use enfilade_geometry::{Bvh, Hit};
 use enfilade_math::{Bounds3, Ray, Rgb, hash_u32};
-use enfilade_scene::{Alpha, Bsdf, Cx, Material, PartId, Scene};
+use enfilade_scene::{Alpha, Cx, Material, PartId, Scene};
 use std::cell::Cell;
 use std::sync::OnceLock;
 
@@ -40,8 +41,7 @@ pub struct RenderScene<'s> {
     pub(crate) lights: Lights<'s>,
     /// Lookup tables of each material's BSDF.
     pub(crate) tables: Vec<Tables>,
-    /// True when a material may be the border of a transparent body.
-    pub(crate) has_bodies: bool,
+    pub(crate) bodies: Bodies,
     /// Found on first use.
     pub(crate) fixtures: OnceLock<Fixtures>,
 }
@@ -80,8 +80,8 @@ impl<'s> RenderScene<'s> {
             return Err(RenderError::NoLight);
         }
         let textures = Textures::new(&scene.images, &scene.materials);
-        let has_bodies = scene.materials.iter().any(|m| may_be_body(&m.bsdf));
-        let mut ready = Self { scene, textures, triangles, bvh, lights, tables, has_bodies, fixtures: OnceLock::new() };
+        let bodies = Bodies::of(scene);
+        let mut ready = Self { scene, textures, triangles, bvh, lights, tables, bodies, fixtures: OnceLock::new() };
         Lights::find_glints(&mut ready);
         Ok(ready)
     }
@@ -129,13 +129,13 @@ impl<'s> RenderScene<'s> {
     #[inline]
     pub(crate) fn transmittance(&self, ray: &Ray) -> Rgb {
         let through = self.unbent_transmittance(ray);
-        if self.has_bodies && through.is_black() { self.through_panes(ray).0 } else { through }
+        if self.bodies.any && through.is_black() { self.through_panes(ray).0 } else { through }
     }
 
     /// Transmittance along the ray, and what `name` calls the farthest pane on the way that it has a name for, by its part.
     pub(crate) fn transmittance_and_pane<T: Copy>(&self, ray: &Ray, name: impl Fn(PartId) -> Option<T>) -> (Rgb, Option<T>) {
         let found = self.unbent_transmittance_and_pane(ray, &name);
-        if !(self.has_bodies && found.0.is_black()) {
+        if !(self.bodies.any && found.0.is_black()) {
             return found;
         }
         let (through, passed) = self.through_panes(ray);
@@ -226,16 +226,6 @@ pub(crate) enum AlphaTest {
     Stochastic,
     /// Present from an opacity of one half on: for geometry layers, which are point samples.
     Half,
-}
-
-/// Whether a material may be the border of a transparent body.
-fn may_be_body(bsdf: &Bsdf) -> bool {
-    match bsdf {
-        Bsdf::Dielectric { .. } => true,
-        Bsdf::Principled(p) => p.solid && p.transmission.factor > 0.0,
-        Bsdf::Blend { first, second, .. } => may_be_body(first) || may_be_body(second),
-        _ => false,
-    }
 }
 
 /// Whether hits on this material must pass the filter of a ray query before they count: panes, and what is cut out or half transparent.

@@ -14,10 +14,10 @@ const HALVINGS: usize = 5;
 const LONGEST_STEP: f32 = 0.5;
 /// A light is met when the shot passes it by no more than this, as a fraction of the distance, or when the directions differ by as much.
 const MET: f32 = 5e-5;
-/// Ways are the same when their first directions differ by no more than this.
+/// Ways are the same when they pass the same flat faces, and their first directions differ by no more than this.
 const SAME: f32 = 2e-3;
 /// The most attempts to find a way again. A way that takes more counts for less than it should.
-const ATTEMPTS: u32 = 48;
+const ATTEMPTS: u32 = 16_384;
 /// How far first directions to a light at infinity are spread about the straight one, as a tangent.
 const SPREAD: f32 = 0.7;
 
@@ -36,6 +36,8 @@ pub(crate) struct Connection {
     pub parallel: bool,
     /// The panes and borders on it.
     pub passed: Passed,
+    /// A number for the flat faces that it passes, in their order.
+    pub faces: u64,
     /// Estimated number of ways that this one represents.
     pub ways: f32,
 }
@@ -49,6 +51,10 @@ enum Goal {
 }
 
 impl Goal {
+    fn of(light: &LightSample) -> Self {
+        light.target.map_or(Self::Direction(light.wi), |p| Self::Point(p, light.normal))
+    }
+
     fn end(self) -> End {
         match self {
             Self::Point(p, normal) => End::Near(p, normal),
@@ -67,42 +73,53 @@ impl Goal {
 }
 
 impl<'s> RenderScene<'s> {
-    /// Finds a way from `surface`, whose side towards a sample of light is in `medium`, through glass to that. Where the glass is no pane,
-    /// only lights without a surface are aimed at.
-    pub(crate) fn connect(&self, surface: &Surface<'s>, medium: Medium, light: &LightSample, mut rng: Rng) -> Option<Connection> {
-        let &LightSample { wi, target, is_delta: delta, normal, .. } = light;
-        let straight = surface.shadow_ray(wi, target);
-        let near = self.glass_ahead(&straight)?;
-        let goal = target.map_or(Goal::Direction(wi), |p| Goal::Point(p, normal));
+    /// The way from `surface`, whose side towards a sample of light is in `medium`, through panes to that.
+    pub(crate) fn connect(&self, surface: &Surface<'s>, medium: Medium, light: &LightSample) -> Option<Connection> {
+        self.glass_ahead(&surface.shadow_ray(light.wi, light.target))?;
+        let goal = Goal::of(light);
+        let panes = self.passes_panes(&surface.ray(light.wi), medium, goal.end());
+        panes.then(|| self.aim(surface, medium, light.wi, goal).filter(|way| way.parallel))?
+    }
 
-        // Through panes there is one way.
-        if self.passes_panes(&surface.ray(wi), medium, goal.end()) {
-            let found = self.aim(surface, medium, wi, goal).filter(|way| way.parallel);
-            if found.is_some() || !delta {
-                return found;
-            }
-        }
-        if !delta {
+    /// A way from `surface` to a sample of a light without a surface, through glass that bends it. Where no such glass is on the straight
+    /// way, of which `hidden` is false if it is known to be free or to pass panes, only some points look for one: those from where there
+    /// seems to be much curved glass.
+    pub(crate) fn connect_bent(
+        &self,
+        surface: &Surface<'s>,
+        medium: Medium,
+        light: &LightSample,
+        hidden: bool,
+        mut rng: Rng,
+    ) -> Option<Connection> {
+        let &LightSample { wi, target, .. } = light;
+        let straight = surface.shadow_ray(wi, target);
+        let ahead = if hidden { self.glass_ahead(&straight) } else { None };
+        let chance = if ahead.is_some() { 1.0 } else { self.bodies.chance(surface) };
+        if rng.next_f32() >= chance {
             return None;
         }
 
-        // Begin anywhere about the light, and see how often the same way is found.
-        let beyond = if straight.t_max.is_finite() { straight.t_max - near } else { SPREAD };
+        // Begin anywhere about the light or in a body, and see how often the same way is found.
         let mut attempt = || {
-            let aside = warp::sphere([rng.next_f32(), rng.next_f32()]) * (beyond * rng.next_f32());
-            let start = match target {
-                Some(target) => (target + aside - straight.origin).try_normalize()?,
-                None => (wi + aside).try_normalize()?,
+            let start = match ahead {
+                Some((near, _)) if rng.next_f32() < 0.5 => {
+                    let aside = warp::sphere([rng.next_f32(), rng.next_f32()]) * rng.next_f32();
+                    target.map_or(wi + aside * SPREAD, |target| target + aside * (straight.t_max - near) - straight.origin)
+                }
+                Some((_, part)) if rng.next_f32() < 0.5 => self.bodies.find(part)?.point(&mut rng) - straight.origin,
+                _ => self.bodies.choose(surface, rng.next_f32())?.point(&mut rng) - straight.origin,
             };
-            self.aim(surface, medium, start, goal)
+            self.aim(surface, medium, start.try_normalize()?, Goal::of(light)).filter(|way| !way.parallel)
         };
         let mut found = attempt()?;
         for _ in 1..ATTEMPTS {
-            if attempt().is_some_and(|again| again.wi.distance_squared(found.wi) < SAME * SAME) {
+            if attempt().is_some_and(|again| again.faces == found.faces && again.wi.distance_squared(found.wi) < SAME * SAME) {
                 break;
             }
             found.ways += 1.0;
         }
+        found.ways /= chance;
         Some(found)
     }
 
@@ -134,9 +151,6 @@ impl<'s> RenderScene<'s> {
             let axes = Onb::from_z(shot.direction);
             let [a, b] = by.map(|v| Vec2::new(axes.x.dot(v), axes.y.dot(v)));
             let determinant = a.perp_dot(b);
-            if miss.length_squared() <= MET * MET {
-                return connection(wi, &shot, goal, medium, determinant.abs(), distance);
-            }
             let miss_2d = Vec2::new(axes.x.dot(miss), axes.y.dot(miss));
             let step = Vec2::new(miss_2d.perp_dot(b), a.perp_dot(miss_2d)) / determinant;
             if !step.is_finite() {
@@ -144,10 +158,14 @@ impl<'s> RenderScene<'s> {
             }
             let step = step.clamp_length_max(LONGEST_STEP);
             let first = Onb::from_z(wi);
-            let try_step = |fraction: f32| {
-                let next = (wi + (first.x * step.x + first.y * step.y) * fraction).normalize();
-                shoot(next).filter(|(_, _, closer, _)| closer.length_squared() < miss.length_squared())
-            };
+            let moved_by = |fraction: f32| (wi + (first.x * step.x + first.y * step.y) * fraction).normalize();
+            if miss.length_squared() <= MET * MET {
+                // Beside the edge of a flat face no way may pass where this one does: the last step shows it.
+                let same_faces = shot.faces == 0 || shoot(moved_by(1.0))?.1.faces == shot.faces;
+                return same_faces.then(|| connection(wi, &shot, goal, medium, determinant.abs(), distance))?;
+            }
+            let try_step =
+                |fraction: f32| shoot(moved_by(fraction)).filter(|(_, _, closer, _)| closer.length_squared() < miss.length_squared());
             best = (0..HALVINGS).find_map(|k| try_step(0.5f32.powi(k as i32)))?;
         }
         None
@@ -171,6 +189,7 @@ fn connection(wi: Vec3, shot: &Shot, goal: Goal, medium: Medium, determinant: f3
         spread,
         parallel: shot.parallel,
         passed: shot.passed,
+        faces: shot.faces,
         ways: 1.0,
     })
 }

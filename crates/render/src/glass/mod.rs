@@ -9,14 +9,18 @@
 //!   passes at once, a few millimetres beside where they leave: exact where the light and the pane are wide. For a light at a point the
 //!   direction is corrected until the shot meets it, and the spread of the light follows from the derivatives of the shot's end, so the
 //!   shift by thick glass is exact.
-//! - **Other glass** (globes, bulbs, blocks seen through two sides): lights without a surface, which no sampled direction meets, are aimed at
-//!   by Newton's method on the first direction ([`connect`]; Hanika, Droske & Fascione 2015, "Manifold Next Event Estimation"). It begins at
-//!   random directions, and how often another random one ends on the same way estimates how many ways there are, without bias (Zeltner,
-//!   Georgiev & Jakob 2020, "Specular Manifold Sampling"). Ways that are reflected inside of glass are not found, and neither are those to a
-//!   place that sees the light past the glass. Lights with a surface are left to sampled directions there.
+//! - **Other glass** (globes, bulbs, bottles, blocks seen through two sides): lights without a surface, which no sampled direction meets, are
+//!   aimed at by Newton's method on the first direction ([`connect`]; Hanika, Droske & Fascione 2015, "Manifold Next Event Estimation"). It
+//!   begins at random directions towards the light and towards bodies ([`bodies`]), and how often another random one ends on the same way
+//!   estimates how many ways there are, without bias (Zeltner, Georgiev & Jakob 2020, "Specular Manifold Sampling"). Places that see the
+//!   light past the glass look for such ways too, with a chance by how large the bodies seem from there. Ways that are reflected inside of
+//!   glass are not found. Lights with a surface are left to sampled directions there.
 
+mod bodies;
 mod connect;
 mod inside;
 mod shot;
 
+pub(crate) use bodies::Bodies;
+pub(crate) use connect::Connection;
 pub(crate) use inside::{Inside, are_parallel, refracted, repeated};

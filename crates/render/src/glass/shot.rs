@@ -6,7 +6,7 @@ use crate::prepared::{AlphaTest, RenderScene};
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::Medium;
-use enfilade_math::{Onb, Ray, Rgb, Vec3};
+use enfilade_math::{Onb, Ray, Rgb, Vec3, hash_u64};
 use enfilade_scene::PartId;
 
 /// The most surfaces on the way of a shot.
@@ -40,6 +40,8 @@ pub(super) struct Shot {
     pub parallel: bool,
     /// The panes and borders that it has passed.
     pub passed: Passed,
+    /// A number for the flat ones among the borders, in their order.
+    pub faces: u64,
 }
 
 /// The parts of the panes and borders that a shot has passed, the last few of them.
@@ -84,6 +86,7 @@ impl<'s> RenderScene<'s> {
             medium,
             parallel: true,
             passed: Passed::default(),
+            faces: 0,
         };
         let mut entered: Option<Entered> = None;
         let mut way = 0.0;
@@ -119,6 +122,9 @@ impl<'s> RenderScene<'s> {
                 let before = (shot.direction, shot.turned);
                 let inner = shot.medium.transmittance(hit.t);
                 shot.cross(self, &surface, &border)?;
+                if surface.flat {
+                    shot.faces = hash_u64(shot.faces ^ u64::from(hit.triangle));
+                }
                 match (surface.outside, entered.take()) {
                     (true, None) if surface.flat => {
                         entered = Some(Entered { normal: surface.ns, direction: before.0, turned: before.1 });
@@ -145,7 +151,7 @@ impl<'s> RenderScene<'s> {
 
     /// The ray beyond a solid pane that a ray of this `direction` enters at `surface`, and what comes through; `None` where it is none.
     pub(crate) fn beyond_pane(&self, surface: &Surface<'s>, direction: Vec3) -> Option<(Rgb, Ray)> {
-        let into = Some(surface).filter(|s| self.has_bodies && s.flat && s.outside)?.border(self)?;
+        let into = Some(surface).filter(|s| self.bodies.any && s.flat && s.outside)?.border(self)?;
         let inner = refracted(direction, surface.ns, into.eta)?;
         let hit = self.closest(&surface.ray(inner), AlphaTest::Stochastic)?;
         let back = self.surface(&hit, inner, &Cone::POINT);
@@ -169,15 +175,16 @@ impl<'s> RenderScene<'s> {
         Rgb::BLACK
     }
 
-    /// How far away the first border of a body is that a ray meets, beyond thin panes; `None` where something else is before it.
-    pub(super) fn glass_ahead(&self, ray: &Ray) -> Option<f32> {
+    /// How far away the first border of a body is that a ray meets, beyond thin panes, and its part; `None` where something else is before
+    /// it.
+    pub(super) fn glass_ahead(&self, ray: &Ray) -> Option<(f32, PartId)> {
         let (mut at, mut way) = (*ray, 0.0);
         for _ in 0..MAX_SURFACES {
             let hit = self.closest(&Ray { t_max: ray.t_max - way, ..at }, AlphaTest::Stochastic)?;
             let surface = self.surface(&hit, at.direction, &Cone::POINT);
             way += hit.t;
             if surface.border(self).is_some() {
-                return Some(way);
+                return Some((way, self.triangles.part_of(hit.triangle)));
             }
             surface.straight_transmittance(self).filter(|passed| !passed.is_black())?;
             at = surface.ray(at.direction);

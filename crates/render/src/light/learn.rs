@@ -122,7 +122,7 @@ fn contribution(
 /// Transmittance along a shadow ray to a light sample: approximate through curved glass, which is enough for learning.
 fn arriving(scene: &RenderScene<'_>, ray: &Ray, light: &LightSample) -> Rgb {
     let through = scene.transmittance(ray);
-    if scene.has_bodies && light.is_delta && through.is_black() { scene.about_through_glass(ray) } else { through }
+    if scene.bodies.any && light.is_delta && through.is_black() { scene.about_through_glass(ray) } else { through }
 }
 
 impl Lights<'_> {

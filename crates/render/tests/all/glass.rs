@@ -368,3 +368,142 @@ fn a_lamp_in_a_hollow_globe_shines_through_both_sides_of_the_glass() {
     // Here a straight line at 45° also passes through it.
     assert_close("globe aside", illumination(&floor_at(&scene, 2.0, &direct(64))), 0.96 * 0.96 / 8.0 * 0.5f64.sqrt() / PI, 0.02);
 }
+
+/// A closed body of flat facets: rows of quadrilaterals on a sphere, without normals.
+fn faceted_ball(center: Vec3, radius: f32, columns: u32, rows: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for i in 0..=rows {
+        for j in 0..columns {
+            let (theta, phi) = (f64::from(i) / f64::from(rows) * PI, f64::from(j) / f64::from(columns) * 2.0 * PI);
+            let n = DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()).as_vec3();
+            mesh.positions.push(center + n * radius);
+        }
+    }
+    let index = |i: u32, j: u32| i * columns + j % columns;
+    for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
+        if i > 0 {
+            mesh.triangles.push([index(i, j), index(i + 1, j), index(i, j + 1)]);
+        }
+        if i + 1 < rows {
+            mesh.triangles.push([index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)]);
+        }
+    }
+    mesh
+}
+
+/// Where a ray from a place in a direction next meets a surface, as a distance, and its outward normal there.
+type Meet<'a> = &'a dyn Fn(DVec3, DVec3) -> Option<(f64, DVec3)>;
+
+fn meet_faces(body: &Mesh) -> impl Fn(DVec3, DVec3) -> Option<(f64, DVec3)> {
+    let corners: Vec<[DVec3; 3]> = body.triangles.iter().map(|t| t.map(|k| body.positions[k as usize].as_dvec3())).collect();
+    move |from, d| {
+        let hits = corners.iter().filter_map(|&[a, b, c]| {
+            let n = (b - a).cross(c - a).normalize();
+            let t = (a - from).dot(n) / d.dot(n);
+            let p = from + d * t;
+            let inside = [(a, b), (b, c), (c, a)].iter().all(|&(u, v)| (v - u).cross(p - u).dot(n) >= 0.0);
+            (t > 1e-9 && inside).then_some((t, n))
+        });
+        hits.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+fn meet_ball(center: DVec3, radius: f64) -> impl Fn(DVec3, DVec3) -> Option<(f64, DVec3)> {
+    move |from, d| {
+        let (along, away) = ((center - from).dot(d), (center - from).length_squared());
+        let half = (radius * radius - away + along * along).sqrt();
+        let t = [along - half, along + half].into_iter().find(|&t| t > 1e-9)?;
+        Some((t, (from + d * t - center) / radius))
+    }
+}
+
+/// Mean of what comes through a closed convex body of clear glass from a point lamp to rings of `width` on the floor, over what arrives
+/// without the body: light is followed from the lamp, towards directions with a cosine of at least `flattest` with the vertical.
+fn photons_through(meet: Meet<'_>, lamp: DVec3, flattest: f64, rings: usize, width: f64, photons: u32) -> Vec<f64> {
+    let mut sums = vec![[0.0; 2]; rings];
+    let mut add = |p: DVec3, light: f64, k: usize| {
+        if let Some(sum) = sums.get_mut((p.truncate().length() / width) as usize) {
+            sum[k] += light;
+        }
+    };
+    for i in 0..photons {
+        // Points of a lattice (R2) over the cap of directions.
+        let [u, v] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2].map(|step| (f64::from(i) * step).fract());
+        let (cos, phi) = (flattest + (1.0 - flattest) * u, v * 2.0 * PI);
+        let sin = (1.0 - cos * cos).sqrt();
+        let (mut p, mut d, mut light) = (lamp, DVec3::new(sin * phi.cos(), sin * phi.sin(), -cos), 1.0);
+        add(p + d * (p.z / cos), 1.0, 1);
+        while let Some((t, n)) = meet(p, d) {
+            p += d * t;
+            let leaves = d.dot(n) > 0.0;
+            let (n, eta) = if leaves { (-n, 1.0 / ETA) } else { (n, ETA) };
+            let cos_in = -d.dot(n);
+            let square = 1.0 - (1.0 - cos_in * cos_in) / (eta * eta);
+            if square <= 0.0 {
+                light = 0.0;
+                break;
+            }
+            let cos_out = square.sqrt();
+            let across = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+            let along = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+            light *= 1.0 - 0.5 * (across * across + along * along);
+            d = (d / eta + n * (cos_in / eta - cos_out)).normalize();
+        }
+        if d.z < 0.0 {
+            add(p - d * (p.z / d.z), light, 0);
+        }
+    }
+    sums.iter().map(|[through, open]| through / open).collect()
+}
+
+/// Illumination of rings of `width` on the floor over what arrives there of a lamp at `lamp` if nothing is in its way.
+fn rings_on_floor(scene: &Scene, lamp: DVec3, camera: DVec3, rings: usize, width: f64, samples: u32) -> Vec<f64> {
+    scene.validate().unwrap();
+    let prepared = RenderScene::new(scene, &Quiet).unwrap();
+    let pose = Pose::look_at(0, camera, DVec3::new(0.0, 0.0, 0.0), DVec3::Y).unwrap();
+    let view_angle = 2.0 * (rings as f64 * width / camera.z).atan();
+    let view_camera = Camera::from(Intrinsics::from_fov_x(128, 128, view_angle));
+    let view = CameraView::still(&view_camera, &pose);
+    let config = direct(samples);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let frame = render_frame(&prepared, &guide, &view, &config, &Quiet).unwrap();
+    let (light, place) = (frame.get(Layer::DiffuseIllumination).unwrap(), frame.get(Layer::Position).unwrap());
+    let mut sums = vec![[0.0; 2]; rings];
+    for p in 0..frame.pixels() {
+        let x = place.get(3 * p).hypot(place.get(3 * p + 1));
+        if let Some(sum) = sums.get_mut((x / width) as usize) {
+            sum[0] += light.get(3 * p);
+            sum[1] += lamp.z / (lamp.z * lamp.z + x * x).powf(1.5) / PI;
+        }
+    }
+    sums.iter().map(|[light, open]| light / open).collect()
+}
+
+#[test]
+fn a_lamp_within_a_ball_of_flat_facets_shines_out_of_it() {
+    // Below its pole all 48 facets of a row show the lamp at once.
+    let center = DVec3::new(0.0, 0.0, 1.0);
+    let body = faceted_ball(center.as_vec3(), 0.1, 48, 24);
+    let expected = photons_through(&meet_faces(&body), center, 0.5, 5, 0.1, 20_000);
+    let mut scene = above_floor(vec![(body, glass(0.0))]);
+    scene.lights = vec![Light::Point { name: "lamp".into(), position: center.as_vec3(), intensity: Rgb::WHITE }];
+    let found = rings_on_floor(&scene, center, DVec3::new(0.0, 0.0, 0.8), 5, 0.1, 16);
+    for (ring, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+        assert_close(&format!("ring {ring}"), found, expected, 0.04);
+    }
+}
+
+#[test]
+fn a_ball_throws_the_light_of_a_lamp_beyond_its_shadow() {
+    // Its shadow ends at 0.15 m.
+    let (center, lamp) = (DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.0, 0.0, 1.5));
+    let expected = photons_through(&meet_ball(center, 0.1), lamp, 0.8, 10, 0.05, 200_000);
+    let mut scene = above_floor(vec![(ball(center.as_vec3(), 0.1), glass(0.0))]);
+    scene.lights = vec![Light::Point { name: "lamp".into(), position: lamp.as_vec3(), intensity: Rgb::WHITE }];
+    let found = rings_on_floor(&scene, lamp, DVec3::new(0.0, 0.0, 0.38), 10, 0.05, 16);
+    for (ring, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+        // A ring with an edge in it depends on the pixels.
+        let tolerance = if ring == 2 { 0.15 } else { 0.03 };
+        assert_close(&format!("ring {ring}"), found, expected, tolerance);
+    }
+}
