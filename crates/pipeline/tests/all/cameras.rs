@@ -1,5 +1,6 @@
 //! Datasets of every kind of camera: made, read back, and verified.
 
+use crate::common::{LAMP, TABLE, WALL, write_blocks};
 use enfilade_dataset::Dataset;
 use enfilade_dataset::hdf5::{Array, Storage, write_array};
 use enfilade_frame::Layer;
@@ -8,8 +9,9 @@ use enfilade_pipeline::{Config, Overrides, Silent, Stage, run, run_stage};
 use enfilade_scene::Intrinsics;
 use std::path::Path;
 
-/// A home of one room, tiny, once per camera.
+/// A room of boxes, once per camera.
 fn config(folder: &Path) -> Config {
+    write_blocks(folder, &[WALL, TABLE, LAMP]);
     let k = Intrinsics::from_fov_x(64, 48, 1.2);
     let grid = (0..7 * 9).flat_map(|i| (k.ray(f64::from(i % 9) * 8.0, f64::from(i / 9) * 8.0) * DVec3::new(1.0, 1.1, 1.0)).to_array());
     let grid = Array::f64(&[7, 9, 3], grid.collect());
@@ -30,9 +32,7 @@ fn config(folder: &Path) -> Config {
     let mut text =
         "seed = 3\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
     for (name, keys) in cameras {
-        text += &format!(
-            "[[scene]]\nname = \"{name}\"\nhome = {{ seed = 3, rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n[scene.camera]\n{keys}\n"
-        );
+        text += &format!("[[scene]]\nname = \"{name}\"\nfile = \"room.obj\"\nup_axis = \"z\"\n[scene.camera]\n{keys}\n");
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()

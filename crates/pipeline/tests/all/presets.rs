@@ -1,5 +1,6 @@
 //! Results of a preset: its rules in the plan, its camera, and depth as Hypersim's loaders compute it.
 
+use crate::common::write_home;
 use enfilade_dataset::{Dataset, loader_depth};
 use enfilade_explore::{PlanReport, Preset};
 use enfilade_frame::Layer;
@@ -10,13 +11,12 @@ use std::path::Path;
 
 /// A home of one room, walked through by every preset.
 fn config(folder: &Path, size: &str, frames: u32) -> Config {
+    write_home(folder, 0);
     let mut text = format!(
         "seed = 3\nframes = {frames}\n[render]\n{size}samples = 1\nmax_bounces = 1\ncolor = \"rendered\"\n[carve]\nrays = 8192\niterations = 2\n"
     );
     for preset in ["default", "paper", "hypersim"] {
-        text += &format!(
-            "[[scene]]\nname = \"{preset}\"\npreset = \"{preset}\"\nhome = {{ seed = 0, rooms = [\"living\"] }}\ncameras = [\"living_1\"]\n"
-        );
+        text += &format!("[[scene]]\nname = \"{preset}\"\npreset = \"{preset}\"\nfile = \"home.scene\"\ncameras = [\"living_1\"]\n");
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()

@@ -1,5 +1,6 @@
 //! Datasets of every mode of trajectory: made, verified, and not made again.
 
+use crate::common::write_home;
 use enfilade_dataset::Dataset;
 use enfilade_geometry::OccupancyTree;
 use enfilade_math::DVec3;
@@ -12,6 +13,7 @@ use std::path::Path;
 fn config(folder: &Path) -> Config {
     let table = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,-1.1,4.2,1.4,-2.0,2.6,1.2,9\n3,-1.25,3.95,1.4,-2.0,2.6,1.2,9\n";
     std::fs::write(folder.join("path.csv"), table).unwrap();
+    write_home(folder, 0);
     let modes = [
         ("walk", "overlap = [0.1, 0.95]\nroll_limit_deg = 20\nmode = { kind = \"walk\" }"),
         ("video", "camera_height_m = [1.2, 1.7]\nlevel = true\nmode = { kind = \"video\", fps = 10 }"),
@@ -22,8 +24,8 @@ fn config(folder: &Path) -> Config {
     let mut text =
         "seed = 3\nframes = 4\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\n[carve]\nrays = 8192\niterations = 2\n".to_string();
     for (name, keys) in modes {
-        let rooms = if name == "keyframes" { "" } else { ", rooms = [\"living\"]" };
-        text += &format!("[[scene]]\nname = \"{name}\"\nhome = {{ seed = 0{rooms} }}\ncameras = [\"living_1\"]\n[scene.plan]\n{keys}\n");
+        let source = if name == "keyframes" { "home = { seed = 0 }" } else { "file = \"home.scene\"" };
+        text += &format!("[[scene]]\nname = \"{name}\"\n{source}\ncameras = [\"living_1\"]\n[scene.plan]\n{keys}\n");
     }
     std::fs::write(folder.join("dataset.toml"), text).unwrap();
     Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()

@@ -1,5 +1,7 @@
-//! Rooms of boxes.
+//! Rooms of boxes, and homes that several scenes share.
 
+use enfilade_home::{HomeConfig, RoomKind, home};
+use enfilade_scene::to_bytes_with_labels;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -46,4 +48,10 @@ pub fn write_blocks(folder: &Path, blocks: &[Block]) {
     }
     std::fs::write(folder.join("room.obj"), obj).unwrap();
     std::fs::write(folder.join("room.mtl"), mtl).unwrap();
+}
+
+/// Writes `home.scene`, a home that is one living room; several scenes of a test take less time to read it than to make it each.
+pub fn write_home(folder: &Path, seed: u64) {
+    let made = home(&HomeConfig { seed, rooms: vec![RoomKind::Living], ..HomeConfig::default() });
+    std::fs::write(folder.join("home.scene"), to_bytes_with_labels(&made.scene, &made.labels)).unwrap();
 }
