@@ -97,6 +97,8 @@ pub(crate) enum Content {
     Xml(String, bool),
     /// A list in JSON.
     JsonList,
+    /// A number, text or other single value in JSON.
+    JsonValue(String),
     /// A table in JSON; true for one that glTF's marks are in.
     JsonTable(bool),
     /// The format of a signature, and the extension of scenes in it.
@@ -127,7 +129,7 @@ impl Content {
                 let is_table = text[1..].trim_start().starts_with(['"', '}']);
                 is_table.then(|| Self::JsonTable(text.contains("\"asset\"") && text.contains("\"version\"")))
             }
-            _ => server_error(text),
+            _ => server_error(text).or_else(|| json_value(text)),
         }
     }
 
@@ -143,6 +145,7 @@ impl Content {
                 None => format!("XML of another program, with <{root}> around all"),
             },
             Self::JsonList => "a list in JSON".into(),
+            Self::JsonValue(value) => format!("a single value ({value})"),
             Self::JsonTable(true) => "a glTF as text".into(),
             Self::JsonTable(false) => "a table in JSON".into(),
             Self::Signed(what, _) => (*what).to_string(),
@@ -165,7 +168,7 @@ impl Content {
                 extension.filter(|extension| known(extension)).map_or_else(other, rename)
             }
             Self::JsonTable(true) => rename("gltf"),
-            Self::JsonList | Self::JsonTable(false) => "give the scene file that belongs to it".into(),
+            Self::JsonList | Self::JsonValue(_) | Self::JsonTable(false) => "give the scene file that belongs to it".into(),
             Self::Signed(_, Some(extension)) => rename(extension),
             Self::Signed(what, None) if what.contains("packed") || what.contains("archive") => {
                 "unpack it, and give the scene file in it".into()
@@ -185,6 +188,8 @@ impl Content {
         let signed = |extensions: &[&str]| matches!(self, Self::Signed(_, Some(extension)) if extensions.contains(extension));
         match format {
             _ if matches!(self, Self::Nothing(_) | Self::Page(_) | Self::ServerError(_)) => true,
+            // A short text may be a scene of other formats.
+            _ if matches!(self, Self::JsonValue(_)) => matches!(format, Format::Gltf | Format::Collection),
             Format::Gltf => !(signed(&["glb"]) || matches!(self, Self::JsonTable(_))),
             Format::Mitsuba => !matches!(self, Self::Xml(root, false) if root == "scene"),
             Format::Obj | Format::VRay => true,
@@ -222,9 +227,13 @@ pub(crate) fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<()
         return Ok(());
     }
     let content = Content::of(head).or_else(|| material_library(head));
-    let Some(content) = content.filter(|content| content.is_foreign(format)) else { return Ok(()) };
+    let is_usdz = format == Format::Usd && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("usdz"));
+    let is_plain_usd = |content: &Content| matches!(content, Content::Signed(_, Some("usda" | "usdc")));
+    let is_foreign = |content: &Content| content.is_foreign(format) || is_usdz && is_plain_usd(content);
+    let Some(content) = content.filter(is_foreign) else { return Ok(()) };
     let other = match content {
         Content::Signed(EMPTY_ZIP, _) if format == Format::Zip => String::new(),
+        _ if is_usdz && is_plain_usd(&content) => ", not an archive (usdz)".into(),
         _ => format!(", not {}", format.words()),
     };
     let problem = format!("it is {}{other}; {}", content.words(), content.remedy());
@@ -236,6 +245,12 @@ fn server_error(text: &str) -> Option<Content> {
     let line = text.trim();
     let reason = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_matches([' ', ':', '.', '-']).to_ascii_lowercase();
     SERVER_ERRORS.contains(&reason.as_str()).then(|| Content::ServerError(line.into()))
+}
+
+/// A single value in JSON, if the text is nothing else.
+fn json_value(text: &str) -> Option<Content> {
+    let value: serde_json::Value = serde_json::from_str(text).ok()?;
+    Some(Content::JsonValue(value.to_string().chars().take(60).collect()))
 }
 
 /// A library of materials by its first statement; only scenes must not begin so.
@@ -318,6 +333,9 @@ mod tests {
             (b"404: Not Found", "the error message of a server (\"404: Not Found\")"),
             (b"Not Found\n", "the error message of a server (\"Not Found\")"),
             (b"404 is a house\n", "unknown"),
+            (b"3", "a single value (3)"),
+            (b" null\n", "a single value (null)"),
+            (b"\"scene\"", "a single value (\"scene\")"),
             (b"# a comment\nv 0 0 0\n", "unknown"),
             (b"[INCLUDE] x", "unknown"),
         ] {

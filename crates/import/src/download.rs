@@ -38,7 +38,8 @@ pub(crate) fn load_zip(
         archive.open_inner();
         chosen = choose(archive.names(), &own, &|name| archive.read(name).ok());
     }
-    let chosen = chosen.map_err(|unclear| assembly.malformed("archive", unclear.message("unpack it and give the scene file")))?;
+    let chosen =
+        chosen.map_err(|unclear| assembly.malformed("archive", unclear.message("unpack it and give the scene file", archive.names())))?;
     let entry = file.join(&chosen.name);
     disguise::refuse_head(&entry, &archive.head(&chosen.name, disguise::HEAD), chosen.format)?;
     let mut inside = assembly.inside(chosen.format, chosen.format.up_axis(), &archive, &chosen.name);
@@ -56,8 +57,8 @@ pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Others)>
     let own = folder.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     match choose(&names, &own, &|name| std::fs::read(folder.join(name)).ok()) {
         Ok(chosen) => Ok(Some((folder.join(&chosen.name), chosen.others_in("folder", folder)))),
-        Err(Unclear::None) => Ok(None),
-        Err(several) => Err(ImportError::malformed(folder, "folder", several.message("give one of them"))),
+        Err(Unclear::None) if foreign(&names).is_none() => Ok(None),
+        Err(unclear) => Err(ImportError::malformed(folder, "folder", unclear.message("give one of them", &names))),
     }
 }
 
@@ -92,12 +93,13 @@ impl Chosen {
 }
 
 impl Unclear {
-    fn message(&self, remedy: &str) -> String {
+    /// The message about files of these `names`.
+    fn message(&self, remedy: &str, names: &[String]) -> String {
         match self {
-            Self::None => format!(
-                "found no scene file; expected one of {}. Where it holds a scene of another program, open it there and export glTF (.glb)",
-                Format::extensions()
-            ),
+            Self::None => match foreign(names) {
+                Some((name, remedy)) => format!("found {name}, which is not read: {remedy}, and give what you exported"),
+                None => format!("found no scene file; expected one of {}", Format::extensions()),
+            },
             Self::Several(names) => format!("found {} scene files ({}); {remedy}", names.len(), named(names)),
         }
     }
@@ -130,9 +132,7 @@ fn choose(names: &[String], own: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -
 
 /// Rank of a scene file's format, the most complete first; `None` for files that are no scenes.
 fn rank(name: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<usize> {
-    let last = name.rsplit('/').next().unwrap_or(name);
-    // What macOS adds to archives, and hidden files.
-    if name.starts_with("__MACOSX/") || last.starts_with('.') {
+    if is_hidden(name) {
         return None;
     }
     let format = Format::of(Path::new(name)).ok()?;
@@ -140,6 +140,17 @@ fn rank(name: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<usize> {
         return None;
     }
     SCENES.iter().chain(&MESHES).position(|known| *known == format)
+}
+
+/// A scene of another program among files, the nearest to the top, and advice on it.
+fn foreign(names: &[String]) -> Option<(&String, &'static str)> {
+    let known = names.iter().filter(|name| !is_hidden(name)).filter_map(|name| Some((name, Format::remedy(Path::new(name))?)));
+    known.min_by_key(|(name, _)| name.matches('/').count())
+}
+
+/// True for hidden files, and for what macOS adds to archives.
+fn is_hidden(name: &str) -> bool {
+    name.starts_with("__MACOSX/") || name.rsplit('/').next().unwrap_or(name).starts_with('.')
 }
 
 /// True for XML whose outermost element is a scene; many programs write XML.

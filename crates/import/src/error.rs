@@ -84,12 +84,14 @@ pub enum ImportError {
         source: PackageError,
     },
     /// The file was read, but what it describes is not a usable scene.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}{told}", file.display())]
     Scene {
         /// The scene file.
         file: PathBuf,
         /// The fault.
         source: SceneError,
+        /// What was left out of a scene of which nothing is left, as a sentence; else empty.
+        told: String,
     },
     /// An option whose value makes no sense.
     #[error("import option {option}: {problem} (on the command line: --{})", option.replace('_', "-"))]

@@ -127,6 +127,12 @@ impl Format {
         Self::ALL.iter().flat_map(|(_, extensions)| *extensions).map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
     }
 
+    /// Advice on a file of another program by its extension; `None` for formats that are read and for unknown ones.
+    pub(crate) fn remedy(path: &Path) -> Option<&'static str> {
+        let extension = extension(path)?;
+        OTHERS.iter().find(|(extensions, _)| extension.split('.').any(|word| extensions.contains(&word))).map(|(_, remedy)| *remedy)
+    }
+
     /// The format of a file by the extension of its name, in whatever case.
     ///
     /// ```
@@ -140,17 +146,11 @@ impl Format {
     /// # Errors
     /// When no format has that extension.
     pub fn of(path: &Path) -> Result<Self, ImportError> {
-        let lower = |e: &std::ffi::OsStr| e.to_string_lossy().to_lowercase();
-        let extension = path.extension().map(lower).map(|e| match path.file_stem().and_then(|s| Path::new(s).extension()) {
-            Some(inner) if e == "gz" || e == "txt" => format!("{}.{e}", lower(inner)),
-            _ => e,
-        });
-        let found = match &extension {
-            None => "the file name has no extension".to_string(),
-            Some(e) => match OTHERS.iter().find(|(extensions, _)| e.split('.').any(|word| extensions.contains(&word))) {
-                Some((_, remedy)) => format!("no importer for .{e} files: {remedy}"),
-                None => format!("no importer for .{e} files"),
-            },
+        let extension = extension(path);
+        let found = match (&extension, Self::remedy(path)) {
+            (None, _) => "the file name has no extension".to_string(),
+            (Some(e), Some(remedy)) => format!("no importer for .{e} files: {remedy}"),
+            (Some(e), None) => format!("no importer for .{e} files"),
         };
         Self::ALL
             .iter()
@@ -158,6 +158,15 @@ impl Format {
             .map(|&(format, _)| format)
             .ok_or_else(|| ImportError::UnknownFormat { file: path.to_path_buf(), found, known: Self::extensions() })
     }
+}
+
+/// The extension of a file's name, in lower case; both of `.pbrt.gz` and `.semantic.txt`.
+fn extension(path: &Path) -> Option<String> {
+    let lower = |e: &std::ffi::OsStr| e.to_string_lossy().to_lowercase();
+    path.extension().map(lower).map(|e| match path.file_stem().and_then(|s| Path::new(s).extension()) {
+        Some(inner) if e == "gz" || e == "txt" => format!("{}.{e}", lower(inner)),
+        _ => e,
+    })
 }
 
 /// The name of a scene by its file: the file's name without its extension, which may be as long as `.scene_instance.json`.

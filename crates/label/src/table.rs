@@ -85,6 +85,10 @@ pub enum TableError {
 const SUBJECTS: [(Subject, &str); 4] =
     [(Subject::Part, "part"), (Subject::Object, "object"), (Subject::Name, "name"), (Subject::Material, "material")];
 
+/// Bytes that show what a file is, and how a page of the web begins.
+const HEAD: usize = 1024;
+const PAGE: &str = "<!doctype html";
+
 /// Separators of the cells of a row. Where the comma is the decimal point, spreadsheets write semicolons.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
@@ -97,6 +101,9 @@ impl LabelTable {
     pub fn parse(bytes: &[u8], source_name: &str) -> Result<Self, TableError> {
         if is_git_lfs_pointer(bytes) {
             return Err(row_error(source_name, 1, format!("the file is {GIT_LFS_POINTER}")));
+        }
+        if let Some((what, remedy)) = other_than_table(bytes) {
+            return Err(row_error(source_name, 1, format!("the file is {what}, not a table (CSV); {remedy}")));
         }
         let text = decoded_text(bytes);
         let bytes = without_hint(&text).as_bytes();
@@ -258,6 +265,26 @@ fn whole_number(text: &str) -> Option<i64> {
     whole.parse().ok()
 }
 
+/// What a file is that cannot be a table, by how it begins, and what to do.
+fn other_than_table(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    const SAVE: &str = "save it as comma-separated text";
+    const WRITE: &str = "write its labels as rows with the columns part and nyu40_id";
+    let text = decoded_text(&bytes[..bytes.len().min(HEAD)]);
+    let text = text.trim_start();
+    let head: String = text.chars().take(PAGE.len()).collect::<String>().to_lowercase();
+    let is_page = ["<html", "<head", "<body"].iter().any(|tag| head.starts_with(tag)) || head == PAGE;
+    match bytes {
+        [b'P', b'K', 3, 4, ..] => Some(("a spreadsheet or a ZIP archive", SAVE)),
+        [0xd0, 0xcf, 0x11, 0xe0, ..] => Some(("a spreadsheet", SAVE)),
+        [b'P', b'A', b'R', b'1', ..] => Some(("a Parquet file", SAVE)),
+        [0x1f, 0x8b, ..] => Some(("packed by gzip", "unpack it")),
+        _ if is_page => Some(("a page of the web", "download the table itself")),
+        _ if text.starts_with('<') => Some(("XML", WRITE)),
+        _ if text.starts_with('{') || text.starts_with("[{") || text.starts_with("[[") => Some(("JSON", WRITE)),
+        _ => None,
+    }
+}
+
 /// A table without the line `sep=;`, which names the separator for spreadsheets.
 fn without_hint(text: &str) -> &str {
     let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
@@ -298,6 +325,23 @@ mod tests {
 
     fn message(text: &str) -> String {
         LabelTable::parse(text.as_bytes(), "labels.csv").unwrap_err().to_string()
+    }
+
+    #[test]
+    fn files_that_are_no_tables_are_told_by_what_they_are() {
+        for (bytes, said) in [
+            (&b"<!DOCTYPE html>\n<html><title>Login</title></html>"[..], "a page of the web, not a table (CSV); download the table itself"),
+            (b"\xef\xbb\xbf  <HTML><body>", "a page of the web"),
+            (b"<?xml version=\"1.0\"?><Error/>", "XML, not a table (CSV); write its labels as rows"),
+            (b"{\"part\": \"sofa\"}", "JSON"),
+            (b"[{\"part\": \"sofa\"}]", "JSON"),
+            (b"PK\x03\x04\x14\0", "a spreadsheet or a ZIP archive, not a table (CSV); save it as comma-separated text"),
+            (b"\xd0\xcf\x11\xe0\xa1\xb1", "a spreadsheet"),
+            (b"PAR1\x15\x04", "a Parquet file"),
+        ] {
+            let error = LabelTable::parse(bytes, "labels.csv").unwrap_err().to_string();
+            assert!(error.starts_with(&format!("labels.csv:1: the file is {said}")), "{error}");
+        }
     }
 
     #[test]

@@ -215,8 +215,13 @@ impl Suggester {
         if evidence.is_empty() && outer.is_empty() {
             return Vec::new();
         }
-        let role = match (self.roles.of(&own_words, &self.lexicon), self.roles.of(&words(material), &self.lexicon)) {
-            (Role::Filler | Role::Side | Role::Unlisted, Role::Thing(class)) => Role::Thing(class),
+        let material = words(material);
+        // The wood of a table may be on a chair.
+        let is_made_of = self.roles.is_piece_of_named(&material, &self.lexicon);
+        let role = match (self.roles.of(&own_words, &self.lexicon), self.roles.of(&material, &self.lexicon)) {
+            (Role::Filler | Role::Side | Role::Unlisted, Role::Thing(class)) if !is_made_of => Role::Thing(class),
+            // A name without words is a filler: what is around it tells more than what it is made of.
+            (Role::Unlisted, _) if own_words.is_empty() => Role::Filler,
             // The leg of a chair is a piece of the chair around it.
             (Role::Thing(class), _) if piece_of_named => Role::Piece { wholes: vec![class], alone: Some(class) },
             (role, _) => role,
@@ -380,6 +385,39 @@ mod tests {
         assert_eq!(of("Mesh.001", "Curtains").unwrap().class, 16);
         assert_eq!(of("sofa", "Wood").unwrap().class, 6);
         assert_eq!(of("Mesh.001", "Material.002"), None);
+    }
+
+    #[test]
+    fn names_that_say_nothing_leave_the_class_to_what_is_around_them_not_to_the_material() {
+        let suggester = Suggester::builtin();
+        let found = |part: &str, material: &str| {
+            let found = suggester.suggest(&PartNames { part, material, group: "" }).unwrap();
+            (NYU40[found.class as usize - 1].name, found.confidence)
+        };
+        // As Sketchfab, Blender, Maya, FBX and exporters of glTF name parts.
+        for leaf in [
+            "Object_11",
+            "Mesh_3",
+            "Mesh.001",
+            "primitive_0",
+            "node_7",
+            "defaultMaterial",
+            "polySurface12",
+            "Geom_5",
+            "Node.001_0",
+            "lambert2SG",
+        ] {
+            for (around, expected) in [("Chair.000_30", "chair"), ("Sofa_2/Group_5", "sofa"), ("Table_4/RootNode", "table")] {
+                let alone = found(around, "").1;
+                for material in ["fabric", "wood", "Leather", "Material.001", "curtain_cloth"] {
+                    let (class, confidence) = found(&format!("Sketchfab_model/{around}/{leaf}"), material);
+                    assert!(class == expected && confidence >= 0.95 * alone, "{around}/{leaf} of {material}: {class} {confidence}");
+                }
+            }
+        }
+        // A material that is called like a thing alone, and one in a place, still tell.
+        assert_eq!(found("Bed_2/Object_5", "pillow").0, "pillow");
+        assert_eq!(found("Living room/Object_5", "Curtains"), found("Object_5", "Curtains"));
     }
 
     #[test]

@@ -27,10 +27,13 @@ use crate::others::Others;
 use crate::report::Warnings;
 use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
-use enfilade_scene::{Cx, Labels, PartId, PartLabel, PictureFiles, Scene};
+use enfilade_scene::{Cx, Labels, PartId, PartLabel, PictureFiles, Scene, SceneError, Warning};
 use names::Names;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
+
+/// Warnings that the error of an empty scene repeats.
+const NAMED: usize = 3;
 
 /// A scene being built.
 pub(crate) struct Assembly<'a> {
@@ -226,9 +229,10 @@ impl<'a> Assembly<'a> {
         }
         self.tell_others();
         let file = self.file;
-        self.scene.validate().map_err(|source| ImportError::Scene { file, source })?;
+        let warnings = self.warnings.into_list();
+        self.scene.validate().map_err(|source| ImportError::Scene { file, told: told_of_nothing(&source, &warnings), source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
-        let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, self.warnings.into_list()) };
+        let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, warnings) };
         let (picture_files, axes) = (self.picture_files, self.axes);
         Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, report })
     }
@@ -262,6 +266,16 @@ impl<'a> Assembly<'a> {
 /// The matrix in single precision.
 pub(crate) fn mat3_f32(m: DMat3) -> Mat3 {
     Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3())
+}
+
+/// What was reported of a scene of which nothing is left, as a sentence; empty for other faults.
+fn told_of_nothing(source: &SceneError, warnings: &[Warning]) -> String {
+    if *source != SceneError::NoParts || warnings.is_empty() {
+        return String::new();
+    }
+    let told = warnings.iter().take(NAMED).map(|warning| format!("{}: {}", warning.place, warning.message)).collect::<Vec<_>>();
+    let more = if warnings.len() > NAMED { "; …" } else { "" };
+    format!(". What was left out: {}{more}", told.join("; "))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use enfilade_scene::{decoded_text, without_padding};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
+use serde_json::error::Category;
 use std::path::Path;
 
 /// The description in the bytes of `file`; `what` names the expected content. Numbers may be text, as [`Lenient`] has it.
@@ -19,11 +20,36 @@ pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) 
     let text = without_padding(&text);
     let lenient = || T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();
     serde_json::from_str(text).or_else(|error| lenient().ok_or(error)).map_err(|error| {
-        let message = error.to_string();
-        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
         let place = format!("line {}, column {}", error.line(), error.column());
-        ImportError::malformed(file, place, format!("{message}; expected {what}, so copy or unpack the file again"))
+        let remedy = match error.classify() {
+            Category::Data => format!("it is not what {what} has there; correct it, or give the file that belongs to the scene"),
+            _ => format!("expected {what}, so copy or unpack the file again"),
+        };
+        ImportError::malformed(file, place, format!("{}; {remedy}", in_words(&error)))
     })
+}
+
+/// A fault in JSON's words, without its place: what was found and what was expected.
+pub(super) fn in_words(error: &serde_json::Error) -> String {
+    let message = error.to_string();
+    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
+    let Some((found, expected)) = message.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected ")) else {
+        return message.to_string();
+    };
+    let found = match found {
+        "map" => "a table",
+        "sequence" => "a list",
+        other => other,
+    };
+    let first = expected.split(' ').find(|word| !matches!(*word, "a" | "an"));
+    let numbers = expected.split(' ').find(|word| word.parse::<usize>().is_ok());
+    let expected = match (first, numbers) {
+        (Some("struct" | "map"), _) => "a table".to_string(),
+        (Some("sequence" | "array" | "tuple"), Some(count)) => format!("a list of {count} numbers"),
+        (Some("sequence"), None) => "a list".to_string(),
+        _ => expected.to_string(),
+    };
+    format!("found {found}, expected {expected}")
 }
 
 /// A value that may be `null`, which means its default.

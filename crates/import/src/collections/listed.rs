@@ -1,5 +1,6 @@
 //! Lists of a collection's things, of which an odd one is left out and counted rather than being the end of the import.
 
+use super::json::in_words;
 use super::lenient::Lenient;
 use crate::assembly::Assembly;
 use serde::de::{Error, SeqAccess, Visitor};
@@ -20,11 +21,12 @@ pub(super) struct Listed<T> {
     /// Number of other entries, and the fault of the first.
     odd: usize,
     first: String,
+    is_null: bool,
 }
 
 impl<T> Default for Listed<T> {
     fn default() -> Self {
-        Self { items: Vec::new(), odd: 0, first: String::new() }
+        Self { items: Vec::new(), odd: 0, first: String::new(), is_null: false }
     }
 }
 
@@ -46,8 +48,11 @@ impl<'l, T> IntoIterator for &'l Listed<T> {
 }
 
 impl<T> Listed<T> {
-    /// Reports how many entries of the list called `place` were left out.
+    /// Reports how many entries of the list called `place` were left out, and `null` in its place.
     pub(super) fn report(&self, place: &str, a: &mut Assembly) {
+        if self.is_null {
+            a.warn(place, "found null, expected a list; nothing was imported of it");
+        }
         if self.odd > 0 {
             let all = self.items.len() + self.odd;
             a.warn(
@@ -68,9 +73,7 @@ impl<T> Listed<T> {
             Err(error) => {
                 if self.odd == 0 {
                     let shown: String = text.chars().take(SHOWN).collect();
-                    let message = error.to_string();
-                    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message);
-                    self.first = format!("{message} in {shown}…");
+                    self.first = format!("{} in {shown}…", in_words(&error));
                 }
                 self.odd += 1;
             }
@@ -90,7 +93,7 @@ impl<'de, T: for<'t> Deserialize<'t>> Deserialize<'de> for Listed<T> {
             }
 
             fn visit_unit<E: Error>(self) -> Result<Listed<T>, E> {
-                Ok(Listed::default())
+                Ok(Listed { is_null: true, ..Listed::default() })
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Listed<T>, A::Error> {

@@ -26,9 +26,14 @@ impl Surface {
 }
 
 impl<'n> Reader<'n, '_> {
-    /// The material of a bsdf and an area emitter, and its name. `None` where there is nothing to see.
-    pub(super) fn material(&mut self, bsdf: Option<&'n Node>, emitter: Option<&'n Node>) -> Result<Option<u32>, ImportError> {
-        let key = (bsdf.map(std::ptr::from_ref), emitter.map(std::ptr::from_ref), self.attributes.current);
+    /// The material of a bsdf and an area emitter, with a medium within. `None` where there is nothing to see.
+    pub(super) fn material(
+        &mut self,
+        bsdf: Option<&'n Node>,
+        emitter: Option<&'n Node>,
+        medium: Option<&'n Node>,
+    ) -> Result<Option<u32>, ImportError> {
+        let key = ([bsdf, emitter, medium].map(|node| node.map(std::ptr::from_ref)), self.attributes.current);
         if let Some(&known) = self.materials.get(&key) {
             return Ok(Some(known));
         }
@@ -45,6 +50,10 @@ impl<'n> Reader<'n, '_> {
             Some(bsdf) => bsdf,
             None if emitter.is_some() => Bsdf::Diffuse { reflectance: Rgb::BLACK.into() },
             None => return Ok(None),
+        };
+        let bsdf_itself = match medium {
+            Some(medium) => self.filled(bsdf_itself, medium)?,
+            None => bsdf_itself,
         };
         let suffix = if emitter.is_some() { "_emitter" } else { "" };
         let material = Material {

@@ -6,9 +6,9 @@ use crate::ply::Means;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Key of a material: its bsdf element (by address, since the tree outlives the reader), its emitter, and the mesh whose attributes it
-/// uses.
-pub(super) type MaterialKey = (Option<*const Node>, Option<*const Node>, Option<u32>);
+/// Key of a material: its bsdf element (by address, since the tree outlives the reader), its emitter, the medium within, and the mesh whose
+/// attributes it uses.
+pub(super) type MaterialKey = ([Option<*const Node>; 3], Option<u32>);
 
 /// Key of a mesh: plugin, file, index within it, and the flags that change it.
 pub(super) type MeshKey = (String, String, i64, [bool; 3]);

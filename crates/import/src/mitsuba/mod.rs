@@ -12,7 +12,8 @@
 //! | emitters | `area`, `constant`, `envmap`, `point`, `spot`, `directional`, `sunsky`, `sky`, `sun` (by Hillaire's model in place of Hosek's) |
 //! | sensors | `perspective`, `thinlens` (as a pinhole) |
 //! | skipped in silence | integrators, samplers, films (except for their size), reconstruction filters: they are no part of the scene |
-//! | dropped with a warning | media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, colours of vertices that no `mesh_attribute` asks for, whatever else has no counterpart |
+//! | media within shapes | what a `homogeneous` medium of constant `sigma_t` and `albedo`, or `sigma_a` and `sigma_s`, absorbs (with `scale`), within `dielectric` and `roughdielectric`; it does not scatter, which is a warning |
+//! | dropped with a warning | other media, animation (its first moment is used), Beckmann and Phong distributions (GGX of the same alpha), anisotropy, colours of vertices that no `mesh_attribute` asks for, whatever else has no counterpart |
 //!
 //! # Sides
 //!
@@ -42,6 +43,7 @@ mod bsdf;
 mod emitter;
 mod made;
 mod mask;
+mod medium;
 mod number;
 mod obj;
 mod placement;

@@ -35,7 +35,7 @@ impl<'n> Reader<'n, '_> {
         }
         let bsdfs = self.named_bsdfs(node)?;
         let stray = self.stray(node, &bsdfs, &file);
-        let file_from_mesh = self.placement(node, outer)?;
+        let (file_from_mesh, medium) = (self.placement(node, outer)?, self.medium_inside(node)?);
         let chosen = file.meshes.iter().enumerate().filter(|(i, _)| only.is_none_or(|only| only == *i));
         let mut objects: HashMap<&str, ObjectId> = HashMap::new();
         for part in chosen.map(|(_, part)| part) {
@@ -50,8 +50,13 @@ impl<'n> Reader<'n, '_> {
             };
             let bsdf = own.or(stray);
             let (title, material) = match from_library {
-                Some((name, index)) => (name, Some(index)),
-                None => (bsdf::name(bsdf), self.material(bsdf, emitter)?),
+                Some((name, index)) => {
+                    if let Some(medium) = medium {
+                        self.warn(medium, format!("it was left out of the material {name:?}, which is the OBJ file's"));
+                    }
+                    (name, Some(index))
+                }
+                None => (bsdf::name(bsdf), self.material(bsdf, emitter, medium)?),
             };
             let Some(material) = material else {
                 self.warn(node, "the shape scatters nothing (null bsdf) and was left out");

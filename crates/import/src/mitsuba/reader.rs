@@ -4,6 +4,7 @@ use super::made::{Attributes, MaterialKey, MeshKey, ObjFiles};
 use super::xml::Node;
 use crate::ImportError;
 use crate::assembly::Assembly;
+use enfilade_math::Rgb;
 use enfilade_scene::ObjectId;
 use std::collections::{HashMap, HashSet};
 
@@ -27,6 +28,8 @@ pub(super) struct Reader<'n, 'a> {
     pub referred_to: HashSet<&'n str>,
     pub aliases: HashMap<&'n str, &'n str>,
     pub materials: HashMap<MaterialKey, u32>,
+    /// What media absorb, per metre.
+    pub media: HashMap<*const Node, Rgb>,
     pub meshes: HashMap<MeshKey, Option<u32>>,
     /// The grey pictures of coloured ones.
     pub greys: HashMap<u32, u32>,
@@ -52,6 +55,7 @@ impl<'n, 'a> Reader<'n, 'a> {
             referred_to: HashSet::new(),
             aliases: HashMap::new(),
             materials: HashMap::new(),
+            media: HashMap::new(),
             meshes: HashMap::new(),
             greys: HashMap::new(),
             attributes: Attributes::default(),

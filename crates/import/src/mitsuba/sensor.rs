@@ -51,6 +51,9 @@ impl<'n> Reader<'n, '_> {
             }
         }
         self.report_unknown(node, &KNOWN, &["film", "sampler", "medium"]);
+        if let Some(medium) = self.objects(node, "medium")?.first() {
+            self.warn(medium, "media outside of shapes are not supported; it was left out");
+        }
         for offset in ["principal_point_offset_x", "principal_point_offset_y"] {
             let found = node.float_or(offset, 0.0)?;
             if found != 0.0 {

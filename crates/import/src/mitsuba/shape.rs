@@ -43,7 +43,8 @@ impl<'n> Reader<'n, '_> {
         }
         let Some((mesh, in_shape, stem)) = self.mesh(node)? else { return Ok(()) };
         self.attributes.turn_to(Some(mesh));
-        let Some(material) = self.material(bsdf, emitter)? else {
+        let medium = self.medium_inside(node)?;
+        let Some(material) = self.material(bsdf, emitter, medium)? else {
             self.warn(node, "the shape scatters nothing (null bsdf) and was left out");
             return Ok(());
         };
@@ -103,11 +104,6 @@ impl<'n> Reader<'n, '_> {
         const PRIMITIVES: [&str; 7] = ["to_world", "flip_normals", "center", "radius", "p0", "p1", "face_normals"];
         let from_file = is_file(node);
         self.report_unknown(node, if from_file { &FILES } else { &PRIMITIVES }, &TAGS);
-        for child in node.children.iter().filter(|c| matches!(c.tag.as_str(), "medium" | "subsurface" | "ref")) {
-            if matches!(self.resolve(child)?.tag.as_str(), "medium" | "subsurface") {
-                self.warn(child, "media are not supported; the shape is empty inside");
-            }
-        }
         let path = node.raw_text("filename").unwrap_or_default();
         if from_file && path.is_empty() {
             return Err(node.error("the shape has no filename"));

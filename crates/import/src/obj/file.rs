@@ -34,8 +34,10 @@ pub(crate) struct Group {
     pub(crate) object: usize,
     /// Name of the object, if an `o` precedes it.
     pub(crate) object_name: Option<String>,
-    /// Name of the object or group, whichever was set last.
+    /// Name of the object or group, whichever was set last; the first of several groups.
     pub(crate) name: Option<String>,
+    /// Names of the groups around it, from the inside.
+    pub(super) around: Vec<String>,
     /// Name of the material.
     pub(crate) material: Option<String>,
     /// Corner indices of all faces, and where each face begins.

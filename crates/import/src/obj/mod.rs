@@ -4,7 +4,7 @@
 //! |---|---|
 //! | faces | any number of corners: convex polygons as fans, concave ones cut properly; negative indices; faces before their vertices |
 //! | indices | one of a vertex that the file lacks is an error; one of a texture coordinate or normal is dropped, with a warning |
-//! | objects, groups | one part per object, group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part`. Each `o` begins an object, also of a name that occurred before |
+//! | objects, groups | one part per object, group and material, named after the group (`o` or `g`, whichever came last), with `.<material>` appended where a group has several; without a group after the material, else `part`. Each `o` begins an object, also of a name that occurred before. Several names on a `g` line are groups within each other, the first innermost, unless they seem to be a name with spaces |
 //! | names, paths | the whole rest of the line, so spaces and `#` are part of them; elsewhere `#` begins a comment |
 //! | normals | as in the file; without any, smooth within smoothing groups (`s 1` and above), across parts too, and flat elsewhere |
 //! | colours of vertices | their mean, read as sRGB, is the colour of a part without a material, and the report says so |
@@ -28,6 +28,7 @@
 mod blender;
 mod check;
 mod file;
+mod groups;
 mod library;
 mod map;
 mod mtl;

@@ -32,8 +32,19 @@ impl Objects {
             (Some(object), _) if self.by_object => object,
             // The group that an `o` begins is the object itself.
             (Some(object), Some(name)) if group.object_name.as_ref() == Some(name) => object,
-            (_, Some(name)) => *self.groups.entry((group.object, name.clone())).or_insert_with(|| a.push_object(name, object)),
+            (_, Some(name)) => self.group(group.object, name, &group.around, object, a),
             (_, None) => a.push_object(part, object),
         }
+    }
+
+    /// The object of a group within the groups `around` it and the object `outermost`.
+    fn group(&mut self, object: usize, name: &str, around: &[String], outermost: Option<ObjectId>, a: &mut Assembly) -> ObjectId {
+        let mut inside = outermost;
+        let names: Vec<&str> = std::iter::once(name).chain(around.iter().map(String::as_str)).collect();
+        for i in (0..names.len()).rev() {
+            let key = (object, names[i..].join(" "));
+            inside = Some(*self.groups.entry(key).or_insert_with(|| a.push_object(names[i], inside)));
+        }
+        inside.unwrap_or_else(|| a.push_object(name, None))
     }
 }

@@ -1,7 +1,7 @@
 //! Reading the OBJ text: vertices, faces, groups and material names. Mitsuba's `obj` shapes use it as well.
 
 use super::file::{Face, Group, NONE, ObjFile};
-use super::text;
+use super::{groups, text};
 use crate::ImportError;
 use enfilade_math::{DVec3, Vec2, Vec3};
 use enfilade_scene::decoded_text;
@@ -45,6 +45,7 @@ impl ObjFile {
             }
         }
         parser.check()?;
+        groups::split(&mut parser.obj.groups);
         Ok(parser.obj)
     }
 }
@@ -152,6 +153,7 @@ impl Parser<'_> {
                 object: key.0,
                 object_name: self.object_name.clone(),
                 name: key.1,
+                around: Vec::new(),
                 material: key.2,
                 corners: Vec::new(),
                 faces: Vec::new(),

@@ -88,7 +88,7 @@ fn what_was_chosen_among_several_is_told_and_what_cannot_be_chosen_refused() {
     let error = folder.write("pack.zip", zip(&[("a.glb", &glb), ("b.glb", &glb)])).error("pack.zip");
     assert!(error.contains("found 2 scene files (a.glb, b.glb); unpack it and give the scene file"), "{error}");
     let error = folder.write("pack.zip", zip(&[("a.blend", b"BLENDER"), ("textures/a.png", b"")])).error("pack.zip");
-    assert!(error.contains("found no scene file") && error.contains("export glTF"), "{error}");
+    assert!(error.contains("found a.blend") && error.contains("export glTF"), "{error}");
     assert!(folder.write("pack.zip", b"PK\x03\x04cut").error("pack.zip").contains("not an archive that can be read"));
     // A picture that is not in the archive is looked for nowhere else.
     folder.write("wood.png", png(1, 1, [9, 9, 9, 255])).write("pack.zip", zip(&[("scene.gltf", gltf("../wood.png").as_bytes())]));
@@ -135,6 +135,24 @@ fn scenes_in_archives_and_folders_are_refused_as_they_are_alone() {
         let error = folder.error(name);
         assert!(error.contains("scene.gltf: whole file: it is a list in JSON, not a glTF"), "{error}");
     }
+}
+
+#[test]
+fn scenes_of_other_programs_are_named_with_what_to_export() {
+    let blend: Files<'_> = &[("room/textures/a.png", b"x"), ("room/room.blend", b"BLENDER-v300"), ("__MACOSX/room/._b.blend", b"x")];
+    let told = "found room/room.blend, which is not read: open it in Blender and export glTF 2.0 (.glb), and give what you exported";
+    let folder = Folder::new();
+    let message = folder.write("pack.zip", zip(blend)).error("pack.zip");
+    assert!(message.contains("pack.zip: archive: ") && message.contains(told), "{message}");
+    for (name, bytes) in blend {
+        folder.write(&format!("unpacked/{name}"), bytes);
+    }
+    let message = folder.error("unpacked");
+    assert!(message.contains("unpacked: folder: ") && message.contains(told), "{message}");
+    let message = folder.write("max.zip", zip(&[("Scene.MAX", b"x")])).error("max.zip");
+    assert!(message.contains("found Scene.MAX, which is not read: open it in 3ds Max and export FBX or USD"), "{message}");
+    let message = folder.write("none.zip", zip(&[("a.png", b"x")])).error("none.zip");
+    assert!(message.contains("found no scene file; expected one of .gltf"), "{message}");
 }
 
 #[test]

@@ -201,3 +201,35 @@ fn lamps_and_suns_of_a_house_shine_as_strong_and_as_white_as_it_says() {
         assert!(told.contains(expected), "{expected}: {told}");
     }
 }
+
+#[test]
+fn null_in_the_place_of_a_list_or_table_is_told_with_its_place() {
+    let error = |place: &str| {
+        let mut house = house();
+        *house.pointer_mut(place).unwrap() = Value::Null;
+        Folder::new().write("house.json", house.to_string()).error("house.json")
+    };
+    for (place, told) in [
+        ("/mesh", "the scene has no visible parts"),
+        ("/mesh", "mesh: found null, expected a list"),
+        ("/scene/room", "scene.room: found null, expected a list"),
+        (
+            "/scene/room/0",
+            "scene.room: 1 of 1 entries are not what they should be and were left out, the first: found null, expected a table",
+        ),
+        ("/scene/room/0/children", "scene.room \"LivingRoom-1\": found null, expected a list"),
+        ("/scene", "line 1, column "),
+        ("/scene", "found null, expected a table; it is not what a house of 3D-FRONT has there"),
+    ] {
+        let message = error(place);
+        assert!(message.contains("house.json") && message.contains(told), "{place}: {message}");
+    }
+    let mut house = house();
+    house["mesh"][1]["xyz"] = Value::Null;
+    let folder = Folder::new();
+    let told = warnings(&folder.write("house.json", house.to_string()).load("house.json").unwrap());
+    assert!(
+        told.contains("mesh: 1 of 4 entries are not what they should be and were left out, the first: found null, expected a list in"),
+        "{told}"
+    );
+}

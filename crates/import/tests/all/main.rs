@@ -20,6 +20,7 @@ mod lenient;
 mod mitsuba;
 mod mitsuba_light;
 mod mitsuba_materials;
+mod mitsuba_media;
 mod mitsuba_pictures;
 mod mitsuba_references;
 mod obj;

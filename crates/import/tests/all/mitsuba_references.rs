@@ -9,15 +9,6 @@ fn load(body: &str) -> Imported {
 }
 
 #[test]
-fn media_are_reported_however_they_are_stated() {
-    let fog = r#"<medium type="homogeneous" id="fog"/>"#;
-    for shape in [r#"<medium name="interior" type="homogeneous"/>"#, r#"<ref name="interior" id="fog"/>"#] {
-        let told = warnings(&load(&format!(r#"{fog}<shape type="sphere">{shape}</shape>"#)));
-        assert!(told.contains("media are not supported; the shape is empty inside"), "{told}");
-    }
-}
-
-#[test]
 fn area_emitters_of_the_scene_are_for_shapes_to_refer_to() {
     let lamp = r#"<emitter type="area" id="lamp"><rgb name="radiance" value="3"/></emitter>"#;
     for reference in [r#"<ref id="lamp"/></shape>"#, r#"<ref id="other"/></shape><alias id="lamp" as="other"/>"#] {

@@ -100,6 +100,36 @@ fn groups_are_objects_unless_the_file_has_several_o() {
 }
 
 #[test]
+fn a_face_of_several_groups_is_of_the_first_within_the_others() {
+    let load = |text: &str| Folder::new().write("a.obj", format!("{TRIANGLES}{text}")).load("a.obj").unwrap();
+    let text = "g chair_1 furniture\nf 1 2 3\ng table_1 furniture\nusemtl Wood\nf 1 2 3\nusemtl Steel\nf 1 2 3\ng furniture\nf 1 2 3\n";
+    assert_told(
+        &load(text).scene,
+        &[
+            ("chair_1", 0, "furniture > chair_1"),
+            ("table_1.Wood", 1, "furniture > table_1"),
+            ("table_1.Steel", 1, "furniture > table_1"),
+            ("furniture", 2, "furniture"),
+        ],
+    );
+    // As SketchUp writes them.
+    assert_told(
+        &load("g Mesh1 Chair Model\nf 1 2 3\ng Mesh2 Chair Model\nf 1 2 3\n").scene,
+        &[("Mesh1", 0, "Model > Chair > Mesh1"), ("Mesh2", 1, "Model > Chair > Mesh2")],
+    );
+    assert_told(&load("o House\ng seat chair_1\nf 1 2 3\n").scene, &[("seat", 0, "House > chair_1 > seat")]);
+    // Names of objects, and names with spaces, are one.
+    assert_told(
+        &load("o Big_Chair 1\nf 1 2 3\no Big_Chair 2\nf 1 2 3\n").scene,
+        &[("Big_Chair 1", 0, "Big_Chair 1"), ("Big_Chair 2", 1, "Big_Chair 2")],
+    );
+    assert_told(
+        &load("g Living Room Chair\nf 1 2 3\ng Living Room Table\nf 1 2 3\n").scene,
+        &[("Living Room Chair", 0, "Living Room Chair"), ("Living Room Table", 1, "Living Room Table")],
+    );
+}
+
+#[test]
 fn prims_are_objects_and_components_instances_and_placed_prototypes_are_one() {
     let scene = usd(r#"def Cube "chair_1" { }
            def Cube "chair_2" { }

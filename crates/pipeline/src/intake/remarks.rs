@@ -23,6 +23,8 @@ const LEAST_OPEN_M2: f64 = 2.0;
 const LEAST_OPEN_SHARE: f64 = 0.2;
 /// Share of what is seen in rooms that may be backs: sheets have two sides.
 const BACKS_SHARE: f64 = 0.3;
+/// Share of the ground plan that rooms have at least; smaller hollows are the insides of things.
+const LEAST_ROOMS_SHARE: f64 = 0.2;
 /// Number of names listed in place of all.
 const NAMED: usize = 3;
 
@@ -38,8 +40,10 @@ pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look)
         }
         (_, by_length) => by_length,
     };
-    let found =
-        [suspicions.axes, unit, open_floor(look), doubled::remark(source, scene, look), overlapping(scene, look), backs(scene, look)];
+    // Rooms are found by their heights in metres along z.
+    let rooms_are_known = unit.is_none() && suspicions.axes.is_none();
+    let [open_floor, backs] = if rooms_are_known { [open_floor(look), backs(scene, look)] } else { [None, None] };
+    let found = [suspicions.axes, unit, open_floor, doubled::remark(source, scene, look), overlapping(scene, look), backs];
     found.into_iter().flatten().chain(without_area(scene, look)).collect()
 }
 
@@ -121,6 +125,11 @@ fn overlapping(scene: &Scene, look: &Look) -> Option<String> {
 }
 
 fn backs(scene: &Scene, look: &Look) -> Option<String> {
+    let plan = look.bounds_of_building().extent();
+    let rooms_m2: f64 = look.findings.ceilings.iter().map(enfilade_explore::Ceiling::area_m2).sum();
+    if rooms_m2 < LEAST_ROOMS_SHARE * f64::from(plan.x * plan.y) {
+        return None;
+    }
     let backs = look.findings.backs.as_ref().filter(|backs| backs.share >= BACKS_SHARE && !backs.parts.is_empty())?;
     let is_black = |part: &PartId| {
         let material = &scene.materials[scene.parts[*part as usize].material as usize];

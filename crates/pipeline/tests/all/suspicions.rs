@@ -145,6 +145,77 @@ fn a_scan_without_names_is_suspected_by_its_largest_surfaces() {
 }
 
 #[test]
+fn glass_bodies_and_closed_boxes_are_no_rooms() {
+    let floor = ("floor", [0.0, 0.0, -0.1], [5.0, 4.0, 0.0]);
+    let walls = &ROOM[2..6];
+    // 3.6 % to 48 % of a floor of 20 m2, of whatever is as high as half a room.
+    for size in [[1.2, 0.6, 1.3], [2.0, 1.0, 1.3], [2.5, 2.0, 1.3], [4.0, 2.4, 0.9]] {
+        let block = |name| (name, [0.4, 0.8, 0.01], [0.4 + size[0], 0.8 + size[1], 0.01 + size[2]]);
+        for name in ["aquarium", "block", "Cube.001", "crate"] {
+            assert_eq!(plain("a.obj", &boxes(&[floor, block(name)], y_up)), [""; 0], "{name} {size:?}");
+            assert_eq!(plain("a.obj", &boxes(&[walls, &[floor, block(name)]].concat(), y_up)), [""; 0], "{name} {size:?} in walls");
+        }
+        // All of the floor is below the glass.
+        let slab = ("floor", [0.3, 0.7, -0.1], [0.5 + size[0], 0.9 + size[1], 0.0]);
+        let text = boxes(&[slab, block("Cube.001")], y_up).replace("o Cube.001", "o Cube.001\nusemtl clear");
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.mtl"), "newmtl clear\nKd 0 0 0\nd 1\nNi 1.5\nillum 7\nKs 1 1 1\n").unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(&file, format!("mtllib a.mtl\n{text}")).unwrap();
+        assert_eq!(of(&FileSource::of(file.to_string_lossy())), [""; 0], "glass of {size:?}");
+    }
+    // A room of half the height is still suspected, glass in it or not.
+    let aquarium = ("aquarium", [1.0, 1.0, 0.01], [2.2, 1.6, 1.3]);
+    let half = boxes(&[&ROOM[..], &[aquarium]].concat(), |p| y_up(p).map(|v| v / 2.0));
+    assert!(plain("room.obj", &half)[0].contains("meters_per_unit = 2 "));
+}
+
+#[test]
+fn backs_are_not_told_where_the_unit_explains_what_is_seen() {
+    let messages = |text: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("room.obj");
+        std::fs::write(&file, text).unwrap();
+        let checked = check_file(&FileSource::of(file.to_string_lossy()), &Quiet).unwrap();
+        checked.warnings.into_iter().map(|warning| warning.message).filter(|message| message.contains("backs of faces")).collect::<Vec<_>>()
+    };
+    // Closed boxes, whose fronts look outward, as every room and thing here: people are inside of none but the room.
+    for unit in [0.001, 0.01, 0.0254, 0.1, 0.3048, 1.0] {
+        for nameless in [false, true] {
+            let text = boxes(&ROOM, |p| y_up(p).map(|v| v / unit));
+            let text = if nameless { text.lines().filter(|line| !line.starts_with("o ")).collect::<Vec<_>>().join("\n") } else { text };
+            assert_eq!(messages(&text), [""; 0], "{unit} {nameless}");
+        }
+    }
+    // A shell whose fronts look outward.
+    assert_eq!(messages(&boxes(&[("shell", [0.0; 3], [5.0, 4.0, 2.6])], y_up)).len(), 1);
+}
+
+#[test]
+fn rooms_without_names_are_suspected_by_what_things_rest_on() {
+    let nameless = |list: &[(&str, [f64; 3], [f64; 3])], place: Turn| {
+        boxes(list, place).lines().filter(|line| !line.starts_with("o ")).fold(String::new(), |text, line| text + line + "\n")
+    };
+    let table = ("", [1.0, 0.8, 0.0], [1.8, 2.0, 0.75]);
+    let lamp = ("", [1.2, 1.2, 0.75], [1.5, 1.5, 1.15]);
+    let room = [&ROOM[..], &[table, lamp]].concat();
+    let turned: [(&str, Turn); 4] =
+        [("z", |p| p), ("-z", |[x, y, z]| [x, -y, -z]), ("x", |[x, y, z]| [z, y, -x]), ("-x", |[x, y, z]| [-z, y, x])];
+    for (axis, place) in turned {
+        let told = plain("room.obj", &nameless(&room, place));
+        assert!(told.len() == 1 && told[0].contains(&format!("up_axis = \"{axis}\" (or --up-axis {axis})")), "{axis}: {told:?}");
+    }
+    assert_eq!(plain("room.obj", &nameless(&room, y_up)), [""; 0]);
+    // Pictures on a wall, and things that rest on nothing, tell nothing.
+    let pictures = [1.0, 2.0, 3.0].map(|x| ("", [x, 3.96, 1.2], [x + 0.6, 4.0, 1.8]));
+    assert_eq!(plain("room.obj", &nameless(&[&ROOM[..6], &pictures].concat(), y_up)), [""; 0]);
+    let floating = [1.0, 2.0, 3.0].map(|x| ("", [x, 1.0, 0.5], [x + 0.6, 1.6, 1.3]));
+    assert_eq!(plain("room.obj", &nameless(&[&ROOM[..6], &floating].concat(), y_up)), [""; 0]);
+    // Nothing is in it, so nothing shows which way is up.
+    assert_eq!(plain("room.obj", &nameless(&ROOM[..6], |p| p)), [""; 0]);
+}
+
+#[test]
 fn generated_homes_are_not_suspected() {
     let folder = tempfile::tempdir().unwrap();
     for seed in 0..3 {

@@ -2,11 +2,12 @@
 //!
 //! A file in feet, or one whose rooms lie on their side, satisfies every law of a dataset: all is consistent, and wrong. The evidence comes
 //! from known things: the height of rooms ([`room`]), the size of things named chair or door ([`things`]), the positions of floors and
-//! ceilings and the orientation of the file's cameras ([`upright`]). [`units`] weighs the sizes. Nothing is changed; a suspicion names the
+//! ceilings, the orientation of the file's cameras and the largest surfaces ([`upright`]), and what things rest on ([`support`]). [`units`] weighs the sizes. Nothing is changed; a suspicion names the
 //! key and what to try.
 
 mod names;
 mod room;
+mod support;
 mod things;
 mod units;
 mod upright;
@@ -54,6 +55,7 @@ fn of_axes(imported: &Imported, lying: &Lying) -> String {
     let witness = |witness: &Witness| match witness {
         Witness::Names => "the surfaces named floor and ceiling are oriented so",
         Witness::Cameras => "the upper sides of its cameras point so",
+        Witness::Support => "nearly all of its things rest on something that way, and hardly any the other",
         Witness::Surfaces => "its largest surfaces are as far apart that way as floor and ceiling are",
     };
     let because = lying.witnesses.iter().map(witness).collect::<Vec<_>>().join(", and ");

@@ -1,6 +1,6 @@
 //! The upward direction by names of things, orientation of cameras, and surfaces of a room.
 
-use super::names::Named;
+use super::{names::Named, support};
 use crate::intake::seen::Look;
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{CEILING, FLOOR, Scene};
@@ -19,6 +19,9 @@ const DOWN: f64 = -0.8;
 /// each other axis.
 const STOREY_M: std::ops::RangeInclusive<f64> = 2.1..=4.5;
 const FLATTER: f64 = 1.5;
+/// The same where things rest on that side too, and how many times as long the extent along the supposed height is.
+const FLATTER_AND_RESTED_ON: f64 = 1.2;
+const HIGHER: f64 = 1.2;
 
 /// A scene that lies on its side.
 pub(super) struct Lying {
@@ -35,6 +38,8 @@ pub(super) enum Witness {
     Names,
     /// The upward directions of the file's cameras.
     Cameras,
+    /// What things rest on.
+    Support,
     /// Extents, and the sides with most area.
     Surfaces,
 }
@@ -51,7 +56,10 @@ pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, 
         (Some((up, _)), _) => lying(up, &[Witness::Names]),
         (None, Some(seen)) => lying(seen, &[Witness::Cameras]),
         (None, None) if says_itself => None,
-        (None, None) => of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])),
+        (None, None) => {
+            let rest = || flat_side(look).and_then(|axis| support::upward(look, axis)).and_then(|up| lying(up, &[Witness::Support]));
+            of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])).or_else(rest)
+        }
     }
 }
 
@@ -99,6 +107,20 @@ impl Flat {
         flat
     }
 
+    /// All surfaces; only those along the axes face anywhere.
+    fn along_axes(look: &Look) -> Self {
+        let mut all = Self::default();
+        for corners in &look.world.corners {
+            let [a, b, c] = corners.map(|p| p.as_dvec3());
+            let normal = 0.5 * (b - a).cross(c - a);
+            let is_level = normal.abs().max_element() >= 0.95 * normal.length();
+            all.area += normal.length();
+            all.facing += if is_level { normal.abs() } else { DVec3::ZERO };
+            all.moment += (a + b + c) / 3.0 * normal.length();
+        }
+        all
+    }
+
     fn middle(&self) -> Option<DVec3> {
         (self.area > 0.0).then(|| self.moment / self.area)
     }
@@ -129,15 +151,7 @@ fn of_cameras(scene: &Scene) -> Option<DVec3> {
 /// The upward direction of a storey on its side: its floor and ceiling have most of the area and are apart by the height of a storey, while
 /// the extent along the supposed height is longer. Things in rooms are nearer to the floor.
 fn of_surfaces(look: &Look, axes: DMat3) -> Option<DVec3> {
-    let all = &mut Flat::default();
-    for corners in &look.world.corners {
-        let [a, b, c] = corners.map(|p| p.as_dvec3());
-        let normal = 0.5 * (b - a).cross(c - a);
-        let is_level = normal.abs().max_element() >= 0.95 * normal.length();
-        all.area += normal.length();
-        all.facing += if is_level { normal.abs() } else { DVec3::ZERO };
-        all.moment += (a + b + c) / 3.0 * normal.length();
-    }
+    let all = Flat::along_axes(look);
     let (bounds, extent) = (look.world.bounds, look.world.bounds.extent().as_dvec3());
     let is_storey = |axis: &usize| {
         let others = (0..3).filter(|other| other != axis);
@@ -148,4 +162,16 @@ fn of_surfaces(look: &Look, axes: DMat3) -> Option<DVec3> {
     // If nothing distinguishes up from down, the file's own axis decides the sign.
     let sign = if below.abs() >= 0.02 * extent[axis] { below } else { (axes.transpose() * DVec3::AXES[axis]).element_sum() };
     Some(DVec3::AXES[axis] * sign.signum())
+}
+
+/// The level axis along which a scene is as high as a storey and has most area, while it is longer along the supposed height.
+fn flat_side(look: &Look) -> Option<usize> {
+    let (facing, extent) = (Flat::along_axes(look).facing, look.world.bounds.extent().as_dvec3());
+    let is_flat = |axis: &usize| {
+        let others = (0..3).filter(|other| other != axis);
+        STOREY_M.contains(&extent[*axis])
+            && extent.z >= HIGHER * extent[*axis]
+            && others.clone().all(|other| facing[*axis] >= FLATTER_AND_RESTED_ON * facing[other])
+    };
+    [0, 1].into_iter().find(is_flat)
 }
