@@ -20,6 +20,7 @@ mod package;
 mod photometry;
 mod picture_files;
 mod pictures;
+mod repictured;
 mod room_planes;
 mod rooms;
 mod scene;

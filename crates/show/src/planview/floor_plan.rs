@@ -49,7 +49,7 @@ mod tests {
         };
         let part = |name: &str, mesh| Part { name: name.into(), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let scene = Scene {
-            meshes: vec![mesh(wall), mesh(floor)],
+            meshes: vec![mesh(wall).into(), mesh(floor).into()],
             materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
             parts: vec![part("wall", 0), part("floor", 1)],
             ..Scene::default()
