@@ -5,7 +5,7 @@ use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Object, Objec
 use enfilade_geometry::{Bvh, Mesh, MeshError};
 use enfilade_math::{DAffine3, DMat3, Vec3, place};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Index into [`Scene::parts`]. A part's render entity id in the images is this plus one.
@@ -130,6 +130,12 @@ impl Scene {
         if self.parts.is_empty() {
             return Err(SceneError::NoParts);
         }
+        self.validate_after(&Self::default())
+    }
+
+    /// Checks as [`Scene::validate`] does, except that a scene may be empty; meshes and pictures shared with `earlier`, which is valid, are
+    /// not looked at again.
+    pub(crate) fn validate_after(&self, earlier: &Self) -> Result<(), SceneError> {
         let mut user_of_mesh = HashMap::new();
         let mut names = HashMap::new();
         for part in &self.parts {
@@ -153,13 +159,16 @@ impl Scene {
         if found > Bvh::MAX_TRIANGLES {
             return Err(SceneError::TooManyTriangles { found });
         }
+        let checked: HashSet<*const Mesh> = earlier.meshes.iter().map(Arc::as_ptr).collect();
+        user_of_mesh.retain(|mesh, _| !checked.contains(&Arc::as_ptr(&self.meshes[*mesh as usize])));
         for (&mesh, part) in &user_of_mesh {
             self.meshes[mesh as usize].validate().map_err(|error| SceneError::Mesh { part: (*part).to_string(), error })?;
         }
         for material in &self.materials {
             self.validate_material(material)?;
         }
-        for image in &self.images {
+        let checked: HashSet<*const Image> = earlier.images.iter().map(Arc::as_ptr).collect();
+        for image in self.images.iter().filter(|image| !checked.contains(&Arc::as_ptr(image))) {
             let texels = match &image.pixels {
                 Pixels::Rgba8 { texels, .. } => texels.len(),
                 Pixels::RgbF32(texels) => texels.len(),
