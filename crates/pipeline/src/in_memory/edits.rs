@@ -3,11 +3,11 @@
 use super::LoadedScene;
 use crate::config::FileSource;
 use crate::error::Error;
-use crate::intake::{labels_by_part, load_file};
+use crate::intake::{labelled, load_file};
 use enfilade_dataset::counted;
-use enfilade_import::{Imported, scene_name};
+use enfilade_import::scene_name;
 use enfilade_math::{DAffine3, DVec3};
-use enfilade_scene::{Cx, EditError, LabelledScene, Labels, MaterialChoice, NewThing, PartLabel, Scene, Warning};
+use enfilade_scene::{Cx, EditError, LabelledScene, MaterialChoice, NewThing, Scene, Warning};
 use std::path::Path;
 
 /// How a scene file becomes part of a scene.
@@ -52,7 +52,7 @@ impl LoadedScene {
         let offset = imported.report.offset_m.map_or(DVec3::ZERO, DVec3::from);
         let new = NewThing {
             name: place.name.clone().unwrap_or_else(|| scene_name(file)),
-            of: &contents(imported),
+            of: &labelled(imported),
             material: place.material.clone(),
             // A file far from its origin was moved to the origin.
             world_from_thing: place.world_from_file * DAffine3::from_translation(offset),
@@ -72,16 +72,6 @@ fn refused(error: EditError) -> Error {
         }
         error => Error::usage(error.to_string(), "the scene is as it was"),
     }
-}
-
-/// An imported scene with the labels of its file.
-pub(super) fn contents(imported: Imported) -> LabelledScene {
-    let Imported { scene, labels, picture_files, .. } = imported;
-    let labels = match labels {
-        Some(labels) => labels_by_part(&scene, &labels),
-        None => Labels { parts: vec![PartLabel::NONE; scene.parts.len()] },
-    };
-    LabelledScene { scene, labels, picture_files }
 }
 
 /// What of an added scene comes along, and what does not.
@@ -107,7 +97,7 @@ mod tests {
     use crate::in_memory::Shot;
     use enfilade_geometry::Mesh;
     use enfilade_math::{Rgb, Vec3};
-    use enfilade_scene::{Camera, Environment, Intrinsics, Material, NewPart, Pose, Quiet, to_bytes_with_labels};
+    use enfilade_scene::{Camera, Environment, Intrinsics, Material, NewPart, PartLabel, Pose, Quiet, to_bytes_with_labels};
     use std::sync::Arc;
 
     fn cube(name: &str) -> NewPart {

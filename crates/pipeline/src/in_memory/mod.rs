@@ -11,7 +11,7 @@ pub use edits::FilePlace;
 use crate::assets;
 use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
 use crate::error::Error;
-use crate::intake::{self, Look};
+use crate::intake::{self, Look, labelled};
 use crate::look::{named_camera, place};
 use crate::single::write_output;
 use crate::stages::{FrameCx, add_extra, assign_table, describe};
@@ -80,7 +80,7 @@ impl LoadedScene {
         let imported = intake::read(source, file, &|path| Ok(path.into()), cx)?;
         let report = serde_json::to_value(&imported.report).unwrap_or_default();
         let warnings = imported.report.warnings.clone();
-        let mut contents = edits::contents(imported);
+        let mut contents = labelled(imported);
         if let Some(table) = labels {
             contents.labels = assign_table(Path::new(&table.table), &table.scene, &contents.scene, cx)?.0;
         }
