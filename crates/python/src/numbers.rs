@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 /// The value as an array of numbers.
 pub fn array<'py>(value: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
-    Ok(value.py().import("numpy")?.call_method1("asarray", (value, "float64"))?.extract()?)
+    value.py().import("numpy")?.call_method1("asarray", (value, "float64"))?.extract()
 }
 
 /// Rows of N numbers each; `name` is for messages. Rows may hold anything, such as NaN.

@@ -4,7 +4,7 @@ use super::materials::MaterialChoice;
 use super::names::unique_thing;
 use super::place::{check_placement, index_of, mirrors, wound};
 use super::{EditError, LabelledScene};
-use crate::{Material, Object, Part, PartId, PartLabel, PictureFile, SceneError, is_stuff};
+use crate::{Material, Object, Part, PartId, PartLabel, SceneError, is_stuff};
 use enfilade_geometry::Mesh;
 use enfilade_math::DAffine3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -151,8 +151,9 @@ impl LabelledScene {
             material.textures(|texture| _ = places.insert(texture.image, 0));
             for (image, place) in &mut places {
                 *place = index_of(&mut self.scene.images, of.images[*image as usize].clone());
-                let file = new.of.picture_files.get(image).map(PictureFile::clone);
-                file.into_iter().for_each(|file| _ = self.picture_files.entry(*place).or_insert(file));
+                if let Some(file) = new.of.picture_files.get(image) {
+                    self.picture_files.entry(*place).or_insert_with(|| file.clone());
+                }
             }
             materials.insert(own, self.scene.push_material(material.clone().repictured(|image| places[&image]), |_| false));
         }

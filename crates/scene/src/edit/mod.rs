@@ -95,6 +95,7 @@ impl LabelledScene {
     /// The result of an edit of this scene, if it is valid.
     fn checked(&self, edited: Self) -> Result<Self, EditError> {
         edited.scene.validate_after(&self.scene)?;
-        Ok(edited)
+        let (labels, parts) = (edited.labels.parts.len(), edited.scene.parts.len());
+        if labels == parts { Ok(edited) } else { Err(EditError::value("labels", format!("found {labels} for {parts} parts"))) }
     }
 }
