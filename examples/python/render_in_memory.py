@@ -30,7 +30,7 @@ def main(output: Path, size: tuple[int, int] = (640, 480)) -> enfilade.Frame:
     frame = enfilade.render(scene, camera, quality="draft")
     output.write_bytes(frame.png())
 
-    seen = {scene.parts[part - 1] for part in np.unique(frame["render_entity_id"]) if part > 0}
+    seen = {scene.parts[int(part) - 1].name for part in np.unique(frame["render_entity_id"]) if part > 0}
     off = np.nanmax(np.abs(points_of(frame) - frame["position"]))
     print(f"{output.name}: {len(seen)} parts are seen; depth, K and pose agree with position to {1000 * off:.3f} mm")
     return frame

@@ -88,7 +88,7 @@ fn render_copies(triangles: u32, copies: u32, apart: bool) -> Result<()> {
         let world_from_mesh = DAffine3 { matrix3: DMat3::from_rotation_z(f64::from(i)), translation: at };
         scene.parts.push(Part { name: format!("ball {i}"), object: None, mesh: if apart { i } else { 0 }, material: 0, world_from_mesh });
     }
-    scene.meshes = vec![ball; if apart { copies as usize } else { 1 }];
+    scene.meshes = (0..if apart { copies } else { 1 }).map(|_| ball.clone().into()).collect();
     let (before, time) = (most_memory_mb()?, Stopwatch::start());
     let prepared = RenderScene::new(&scene, &Quiet)?;
     println!("ready for rays: {} MB more than the scene's {before} MB, in {:.1} core-s", most_memory_mb()? - before, time.cpu_s());

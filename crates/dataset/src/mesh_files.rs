@@ -100,7 +100,7 @@ pub(crate) mod tests {
         let part = |name: &str, mesh, world_from_mesh| Part { name: name.into(), object: None, mesh, material: mesh, world_from_mesh };
         let raised = DAffine3::from_translation(DVec3::Z) * DAffine3::from_scale(DVec3::splat(2.0));
         Scene {
-            meshes: vec![floor, lamp],
+            meshes: vec![floor.into(), lamp.into()],
             parts: vec![part("floor, oak", 0, DAffine3::IDENTITY), part("lamp", 1, raised)],
             materials: vec![Material::diffuse("oak", Rgb::splat(0.5)), Material::diffuse("paper", Rgb::WHITE)],
             ..Scene::default()

@@ -2,7 +2,7 @@
 
 use crate::lamplight::Glow;
 use crate::materials::{Materials, Surfacing};
-use crate::models::{Body, Model, repictured};
+use crate::models::{Body, Model};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb};
@@ -168,7 +168,7 @@ impl Builder {
         let first_image = self.scene.images.len() as u32;
         self.scene.images.extend(body.images.iter().cloned());
         let dark = |m: &Material| Material { emission: Rgb::BLACK.into(), ..m.clone() };
-        let materials = body.materials.iter().map(|m| self.material(repictured(dark(m), |k| k + first_image))).collect();
+        let materials = body.materials.iter().map(|m| self.material(dark(m).repictured(|k| k + first_image))).collect();
         let meshes = body.parts.iter().map(|part| self.mesh(part.mesh.clone())).collect();
         let loaned = Arc::new(Loaned { meshes, materials });
         self.loaned.insert(number, Arc::clone(&loaned));
@@ -210,7 +210,7 @@ impl Builder {
 
     /// Adds a picture that only one object has.
     pub fn image(&mut self, image: Image) -> u32 {
-        self.scene.images.push(image);
+        self.scene.images.push(image.into());
         self.scene.images.len() as u32 - 1
     }
 
@@ -226,9 +226,9 @@ impl Builder {
 
     /// Equal meshes are stored once.
     fn mesh(&mut self, mesh: Mesh) -> u32 {
-        let found = self.scene.meshes.iter().position(|m| *m == mesh);
+        let found = self.scene.meshes.iter().position(|m| **m == mesh);
         found.unwrap_or_else(|| {
-            self.scene.meshes.push(mesh);
+            self.scene.meshes.push(mesh.into());
             self.scene.meshes.len() - 1
         }) as u32
     }

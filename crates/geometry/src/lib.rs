@@ -5,6 +5,7 @@ mod mesh;
 mod nearest;
 mod nearest_triangle;
 mod octree;
+mod primitives;
 
 pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, Placement, VisibilityBuffer};
 pub use mesh::{Mesh, MeshError};

@@ -11,7 +11,6 @@ use crate::gravity;
 use crate::shell::is_shell;
 use crate::{Home, Removal, Shift};
 use enfilade_furniture::meet::Body;
-use enfilade_furniture::models::repictured;
 use enfilade_furniture::object_of;
 use enfilade_math::{DAffine3, Vec3};
 use enfilade_scene::{Part, PartLabel, is_stuff};
@@ -99,7 +98,7 @@ fn drop_unused(home: &mut Home) {
     scene.materials.iter().for_each(|material| material.textures(|texture| shown.push(texture.image)));
     let image = retain(&mut scene.images, shown.into_iter());
     let materials = std::mem::take(&mut scene.materials).into_iter();
-    scene.materials = materials.map(|material| repictured(material, |k| image[&k])).collect();
+    scene.materials = materials.map(|material| material.repictured(|k| image[&k])).collect();
 }
 
 /// Keeps the entries of a list that are used, in their order. Returns the new index of each by its old one.
@@ -129,7 +128,7 @@ mod tests {
         assert_eq!(room.ways().count(), 1);
         let at = room.before(way.wall, way.center_x(), 0.3);
         let size = Vec3::new(way.size().x + 0.2, 0.02, 1.2);
-        home.scene.meshes.push(bevelled_box(size, 0.01));
+        home.scene.meshes.push(bevelled_box(size, 0.01).into());
         let world_from_mesh = pose(f64::from(at.x), f64::from(at.y), 0.601, way.wall.yaw());
         let mesh = home.scene.meshes.len() as u32 - 1;
         home.scene.parts.push(Part { name: "crate_1/body".into(), object: None, mesh, world_from_mesh, ..home.scene.parts[0].clone() });

@@ -106,7 +106,7 @@ impl EnvironmentOverride {
     /// nothing.
     pub fn light(&self, scene: &mut Scene) -> bool {
         let Some((picture, environment, sun)) = self.of_sky(scene.images.len() as u32) else { return false };
-        scene.images.push(picture);
+        scene.images.push(picture.into());
         scene.lights.extend(sun);
         scene.environment = Some(environment);
         true

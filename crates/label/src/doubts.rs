@@ -179,7 +179,7 @@ mod tests {
             world_from_mesh: DAffine3::from_translation(DVec3::from_array(at)),
         };
         Scene {
-            meshes: vec![mesh],
+            meshes: vec![mesh.into()],
             materials: vec![Material::diffuse("m", Rgb::WHITE)],
             objects: (0..9).map(|i| Object { name: format!("object_{i}"), parent: None }).collect(),
             parts: at.iter().enumerate().map(part).collect(),

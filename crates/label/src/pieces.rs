@@ -104,9 +104,9 @@ impl Pieces {
             let Some(cut) = self.parts.get(&of_part(number)) else { continue };
             let mesh = &scene.meshes[pieces.parts[number].mesh as usize];
             let kept = mesh.triangles.iter().zip(&cut.piece_of).filter(|(_, piece)| **piece as usize == number);
-            let mesh = Mesh { triangles: kept.map(|(triangle, _)| *triangle).collect(), ..mesh.clone() };
+            let mesh = Mesh { triangles: kept.map(|(triangle, _)| *triangle).collect(), ..Mesh::clone(mesh) };
             pieces.parts[number].mesh = pieces.meshes.len() as u32;
-            pieces.meshes.push(mesh);
+            pieces.meshes.push(mesh.into());
         }
         pieces
     }

@@ -133,8 +133,8 @@ mod tests {
         let part =
             |name: &str, material: u32| Part { name: name.into(), object: None, mesh: 0, material, world_from_mesh: DAffine3::IDENTITY };
         Scene {
-            meshes: vec![mesh],
-            images: vec![image],
+            meshes: vec![mesh.into()],
+            images: vec![image.into()],
             materials: vec![
                 Material::new("halves", Bsdf::Diffuse { reflectance: textured }),
                 Material::new("red", Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() }),

@@ -44,7 +44,7 @@ pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::{ConfigError, Error, Place};
 pub use estimate::estimate;
 pub use forecast::{Expected, Forecast};
-pub use in_memory::{LoadedScene, Shot};
+pub use in_memory::{FilePlace, LoadedScene, Shot};
 pub use look::{Looked, look};
 pub use partition::{PartitionReport, partition};
 pub use parts::{Prepared, PreparedScene, finish, gather, kept_frame, prepare, render_part};

@@ -13,6 +13,8 @@ Without a dataset on disk: `render` makes pictures of a `Scene` through a `Camer
     scene = enfilade.Scene.home(seed=7)
     frame = enfilade.render(scene, scene.camera(), quality="draft")
 
+A scene is a value: its edits, such as `scene.add(mesh)` and `scene.set_material("wall", material)`, each give a new one.
+
 `Dataset` opens enfilade's datasets and Hypersim's release alike, `NyuV2` that dataset's published file. The other functions are the verbs of the command line;
 those of `enfilade farm`, which makes a dataset on many machines, are in `enfilade.farm`.
 """
@@ -34,9 +36,14 @@ from ._native import (
     Confusion,
     DamagedFileError,
     Dataset,
+    Light,
     Loader,
     LoaderIterator,
+    Material,
+    Mesh,
     NyuV2,
+    Part,
+    Parts,
     Scene,
     StageError,
     __version__,
@@ -66,9 +73,14 @@ __all__ = [
     "DamagedFileError",
     "Dataset",
     "Frame",
+    "Light",
     "Loader",
     "LoaderIterator",
+    "Material",
+    "Mesh",
     "NyuV2",
+    "Part",
+    "Parts",
     "Scene",
     "StageError",
     "__version__",

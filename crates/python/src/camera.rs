@@ -1,12 +1,12 @@
 //! `enfilade.Camera`: what a picture is taken with and from where, in OpenCV's conventions.
 
 use crate::errors::IntoPy;
-use crate::json;
+use crate::{json, numbers};
 use enfilade_dataset::OpencvCalibration;
 use enfilade_math::{DMat3, DVec3, nearest_rotation};
 use enfilade_pipeline::{CameraConfig, CameraModel, LensConfig};
-use enfilade_scene::{Intrinsics, Pose};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArrayDyn};
+use enfilade_scene::{Intrinsics, Pose, StartCamera};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -52,6 +52,20 @@ impl Camera {
         Ok(Self { camera, pose, name, model: "pinhole".into(), lens: None })
     }
 
+    /// The camera of a scene that stands where this one does and sees as wide, under its name or another.
+    pub fn start(&self, name: Option<String>) -> PyResult<StartCamera> {
+        let fov_x_rad = self.camera.projection.fov_x_rad(std::f64::consts::TAU);
+        if fov_x_rad >= std::f64::consts::PI {
+            return Err(PyValueError::new_err(format!(
+                "the camera {:?} sees half of the world or more; cameras of scenes are pinholes",
+                self.name
+            )));
+        }
+        let ([width, height], Pose { position, world_from_camera, .. }) = (self.camera.size(), self.pose);
+        let aspect = f64::from(width) / f64::from(height);
+        Ok(StartCamera { name: name.unwrap_or_else(|| self.name.clone()), position, world_from_camera, fov_x_rad, aspect })
+    }
+
     fn calibration(&self) -> OpencvCalibration {
         OpencvCalibration::of(&self.camera.projection)
     }
@@ -63,8 +77,7 @@ impl Camera {
 
 /// A matrix of that many rows and columns, from anything that numpy can convert to an array.
 fn matrix<const R: usize, const C: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; C]; R]> {
-    let array = value.py().import("numpy")?.call_method1("asarray", (value, "float64"))?;
-    let array: PyReadonlyArrayDyn<f64> = array.extract()?;
+    let array = numbers::array(value)?;
     let array = array.as_array();
     let wrong = |found: String| Err(PyValueError::new_err(format!("{name} {found}; expected {R} x {C} finite numbers")));
     if array.shape() != [R, C] {

@@ -22,7 +22,7 @@ UNSAID = ("--disable-error-code", "var-annotated")
 # What only stubs have: names of types. What is there otherwise than mypy can see: defaults that are more than numbers and words show as `...`
 # in the signatures of functions in Rust; and the word for classes that others can extend is newer than Python 3.11.
 ALLOWED = r"""
-enfilade\.(CameraModel|JudgedShape|Layer|Lens|Mesh|MeshComparison|Names|Path|Sample|ShapeDetection|ShapeObject|Split)
+enfilade\.(CameraModel|JudgedShape|Layer|Lens|MeshComparison|Names|Path|Sample|Selected|Shape|ShapeDetection|ShapeObject|Split|Surface)
 enfilade\.farm\.(Path|Price)
 enfilade\.(Config\.from_dict|Confusion\.add|Dataset|Dataset\.__new__|NyuV2|compare_meshes|home|farm\.submit)
 """

@@ -121,7 +121,7 @@ class Rendered(unittest.TestCase):
         path = datasets.folder() / "toilet.scene"
         self.assertEqual(scene.save(path), [])
         again = enfilade.Scene.read(path)
-        self.assertEqual((again.parts, again.materials, again.summary), (scene.parts, scene.materials, scene.summary))
+        self.assertEqual((again.parts.names, again.materials, again.summary), (scene.parts.names, scene.materials, scene.summary))
         np.testing.assert_array_equal(again.labels, scene.labels)
         with self.assertRaisesRegex(ValueError, "end it with .scene"):
             scene.save(datasets.folder() / "toilet.txt")

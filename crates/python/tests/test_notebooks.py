@@ -17,6 +17,7 @@ NAMES = [
     "4-render-your-own-scene",
     "5-from-hypersim-to-enfilade",
     "6-render-in-memory",
+    "7-compose-a-scene",
 ]
 # What they import beside enfilade and numpy; `cargo xtask python` has all of it.
 MISSING = [package for package in ("PIL", "h5py", "torch", "matplotlib") if importlib.util.find_spec(package) is None]

@@ -17,7 +17,7 @@
 //! let corners = [[2.0, -9.0, -9.0], [2.0, -9.0, 9.0], [2.0, 9.0, 9.0], [2.0, 9.0, -9.0]];
 //! let mesh = Mesh { positions: corners.map(Vec3::from).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
 //! let scene = Scene {
-//!     meshes: vec![mesh],
+//!     meshes: vec![mesh.into()],
 //!     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
 //!     parts: vec![Part { name: "wall".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 //!     environment: Some(Environment::Constant { radiance: Rgb::WHITE }),

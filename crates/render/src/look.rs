@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 /// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
 /// let part = Part { name: "triangle".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
 /// let scene =
-///     Scene { meshes: vec![mesh], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
+///     Scene { meshes: vec![mesh.into()], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
 /// let camera = Camera::from(Intrinsics::from_fov_x(64, 64, 0.6));
 /// let pose = Pose::look_at(0, DVec3::new(0.2, 0.2, 3.0), DVec3::new(0.2, 0.2, 0.0), DVec3::Y).expect("y is not along the view");
 ///

@@ -24,7 +24,7 @@ use std::sync::OnceLock;
 /// let triangle = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
 /// let part = Part { name: "triangle".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
 /// let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
-/// let mut scene = Scene { meshes: vec![triangle], materials, parts: vec![part], ..Scene::default() };
+/// let mut scene = Scene { meshes: vec![triangle.into()], materials, parts: vec![part], ..Scene::default() };
 /// assert_eq!(RenderScene::new(&scene, &Quiet).err(), Some(RenderError::NoLight));
 ///
 /// scene.environment = Some(Environment::Constant { radiance: Rgb::WHITE });

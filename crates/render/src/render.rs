@@ -61,7 +61,7 @@ pub fn render_frame(
 /// use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 /// # let mesh = Mesh { positions: vec![Vec3::X, Vec3::ONE, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
 /// # let scene = Scene {
-/// #     meshes: vec![mesh],
+/// #     meshes: vec![mesh.into()],
 /// #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
 /// #     parts: vec![Part { name: "part".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 /// #     environment: Some(Environment::Constant { radiance: Rgb::WHITE }),

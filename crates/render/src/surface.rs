@@ -311,7 +311,7 @@ mod tests {
         };
         let part = |mesh| Part { name: format!("part {mesh}"), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
         Scene {
-            meshes: vec![roof, sheet],
+            meshes: vec![roof.into(), sheet.into()],
             parts: vec![part(0), part(1)],
             materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
             environment: Some(Environment::Constant { radiance: Rgb::WHITE }),

@@ -195,14 +195,14 @@ mod tests {
         let mut rng = Rng::new(3);
         let mut scene = Scene { environment: Some(Environment::Constant { radiance: Rgb::WHITE }), ..Scene::default() };
         let texels = (0..16).map(|i| [(i % 3) as f32 / 2.0; 3]).collect();
-        scene.images.push(Image { name: "holes".into(), width: 4, height: 4, pixels: Pixels::RgbF32(texels) });
+        scene.images.push(Image { name: "holes".into(), width: 4, height: 4, pixels: Pixels::RgbF32(texels) }.into());
         let mut holes = Material::diffuse("holes", Rgb::new(0.7, 0.5, 0.3));
         holes.alpha = Alpha::Mask { opacity: ScalarParam { factor: 1.0, texture: Some((TextureRef::new(0), 0)) }, cutoff: 0.4 };
         let mut lamp = Material::diffuse("lamp", Rgb::splat(0.5));
         lamp.emission.factor = Rgb::splat(5.0);
         scene.materials = vec![Material::diffuse("grey", Rgb::splat(0.5)), holes, lamp];
-        scene.meshes = vec![ball(&mut rng), ball(&mut rng)];
-        scene.meshes.push(Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() });
+        scene.meshes = vec![ball(&mut rng).into(), ball(&mut rng).into()];
+        scene.meshes.push(Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }.into());
         for i in 0..40u32 {
             let mut unit = || f64::from(rng.range(-1.0, 1.0));
             let turn = DMat3::from_rotation_z(3.0 * unit()) * DMat3::from_rotation_x(3.0 * unit());

@@ -9,7 +9,7 @@ const TEXELS: usize = 4096;
 /// RMS contrast of every part's colours: the standard deviation of their luminance over its mean (Peli 1990, "Contrast in complex
 /// images"). 0 for a part of one colour; of several coloured textures the one that varies most counts.
 pub(crate) fn of_parts(scene: &Scene) -> Vec<f32> {
-    let of_images: Vec<f32> = scene.images.iter().map(of_image).collect();
+    let of_images: Vec<f32> = scene.images.iter().map(|image| of_image(image)).collect();
     let of_materials: Vec<f32> = scene
         .materials
         .iter()

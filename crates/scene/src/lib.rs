@@ -7,6 +7,7 @@ mod atmosphere;
 mod camera;
 mod contrast;
 mod cx;
+mod edit;
 mod environment;
 mod git_lfs;
 mod labels;
@@ -20,6 +21,7 @@ mod package;
 mod photometry;
 mod picture_files;
 mod pictures;
+mod repictured;
 mod room_planes;
 mod rooms;
 mod scene;
@@ -34,6 +36,7 @@ pub use camera::{
     TiltedPinhole,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
+pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, is_stuff};

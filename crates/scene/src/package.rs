@@ -8,7 +8,7 @@
 //! # use enfilade_math::{DAffine3, Rgb, Vec3};
 //! # use enfilade_scene::{Material, Part, Scene};
 //! # let scene = Scene {
-//! #     meshes: vec![Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }],
+//! #     meshes: vec![Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() }.into()],
 //! #     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
 //! #     parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 //! #     ..Scene::default()
@@ -137,7 +137,12 @@ mod tests {
     fn scene() -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let part = Part { name: "triangle".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
-        Scene { meshes: vec![mesh], parts: vec![part], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], ..Scene::default() }
+        Scene {
+            meshes: vec![mesh.into()],
+            parts: vec![part],
+            materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
+            ..Scene::default()
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 use std::io::Cursor;
+use std::sync::Arc;
 
 /// An [`Image`] in a package.
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -31,16 +32,20 @@ enum PackedPixels<'a> {
 struct Bytes(Vec<u8>);
 
 /// Writes all pictures, for `serde(with)`.
-pub fn serialize<S: Serializer>(images: &[Image], serializer: S) -> Result<S::Ok, S::Error> {
-    enfilade_parallel::map(images, packed).serialize(serializer)
+pub fn serialize<S: Serializer>(images: &[Arc<Image>], serializer: S) -> Result<S::Ok, S::Error> {
+    enfilade_parallel::map(images, |image| packed(image)).serialize(serializer)
 }
 
 /// Reads all pictures, for `serde(with)`.
 ///
 /// # Errors
 /// When the data end too soon or a picture is no PNG of its size.
-pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Image>, D::Error> {
-    Vec::<Packed>::deserialize(deserializer)?.into_par_iter().map(image).collect::<Result<_, _>>().map_err(D::Error::custom)
+pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Arc<Image>>, D::Error> {
+    Vec::<Packed>::deserialize(deserializer)?
+        .into_par_iter()
+        .map(|packed| image(packed).map(Arc::new))
+        .collect::<Result<_, _>>()
+        .map_err(D::Error::custom)
 }
 
 fn packed(image: &Image) -> Packed<'_> {
@@ -173,7 +178,7 @@ mod tests {
         };
         let float = Pixels::RgbF32((0..740).map(|i| [i as f32 * 0.1, -0.0, f32::MAX]).collect());
         let kinds = [eight(true, true), eight(true, false), eight(false, true), eight(false, false), float];
-        Scene { images: kinds.into_iter().map(|pixels| picture("p", pixels)).collect(), ..Scene::default() }
+        Scene { images: kinds.into_iter().map(|pixels| picture("p", pixels).into()).collect(), ..Scene::default() }
     }
 
     #[test]
@@ -185,7 +190,7 @@ mod tests {
             Pixels::RgbF32(_) => None,
         };
         // PNG's colour types: grey, grey with alpha, RGB, RGBA.
-        let types: Vec<u8> = scene().images.iter().filter_map(eight).map(|file| file[25]).collect();
+        let types: Vec<u8> = scene().images.iter().filter_map(|image| eight(image)).map(|file| file[25]).collect();
         assert_eq!(types, [0, 4, 2, 6]);
     }
 

@@ -5,7 +5,8 @@ use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Object, Objec
 use enfilade_geometry::{Bvh, Mesh, MeshError};
 use enfilade_math::{DAffine3, DMat3, Vec3, place};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// Index into [`Scene::parts`]. A part's render entity id in the images is this plus one.
 pub type PartId = u32;
@@ -37,7 +38,7 @@ pub struct Part {
 ///
 /// let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
 /// let mut scene = Scene {
-///     meshes: vec![Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }],
+///     meshes: vec![Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }.into()],
 ///     materials: vec![Material::diffuse("oak", Rgb::new(0.5, 0.3, 0.2))],
 ///     parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 ///     ..Scene::default()
@@ -52,17 +53,17 @@ pub struct Part {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
-    /// Shared triangle meshes.
-    pub meshes: Vec<Mesh>,
+    /// Triangle meshes. Scenes made from another by edits share those that are the same.
+    pub meshes: Vec<Arc<Mesh>>,
     /// Everything visible.
     pub parts: Vec<Part>,
     /// The objects that the parts belong to, and their parents; a parent comes before its children.
     pub objects: Vec<Object>,
     /// Surfaces.
     pub materials: Vec<Material>,
-    /// Decoded pictures of all textures and of the environment.
+    /// Decoded pictures of all textures and of the environment, shared like the meshes.
     #[serde(with = "crate::pictures")]
-    pub images: Vec<Image>,
+    pub images: Vec<Arc<Image>>,
     /// Lights without a surface.
     pub lights: Vec<Light>,
     /// Light from the surroundings.
@@ -129,6 +130,12 @@ impl Scene {
         if self.parts.is_empty() {
             return Err(SceneError::NoParts);
         }
+        self.validate_after(&Self::default())
+    }
+
+    /// Checks as [`Scene::validate`] does, except that a scene may be empty; meshes and pictures shared with `earlier`, which is valid, are
+    /// not looked at again.
+    pub(crate) fn validate_after(&self, earlier: &Self) -> Result<(), SceneError> {
         let mut user_of_mesh = HashMap::new();
         let mut names = HashMap::new();
         for part in &self.parts {
@@ -152,13 +159,16 @@ impl Scene {
         if found > Bvh::MAX_TRIANGLES {
             return Err(SceneError::TooManyTriangles { found });
         }
+        let checked: HashSet<*const Mesh> = earlier.meshes.iter().map(Arc::as_ptr).collect();
+        user_of_mesh.retain(|mesh, _| !checked.contains(&Arc::as_ptr(&self.meshes[*mesh as usize])));
         for (&mesh, part) in &user_of_mesh {
             self.meshes[mesh as usize].validate().map_err(|error| SceneError::Mesh { part: (*part).to_string(), error })?;
         }
         for material in &self.materials {
             self.validate_material(material)?;
         }
-        for image in &self.images {
+        let checked: HashSet<*const Image> = earlier.images.iter().map(Arc::as_ptr).collect();
+        for image in self.images.iter().filter(|image| !checked.contains(&Arc::as_ptr(image))) {
             let texels = match &image.pixels {
                 Pixels::Rgba8 { texels, .. } => texels.len(),
                 Pixels::RgbF32(texels) => texels.len(),
@@ -279,7 +289,7 @@ mod tests {
     fn one_triangle(material: Material) -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let part = Part { name: "a".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
-        Scene { meshes: vec![mesh], parts: vec![part], materials: vec![material], ..Scene::default() }
+        Scene { meshes: vec![mesh.into()], parts: vec![part], materials: vec![material], ..Scene::default() }
     }
 
     fn glass(eta: f32, absorption: Rgb) -> Bsdf {
@@ -313,7 +323,7 @@ mod tests {
     fn more_triangles_than_can_be_rendered_are_refused() {
         let mut scene = one_triangle(Material::diffuse("m", Rgb::WHITE));
         let in_mesh = 1 << 16;
-        scene.meshes[0].triangles = vec![[0, 1, 2]; in_mesh];
+        Arc::make_mut(&mut scene.meshes[0]).triangles = vec![[0, 1, 2]; in_mesh];
         let part = scene.parts[0].clone();
         scene.parts = (0..Bvh::MAX_TRIANGLES / in_mesh).map(|i| Part { name: format!("part {i}"), ..part.clone() }).collect();
         assert_eq!(scene.validate(), Ok(()));
@@ -335,7 +345,7 @@ mod tests {
         scene.environment = Some(map);
         assert!(scene.validate().unwrap_err().to_string().contains("image 3"));
         let skewed = Mat3::from_cols(Vec3::X, Vec3::new(0.5, 1.0, 0.0).normalize(), Vec3::Z);
-        scene.images.push(Image { name: "sky".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[1.0; 3]]) });
+        scene.images.push(Image { name: "sky".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[1.0; 3]]) }.into());
         for (map_from_world, fits) in
             [(skewed, false), (Mat3::from_rotation_x(0.3), true), (Mat3::from_diagonal(Vec3::new(-1.0, 1.0, 1.0)), true)]
         {

@@ -25,7 +25,7 @@ pub struct TriangleSource {
 ///     Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::from_translation(DVec3::Z * z) }
 /// };
 /// let scene = Scene {
-///     meshes: vec![mesh],
+///     meshes: vec![mesh.into()],
 ///     materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
 ///     parts: vec![part("floor", 0.0), part("ceiling", 2.5)],
 ///     ..Scene::default()

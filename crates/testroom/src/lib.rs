@@ -169,7 +169,7 @@ pub fn scene() -> Scene {
     let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Default::default() };
     let part = |name: &str| Part { name: name.into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     Scene {
-        meshes: vec![mesh],
+        meshes: vec![mesh.into()],
         parts: PARTS.map(part).into(),
         materials: vec![Material::diffuse("paint", Rgb::splat(0.5))],
         ..Default::default()
@@ -184,5 +184,5 @@ pub fn box_room(min: DVec3, max: DVec3) -> WorldMesh {
     let mesh = Mesh { positions: (0..8).map(corner).collect(), triangles, ..Mesh::default() };
     let part = Part { name: "room".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
     let materials = vec![Material::diffuse("grey", Rgb::splat(0.5))];
-    WorldMesh::new(&Scene { meshes: vec![mesh], parts: vec![part], materials, ..Scene::default() })
+    WorldMesh::new(&Scene { meshes: vec![mesh.into()], parts: vec![part], materials, ..Scene::default() })
 }

@@ -8,6 +8,7 @@ use enfilade_math::DVec3;
 use enfilade_scene::{Image, Pixels, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Simpler meshes are boxes and boards that are alike by chance.
 const LEAST_TRIANGLES: usize = 100;
@@ -74,7 +75,7 @@ impl SceneAssets {
                 shape: shape_of(mesh),
             })
         });
-        let large = |image: &&Image| image.width as usize * image.height as usize >= LEAST_TEXELS;
+        let large = |image: &&Arc<Image>| image.width as usize * image.height as usize >= LEAST_TEXELS;
         let images = scene.images.iter().filter(large).map(|image| ImageAsset { name: image.name.clone(), content: content_of(image) });
         Self { meshes: meshes.collect(), images: images.collect() }
     }
@@ -161,10 +162,10 @@ mod tests {
 
     fn scene(mesh: Mesh, image: Option<Image>) -> Scene {
         Scene {
-            meshes: vec![mesh],
+            meshes: vec![mesh.into()],
             parts: vec![Part { name: "vase".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             materials: vec![Material::diffuse("clay", Rgb::splat(0.5))],
-            images: image.into_iter().collect(),
+            images: image.into_iter().map(Into::into).collect(),
             ..Scene::default()
         }
     }

@@ -42,7 +42,7 @@ pub struct Findings {
 /// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2], [1, 2, 0]], ..Mesh::default() };
 /// let part = Part { name: "sheet".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
 /// let scene =
-///     Scene { meshes: vec![mesh], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
+///     Scene { meshes: vec![mesh.into()], materials: vec![Material::diffuse("grey", Rgb::splat(0.5))], parts: vec![part], ..Scene::default() };
 /// let world = WorldMesh::new(&scene);
 /// let found = findings(&world, &Bvh::new(&world.corners, &|_| true));
 /// assert_eq!(found.doubled, [[0, 1]]);

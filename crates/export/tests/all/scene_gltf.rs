@@ -42,7 +42,8 @@ fn shelf(materials: Vec<Material>, images: Vec<Image>) -> Scene {
         world_from_mesh: DAffine3::from_translation(DVec3::new(3.0 * i as f64, 0.25, 1.5)) * DAffine3::from_rotation_x(0.5),
     };
     let parts = (0..materials.len()).map(part).collect();
-    Scene { meshes: vec![square()], parts, materials, images, ..Scene::default() }
+    let images = images.into_iter().map(Into::into).collect();
+    Scene { meshes: vec![square().into()], parts, materials, images, ..Scene::default() }
 }
 
 fn picture(srgb: bool, texels: Vec<[u8; 4]>) -> Image {
@@ -55,7 +56,7 @@ fn pictures_that_came_as_files_are_passed_on_where_they_mean_what_they_meant() {
     let colored = |image| Material { bsdf: Bsdf::Diffuse { reflectance: texture(image) }, ..Material::diffuse("m", Rgb::WHITE) };
     let images = vec![picture(true, vec![[9; 4]; 4]), picture(false, vec![[9; 4]; 4]), picture(true, vec![[7; 4]; 4])];
     let scene = shelf((0..3).map(colored).collect(), images);
-    let file = |text: &str| PictureFile { media_type: "image/jpeg", bytes: format!("JPEG of {text}").into_bytes() };
+    let file = |text: &str| PictureFile { media_type: "image/jpeg", bytes: format!("JPEG of {text}").into_bytes().into() };
     // The second is linear, which glTF's colours are not; the third has no file.
     let files = PictureFiles::from([(0, file("the first")), (1, file("the second"))]);
     let SceneGltf { glb, .. } = scene_gltf(&scene, &Labels::default(), &files);
@@ -303,7 +304,8 @@ fn lights_cameras_and_constant_surroundings_come_back() {
 #[test]
 fn a_turned_sky_keeps_its_directions() {
     let mut scene = shelf(vec![Material::diffuse("grey", Rgb::splat(0.5))], vec![]);
-    scene.images = vec![Image { name: "sky".into(), width: 2, height: 1, pixels: Pixels::RgbF32(vec![[3.0, 2.0, 1.0], [0.5, 0.25, 9.0]]) }];
+    scene.images =
+        vec![Image { name: "sky".into(), width: 2, height: 1, pixels: Pixels::RgbF32(vec![[3.0, 2.0, 1.0], [0.5, 0.25, 9.0]]) }.into()];
     let map_from_world = Mat3::from_rotation_x(0.7) * Mat3::from_rotation_z(-1.1);
     scene.environment = Some(Environment::Map { image: 0, rows: MapRows::PoleToPole, scale: Rgb::splat(2.0), map_from_world });
     let (imported, _) = round_trip(&scene, &Labels::default());

@@ -113,10 +113,10 @@ mod tests {
     fn body(size: Vec3) -> Result<Body, String> {
         let skin = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
         let scene = Scene {
-            meshes: vec![bevelled_box(size, 0.0)],
+            meshes: vec![bevelled_box(size, 0.0).into()],
             parts: vec![Part { name: "body".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             materials: vec![Material::new("skin", Bsdf::Diffuse { reflectance: skin })],
-            images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3]]) }],
+            images: vec![Image { name: "skin".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5; 3]]) }.into()],
             ..Scene::default()
         };
         Body::new(scene, DMat3::from_rotation_z(std::f64::consts::PI), None)

@@ -49,7 +49,7 @@ impl Maker<'_> {
         let known = self.stock.pictures.get(&key).copied();
         let image = known.map_or_else(
             || {
-                self.scene.images.push(make(self.seed(name, variant)));
+                self.scene.images.push(make(self.seed(name, variant)).into());
                 self.scene.images.len() as u32 - 1
             },
             |paint| paint.image,
@@ -67,7 +67,7 @@ impl Maker<'_> {
             relief = Some(skin.height);
             skin.color
         });
-        self.scene.images.extend(relief);
+        self.scene.images.extend(relief.map(Into::into));
         Layers { color, relief: Paint { image: color.image + 1, ..color } }
     }
 }

@@ -5,6 +5,7 @@ use crate::surface::Surface;
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Image, Material, Part, Scene};
+use std::sync::Arc;
 
 /// A triangle mesh of one material.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ pub struct Body {
     /// Surfaces; their textures are indices into `images`.
     pub materials: Vec<Material>,
     /// Decoded pictures.
-    pub images: Vec<Image>,
+    pub images: Vec<Arc<Image>>,
     /// Light sources, besides materials that glow.
     pub bulbs: Vec<Bulb>,
     size: Vec3,
@@ -83,7 +84,7 @@ impl Body {
     pub fn block(size: Vec3) -> Result<Self, String> {
         let part = Part { name: "block".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let grey = Material::diffuse("block", Rgb::splat(0.5));
-        let scene = Scene { meshes: vec![bevelled_box(size, 0.004)], parts: vec![part], materials: vec![grey], ..Scene::default() };
+        let scene = Scene { meshes: vec![bevelled_box(size, 0.004).into()], parts: vec![part], materials: vec![grey], ..Scene::default() };
         Self::new(scene, DMat3::IDENTITY, None)
     }
 
@@ -134,7 +135,7 @@ mod tests {
             world_from_mesh: DAffine3::from_translation(DVec3::from_array(at)),
         };
         let scene = Scene {
-            meshes: vec![bevelled_box(Vec3::new(1.0, 0.5, 0.2), 0.0), bevelled_box(Vec3::splat(0.1), 0.0)],
+            meshes: vec![bevelled_box(Vec3::new(1.0, 0.5, 0.2), 0.0).into(), bevelled_box(Vec3::splat(0.1), 0.0).into()],
             parts: vec![part("top", 0, [5.0, 1.0, 0.9]), part("leg/1", 1, [5.0, 1.0, 0.05])],
             materials: vec![Material::diffuse("m", Rgb::WHITE)],
             ..Scene::default()

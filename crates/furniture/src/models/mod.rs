@@ -5,8 +5,6 @@
 mod body;
 mod model;
 mod surfaces;
-mod textures;
 
 pub use body::{Body, BodyPart, Bulb};
 pub use model::Model;
-pub use textures::repictured;

@@ -198,7 +198,7 @@ fn split(mesh: &Mesh) -> Vec<Vec<usize>> {
 
 /// The pieces of each variant in a scene of separate variants.
 fn pieces(scene: &Scene) -> Vec<Vec<Piece<'_>>> {
-    let splits: Vec<Vec<Vec<usize>>> = scene.meshes.iter().map(split).collect();
+    let splits: Vec<Vec<Vec<usize>>> = scene.meshes.iter().map(|mesh| split(mesh)).collect();
     let mut all: Vec<Vec<Piece>> = (0..seeds()).map(|_| Vec::new()).collect();
     for part in &scene.parts {
         let mesh = &scene.meshes[part.mesh as usize];

@@ -42,7 +42,7 @@ pub fn scene() -> Scene {
         ..Default::default()
     };
     Scene {
-        meshes: vec![mesh],
+        meshes: vec![mesh.into()],
         parts: vec![Part { name: "floor".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
         materials: vec![Material::diffuse("oak", Rgb::splat(0.5))],
         lights: vec![Light::Point { name: "lamp".into(), position: Vec3::Z, intensity: Rgb::WHITE }],
@@ -162,7 +162,7 @@ fn deflated(raw: &[u8]) -> Vec<u8> {
 
 /// Packages with and without labels and pictures; one without the line and the checksum before it.
 pub fn packages() -> Vec<Seed> {
-    let image = |pixels| enfilade_scene::Image { name: "p".into(), width: 2, height: 1, pixels };
+    let image = |pixels| enfilade_scene::Image { name: "p".into(), width: 2, height: 1, pixels }.into();
     let mut pictured = scene();
     pictured.images = vec![
         image(enfilade_scene::Pixels::Rgba8 { srgb: true, texels: vec![[1, 2, 3, 4], [9; 4]] }),

@@ -27,7 +27,7 @@ pub fn illuminate(scene: &mut Scene, outward: &[Vec2], weather: &Weather, surrou
         exposure.expose(surroundings.radiance(d, weather.radiance(d))).to_array()
     };
     let texels = enfilade_parallel::map_up_to((width * height) as usize, |pixel| texel(pixel as u32));
-    scene.images.push(Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) });
+    scene.images.push(Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }.into());
     let image = scene.images.len() as u32 - 1;
     scene.environment = Some(Environment::Map { image, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world });
     if !weather.sun.is_black() {

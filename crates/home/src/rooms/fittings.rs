@@ -158,7 +158,7 @@ mod tests {
         let size = Vec3::new(0.4, 0.4, height);
         let read = move || {
             let part = Part { name: "shade".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
-            let (meshes, materials) = (vec![bevelled_box(size, 0.0)], vec![Material::diffuse("paper", Rgb::WHITE)]);
+            let (meshes, materials) = (vec![bevelled_box(size, 0.0).into()], vec![Material::diffuse("paper", Rgb::WHITE)]);
             Body::new(Scene { meshes, materials, parts: vec![part], ..Scene::default() }, DMat3::IDENTITY, None).map(Arc::new)
         };
         let mut model = Model::new("lantern".into(), size, vec!["ceiling_lamp"], Box::new(read));

@@ -3,8 +3,9 @@
 use super::{Assembly, FileLabel};
 use crate::{ImportError, Imported};
 use enfilade_math::DAffine3;
-use enfilade_scene::{Alpha, Bsdf, Material, NormalMap, ObjectId, Part, PartLabel, Scene, TextureRef};
+use enfilade_scene::{ObjectId, Part, PartLabel, Scene};
 use std::path::Path;
+use std::sync::Arc;
 
 /// One mesh of an adopted model with its material, both as indices into the scene.
 #[derive(Clone)]
@@ -46,13 +47,12 @@ impl Assembly<'_> {
         let files = imported.picture_files.into_iter().filter(|(index, _)| *index < images);
         self.picture_files.extend(files.map(|(index, file)| (first_image + index, file)));
         let mut materials = Vec::with_capacity(scene.materials.len());
-        for mut material in scene.materials {
-            each_texture(&mut material, &mut |t| t.image += first_image);
-            materials.push(self.push_material(material));
+        for material in scene.materials {
+            materials.push(self.push_material(material.repictured(|image| first_image + image)));
         }
         let mut meshes = Vec::with_capacity(scene.meshes.len());
         for mesh in scene.meshes {
-            meshes.push(self.push_mesh(mesh, file, "model")?);
+            meshes.push(self.push_mesh(Arc::unwrap_or_clone(mesh), file, "model")?);
         }
         let mut objects = Vec::with_capacity(scene.objects.len());
         for object in &scene.objects {
@@ -80,51 +80,5 @@ fn turn_mirrored_back(scene: &mut Scene) {
         mirrored[part.mesh as usize] = true;
     }
     let wound = scene.meshes.iter_mut().zip(mirrored).filter(|(_, mirrored)| *mirrored);
-    wound.for_each(|(mesh, _)| mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2)));
-}
-
-/// Calls `found` with every texture of a material.
-fn each_texture(material: &mut Material, found: &mut dyn FnMut(&mut TextureRef)) {
-    of_bsdf(&mut material.bsdf, found);
-    material.emission.texture.iter_mut().for_each(&mut *found);
-    if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut material.alpha {
-        opacity.texture.iter_mut().for_each(|(t, _)| found(t));
-    }
-    if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &mut material.normal_map {
-        found(texture);
-    }
-}
-
-fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
-    let (colors, scalars) = match bsdf {
-        Bsdf::Diffuse { reflectance } => (vec![reflectance], vec![]),
-        Bsdf::RoughDiffuse { reflectance, roughness } => (vec![reflectance], vec![roughness]),
-        Bsdf::Conductor { reflectance, alpha, .. } => (vec![reflectance], vec![&mut alpha.param]),
-        Bsdf::Dielectric { transmittance, alpha, .. } => (vec![transmittance], vec![&mut alpha.param]),
-        Bsdf::ThinDielectric { transmittance, .. } => (vec![transmittance], vec![]),
-        Bsdf::Plastic { diffuse, specular, alpha, .. } => (vec![diffuse, specular], vec![&mut alpha.param]),
-        Bsdf::Blend { first, second, weight } => {
-            of_bsdf(first, found);
-            of_bsdf(second, found);
-            (vec![], vec![weight])
-        }
-        Bsdf::Disney(p) => {
-            p.base_color.texture.iter_mut().for_each(&mut *found);
-            (vec![], p.scalars_mut().into())
-        }
-        Bsdf::Principled(p) => (
-            vec![&mut p.base_color, &mut p.specular_color, &mut p.sheen_color],
-            vec![
-                &mut p.metallic,
-                &mut p.roughness,
-                &mut p.specular,
-                &mut p.transmission,
-                &mut p.clearcoat,
-                &mut p.clearcoat_roughness,
-                &mut p.sheen_roughness,
-            ],
-        ),
-    };
-    colors.into_iter().filter_map(|c| c.texture.as_mut()).for_each(&mut *found);
-    scalars.into_iter().filter_map(|s| s.texture.as_mut()).for_each(|(t, _)| found(t));
+    wound.for_each(|(mesh, _)| Arc::make_mut(mesh).triangles.iter_mut().for_each(|t| t.swap(1, 2)));
 }

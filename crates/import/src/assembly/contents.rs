@@ -8,6 +8,7 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::{Material, Object, ObjectId, Part, PartId, PartLabel, StartCamera};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Below this ratio of a placement's determinant to the product of its axes' lengths, it flattens what it places.
 const SINGULAR: f64 = 1e-12;
@@ -17,8 +18,8 @@ const MAX_DEPTH: u8 = 64;
 
 impl Assembly<'_> {
     /// Adds a picture made by the importer.
-    pub(crate) fn push_image(&mut self, image: enfilade_scene::Image) -> u32 {
-        self.scene.images.push(image);
+    pub(crate) fn push_image(&mut self, image: impl Into<Arc<enfilade_scene::Image>>) -> u32 {
+        self.scene.images.push(image.into());
         (self.scene.images.len() - 1) as u32
     }
 
@@ -73,7 +74,7 @@ impl Assembly<'_> {
             self.warnings.push(format!("{}: {place}", file.display()), note);
         }
         mesh.validate().map_err(|e| ImportError::malformed(file, place, e.to_string()))?;
-        self.scene.meshes.push(mesh);
+        self.scene.meshes.push(mesh.into());
         Ok(Some((self.scene.meshes.len() - 1) as u32))
     }
 
@@ -152,9 +153,9 @@ impl Assembly<'_> {
         if let Some(&found) = self.reversed.get(&mesh) {
             return found;
         }
-        let mut copy = self.scene.meshes[mesh as usize].clone();
+        let mut copy = Mesh::clone(&self.scene.meshes[mesh as usize]);
         copy.triangles.iter_mut().for_each(|t| t.swap(1, 2));
-        self.scene.meshes.push(copy);
+        self.scene.meshes.push(copy.into());
         let index = (self.scene.meshes.len() - 1) as u32;
         self.reversed.insert(mesh, index);
         index

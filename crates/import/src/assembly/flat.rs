@@ -22,7 +22,7 @@ impl Assembly<'_> {
         }
         let flat = flat(mesh, world_from_mesh).filter(|flat| flat.validate().is_ok())?;
         self.flattened += flat.triangles.len();
-        self.scene.meshes.push(flat);
+        self.scene.meshes.push(flat.into());
         Some(((self.scene.meshes.len() - 1) as u32, DAffine3::from_translation(world_from_mesh.translation)))
     }
 }

@@ -80,7 +80,7 @@ impl Assembly<'_> {
 
 /// The middle of each part in the world, and how far the part reaches from it along an axis.
 fn places(scene: &Scene) -> Vec<(DVec3, f64)> {
-    let boxes: Vec<(DVec3, DVec3)> = scene.meshes.iter().map(bounds).collect();
+    let boxes: Vec<(DVec3, DVec3)> = scene.meshes.iter().map(|mesh| bounds(mesh)).collect();
     let placed = |part: &Part| {
         let (min, max) = boxes[part.mesh as usize];
         let to_world: DAffine3 = part.world_from_mesh;

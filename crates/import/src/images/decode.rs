@@ -82,7 +82,7 @@ fn to_pass_on(format: ImageFormat, bytes: &[u8]) -> Option<PictureFile> {
         ImageFormat::Jpeg if matches!(jpeg_channels(bytes), Some(1 | 3)) => "image/jpeg",
         _ => return None,
     };
-    Some(PictureFile { media_type, bytes: bytes.to_vec() })
+    Some(PictureFile { media_type, bytes: bytes.into() })
 }
 
 /// The number of channels that the header of a JPEG file's frame states (ISO/IEC 10918-1, B.2.2).

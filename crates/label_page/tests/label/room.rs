@@ -43,7 +43,7 @@ pub fn scene() -> Scene {
     let part =
         |i: usize| Part { name: PARTS[i].into(), object: None, mesh: meshes[i], material: u32::from(i > 0), world_from_mesh: places[i] };
     Scene {
-        meshes: vec![wall, cube(1.0), cube(0.5), pair],
+        meshes: vec![wall.into(), cube(1.0).into(), cube(0.5).into(), pair.into()],
         parts: (0..PARTS.len()).map(part).collect(),
         materials: vec![Material::diffuse("plaster", Rgb::splat(0.8)), Material::diffuse("wood", Rgb::splat(0.4))],
         ..Scene::default()

@@ -23,7 +23,7 @@ pub fn scene(parts: &[Vec<[Vec3; 3]>]) -> Scene {
     for (i, triangles) in parts.iter().enumerate() {
         let corners = triangles.as_flattened().to_vec();
         let triangles = (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-        scene.meshes.push(Mesh { positions: corners, triangles, ..Mesh::default() });
+        scene.meshes.push(Mesh { positions: corners, triangles, ..Mesh::default() }.into());
         scene.parts.push(Part {
             name: format!("part {i}"),
             object: None,

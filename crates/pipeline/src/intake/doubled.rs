@@ -47,7 +47,7 @@ pub(super) fn drop_faces(source: &FileSource, imported: &mut Imported, look: &Lo
         // Other parts may share the mesh, and theirs stay whole.
         let own = without(mesh, dropped);
         scene.parts[*part as usize].mesh = scene.meshes.len() as u32;
-        scene.meshes.push(own);
+        scene.meshes.push(own.into());
     }
     remove_parts(imported, &emptied);
     imported.scene.remove_unused_meshes();

@@ -146,8 +146,8 @@ mod tests {
         let triangles = vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
         let normal_map = bumped.then(|| NormalMap::Normal { texture: TextureRef::new(0), scale: 1.0 });
         let scene = Scene {
-            meshes: vec![Mesh { positions, triangles, ..Mesh::default() }],
-            images: vec![Image { name: "waves".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5, 0.5, 1.0]]) }],
+            meshes: vec![Mesh { positions, triangles, ..Mesh::default() }.into()],
+            images: vec![Image { name: "waves".into(), width: 1, height: 1, pixels: Pixels::RgbF32(vec![[0.5, 0.5, 1.0]]) }.into()],
             materials: vec![Material { normal_map, ..Material::new("globe", bsdf) }],
             parts: vec![Part { name: "globe".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             lights: vec![

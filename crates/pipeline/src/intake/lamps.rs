@@ -55,8 +55,8 @@ fn add(scene: &mut Scene, number: usize, lamp: &LampPlace, frame: u32) {
     let radiance = KLM_PER_M2 * lamp.area_m2 / (PI * f64::from(side_m).powi(2));
     let light = push(&mut scene.materials, Material::emitter(format!("ceiling_lamp_{number}"), WHITE * radiance as f32));
     let world_from_mesh = DAffine3::from_translation(lamp.top.as_dvec3() - DVec3::Z * f64::from(BELOW_M));
-    let panel = push(&mut scene.meshes, panel(side_m));
-    let rest = push(&mut scene.meshes, housing(lamp.side_m));
+    let panel = push(&mut scene.meshes, panel(side_m).into());
+    let rest = push(&mut scene.meshes, housing(lamp.side_m).into());
     let name = unused(scene, &format!("ceiling_lamp_{number}"));
     let object = Some(push(&mut scene.objects, Object { name: name.clone(), parent: None }));
     scene.parts.push(Part { name, object, mesh: panel, material: light, world_from_mesh });

@@ -10,6 +10,7 @@ use crate::workdir::Hash;
 use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
+use enfilade_math::Vec3;
 use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
 use enfilade_show::planview::rooms_svg;
 use std::fs::File;
@@ -180,7 +181,7 @@ impl Watch {
 /// One line about a scene.
 pub(crate) fn describe(scene: &Scene) -> String {
     let triangles: usize = scene.parts.iter().map(|p| scene.meshes[p.mesh as usize].triangles.len()).sum();
-    let extent = WorldMesh::new(scene).bounds.extent();
+    let extent = WorldMesh::new(scene).bounds.extent().max(Vec3::ZERO);
     format!(
         "{}, {}, {}, {}; {} x {} x {} m",
         counted(scene.parts.len(), "part"),

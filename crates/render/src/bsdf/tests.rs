@@ -374,7 +374,7 @@ fn metals_and_clear_glasses_keep_all_light_at_every_roughness_and_angle() {
 fn tiles_under_plastic_reflect_as_much_to_wide_rays_as_their_halves_do() {
     // A picture of one black and one white texel; half the readings find each.
     let pixels = scene::Pixels::RgbF32(vec![[0.0; 3], [1.0; 3]]);
-    let images = [scene::Image { name: "tiles".into(), width: 2, height: 1, pixels }];
+    let images = [scene::Image { name: "tiles".into(), width: 2, height: 1, pixels }.into()];
     let tiles = scene::TextureRef { filter: scene::Filter::Nearest, ..scene::TextureRef::new(0) };
     for nonlinear in [false, true] {
         let plastic = |diffuse| {

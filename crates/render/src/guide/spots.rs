@@ -170,7 +170,7 @@ mod tests {
             world_from_mesh: DAffine3::IDENTITY,
         };
         let scene = Scene {
-            meshes: vec![square(3.0, 0.0, false), square(0.01, 0.01, true)],
+            meshes: vec![square(3.0, 0.0, false).into(), square(0.01, 0.01, true).into()],
             materials: vec![
                 Material::diffuse("floor", Rgb::splat(0.5)),
                 Material { emission: Rgb::splat(9.0).into(), ..Material::diffuse("lamp", Rgb::BLACK) },

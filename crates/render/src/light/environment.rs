@@ -4,6 +4,7 @@ use enfilade_math::{Distribution2, Mat3, Rgb, Vec2, Vec3, warp};
 use enfilade_scene::{Environment, Image, MapRows, Pixels, TextureRef, Wrap, direction_from_uv, uv_from_direction};
 use half::f16;
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 /// The environment with its sampling distribution.
 #[derive(Debug)]
@@ -33,7 +34,7 @@ struct SkyMap<'s> {
 
 impl<'s> Sky<'s> {
     /// `None` when it is black everywhere.
-    pub fn new(environment: &Environment, images: &'s [Image]) -> Option<Self> {
+    pub fn new(environment: &Environment, images: &'s [Arc<Image>]) -> Option<Self> {
         let light = match environment {
             Environment::Constant { radiance } => (!radiance.is_black()).then_some(SkyLight::Constant { radiance: *radiance })?,
             Environment::Map { image, rows, scale, map_from_world } => {
@@ -202,7 +203,7 @@ mod tests {
         let half = |v: f32| f16::from_f32(v).to_f32();
         let mut texels: Vec<[f32; 3]> = (0..512).map(|_| [0.0f32; 3].map(|_| half(rng.next_f32().powi(20) * 6e4))).collect();
         texels[0] = [0.0, f16::MIN_POSITIVE_SUBNORMAL.to_f32(), f16::MAX.to_f32()];
-        let image = |texels| [Image { name: "sky".into(), width: 32, height: 16, pixels: Pixels::RgbF32(texels) }];
+        let image = |texels| [Arc::new(Image { name: "sky".into(), width: 32, height: 16, pixels: Pixels::RgbF32(texels) })];
         let packed = image(texels.clone());
         assert_eq!(halves(&packed[0]).expect("all are halves").concat().into_iter().map(positive).collect::<Vec<_>>(), texels.concat());
         let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
@@ -225,7 +226,7 @@ mod tests {
 
     #[test]
     fn directions_near_the_zenith_have_density() {
-        let images = [Image { name: "sky".into(), width: 8, height: 4, pixels: Pixels::RgbF32(vec![[1.0; 3]; 32]) }];
+        let images = [Image { name: "sky".into(), width: 8, height: 4, pixels: Pixels::RgbF32(vec![[1.0; 3]; 32]) }.into()];
         let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
         let sky = Sky::new(&map, &images).unwrap();
         for angle in [1e-3f32, 1e-4, 1e-6] {
@@ -238,7 +239,7 @@ mod tests {
         let (width, height, x, y) = (64u32, 32u32, 40u32, 3u32);
         let mut texels = vec![[0.0; 3]; (width * height) as usize];
         texels[(y * width + x) as usize] = [1.0; 3];
-        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }.into()];
         for (rows, v) in [(MapRows::Bands, (y as f32 + 0.5) / height as f32), (MapRows::PoleToPole, y as f32 / (height as f32 - 1.0))] {
             let map = Environment::Map { image: 0, rows, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
             let sky = Sky::new(&map, &images).unwrap();
@@ -260,7 +261,7 @@ mod tests {
                 let (x, y) = (width / 2 + x, height / 3 + x);
                 let mut texels = vec![[0.0; 3]; (width * height) as usize];
                 texels[(y * width + x) as usize] = [1e4; 3];
-                let images = [Image { name: "sun".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+                let images = [Image { name: "sun".into(), width, height, pixels: Pixels::RgbF32(texels) }.into()];
                 let map = Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world: Mat3::IDENTITY };
                 let sky = Sky::new(&map, &images).unwrap();
                 for k in 0..400 {
@@ -279,7 +280,7 @@ mod tests {
         let (width, height) = (64u32, 32u32);
         let mut rng = Rng::new(9);
         let texels = (0..width * height).map(|_| [rng.next_f32().powi(8) * 10.0; 3]).collect();
-        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }];
+        let images = [Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels) }.into()];
         let map_from_world = Mat3::from_rotation_x(-1.0) * Mat3::from_rotation_z(0.4);
         let sky = Sky::new(&Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world }, &images).unwrap();
         let place = |d: Vec3| uv_from_direction(map_from_world * d).to_array();

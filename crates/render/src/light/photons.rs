@@ -122,7 +122,7 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let mesh = Mesh { positions: corners.map(Vec3::from).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
         let of = |emits_both_sides| Scene {
-            meshes: vec![mesh.clone()],
+            meshes: vec![mesh.clone().into()],
             materials: vec![Material { emission: Rgb::splat(4.0).into(), emits_both_sides, ..Material::diffuse("lamp", Rgb::BLACK) }],
             parts: vec![Part { name: "lamp".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
             ..Scene::default()

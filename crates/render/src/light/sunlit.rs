@@ -219,7 +219,7 @@ mod tests {
         let direction = Vec3::new(0.3, 0.1, -1.0).normalize();
         Scene {
             parts: vec![Part { name: "bowl".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
-            meshes: vec![mesh],
+            meshes: vec![mesh.into()],
             materials: vec![Material::new("metal", metal)],
             lights: vec![Light::Directional { name: "sun".into(), direction, irradiance: Rgb::splat(3.0), angular_radius_rad: 0.1 }],
             ..Scene::default()

@@ -15,7 +15,7 @@ fn scene_of(parts: Vec<(Mesh, Material)>) -> Scene {
         let (mesh_index, material_index) = (index as u32, index as u32);
         let name = format!("part {index}");
         scene.parts.push(Part { name, object: None, mesh: mesh_index, material: material_index, world_from_mesh: DAffine3::IDENTITY });
-        scene.meshes.push(mesh);
+        scene.meshes.push(mesh.into());
         scene.materials.push(material);
     }
     scene
@@ -146,7 +146,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
             material: material_index,
             world_from_mesh: DAffine3::IDENTITY,
         });
-        scene.meshes.push(mesh);
+        scene.meshes.push(mesh.into());
         scene.materials.push(material);
     }
     let prepared = RenderScene::new(&scene, &Quiet).unwrap();
@@ -179,7 +179,7 @@ fn surfaces_met_by_chance_have_the_density_with_which_they_are_sampled() {
 fn screen_material(scene: &mut Scene) -> Material {
     let (w, h) = (64u32, 32u32);
     let texels = (0..w * h).map(|i| if i % w > 52 && i / w < 6 { [40.0, 30.0, 20.0] } else { [0.02; 3] }).collect();
-    scene.images.push(Image { name: "screen".into(), width: w, height: h, pixels: Pixels::RgbF32(texels) });
+    scene.images.push(Image { name: "screen".into(), width: w, height: h, pixels: Pixels::RgbF32(texels) }.into());
     let texture = Some(TextureRef::new((scene.images.len() - 1) as u32));
     Material { emission: ColorParam { factor: Rgb::splat(2.0), texture }, ..Material::emitter("screen", Rgb::WHITE) }
 }

@@ -12,6 +12,7 @@ pub(crate) use cone::{Cone, Footprint};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::{Alpha, ColorParam, Image, Material, ScalarParam, TextureRef};
 use pyramid::Pyramid;
+use std::sync::Arc;
 
 /// The pictures of a scene, ready to be read.
 #[derive(Debug, Default)]
@@ -21,7 +22,7 @@ pub(crate) struct Textures<'s> {
 
 impl<'s> Textures<'s> {
     /// Builds the pyramids of the pictures that `materials` use.
-    pub fn new(images: &'s [Image], materials: &[Material]) -> Self {
+    pub fn new(images: &'s [Arc<Image>], materials: &[Material]) -> Self {
         let mut uses = vec![Use::Unused; images.len()];
         for material in materials {
             material.textures(|t| uses[t.image as usize] = uses[t.image as usize].max(Use::Texture));

@@ -24,7 +24,7 @@ fn scene(parts: Vec<(Mesh, Material)>) -> Scene {
             material: material_id,
             world_from_mesh: DAffine3::IDENTITY,
         });
-        s.meshes.push(mesh);
+        s.meshes.push(mesh.into());
         s.materials.push(material);
     }
     s

@@ -29,7 +29,7 @@ fn scene(things: Vec<(Mesh, Material)>) -> Scene {
             material: i as u32,
             world_from_mesh: DAffine3::IDENTITY,
         });
-        s.meshes.push(mesh);
+        s.meshes.push(mesh.into());
         s.materials.push(material);
     }
     s.validate().unwrap();

@@ -38,7 +38,7 @@ fn scene(parts: Vec<(Mesh, Material)>) -> Scene {
     for (i, (mesh, material)) in parts.into_iter().enumerate() {
         let i = i as u32;
         scene.parts.push(Part { name: format!("part {i}"), object: None, mesh: i, material: i, world_from_mesh: DAffine3::IDENTITY });
-        scene.meshes.push(mesh);
+        scene.meshes.push(mesh.into());
         scene.materials.push(material);
     }
     scene

@@ -79,7 +79,7 @@ fn above_floor(things: Vec<(Mesh, Material)>) -> Scene {
             material: number,
             world_from_mesh: DAffine3::IDENTITY,
         });
-        scene.meshes.push(mesh);
+        scene.meshes.push(mesh.into());
         scene.materials.push(material);
     }
     scene
@@ -288,7 +288,7 @@ fn the_sun_of_a_picture_of_the_sky_is_found_behind_a_pane_without_fireflies() {
     texels[(60 * width + 200) as usize] = [40_000.0; 3];
     let lit = |panes| {
         let mut scene = above_floor(panes);
-        scene.images = vec![Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels.clone()) }];
+        scene.images = vec![Image { name: "sky".into(), width, height, pixels: Pixels::RgbF32(texels.clone()) }.into()];
         let map_from_world = Mat3::from_rotation_x(-std::f32::consts::FRAC_PI_2);
         scene.environment = Some(Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world });
         floor_at(&scene, 0.0, &RenderConfig { samples: 256, ..RenderConfig::default() })

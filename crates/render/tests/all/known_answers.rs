@@ -9,6 +9,7 @@ use enfilade_scene::{
     Principled, Quiet, Scene, SpotFalloff, TextureRef,
 };
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 fn quad(corners: [Vec3; 4]) -> Mesh {
     Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
@@ -72,7 +73,7 @@ fn scene(parts: Vec<(&str, Mesh, Material)>) -> Scene {
             world_from_mesh: DAffine3::IDENTITY,
         };
         scene.parts.push(part);
-        scene.meshes.push(mesh);
+        scene.meshes.push(mesh.into());
         scene.materials.push(material);
     }
     scene
@@ -337,7 +338,7 @@ fn an_environment_map_is_sampled_in_proportion_and_from_the_right_side() {
     let uv = enfilade_math::Vec2::new((x as f32 + 0.5) / w as f32, (y as f32 + 0.5) / h as f32);
     let to_patch = (map_from_world.transpose() * direction_from_uv(uv)).as_dvec3();
     let s = Scene {
-        images: vec![image],
+        images: vec![image.into()],
         environment: Some(Environment::Map { image: 0, rows: MapRows::Bands, scale: Rgb::WHITE, map_from_world }),
         ..Scene::default()
     };
@@ -411,7 +412,7 @@ fn embossed_wall() -> Scene {
     let image = Image { name: "relief".into(), width: 2, height: 2, pixels: Pixels::Rgba8 { srgb: false, texels } };
     let normal_map = Some(NormalMap::Normal { texture: TextureRef::new(0), scale: 1.0 });
     let mut s = scene(vec![("wall", mesh, Material { normal_map, ..Material::diffuse("wall", Rgb::WHITE) })]);
-    s.images.push(image);
+    s.images.push(image.into());
     s
 }
 
@@ -433,7 +434,7 @@ fn relief_turns_with_its_texture() {
         let pictures = [false, true].map(|in_mesh| {
             let mut s = embossed_wall();
             if in_mesh {
-                s.meshes[0].uvs.iter_mut().for_each(|uv| *uv = Vec2::new(a * uv.x + b * uv.y, c * uv.x + d * uv.y));
+                Arc::make_mut(&mut s.meshes[0]).uvs.iter_mut().for_each(|uv| *uv = Vec2::new(a * uv.x + b * uv.y, c * uv.x + d * uv.y));
             } else if let Some(NormalMap::Normal { texture, .. }) = &mut s.materials[0].normal_map {
                 texture.uv_transform = [[a, b, 0.0], [c, d, 0.0]];
             }

@@ -22,7 +22,7 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
     s.materials.push(Material::diffuse("grey", Rgb::splat(0.5)));
     for (i, mesh) in meshes.into_iter().enumerate() {
         s.parts.push(Part { name: format!("part {i}"), object: None, mesh: i as u32, material: 0, world_from_mesh: DAffine3::IDENTITY });
-        s.meshes.push(mesh);
+        s.meshes.push(mesh.into());
     }
     s.validate().unwrap();
     s
@@ -171,7 +171,7 @@ fn normal_map_tilts_the_bump_layer_and_leaves_the_other() {
     let mut s = scene(vec![quad(Vec3::new(-9.0, -9.0, 0.0), Vec3::X * 18.0, Vec3::Y * 18.0)]);
     // n = (0.6, 0, 0.8) in tangent space: towards +u, which is +x here.
     let texels = vec![[204, 128, 230, 255]];
-    s.images.push(Image { name: "n".into(), width: 1, height: 1, pixels: Pixels::Rgba8 { srgb: false, texels } });
+    s.images.push(Image { name: "n".into(), width: 1, height: 1, pixels: Pixels::Rgba8 { srgb: false, texels } }.into());
     s.materials[0].normal_map = Some(NormalMap::Normal { texture: TextureRef::new(0), scale: 1.0 });
     let (frame, _) = render(&s, DVec3::new(0.0, 0.0, 3.0), DVec3::new(0.0, 0.5, 0.0));
     for p in 0..frame.pixels() {

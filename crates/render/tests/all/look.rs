@@ -24,13 +24,13 @@ fn quad(origin: Vec3, e1: Vec3, e2: Vec3) -> Mesh {
 fn scene() -> Scene {
     let mut s = Scene { environment: Some(Environment::Constant { radiance: Rgb::WHITE }), ..Scene::default() };
     let texels = vec![[255, 255, 255, 0], [255, 255, 255, 255]];
-    s.images.push(Image { name: "half".into(), width: 2, height: 1, pixels: Pixels::Rgba8 { srgb: true, texels } });
+    s.images.push(Image { name: "half".into(), width: 2, height: 1, pixels: Pixels::Rgba8 { srgb: true, texels } }.into());
     s.materials.push(Material::diffuse("grey", Rgb::splat(0.5)));
     let mut cut = Material::diffuse("cut", Rgb::splat(0.5));
     cut.alpha = Alpha::Mask { opacity: ScalarParam { factor: 1.0, texture: Some((TextureRef::new(0), 3)) }, cutoff: 0.5 };
     s.materials.push(cut);
-    s.meshes.push(quad(Vec3::new(-2.0, -2.0, 0.0), Vec3::X * 4.0, Vec3::Y * 4.0));
-    s.meshes.push(quad(Vec3::new(1.0, -1.0, 1.0), Vec3::X * -2.0, Vec3::Y * 2.0));
+    s.meshes.push(quad(Vec3::new(-2.0, -2.0, 0.0), Vec3::X * 4.0, Vec3::Y * 4.0).into());
+    s.meshes.push(quad(Vec3::new(1.0, -1.0, 1.0), Vec3::X * -2.0, Vec3::Y * 2.0).into());
     for mesh in 0..2 {
         s.parts.push(Part { name: format!("part {mesh}"), object: None, mesh, material: mesh, world_from_mesh: DAffine3::IDENTITY });
     }

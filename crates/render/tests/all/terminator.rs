@@ -38,7 +38,7 @@ fn add(scene: &mut Scene, mesh: Mesh, material: Material) {
         material: material_number,
         world_from_mesh,
     });
-    scene.meshes.push(mesh);
+    scene.meshes.push(mesh.into());
     scene.materials.push(material);
 }
 

@@ -1,7 +1,7 @@
 //! The plan of a scene without cameras: its outlines at one height, as SVG.
 
 use super::cut::{Cut, Look, joined};
-use enfilade_math::DVec3;
+use enfilade_math::{Bounds3, DVec3, Vec3};
 use enfilade_scene::WorldMesh;
 use std::fmt::Write;
 
@@ -11,7 +11,8 @@ const CUT: f64 = 0.4;
 /// Draws the lines in which surfaces meet a level plane at two fifths of the scene's height, seen from above: x to the right, y up. The
 /// drawing is `width` pixels across, and at most twice as high; it is in the reader's text colour.
 pub fn floor_plan_svg(world: &WorldMesh, width: u32) -> String {
-    let (low, high) = (world.bounds.min.as_dvec3(), world.bounds.max.as_dvec3());
+    let bounds = if world.bounds.is_empty() { Bounds3::from_points([Vec3::ZERO]) } else { world.bounds };
+    let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let extent = (high - low).max(DVec3::splat(1e-6));
     let scale = f64::from(width) / extent.x.max(0.5 * extent.y);
     let cut = Cut { look: Look::Down, through: low + CUT * extent };
@@ -49,7 +50,7 @@ mod tests {
         };
         let part = |name: &str, mesh| Part { name: name.into(), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
         let scene = Scene {
-            meshes: vec![mesh(wall), mesh(floor)],
+            meshes: vec![mesh(wall).into(), mesh(floor).into()],
             materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
             parts: vec![part("wall", 0), part("floor", 1)],
             ..Scene::default()

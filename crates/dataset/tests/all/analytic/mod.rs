@@ -19,7 +19,7 @@ pub fn scene() -> Scene {
     let ball = Mesh { positions: vec![Vec3::X, Vec3::Y, Vec3::Z], triangles: vec![[0, 1, 2]], ..Mesh::default() };
     let part = |name: &str, mesh| Part { name: name.into(), object: None, mesh, material: 0, world_from_mesh: DAffine3::IDENTITY };
     Scene {
-        meshes: vec![floor, ball],
+        meshes: vec![floor.into(), ball.into()],
         parts: vec![part("floor", 0), part("ball", 1)],
         materials: vec![Material::diffuse("grey", Rgb::splat(0.5))],
         ..Scene::default()

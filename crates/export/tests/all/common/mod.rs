@@ -118,7 +118,7 @@ fn scene() -> Scene {
         world_from_mesh: DAffine3::IDENTITY,
     };
     Scene {
-        meshes: shapes.map(block).into(),
+        meshes: shapes.map(|shape| block(shape).into()).into(),
         parts: names.iter().enumerate().map(part).collect(),
         materials: vec![Material::diffuse("paint", Rgb::splat(0.5))],
         ..Scene::default()

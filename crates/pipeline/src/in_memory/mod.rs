@@ -4,10 +4,14 @@
 //! A frame has the values that a run writes for the same scene, views, settings and seed, where the seed is the one in the frame's record.
 //! The data for rays is prepared for the first picture and used for all others.
 
+mod edits;
+
+pub use edits::FilePlace;
+
 use crate::assets;
 use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
 use crate::error::Error;
-use crate::intake::{self, Look, labels_by_part};
+use crate::intake::{self, Look, labelled};
 use crate::look::{named_camera, place};
 use crate::single::write_output;
 use crate::stages::{FrameCx, add_extra, assign_table, describe};
@@ -18,7 +22,9 @@ use enfilade_home::HomeConfig;
 use enfilade_import::scene_name;
 use enfilade_label::join;
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
-use enfilade_scene::{Camera, CameraView, Cx, Labels, PartLabel, PictureFiles, Pose, Scene, StartCamera, Warning, WorldMesh};
+use enfilade_scene::{
+    Camera, CameraView, Cx, LabelledScene, Labels, PictureFiles, Pose, Scene, SceneError, StartCamera, Warning, WorldMesh,
+};
 use enfilade_show::planview::floor_plan_svg;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -26,18 +32,16 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 self_cell::self_cell!(
     /// A scene with what rays need of it.
     struct Prepared {
-        owner: Arc<Scene>,
+        owner: Arc<LabelledScene>,
         #[covariant]
         dependent: RenderScene,
     }
 );
 
-/// A scene in memory.
+/// A scene in memory. It is a value: [`LoadedScene::edited`] gives a new one, which shares what did not change.
 pub struct LoadedScene {
     name: String,
-    scene: Arc<Scene>,
-    labels: Labels,
-    picture_files: PictureFiles,
+    contents: Arc<LabelledScene>,
     warnings: Vec<Warning>,
     report: serde_json::Value,
     /// Made for the first picture, and again if a later one changes the option for Lambertian surfaces.
@@ -74,15 +78,13 @@ impl LoadedScene {
     pub fn read(source: &FileSource, labels: Option<&LabelSource>, cx: &dyn Cx) -> Result<Self, Error> {
         let file = Path::new(&source.file);
         let imported = intake::read(source, file, &|path| Ok(path.into()), cx)?;
-        let scene = imported.scene;
-        let labels = match (labels, imported.labels) {
-            (Some(table), _) => assign_table(Path::new(&table.table), &table.scene, &scene, cx)?.0,
-            (None, Some(labels)) => labels_by_part(&scene, &labels),
-            (None, None) => Labels { parts: vec![PartLabel::NONE; scene.parts.len()] },
-        };
         let report = serde_json::to_value(&imported.report).unwrap_or_default();
-        let read = Self::new(scene_name(file), scene, labels, imported.report.warnings, report);
-        Ok(Self { picture_files: imported.picture_files, ..read })
+        let warnings = imported.report.warnings.clone();
+        let mut contents = labelled(imported);
+        if let Some(table) = labels {
+            contents.labels = assign_table(Path::new(&table.table), &table.scene, &contents.scene, cx)?.0;
+        }
+        Ok(Self::new(scene_name(file), contents, warnings, report))
     }
 
     /// Makes the home of `config`; the paths of its libraries are used unchanged.
@@ -96,20 +98,12 @@ impl LoadedScene {
             serde_json::json!({ "kind": kind, "area_m2": area_m2 })
         });
         let report = serde_json::json!({ "rooms": rooms.collect::<Vec<_>>(), "credits": home.credits });
-        Ok(Self::new("home".into(), home.scene, home.labels, Vec::new(), report))
+        let contents = LabelledScene { scene: home.scene, labels: home.labels, picture_files: PictureFiles::new() };
+        Ok(Self::new("home".into(), contents, Vec::new(), report))
     }
 
-    fn new(name: String, scene: Scene, labels: Labels, warnings: Vec<Warning>, report: serde_json::Value) -> Self {
-        Self {
-            name,
-            scene: Arc::new(scene),
-            labels,
-            picture_files: PictureFiles::new(),
-            warnings,
-            report,
-            prepared: Mutex::default(),
-            found: OnceLock::new(),
-        }
+    fn new(name: String, contents: LabelledScene, warnings: Vec<Warning>, report: serde_json::Value) -> Self {
+        Self { name, contents: Arc::new(contents), warnings, report, prepared: Mutex::default(), found: OnceLock::new() }
     }
 
     /// Name of the scene: the file's name without the extension of its format.
@@ -119,12 +113,17 @@ impl LoadedScene {
 
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.contents.scene
+    }
+
+    /// The scene with its labels, to be shared.
+    pub fn contents(&self) -> &Arc<LabelledScene> {
+        &self.contents
     }
 
     /// Labels of its parts.
     pub fn labels(&self) -> &Labels {
-        &self.labels
+        &self.contents.labels
     }
 
     /// Everything that was dropped, guessed or fixed.
@@ -139,27 +138,28 @@ impl LoadedScene {
 
     /// One line about it.
     pub fn summary(&self) -> String {
-        describe(&self.scene)
+        describe(self.scene())
     }
 
     /// The walls and everything else cut at two fifths of the scene's height, as a drawing in SVG of this many pixels across.
     pub fn plan_svg(&self, width: u32) -> String {
-        floor_plan_svg(&WorldMesh::new(&self.scene), width)
+        floor_plan_svg(&WorldMesh::new(self.scene()), width)
     }
 
     /// The camera of that name; without a name, the view that `look` takes: a camera of the file that is in a room or sees something, else
     /// a place that is searched, which takes seconds the first time. Also returns which, in words.
     ///
     /// # Errors
-    /// If there is no camera of that name.
+    /// If there is no camera of that name, or nothing in the scene.
     pub fn view(&self, name: Option<&str>, cx: &dyn Cx) -> Result<(StartCamera, String), Error> {
         if let Some(name) = name {
-            return named_camera(&self.scene, name).map(|camera| (camera.clone(), format!("camera {name:?} of the file")));
+            return named_camera(self.scene(), name).map(|camera| (camera.clone(), format!("camera {name:?} of the file")));
         }
         if let Some(found) = self.found.get() {
             return Ok(found.clone());
         }
-        let found = place(&self.scene, &Look::at(&self.scene), None, cx)?;
+        self.refuse_empty()?;
+        let found = place(self.scene(), &Look::at(self.scene()), None, cx)?;
         Ok(self.found.get_or_init(|| found).clone())
     }
 
@@ -167,7 +167,7 @@ impl LoadedScene {
     /// their poses have ascending frame numbers. A frame has every layer that a run writes, labels included.
     ///
     /// # Errors
-    /// When the scene has no light or too many parts, or a camera is not usable.
+    /// When the scene has no parts, no light or too many parts, or a camera is not usable.
     pub fn render(&self, views: &[(Camera, Pose)], shot: &Shot, cx: &dyn Cx) -> Result<Vec<Frame>, Error> {
         let prepared = self.prepared(&shot.render, cx)?;
         let scene = prepared.borrow_dependent();
@@ -198,7 +198,7 @@ impl LoadedScene {
             denoised.iter().for_each(|(layer, values)| frame.insert(layer, values.clone()));
         }
         if let Some(Values::I16(ids)) = frame.get(Layer::RenderEntityId) {
-            let (semantic, instance) = join(ids, &self.labels).map_err(Error::stage)?;
+            let (semantic, instance) = join(ids, self.labels()).map_err(Error::stage)?;
             frame.insert(Layer::Semantic, Values::I16(semantic));
             frame.insert(Layer::SemanticInstance, Values::I16(instance));
         }
@@ -208,15 +208,22 @@ impl LoadedScene {
     /// Writes the scene to `output`; `encode` returns its bytes and what they cannot represent.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the scene has no parts, or the file cannot be written.
     pub fn save(
         &self,
         output: &Path,
         encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
     ) -> Result<Vec<String>, Error> {
-        let (bytes, lost) = encode(&self.scene, Some(&self.labels), &self.picture_files);
+        self.refuse_empty()?;
+        let LabelledScene { scene, labels, picture_files } = &*self.contents;
+        let (bytes, lost) = encode(scene, Some(labels), picture_files);
         write_output(output, &bytes)?;
         Ok(lost)
+    }
+
+    /// Refuses a scene without parts as its file would be.
+    fn refuse_empty(&self) -> Result<(), Error> {
+        if self.scene().parts.is_empty() { Err(Error::stage(SceneError::NoParts)) } else { Ok(()) }
     }
 
     fn prepared(&self, config: &RenderConfig, cx: &dyn Cx) -> Result<Arc<Prepared>, Error> {
@@ -225,7 +232,9 @@ impl LoadedScene {
         if let Some((_, prepared)) = prepared.as_ref().filter(|(lambertian, _)| *lambertian == config.lambertian) {
             return Ok(prepared.clone());
         }
-        let made = Prepared::try_new(self.scene.clone(), |scene| RenderScene::new(scene, cx).map(|ready| ready.settled(config)));
+        self.refuse_empty()?;
+        let contents = self.contents.clone();
+        let made = Prepared::try_new(contents, |contents| RenderScene::new(&contents.scene, cx).map(|ready| ready.settled(config)));
         let made = Arc::new(made.map_err(Error::stage)?);
         *prepared = Some((config.lambertian, made.clone()));
         Ok(made)

@@ -1,19 +1,22 @@
 //! Renumbers the pictures that a material refers to, for a list in which they have other places.
 
-use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, NormalMap, ScalarParam, TextureRef};
+use crate::{Alpha, Bsdf, ColorParam, Material, NormalMap, ScalarParam, TextureRef};
 
-/// The material with picture number k of a list at `place(k)` of another.
-pub fn repictured(mut material: Material, place: impl Fn(u32) -> u32) -> Material {
-    let mut shift = |t: &mut TextureRef| t.image = place(t.image);
-    of_bsdf(&mut material.bsdf, &mut shift);
-    of_color(&mut material.emission, &mut shift);
-    if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut material.alpha {
-        of_scalar(opacity, &mut shift);
+impl Material {
+    /// The material with picture number k of a list at `place(k)` of another.
+    #[must_use]
+    pub fn repictured(mut self, place: impl Fn(u32) -> u32) -> Self {
+        let mut shift = |t: &mut TextureRef| t.image = place(t.image);
+        of_bsdf(&mut self.bsdf, &mut shift);
+        of_color(&mut self.emission, &mut shift);
+        if let Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } = &mut self.alpha {
+            of_scalar(opacity, &mut shift);
+        }
+        if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &mut self.normal_map {
+            shift(texture);
+        }
+        self
     }
-    if let Some(NormalMap::Normal { texture, .. } | NormalMap::Bump { texture, .. }) = &mut material.normal_map {
-        shift(texture);
-    }
-    material
 }
 
 fn of_color(p: &mut ColorParam, found: &mut dyn FnMut(&mut TextureRef)) {
@@ -69,8 +72,8 @@ fn of_bsdf(bsdf: &mut Bsdf, found: &mut dyn FnMut(&mut TextureRef)) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Principled;
     use enfilade_math::Rgb;
-    use enfilade_scene::Principled;
 
     #[test]
     fn every_picture_of_a_material_moves() {
@@ -98,7 +101,7 @@ mod tests {
             ..Material::new("m", both)
         };
         let mut seen = Vec::new();
-        repictured(material, |k| k + 100).textures(|t| seen.push(t.image));
+        material.repictured(|k| k + 100).textures(|t| seen.push(t.image));
         seen.sort_unstable();
         assert_eq!(seen, (100..117).collect::<Vec<u32>>());
     }
