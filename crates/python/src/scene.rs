@@ -138,7 +138,7 @@ impl Scene {
     /// The scene with these parts moved together, and the lights that belong to them.
     ///
     /// parts: as of `remove`.
-    /// by: how far: 3 numbers, metres, or a matrix of 4 x 4 or 3 x 4 from the world to the world, which comes before the pose of each part.
+    /// by: how far: 3 numbers, metres, or a matrix of 4 x 4 or 3 x 4 in the world, after which the pose of each part is `by @ pose`.
     /// to: instead, the place for the middle of the bottom of the box around them, 3 numbers, metres.
     /// turn_deg: before that, they are turned about the vertical axis through the middle of their box, counter-clockwise seen from above, degrees.
     #[pyo3(name = "move", signature = (parts, by=None, *, to=None, turn_deg=0.0))]

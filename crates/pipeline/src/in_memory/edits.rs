@@ -133,7 +133,7 @@ mod tests {
         assert!(empty.view(None, &Quiet).is_err() && empty.plan_svg(100).starts_with("<svg") && empty.summary().starts_with("0 parts"));
         let dark = empty.edited(|scene| scene.with_part(&cube("box"))).unwrap();
         assert!(refused(&dark).contains("no light"), "{}", refused(&dark));
-        let error = dark.edited(|scene| scene.without(&["bx"])).err().unwrap();
+        let error = dark.edited(|scene| scene.without(&["boxes"])).err().unwrap();
         assert!(error.is_usage() && error.hint().unwrap() == "did you mean \"box\"?", "{error}");
     }
 }
