@@ -31,7 +31,8 @@
 //!         positions: (0..8).map(corner).collect(),
 //!         triangles: faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
 //!         ..Mesh::default()
-//!     }],
+//!     }
+//!     .into()],
 //!     materials: vec![Material::diffuse("white", Rgb::WHITE)],
 //!     parts: vec![Part { name: "room".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
 //!     ..Scene::default()
