@@ -14,11 +14,11 @@ use std::path::PathBuf;
 
 /// Keywords for files.
 pub struct FileOptions<'a> {
-    /// As of `Scene.read`.
+    /// Metres per unit of the file, as in `Scene.read`.
     pub meters_per_unit: f64,
-    /// As of `Scene.read`.
+    /// Axis that points up, as in `Scene.read`.
     pub up_axis: Option<&'a str>,
-    /// As of `Scene.read`.
+    /// Whether textures may be missing, as in `Scene.read`.
     pub allow_missing_textures: bool,
     /// Whether to show how far reading has come.
     pub progress: Option<bool>,

@@ -81,7 +81,7 @@ impl Light {
         }
     }
 
-    /// Its name.
+    /// Name of the light.
     #[getter]
     fn name(&self) -> &str {
         self.0.name()

@@ -84,7 +84,7 @@ impl Material {
         Ok(Self { material: enfilade_scene::Material { emission: emission.into(), ..enfilade_scene::Material::new(name, bsdf) }, images })
     }
 
-    /// Its name.
+    /// Name of the material.
     #[getter]
     fn name(&self) -> &str {
         &self.material.name

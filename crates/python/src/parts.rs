@@ -92,7 +92,7 @@ impl Part {
 
 #[pymethods]
 impl Part {
-    /// Its name, which no other part of the scene has.
+    /// Name of the part, which no other part of the scene has.
     #[getter]
     fn name(&self) -> &str {
         &self.part().name
@@ -128,7 +128,7 @@ impl Part {
         self.own_label().instance
     }
 
-    /// Its triangles in their own space; `pose` places them.
+    /// Triangles of the part in their own space; `pose` places them.
     #[getter]
     fn mesh(&self) -> Mesh {
         Mesh(self.scene.scene.meshes[self.part().mesh as usize].clone())

@@ -32,7 +32,7 @@ impl LoadedScene {
     /// The scene after an edit. The edited one is as it was; what rays need is prepared for the new one with its first picture.
     ///
     /// # Errors
-    /// Those of the edit.
+    /// When the edit refuses.
     pub fn edited(&self, edit: impl FnOnce(&LabelledScene) -> Result<LabelledScene, EditError>) -> Result<Self, Error> {
         let contents = edit(&self.contents).map_err(refused)?;
         Ok(Self::new(self.name.clone(), contents, self.warnings.clone(), self.report.clone()))

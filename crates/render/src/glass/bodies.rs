@@ -52,14 +52,18 @@ impl Bodies {
         self.all.binary_search_by_key(&part, |body| body.part).ok().map(|k| &self.all[k])
     }
 
-    /// The chance with which light is looked for by way of curved ones from a point.
-    pub(super) fn chance(&self, from: &Surface<'_>) -> f32 {
-        (self.curved.iter().map(|body| body.seen_from(from)).sum::<f32>() / LARGE).min(1.0)
+    /// About the fraction of a hemisphere that curved ones fill, seen from a point.
+    pub(super) fn seen_from(&self, from: &Surface<'_>) -> f32 {
+        self.curved.iter().map(|body| body.seen_from(from)).sum()
     }
 
-    /// Draws a curved one by how large it seems from a point.
-    pub(super) fn choose(&self, from: &Surface<'_>, u: f32) -> Option<&Body> {
-        let mut left = u * self.curved.iter().map(|body| body.seen_from(from)).sum::<f32>();
+    /// The chance with which light is looked for by way of curved ones from a point where they fill `seen` of the hemisphere.
+    pub(super) fn chance(seen: f32) -> f32 {
+        (seen / LARGE).min(1.0)
+    }
+
+    /// Draws a curved one by how large it seems from a point: the one at `left` when what each fills is put in a row.
+    pub(super) fn choose(&self, from: &Surface<'_>, mut left: f32) -> Option<&Body> {
         self.curved.iter().find(|body| {
             left -= body.seen_from(from);
             left < 0.0

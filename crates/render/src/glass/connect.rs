@@ -1,5 +1,6 @@
 //! The way from a surface through glass to a light.
 
+use super::bodies::Bodies;
 use super::shot::{End, Passed, Shot};
 use crate::light::{LightPoint, LightSample};
 use crate::prepared::RenderScene;
@@ -95,7 +96,8 @@ impl<'s> RenderScene<'s> {
         let &LightSample { wi, target, .. } = light;
         let straight = surface.shadow_ray(wi, target);
         let ahead = if hidden { self.glass_ahead(&straight) } else { None };
-        let chance = if ahead.is_some() { 1.0 } else { self.bodies.chance(surface) };
+        let seen = self.bodies.seen_from(surface);
+        let chance = if ahead.is_some() { 1.0 } else { Bodies::chance(seen) };
         if rng.next_f32() >= chance {
             return None;
         }
@@ -108,7 +110,7 @@ impl<'s> RenderScene<'s> {
                     target.map_or(wi + aside * SPREAD, |target| target + aside * (straight.t_max - near) - straight.origin)
                 }
                 Some((_, part)) if rng.next_f32() < 0.5 => self.bodies.find(part)?.point(&mut rng) - straight.origin,
-                _ => self.bodies.choose(surface, rng.next_f32())?.point(&mut rng) - straight.origin,
+                _ => self.bodies.choose(surface, rng.next_f32() * seen)?.point(&mut rng) - straight.origin,
             };
             self.aim(surface, medium, start.try_normalize()?, Goal::of(light)).filter(|way| !way.parallel)
         };

@@ -13,13 +13,13 @@ use std::sync::Arc;
 /// A mesh that becomes a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewPart {
-    /// Its name; where something has it, it gets a number.
+    /// Name of the part; where something has it, it gets a number.
     pub name: String,
     /// Counter-clockwise triangles face outward.
     pub mesh: Arc<Mesh>,
-    /// Its material.
+    /// What it is made of.
     pub material: MaterialChoice,
-    /// Its placement. If it mirrors, the triangles are turned round, so that fronts stay fronts.
+    /// Placement of the mesh in the world. If it mirrors, the triangles are turned round, so that fronts stay fronts.
     pub world_from_mesh: DAffine3,
     /// NYU40 class, 1 to 40; it becomes an instance of it.
     pub class: Option<i16>,
@@ -42,7 +42,7 @@ pub struct NewThing<'a> {
     pub of: &'a LabelledScene,
     /// A material instead of all of its own.
     pub material: Option<MaterialChoice>,
-    /// Its placement.
+    /// Placement of the thing in the world.
     pub world_from_thing: DAffine3,
     /// NYU40 class of all of its parts, which become one instance; unless given, they have their own labels, with new instances.
     pub class: Option<i16>,

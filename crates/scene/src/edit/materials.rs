@@ -16,9 +16,9 @@ pub enum MaterialChoice {
     Named(String),
     /// A new one, unless the scene has an equal one. Where another has its name, the name gets a number.
     New {
-        /// Its textures refer to `images`.
+        /// The material, whose textures refer to `images`.
         material: Box<Material>,
-        /// Its pictures.
+        /// Pictures of the textures.
         images: Vec<Arc<Image>>,
     },
 }

@@ -19,7 +19,7 @@ const DOWN: f64 = -0.8;
 /// each other axis.
 const STOREY_M: std::ops::RangeInclusive<f64> = 2.1..=4.5;
 const FLATTER: f64 = 1.5;
-/// The same where things rest on that side too, and how many times as long the extent along the supposed height is.
+/// Least ratio of flatness where things rest on that side too, and how many times as long the extent along the supposed height is.
 const FLATTER_AND_RESTED_ON: f64 = 1.2;
 const HIGHER: f64 = 1.2;
 
