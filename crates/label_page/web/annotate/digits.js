@@ -1,9 +1,6 @@
 // Digits that are typed for a class. They show while they are typed; any other key, a click or a pause ends the number. A number that is no
 // class leaves no class to give, so that no label is given by mistake.
 
-/** A pause of this length ends the number, milliseconds. */
-const PAUSE_MS = 900;
-
 /** The number that is being typed. */
 export class Digits {
     /** @param {import("./state.js").State} state */
@@ -12,6 +9,8 @@ export class Digits {
         this.typed = "";
         /** The class and layer before the number was begun. @type {Record<string, any>} */
         this.before = {};
+        /** A pause of this length ends the number, milliseconds. */
+        this.pauseMs = 900;
         this.timer = 0;
     }
 
@@ -47,7 +46,7 @@ export class Digits {
         if (typed === "") {
             this.state.set(this.before);
         } else {
-            this.timer = setTimeout(() => this.end(), PAUSE_MS);
+            this.timer = setTimeout(() => this.end(), this.pauseMs);
             this.state.setClass(Number(typed));
         }
         this.state.tell("typed");

@@ -125,7 +125,7 @@ export async function browser(t) {
     return one;
 }
 
-/** The page, once all of the scene is shown. Errors of the page fail the test. @param {import("playwright-core").BrowserContext | import("playwright-core").Browser} where @param {string} url */
+/** The page, once all of the scene is shown. Errors of the page fail the test. A slow machine does not end numbers that are being typed. @param {import("playwright-core").BrowserContext | import("playwright-core").Browser} where @param {string} url */
 export async function open(where, url) {
     const page = await where.newPage({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" });
     page.on("pageerror", (error) => {
@@ -133,6 +133,9 @@ export async function open(where, url) {
     });
     await page.goto(url);
     await shown(page);
+    await page.evaluate(() => {
+        window.annotate.act.digits.pauseMs = 600_000;
+    });
     return page;
 }
 
