@@ -443,6 +443,11 @@ impl Layout {
         self.detail_dir(scene).join("layout.svg")
     }
 
+    /// The objects that were placed in the scene.
+    pub fn placed_objects(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("placed_objects.json")
+    }
+
     /// The planes of the rooms, to which pixels are assigned.
     pub fn plane_table(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_planes.csv")
