@@ -22,6 +22,12 @@ options! {
         ///
         /// Four to eight rooms are equally often, of the usual programme of that number. The most are [`HomeConfig::MOST_ROOMS`].
         pub rooms: Vec<RoomKind> = Vec::new() => named("KIND,KIND"),
+        /// File with the floor plan, in place of one that is made: rooms as polygons with doors and windows.
+        ///
+        /// A plan written by hand, a `layout.json`, a file of Structured3D, SpatialLM, 3D-FRONT or ProcTHOR, an SVG or a DXF drawing. `rooms`
+        /// then gives the kinds of its rooms, in the file's order, if they are not to be those of the file. As written; the caller reads it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub plan: Option<String> = None => named("FILE"),
         /// Seed of the floor plan alone: areas, shape of the whole, doors and windows.
         ///
         /// Areas are uniform over what is usual for each kind of room.
@@ -73,7 +79,7 @@ impl HomeConfig {
 
     /// Why no home can be made of it, if none can.
     pub fn problem(&self) -> Option<String> {
-        if self.rooms.len() > Self::MOST_ROOMS {
+        if self.rooms.len() > Self::MOST_ROOMS && self.plan.is_none() {
             return Some(format!("a home has at most {} rooms, found {}", Self::MOST_ROOMS, self.rooms.len()));
         }
         if !(0.0..=4.0).contains(&self.clutter) {
