@@ -2,12 +2,14 @@
 
 use enfilade_furniture::assets::Library;
 use enfilade_geometry::Bvh;
-use enfilade_home::check::faults;
+use enfilade_home::check::{Fault, faults};
+use enfilade_home::room::Room;
 use enfilade_home::{Home, HomeConfig, home_on};
 use enfilade_math::{DVec2, Ray, Vec2, warp};
 use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, WorldMesh, to_bytes};
 
-const SEEDS: u64 = 20;
+/// Seeds of each plan, and with `cargo xtask test --all`.
+const SEEDS: [u64; 2] = [2, 20];
 
 fn plan(rooms: &[(&str, &[[f64; 2]])], openings: &[(OpeningKind, [f64; 2])]) -> DrawnPlan {
     let room = |(kind, polygon): &(&str, &[[f64; 2]])| DrawnRoom {
@@ -65,7 +67,7 @@ fn trapezoid() -> DrawnPlan {
 }
 
 fn check(plan: &DrawnPlan) {
-    let seeds: Vec<u64> = (0..SEEDS).collect();
+    let seeds: Vec<u64> = (0..enfilade_testkit::seeds(SEEDS[0], SEEDS[1])).collect();
     let removed = enfilade_parallel::map(&seeds, |&seed| {
         // Every fifth home is lived in; the others are made faster.
         let clutter = if seed % 5 == 0 { 1.0 } else { 0.1 };
@@ -77,8 +79,13 @@ fn check(plan: &DrawnPlan) {
         no_ray_leaves(&home, &name);
         home.removed
     });
-    let removed: Vec<String> = removed.iter().flatten().map(|r| format!("{}: {}", r.object, r.fault)).collect();
-    assert!(removed.len() <= 4, "things were placed where they could not stay:\n{}", removed.join("\n"));
+    let in_walls = removed.iter().flatten().filter(|removal| matches!(&removal.fault, Fault::Meets(a, b) if is_wall(a) || is_wall(b)));
+    let in_walls: Vec<String> = in_walls.map(|removal| removal.fault.to_string()).collect();
+    assert_eq!(in_walls, Vec::<String>::new(), "things were placed in walls");
+}
+
+fn is_wall(object: &str) -> bool {
+    object.starts_with("wall_") && ["_south_", "_east_", "_north_", "_west_"].iter().any(|side| object.contains(side))
 }
 
 #[test]
@@ -114,7 +121,7 @@ fn every_thing_stands_within_a_room(home: &Home, name: &str) {
         assert!(home.plan.rooms.iter().any(|room| room.contains(place, 0.3)), "{name}: {} stands at {place}", part.name);
     }
     for room in &home.plan.rooms {
-        let camera = |room: &enfilade_home::room::Room| {
+        let camera = |room: &Room| {
             home.scene.cameras.iter().any(|camera| room.contains(camera.position.as_vec3().truncate(), -0.2))
         };
         assert!(camera(room), "{name}: no camera in {:?}", room.kind);

@@ -108,7 +108,7 @@ fn rooms(home: &Home) -> Vec<Room> {
 }
 
 fn room_at(home: &Home, place: Vec2) -> Option<usize> {
-    home.plan.rooms.iter().position(|room| (place - room.center).abs().cmple(0.5 * room.size.truncate()).all())
+    home.plan.rooms.iter().position(|room| room.contains(place, 0.0))
 }
 
 /// All labelled things, in the order of their names. Walls, floors and ceilings are none.

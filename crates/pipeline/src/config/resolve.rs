@@ -345,7 +345,7 @@ impl Resolver<'_> {
             home.seed = seed;
         }
         home.seed = home.seed.wrapping_add(nth.into());
-        home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
+        home.assets.iter().chain(&home.plan).try_for_each(|path| self.check_path(path, keys))?;
         Ok(home)
     }
 
