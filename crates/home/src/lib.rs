@@ -31,7 +31,7 @@ mod rooms;
 mod settle;
 mod shell;
 
-pub use config::HomeConfig;
+pub use config::{HomeConfig, Shape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
 pub use plan::FloorPlan;
@@ -55,7 +55,12 @@ pub fn home(config: &HomeConfig) -> Home {
 /// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards. [`HomeConfig::plan`] is
 /// not read: see [`home_on`].
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
-    furnished(config, library, FloorPlan::new(&config.programme(), &config.stream(config.layout, 1)))
+    let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
+    let plan = match config.shape {
+        Shape::Rectangular => plan,
+        Shape::Varied => plan.varied(&config.stream(config.layout, 7)),
+    };
+    furnished(config, library, plan)
 }
 
 /// A furnished home on a plan that somebody drew, which the caller has read from [`HomeConfig::plan`].

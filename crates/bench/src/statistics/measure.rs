@@ -91,7 +91,7 @@ fn rooms(home: &Home) -> Vec<Room> {
         .plan
         .rooms
         .iter()
-        .map(|room| Room { kind: room.kind.name().into(), area_m2: room.size.x * room.size.y, surface_m2: 0.0 })
+        .map(|room| Room { kind: room.kind.name().into(), area_m2: room.area, surface_m2: 0.0 })
         .collect();
     let carrying = home.scene.parts.iter().zip(&home.labels.parts).filter(|(_, label)| CARRIES.contains(&label.semantic));
     for (part, _) in carrying {

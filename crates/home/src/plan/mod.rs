@@ -9,6 +9,7 @@ mod openings;
 mod rooms;
 mod search;
 pub mod slicing;
+mod varied;
 
 pub use openings::Doorway;
 

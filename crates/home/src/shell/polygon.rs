@@ -53,9 +53,15 @@ fn overlap(room: &Room, wall: Wall, end: usize) -> f32 {
     if own.outer && other.outer { mitre.clamp(THIN_OVERLAP, LONGEST) - AIR * (1 + end) as f32 } else { mitre.clamp(0.005, THIN_OVERLAP) }
 }
 
-/// Lengths by which the skirting of a wall reaches beyond its ends: around corners that point into the room.
+/// Lengths by which the skirting of a wall reaches beyond its ends: around corners that point into the room. In right-angled corners the
+/// board of the wall before the corner ends at the other board.
 pub fn beyond(room: &Room, wall: Wall) -> [f32; 2] {
-    room.angles(wall).map(|angle| if angle > PI { SKIRTING.x * (0.5 * (angle - PI)).tan() } else { 0.0 })
+    let angles = room.angles(wall);
+    [0, 1].map(|end| match angles[end] {
+        angle if angle > PI => SKIRTING.x * (0.5 * (angle - PI)).tan() - BACK_OFF * end as f32,
+        _ if end == 1 && room.is_square(wall, 1) => -SKIRTING.x - BACK_OFF,
+        _ => 0.0,
+    })
 }
 
 /// Adds floor and ceiling.

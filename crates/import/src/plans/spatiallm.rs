@@ -9,6 +9,8 @@ use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind};
 
 /// Ends of walls within this meet, metres: networks place them so well.
 const MEET: f64 = 0.15;
+/// Most walls.
+const MOST: usize = 4000;
 /// Classes of boxes, and the kind of room that has them; the first that is there counts.
 const SIGNS: [(&str, &str); 12] = [
     ("bed", "bedroom"),
@@ -53,6 +55,9 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
             ("Bbox", &[x, y, ..]) => boxes.push((arguments[0].to_string(), DVec2::new(x, y))),
             _ => return Err(source.error(place, format!("found {line:?}, expected the arguments of a {kind}"))),
         }
+    }
+    if walls.len() > MOST {
+        return Err(source.error("walls", format!("there are {}, expected at most {MOST}", walls.len())));
     }
     let floor = walls.iter().map(|wall| wall.floor).fold(f64::INFINITY, f64::min);
     let height = walls.iter().map(|wall| wall.height).fold(f64::NEG_INFINITY, f64::max);

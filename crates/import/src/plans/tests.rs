@@ -80,7 +80,7 @@ fn dxf_polylines_are_rooms_named_by_the_texts_in_them() {
     );
     let plan = read(&text);
     assert_eq!(rooms(&plan), [("Kitchen", 7.5), ("hall", 4.75)]);
-    assert_eq!(openings(&plan), [(OpeningKind::Door, [305, 94], Some(88))]);
+    assert_eq!(openings(&plan), [(OpeningKind::Door, [305, 94], Some(89))]);
     assert_eq!(plan.notes, Vec::<String>::new());
     assert!(refused(&text.replace("\n2500\n", "\ntwo\n")).contains("found \"two\", expected a number"));
     assert!(refused("AutoCAD Binary DXF\r\n").contains("save it as ASCII DXF"));

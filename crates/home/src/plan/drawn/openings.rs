@@ -15,6 +15,8 @@ const REACH: f32 = 0.3;
 const MARGIN: f32 = 0.06;
 /// An opening may be moved along its wall by this without being mentioned, metres.
 const UNSEEN: f32 = 0.02;
+/// Widest door between rooms, metres.
+const WIDEST_DOOR: f64 = 1.4;
 /// Usual widths of passages and windows, metres.
 const PASSAGE: f32 = 1.2;
 const WINDOW: f32 = 1.2;
@@ -53,6 +55,7 @@ impl Site {
     fn try_open(&mut self, opening: &DrawnOpening) -> Result<(), String> {
         let name = format!("the {} at [{:.2}, {:.2}]", opening.kind.name(), opening.at.x, opening.at.y);
         let is_window = opening.kind == OpeningKind::Window;
+        let width = |usual: f32| opening.width_m.map_or(usual, |width| width as f32);
         let place = self.nearest(opening.at).ok_or_else(|| format!("{name} is in no wall: move it to within {REACH} m of one"))?;
         let room = &self.rooms[place.room];
         let back = *room.face(place.wall).back(place.x);
@@ -65,19 +68,20 @@ impl Site {
             (false, None, _) => return Err(format!("{name} is in a wall with another wall close behind it that is not parallel")),
             _ => {}
         }
-        let usual = match opening.kind {
+        let kind = self.kind(&name, opening, beyond.is_some())?;
+        let usual = match kind {
             OpeningKind::Door if self.rooms[beyond.map_or(place.room, |b| b.room)].kind.wet() => 0.76,
             OpeningKind::Door => 0.885,
             OpeningKind::Passage => PASSAGE,
             OpeningKind::Window => WINDOW,
         };
-        let width = opening.width_m.map_or(usual, |width| width as f32);
+        let width = width(usual);
         let least = SMALLEST[usize::from(is_window)];
         if !(width.is_finite() && width >= least) {
             return Err(format!("{name} is {width:.2} m wide, expected at least {least} m"));
         }
         let x = self.within(&name, place, beyond, width)?;
-        let z = self.heights(&name, opening, place, beyond)?;
+        let z = self.heights(&name, &DrawnOpening { kind, ..opening.clone() }, place, beyond)?;
         let places: Vec<(Place, [f32; 2])> = std::iter::once((place, x)).chain(beyond.map(|b| (b, self.opposite(place, b, x)))).collect();
         for (place, x) in &places {
             let meets = |o: &&Opening| o.wall == place.wall && o.x[0] < x[1] + 0.02 && x[0] < o.x[1] + 0.02;
@@ -85,12 +89,32 @@ impl Site {
                 return Err(format!("{name} overlaps another opening in the same wall of {:?}", self.names[place.room]));
             }
         }
-        match opening.kind {
+        match kind {
             OpeningKind::Window => self.window(place, x, z),
             OpeningKind::Passage => self.passage(&places, z),
             OpeningKind::Door => self.door(&places, z, opening),
         }
         Ok(())
+    }
+
+    /// What an opening is built as: other programs call wide passages doors, and doors to the outside holes.
+    fn kind(&mut self, name: &str, opening: &DrawnOpening, is_inner: bool) -> Result<OpeningKind, String> {
+        let is_wide = opening.width_m.is_some_and(|width| width > WIDEST_DOOR);
+        match opening.kind {
+            OpeningKind::Passage if !is_inner && self.strict => Err(format!("{name} leads to the outside, expected a door there")),
+            OpeningKind::Passage if !is_inner => {
+                self.notes.push(format!("{name} leads to the outside: it got a door"));
+                Ok(OpeningKind::Door)
+            }
+            OpeningKind::Door if is_inner && is_wide && self.strict => {
+                Err(format!("{name} is {:.2} m wide, expected at most {WIDEST_DOOR} m, or a passage", opening.width_m.unwrap_or_default()))
+            }
+            OpeningKind::Door if is_inner && is_wide => {
+                self.notes.push(format!("{name} is {:.2} m wide: it is a passage", opening.width_m.unwrap_or_default()));
+                Ok(OpeningKind::Passage)
+            }
+            kind => Ok(kind),
+        }
     }
 
     /// The wall that a point is in or nearest to.

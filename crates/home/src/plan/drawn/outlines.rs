@@ -110,7 +110,8 @@ fn crossing(corners: &[DVec2]) -> Option<[DVec2; 2]> {
 pub fn check_apart(outlines: &[Outline], rooms: &[DrawnRoom]) -> Result<(), String> {
     for (i, a) in outlines.iter().enumerate() {
         for (j, b) in outlines.iter().enumerate().filter(|(j, _)| *j != i) {
-            let within = |p: &Vec2| b.depth(*p) > SLACK;
+            let [low, high] = b.bounds();
+            let within = |p: &Vec2| p.cmpgt(low + SLACK).all() && p.cmplt(high - SLACK).all() && b.depth(*p) > SLACK;
             let places = a.edges().flat_map(|[from, to]| {
                 let steps = (from.distance(to) / STEP).ceil().max(1.0) as usize;
                 (0..steps).map(move |k| from.lerp(to, k as f32 / steps as f32))

@@ -103,11 +103,13 @@ fn what_is_wrong_with_a_plan_is_told() {
         change(&mut plan);
         built(&plan).unwrap_err()
     };
-    let cases: [(&dyn Fn(&mut DrawnPlan), &str); 10] = [
+    let cases: [(&dyn Fn(&mut DrawnPlan), &str); 12] = [
         (&|p| p.rooms[1].polygon[0] = DVec2::new(3.0, 2.5), "rooms \"the living\" and \"the hall\" overlap at"),
         (&|p| p.rooms[0].polygon.swap(0, 1), "the outline of room \"the living\" crosses itself near"),
         (&|p| p.rooms[0].kind = "livingroom".into(), "is of the kind \"livingroom\"; did you mean `living`?"),
-        (&|p| p.openings[0].width_m = Some(3.0), "the door at [4.60, 3.05] is 3.00 m wide, but the wall of \"the living\" has 2.28 m"),
+        (&|p| p.openings[0].width_m = Some(3.0), "the door at [4.60, 3.05] is 3.00 m wide, expected at most 1.4 m, or a passage"),
+        (&|p| p.openings[2].width_m = Some(7.0), "the window at [2.00, 0.00] is 7.00 m wide, but the wall of \"the living\" has 5.88 m"),
+        (&|p| p.openings[1].kind = OpeningKind::Passage, "leads to the outside, expected a door there"),
         (&|p| p.openings[2] = opening(OpeningKind::Door, [4.8, 3.05], None), "overlaps another opening"),
         (&|p| p.openings[2].at = DVec2::new(4.5, 3.05), "is in the wall between \"the living\" and \"the hall\", expected an outer wall"),
         (&|p| p.openings[2].at = DVec2::new(2.0, 2.0), "the window at [2.00, 2.00] is in no wall"),
