@@ -31,14 +31,7 @@ fn l_shape() -> DrawnPlan {
             ("hall", &[[3.8, 3.5], [5.6, 3.5], [5.6, 6.0], [3.8, 6.0]]),
             ("bathroom", &[[5.7, 3.5], [8.2, 3.5], [8.2, 6.0], [5.7, 6.0]]),
         ],
-        &[
-            (Door, [4.7, 3.45]),
-            (Door, [5.65, 4.6]),
-            (Door, [4.7, 6.1]),
-            (Window, [2.0, 0.0]),
-            (Window, [0.0, 4.0]),
-            (Window, [7.0, 6.0]),
-        ],
+        &[(Door, [4.7, 3.45]), (Door, [5.65, 4.6]), (Door, [4.7, 6.1]), (Window, [2.0, 0.0]), (Window, [0.0, 4.0]), (Window, [7.0, 6.0])],
     )
 }
 
@@ -58,10 +51,7 @@ fn bay() -> DrawnPlan {
 fn trapezoid() -> DrawnPlan {
     use OpeningKind::Window;
     plan(
-        &[
-            ("kitchen", &[[0.0, 0.0], [4.4, 0.6], [3.6, 4.0], [0.0, 3.4]]),
-            ("childrens", &[[4.4, 0.6], [8.4, 1.3], [7.4, 4.9], [3.6, 4.0]]),
-        ],
+        &[("kitchen", &[[0.0, 0.0], [4.4, 0.6], [3.6, 4.0], [0.0, 3.4]]), ("childrens", &[[4.4, 0.6], [8.4, 1.3], [7.4, 4.9], [3.6, 4.0]])],
         &[(Window, [2.0, 0.3]), (Window, [6.4, 0.95])],
     )
 }
@@ -105,7 +95,8 @@ fn homes_with_slanted_walls_have_no_faults() {
 
 #[test]
 fn the_same_plan_and_seed_give_the_same_bytes() {
-    let made = || to_bytes(&home_on(&HomeConfig { clutter: 0.1, ..HomeConfig::of_seed(3) }, &Library::default(), &trapezoid()).unwrap().scene);
+    let made =
+        || to_bytes(&home_on(&HomeConfig { clutter: 0.1, ..HomeConfig::of_seed(3) }, &Library::default(), &trapezoid()).unwrap().scene);
     assert!(made() == made());
 }
 
@@ -121,9 +112,7 @@ fn every_thing_stands_within_a_room(home: &Home, name: &str) {
         assert!(home.plan.rooms.iter().any(|room| room.contains(place, 0.3)), "{name}: {} stands at {place}", part.name);
     }
     for room in &home.plan.rooms {
-        let camera = |room: &Room| {
-            home.scene.cameras.iter().any(|camera| room.contains(camera.position.as_vec3().truncate(), -0.2))
-        };
+        let camera = |room: &Room| home.scene.cameras.iter().any(|camera| room.contains(camera.position.as_vec3().truncate(), -0.2));
         assert!(camera(room), "{name}: no camera in {:?}", room.kind);
     }
 }

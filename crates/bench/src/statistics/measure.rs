@@ -87,12 +87,8 @@ fn unlabelled(labels: &Labels) -> usize {
 }
 
 fn rooms(home: &Home) -> Vec<Room> {
-    let mut rooms: Vec<Room> = home
-        .plan
-        .rooms
-        .iter()
-        .map(|room| Room { kind: room.kind.name().into(), area_m2: room.area, surface_m2: 0.0 })
-        .collect();
+    let mut rooms: Vec<Room> =
+        home.plan.rooms.iter().map(|room| Room { kind: room.kind.name().into(), area_m2: room.area, surface_m2: 0.0 }).collect();
     let carrying = home.scene.parts.iter().zip(&home.labels.parts).filter(|(_, label)| CARRIES.contains(&label.semantic));
     for (part, _) in carrying {
         for triangle in 0..home.scene.meshes[part.mesh as usize].triangles.len() {

@@ -175,12 +175,8 @@ fn entrance(rooms: &mut [Room], sketch: &Sketch, site: Site, rng: &mut Rng) -> D
 
 /// Hangs the home's outer door in a wall, shut, with its middle at `x`.
 pub fn hang_entrance(room: &mut Room, wall: Wall, x: f32, hinge: f32) {
-    let opening = Opening {
-        wall,
-        x: [x - 0.5 * ENTRANCE_WIDTH, x + 0.5 * ENTRANCE_WIDTH],
-        z: [0.0, DOOR_TOP + 0.06],
-        filling: Filling::DoorBack,
-    };
+    let opening =
+        Opening { wall, x: [x - 0.5 * ENTRANCE_WIDTH, x + 0.5 * ENTRANCE_WIDTH], z: [0.0, DOOR_TOP + 0.06], filling: Filling::DoorBack };
     let leaf = Leaf { hinge, open_rad: 0.0, back: room.thickness(&opening) };
     room.openings.push(Opening { filling: Filling::Door(leaf), ..opening });
 }

@@ -63,7 +63,8 @@ impl FloorPlan {
         let pieces = |room: &Room| room.faces.iter().map(|face| face.backs.len()).sum::<usize>();
         let faces = &self.rooms[number].faces;
         let face = &faces[opening.wall.0];
-        let before = self.rooms[..number].iter().map(pieces).sum::<usize>() + faces[..opening.wall.0].iter().map(|f| f.backs.len()).sum::<usize>();
+        let before =
+            self.rooms[..number].iter().map(pieces).sum::<usize>() + faces[..opening.wall.0].iter().map(|f| f.backs.len()).sum::<usize>();
         before + face.backs.iter().position(|back| opening.center_x() <= back.x[1]).unwrap_or(face.backs.len() - 1)
     }
 

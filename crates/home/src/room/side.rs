@@ -46,9 +46,12 @@ impl Side {
 
     /// The side that a wall with this normal into the room is on, as nearly as it is on one.
     pub fn facing(inward: Vec2) -> Self {
-        Self::ALL.into_iter().fold(Self::South, |best, side| {
-            if side.inward().dot(inward) > best.inward().dot(inward) + 1e-4 { side } else { best }
-        })
+        Self::ALL.into_iter().fold(
+            Self::South,
+            |best, side| {
+                if side.inward().dot(inward) > best.inward().dot(inward) + 1e-4 { side } else { best }
+            },
+        )
     }
 
     /// Name in lower case.

@@ -60,11 +60,12 @@ fn stretches(f: &Furnisher) -> Vec<Stretch> {
         // Doors in the walls beside it swing over its ends.
         for (k, end) in [(0, -1.0), (1, 1.0)] {
             let side = f.room.beside(wall)[k];
-            let near = angles[k] < OBTUSE && f.room.ways().filter(|o| o.wall == side).any(|o| {
-                let along = 0.5 * f.room.length(side);
-                let gap = if end < 0.0 { along - o.x[1] } else { along + o.x[0] };
-                gap < kitchen::DEPTH + 0.06
-            });
+            let near = angles[k] < OBTUSE
+                && f.room.ways().filter(|o| o.wall == side).any(|o| {
+                    let along = 0.5 * f.room.length(side);
+                    let gap = if end < 0.0 { along - o.x[1] } else { along + o.x[0] };
+                    gap < kitchen::DEPTH + 0.06
+                });
             if near {
                 ways.push(if end < 0.0 { [-half, 0.95 - half] } else { [half - 0.95, half] });
             }
@@ -73,7 +74,11 @@ fn stretches(f: &Furnisher) -> Vec<Stretch> {
         let mut from = low_end;
         for [low, high] in ways.into_iter().chain([[high_end, high_end]]) {
             if low - from >= SHORTEST {
-                all.push(Stretch { wall, x: [from + GAP, low - GAP], corners: [from == low_end && f.room.is_square(wall, 0), low == high_end && f.room.is_square(wall, 1)] });
+                all.push(Stretch {
+                    wall,
+                    x: [from + GAP, low - GAP],
+                    corners: [from == low_end && f.room.is_square(wall, 0), low == high_end && f.room.is_square(wall, 1)],
+                });
             }
             from = from.max(high);
         }

@@ -65,7 +65,8 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
             (None, _) => {
                 bent += usize::from(entity.is_bent);
                 let texts = entities.iter().filter(|other| matches!(other.kind, "TEXT" | "MTEXT"));
-                let text = texts.filter(|text| text.points.first().is_some_and(|at| contains(&points, *at * unit))).map(|text| text.text.trim());
+                let text =
+                    texts.filter(|text| text.points.first().is_some_and(|at| contains(&points, *at * unit))).map(|text| text.text.trim());
                 let word = text.into_iter().find(|text| text.chars().any(char::is_alphabetic)).unwrap_or(entity.layer);
                 let name = format!("{word} ({})", plan.rooms.len());
                 plan.rooms.push(DrawnRoom { name, kind: word.into(), polygon: points, height_m: None });
@@ -95,7 +96,8 @@ fn pairs<'t>(source: &Source<'t>) -> Result<Vec<Pair<'t>>, ImportError> {
 
 /// Metres of a unit.
 fn unit(pairs: &[Pair], notes: &mut Vec<String>) -> f64 {
-    let stated = pairs.iter().position(|(code, value, _)| *code == 9 && *value == "$INSUNITS").and_then(|i| pairs.get(i + 1)?.1.parse::<i64>().ok());
+    let stated =
+        pairs.iter().position(|(code, value, _)| *code == 9 && *value == "$INSUNITS").and_then(|i| pairs.get(i + 1)?.1.parse::<i64>().ok());
     let known = stated.and_then(|stated| UNITS.iter().find(|(number, _)| *number == stated));
     if known.is_none() {
         notes.push("the drawing has no unit that is known ($INSUNITS); its lengths were taken as metres".into());

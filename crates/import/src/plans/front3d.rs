@@ -24,7 +24,8 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
         let kind = if room.r#type.is_empty() { name.split('-').next().unwrap_or_default().to_string() } else { room.r#type.clone() };
         let floors = meshes().filter(|(_, mesh)| mesh.r#type == "Floor").flat_map(|(child, mesh)| triangles(&points(child, mesh), mesh));
         let found = outlines(&floors.map(|t| t.map(flat)).collect::<Vec<_>>());
-        let heights = || meshes().filter(|(_, mesh)| mesh.r#type.starts_with("Wall")).flat_map(|(child, mesh)| points(child, mesh)).map(|p| p.y);
+        let heights =
+            || meshes().filter(|(_, mesh)| mesh.r#type.starts_with("Wall")).flat_map(|(child, mesh)| points(child, mesh)).map(|p| p.y);
         let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
         match found.into_iter().next().filter(|outline| area(outline).abs() > 0.05) {
             Some(polygon) => plan.rooms.push(DrawnRoom { name, kind, polygon, height_m: (high - low > 1.0).then_some(high - low) }),

@@ -46,7 +46,8 @@ pub(super) fn outlines(triangles: &[[DVec2; 3]]) -> Vec<Vec<DVec2>> {
             known.0 += 1;
         }
     }
-    let single: Vec<[DVec2; 2]> = edges.into_values().filter(|(count, [a, b])| count % 2 == 1 && a.distance(*b) > 1e-4).map(|(_, edge)| edge).collect();
+    let single: Vec<[DVec2; 2]> =
+        edges.into_values().filter(|(count, [a, b])| count % 2 == 1 && a.distance(*b) > 1e-4).map(|(_, edge)| edge).collect();
     let (mut found, _) = loops(&single, 0.002);
     found.sort_by(|a, b| area(b).abs().total_cmp(&area(a).abs()));
     found

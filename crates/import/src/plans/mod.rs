@@ -73,7 +73,11 @@ const READERS: [Reader; 8] = [
     Reader { name: "Structured3D's annotation_3d.json", is: |s| s.has(&["junctions", "planes"]), read: structured3d::read },
     Reader { name: "a house of ProcTHOR", is: |s| s.rooms_have("floorPolygon"), read: procthor::read },
     Reader { name: "a house of 3D-FRONT", is: |s| s.has(&["scene", "mesh"]), read: front3d::read },
-    Reader { name: "a plan of ours (\"format\": \"enfilade plan 1\")", is: |s| s.states("enfilade plan") || s.has(&["rooms"]), read: ours::read },
+    Reader {
+        name: "a plan of ours (\"format\": \"enfilade plan 1\")",
+        is: |s| s.states("enfilade plan") || s.has(&["rooms"]),
+        read: ours::read,
+    },
     Reader { name: "SVG", is: |s| s.text.contains("<svg"), read: svg::read },
     Reader { name: "SpatialLM's layout text", is: |s| s.text.contains("=Wall("), read: spatiallm::read },
     Reader { name: "DXF", is: |s| dxf::is(s.text), read: dxf::read },

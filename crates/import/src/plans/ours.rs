@@ -99,7 +99,13 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
     Ok(DrawnPlan { rooms, openings, strict: true, notes: Vec::new() })
 }
 
-fn read_opening(source: &Source, kind: OpeningKind, number: usize, opening: Opening, names: &[String]) -> Result<DrawnOpening, ImportError> {
+fn read_opening(
+    source: &Source,
+    kind: OpeningKind,
+    number: usize,
+    opening: Opening,
+    names: &[String],
+) -> Result<DrawnOpening, ImportError> {
     let place = format!("{}s[{number}]", kind.name());
     let into = match &opening.into {
         None => None,
@@ -125,13 +131,5 @@ fn read_opening(source: &Source, kind: OpeningKind, number: usize, opening: Open
         (_, _, Some(head)) => Some([0.0, head]),
         (_, Some(_), None) => None,
     };
-    Ok(DrawnOpening {
-        kind,
-        at: opening.at.into(),
-        width_m: opening.width,
-        z_m,
-        into,
-        hinge: opening.hinge,
-        open_deg: opening.open,
-    })
+    Ok(DrawnOpening { kind, at: opening.at.into(), width_m: opening.width, z_m, into, hinge: opening.hinge, open_deg: opening.open })
 }

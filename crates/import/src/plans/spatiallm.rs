@@ -64,7 +64,9 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
     let segments: Vec<[DVec2; 2]> = walls.iter().map(|wall| wall.ends).collect();
     let (rings, lost) = loops(&segments, MEET);
     if rings.is_empty() {
-        return Err(source.error("walls", format!("the ends of its {} walls do not meet within {MEET} m to close around a room", walls.len())));
+        return Err(
+            source.error("walls", format!("the ends of its {} walls do not meet within {MEET} m to close around a room", walls.len()))
+        );
     }
     if lost > 0 {
         plan.notes.push(format!("{lost} of {} walls close around no room; they are left out", walls.len()));

@@ -85,7 +85,8 @@ fn room(annotation: &Annotation, semantic: &Semantic, number: usize, kind: &str)
     let found = floors.iter().flat_map(|&plane| loops(&flat(annotation.lines(plane)), SAME).0);
     let polygon = found.max_by(|a, b| super::loops::area(a).abs().total_cmp(&super::loops::area(b).abs()))?;
     let height = |kind: &str| {
-        let heights = annotation.planes_of(semantic, kind).flat_map(|plane| annotation.lines(plane)).map(|[a, _]| a.z).collect::<Vec<f64>>();
+        let heights =
+            annotation.planes_of(semantic, kind).flat_map(|plane| annotation.lines(plane)).map(|[a, _]| a.z).collect::<Vec<f64>>();
         heights.into_iter().reduce(f64::max)
     };
     let height_m = height("ceiling").zip(height("floor")).map(|(ceiling, floor)| ceiling - floor).filter(|height| *height > 0.5);

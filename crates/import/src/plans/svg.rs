@@ -30,7 +30,9 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
     let unit = match stated.map(str::parse::<f64>) {
         None => UNIT,
         Some(Ok(unit)) if unit > 0.0 && unit.is_finite() => unit,
-        Some(_) => return Err(source.error(SCALE, format!("found {:?}, expected metres of a unit, such as 0.01", stated.unwrap_or_default()))),
+        Some(_) => {
+            return Err(source.error(SCALE, format!("found {:?}, expected metres of a unit, such as 0.01", stated.unwrap_or_default())));
+        }
     };
     let mut plan = DrawnPlan::default();
     if stated.is_none() {
@@ -64,9 +66,12 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
 /// What an element is.
 fn word(node: &Node) -> Option<String> {
     let own = |name: &str| node.attributes().find(|a| a.name() == name).map(|a| a.value());
-    let title = node.children().find(|child| child.has_tag_name("title") || child.tag_name().name() == "title").and_then(|title| title.text());
+    let title =
+        node.children().find(|child| child.has_tag_name("title") || child.tag_name().name() == "title").and_then(|title| title.text());
     let found = own("data-kind").or_else(|| own("label")).or(title).or_else(|| own("id")).or_else(|| own("class")?.split(' ').next());
-    found.map(|word| word.trim().trim_end_matches(|c: char| c.is_ascii_digit() || "_- ".contains(c)).to_string()).filter(|word| !word.is_empty())
+    found
+        .map(|word| word.trim().trim_end_matches(|c: char| c.is_ascii_digit() || "_- ".contains(c)).to_string())
+        .filter(|word| !word.is_empty())
 }
 
 /// The corners of a shape in its own units; `None` for other elements.
@@ -105,7 +110,10 @@ fn numbers(text: &str) -> Result<Vec<f64>, String> {
         }
         before = c;
     }
-    words.iter().map(|word| word.parse::<f64>().ok().filter(|n| n.is_finite()).ok_or_else(|| format!("found {word:?}, expected a number"))).collect()
+    words
+        .iter()
+        .map(|word| word.parse::<f64>().ok().filter(|n| n.is_finite()).ok_or_else(|| format!("found {word:?}, expected a number")))
+        .collect()
 }
 
 /// The corners of a path of straight pieces: its first outline.
@@ -136,7 +144,9 @@ fn path(d: &str) -> Result<Vec<DVec2>, String> {
                 }
             }
             'Z' => break,
-            _ => return Err(format!("the path has the command {command:?}, expected straight pieces: M, L, H, V and Z; flatten its curves")),
+            _ => {
+                return Err(format!("the path has the command {command:?}, expected straight pieces: M, L, H, V and Z; flatten its curves"));
+            }
         }
     }
     Ok(corners)
@@ -156,7 +166,8 @@ fn placement(node: &Node) -> Result<DMat3, String> {
 fn transform(text: &str) -> Result<DMat3, String> {
     let mut whole = DMat3::IDENTITY;
     for call in text.split(')').map(|call| call.trim().trim_start_matches(',').trim()).filter(|call| !call.is_empty()) {
-        let (name, arguments) = call.split_once('(').ok_or_else(|| format!("found the transform {text:?}, expected such as translate(2 3)"))?;
+        let (name, arguments) =
+            call.split_once('(').ok_or_else(|| format!("found the transform {text:?}, expected such as translate(2 3)"))?;
         whole *= match (name.trim(), &numbers(arguments)?[..]) {
             ("translate", &[x]) => DMat3::from_translation(DVec2::new(x, 0.0)),
             ("translate", &[x, y]) => DMat3::from_translation(DVec2::new(x, y)),
@@ -167,9 +178,7 @@ fn transform(text: &str) -> Result<DMat3, String> {
                 let middle = DMat3::from_translation(DVec2::new(x, y));
                 middle * DMat3::from_angle(degrees.to_radians()) * middle.inverse()
             }
-            ("matrix", &[a, b, c, d, e, f]) => {
-                DMat3::from_cols(DVec3::new(a, b, 0.0), DVec3::new(c, d, 0.0), DVec3::new(e, f, 1.0))
-            }
+            ("matrix", &[a, b, c, d, e, f]) => DMat3::from_cols(DVec3::new(a, b, 0.0), DVec3::new(c, d, 0.0), DVec3::new(e, f, 1.0)),
             _ => return Err(format!("found the transform {call:?}), expected translate, scale, rotate or matrix")),
         };
     }

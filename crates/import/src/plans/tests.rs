@@ -33,7 +33,10 @@ fn plans_by_hand_are_read_and_their_errors_name_the_place() {
         "windows": [{"at": [2, 0], "width": 1.5, "sill": 0.8, "head": 2.1}]}"#;
     let plan = read(text);
     assert_eq!(rooms(&plan), [("living", 18.0), ("hall", 5.7)]);
-    assert_eq!(plan.rooms.iter().map(|room| (room.name.as_str(), room.height_m)).collect::<Vec<_>>(), [("living_1", Some(2.5)), ("entry", Some(2.4))]);
+    assert_eq!(
+        plan.rooms.iter().map(|room| (room.name.as_str(), room.height_m)).collect::<Vec<_>>(),
+        [("living_1", Some(2.5)), ("entry", Some(2.4))]
+    );
     assert_eq!(plan.openings[0].into, Some(1));
     assert_eq!(plan.openings[2].z_m, Some([0.8, 2.1]));
     for (from, to, expected) in [

@@ -52,7 +52,8 @@ fn piece(outlines: &[Outline], own: usize, outward: Vec2, [a, b]: [Vec2; 2], x: 
 fn merged(mut pieces: Vec<Back>) -> Vec<Back> {
     let length = |piece: &Back| piece.x[1] - piece.x[0];
     while pieces.len() > 1 {
-        let Some(short) = (0..pieces.len()).filter(|&i| length(&pieces[i]) < SHORTEST).min_by(|&a, &b| length(&pieces[a]).total_cmp(&length(&pieces[b])))
+        let Some(short) =
+            (0..pieces.len()).filter(|&i| length(&pieces[i]) < SHORTEST).min_by(|&a, &b| length(&pieces[a]).total_cmp(&length(&pieces[b])))
         else {
             break;
         };
@@ -83,8 +84,10 @@ mod tests {
     fn a_long_wall_has_a_piece_for_each_room_behind_it_and_for_the_outside() {
         // Two rooms north of a long one, 0.1 m behind it and 0.1 m apart, which end before it does.
         let rooms = [rectangle([0.0, 0.0], [8.0, 3.0]), rectangle([0.0, 3.1], [3.0, 6.0]), rectangle([3.1, 3.1], [6.0, 6.0])];
-        let found: Vec<(Option<usize>, bool, f32, f32)> =
-            backs(&rooms, 0, 2).iter().map(|b| (b.beyond, b.outer, (100.0 * b.thickness).round(), (b.x[1] - b.x[0] + 0.05).floor())).collect();
+        let found: Vec<(Option<usize>, bool, f32, f32)> = backs(&rooms, 0, 2)
+            .iter()
+            .map(|b| (b.beyond, b.outer, (100.0 * b.thickness).round(), (b.x[1] - b.x[0] + 0.05).floor()))
+            .collect();
         // From the east: outside, the second room, the first.
         assert_eq!(found, [(None, true, 36.0, 2.0), (Some(2), false, 10.0, 3.0), (Some(1), false, 10.0, 3.0)]);
         assert_eq!(backs(&rooms, 0, 0), [Back { x: [-4.0, 4.0], thickness: OUTER_WALL, outer: true, beyond: None }]);

@@ -240,7 +240,8 @@ impl Site {
         };
         let inside = into.or_else(|| (0..places.len()).min_by(|a, b| area(a).total_cmp(&area(b)))).unwrap_or(0);
         let wet = kinds.into_iter().any(RoomKind::wet);
-        let usual = [0.0, self.rng.range(0.35, 0.9), self.rng.range(1.2, 1.6), self.rng.range(1.3, 1.6)][self.rng.below(if wet { 3 } else { 4 })];
+        let usual =
+            [0.0, self.rng.range(0.35, 0.9), self.rng.range(1.2, 1.6), self.rng.range(1.3, 1.6)][self.rng.below(if wet { 3 } else { 4 })];
         let (place, x) = places[inside];
         let room = &self.rooms[place.room];
         let here = Opening { wall: place.wall, x, z, filling: Filling::DoorBack };

@@ -34,10 +34,7 @@ pub fn cleaned(rooms: &[DrawnRoom]) -> Result<Vec<Outline>, String> {
     let (low, high) = all.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
     if (high - low).max_element() > LARGEST {
         let size = high - low;
-        return Err(format!(
-            "the plan is {:.0} m x {:.0} m, expected at most {LARGEST} m: lengths are in metres",
-            size.x, size.y
-        ));
+        return Err(format!("the plan is {:.0} m x {:.0} m, expected at most {LARGEST} m: lengths are in metres", size.x, size.y));
     }
     Ok(outlines)
 }
@@ -146,12 +143,13 @@ fn insets(outlines: &[Outline], room: usize) -> Vec<f32> {
     let inset = |i: usize| {
         let [a, b] = own.edge(i);
         let along = (b - a).normalize_or_zero();
-        let gaps = outlines.iter().enumerate().filter(|(other, _)| *other != room).flat_map(|(_, other)| other.edges()).filter_map(|[c, d]| {
-            let opposite = (d - c).normalize_or_zero().dot(along) < OPPOSITE;
-            let shared = (c - a).dot(along).min(a.distance(b)) - (d - a).dot(along).max(0.0);
-            let gap = -along.perp().dot(0.5 * (c + d) - a);
-            (opposite && shared > SIDE_BY_SIDE && (-SLACK..THIN).contains(&gap)).then_some(gap)
-        });
+        let gaps =
+            outlines.iter().enumerate().filter(|(other, _)| *other != room).flat_map(|(_, other)| other.edges()).filter_map(|[c, d]| {
+                let opposite = (d - c).normalize_or_zero().dot(along) < OPPOSITE;
+                let shared = (c - a).dot(along).min(a.distance(b)) - (d - a).dot(along).max(0.0);
+                let gap = -along.perp().dot(0.5 * (c + d) - a);
+                (opposite && shared > SIDE_BY_SIDE && (-SLACK..THIN).contains(&gap)).then_some(gap)
+            });
         gaps.reduce(f32::min).map_or(0.0, |gap| 0.5 * (INNER_WALL - gap))
     };
     (0..own.len()).map(inset).collect()

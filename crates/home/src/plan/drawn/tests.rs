@@ -122,7 +122,10 @@ fn what_is_wrong_with_a_plan_is_told() {
         assert!(message.contains(part), "{message}");
     }
     let apart = DrawnPlan {
-        rooms: vec![room("living", &[[0.0, 0.0], [5.0, 0.0], [5.0, 4.0], [0.0, 4.0]]), room("bedroom", &[[7.0, 0.0], [9.0, 0.0], [9.0, 4.0], [7.0, 4.0]])],
+        rooms: vec![
+            room("living", &[[0.0, 0.0], [5.0, 0.0], [5.0, 4.0], [0.0, 4.0]]),
+            room("bedroom", &[[7.0, 0.0], [9.0, 0.0], [9.0, 4.0], [7.0, 4.0]]),
+        ],
         ..DrawnPlan::default()
     };
     let message = built(&apart).unwrap_err();
