@@ -26,4 +26,5 @@ mod world;
 pub use compose::{Composed, Models, compose};
 pub use error::ComposeError;
 pub use group::{Files, Materials, Missing, ObjectGroup, Pose, Turn};
+pub use rest::moved_again;
 pub use words::{ClassWord, Extent, Many, Number};
