@@ -21,8 +21,9 @@ pub const SOLVER: &str = "rapier3d 0.36";
 const STEPS: f64 = 240.0;
 /// Tolerances of the simulation are for things of about this size, metres.
 const LENGTH_UNIT_M: f64 = 0.1;
-/// Natural frequency of contacts between objects, Hz; to the scene twice as much. The stiffer, the less things sink into each other.
-const STIFFNESS_HZ: f64 = 120.0;
+/// Natural frequency of contacts between objects, Hz; to the scene twice as much. The stiffer, the less things sink into each other, and
+/// the longer they tremble.
+const STIFFNESS_HZ: f64 = 45.0;
 const FRICTION: f64 = 0.6;
 /// Mass of objects, kg/m³: that of wood.
 const DENSITY: f64 = 600.0;
