@@ -6,11 +6,11 @@ use enfilade_geometry::Surfaces;
 use enfilade_math::{DMat3, DVec3, Vec3};
 
 /// Points by which the deviation is measured: so many vertices, and so many spread evenly over the area.
-const VERTICES: usize = 1500;
-const SPREAD: usize = 1500;
+const VERTICES: usize = 1000;
+const SPREAD: usize = 1000;
 
 /// A first look takes one in so many points.
-const COARSE_STRIDE: usize = 12;
+const COARSE_STRIDE: usize = 20;
 
 /// Surfaces of more triangles are simplified on a grid of so many cells to the diameter.
 const MAX_TRIANGLES: usize = 20_000;

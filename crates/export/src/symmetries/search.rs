@@ -22,7 +22,7 @@ const SAME_AXIS: f64 = 0.985;
 const FIRST_FOLDS: [u32; 3] = [2, 3, 5];
 
 /// Steps of the refinement of a direction, radians: the first, and the last.
-const STEPS: [f64; 2] = [0.02, 1e-7];
+const STEPS: [f64; 2] = [0.02, 1e-6];
 
 /// A direction within this of one of the model's own axes (cosine) is that axis, where it fits as well.
 const ALONG_AXIS: f64 = 0.9998;
@@ -33,26 +33,30 @@ const ROUNDING: f64 = 1e-4;
 /// The discrete rotations but the identity, and the continuous axes, of a surface.
 pub(super) fn search(shape: &Shape, moments: &Moments, tolerance_m: f64) -> (Vec<DMat3>, Vec<DVec3>) {
     let search = Search { shape, tolerance_m };
-    let axes = match moments.likeness(tolerance_m / shape.diameter_m) {
+    let directions = match moments.likeness(tolerance_m / shape.diameter_m) {
         Likeness::None => moments.axes.to_cols_array_2d().map(DVec3::from).to_vec(),
-        Likeness::Two(axis) => std::iter::once(axis).chain(search.likely(across(axis))).collect(),
-        Likeness::All => {
-            if search.is_ball() {
-                return (Vec::new(), vec![DVec3::X, DVec3::Y, DVec3::Z]);
-            }
-            search.likely(everywhere())
-        }
+        Likeness::Two(axis) => std::iter::once(axis).chain(across(axis)).collect(),
+        Likeness::All if search.is_ball() => return (Vec::new(), vec![DVec3::X, DVec3::Y, DVec3::Z]),
+        Likeness::All => everywhere(),
     };
-    let mut axes: Vec<(DVec3, Fold)> = flat_map(&axes, |axis| search.judged(*axis));
+    // A continuous axis makes all others superfluous.
+    let (round, others): (Vec<_>, Vec<_>) = search.likely(directions).into_iter().partition(|(axis, _)| search.may_be_continuous(*axis));
+    let mut axes: Vec<(DVec3, Fold)> = Vec::new();
+    for (axis, fold) in round {
+        match search.judged(axis, fold) {
+            Some((axis, Fold::Continuous)) => return (search.flip(axis).into_iter().collect(), vec![axis]),
+            judged => axes.extend(judged),
+        }
+    }
+    axes.extend(flat_map(&others, |(axis, fold)| search.judged(*axis, *fold)));
     // Directions that were apart may have been refined to the same axis.
     for i in (0..axes.len()).rev() {
         if axes[..i].iter().any(|(other, _)| other.dot(axes[i].0).abs() > SAME_AXIS) {
             axes.remove(i);
         }
     }
-    let continuous = axes.iter().find(|(_, fold)| *fold == Fold::Continuous).map(|(axis, _)| *axis);
-    match continuous {
-        Some(axis) => (search.flip(axis).into_iter().collect(), vec![axis]),
+    match axes.iter().find(|(_, fold)| *fold == Fold::Continuous) {
+        Some((axis, _)) => (search.flip(*axis).into_iter().collect(), vec![*axis]),
         None => (rotations(&axes), Vec::new()),
     }
 }
@@ -80,31 +84,38 @@ impl Search<'_> {
         axes.into_iter().all(|axis| CONTINUOUS_TURNS.into_iter().all(|angle| self.holds(DMat3::from_axis_angle(axis, angle))))
     }
 
-    /// The directions about which a turn may be a symmetry, the best of those that are near each other.
-    fn likely(&self, directions: Vec<DVec3>) -> Vec<DVec3> {
-        // A direction that is off by this turns points aside by up to twice as much.
-        let tolerance_m = self.tolerance_m + SPACING * self.shape.diameter_m;
-        let mut found: Vec<(f64, DVec3)> = flat_map(&directions, |&axis| {
-            let turns = FIRST_FOLDS.map(|fold| DMat3::from_axis_angle(axis, TAU / f64::from(fold)));
-            let good = turns.into_iter().filter(|turn| self.shape.may_deviate_less(*turn, tolerance_m));
-            good.map(|turn| self.shape.mean_square(turn)).min_by(f64::total_cmp).map(|square| (square, axis))
+    /// Tolerance for directions that are not yet refined: one that is off by the spacing turns points aside by up to twice as much.
+    fn loose_m(&self) -> f64 {
+        self.tolerance_m + SPACING * self.shape.diameter_m
+    }
+
+    fn may_be_continuous(&self, axis: DVec3) -> bool {
+        let turns = CONTINUOUS_TURNS.into_iter().map(|angle| DMat3::from_axis_angle(axis, angle));
+        turns.into_iter().all(|turn| self.shape.may_deviate_less(turn, self.loose_m()))
+    }
+
+    /// The directions about which a turn may be a symmetry, with the fold that fits best, and the best of those that are near each other.
+    fn likely(&self, directions: Vec<DVec3>) -> Vec<(DVec3, u32)> {
+        let tolerance_m = self.loose_m();
+        let mut found: Vec<(f64, DVec3, u32)> = flat_map(&directions, |&axis| {
+            let turn = |fold: u32| DMat3::from_axis_angle(axis, TAU / f64::from(fold));
+            let good = FIRST_FOLDS.into_iter().filter(|fold| self.shape.may_deviate_less(turn(*fold), tolerance_m));
+            good.map(|fold| (self.shape.mean_square(turn(fold)), axis, fold)).min_by(|a, b| a.0.total_cmp(&b.0))
         });
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut likely: Vec<DVec3> = Vec::new();
-        for (_, axis) in found {
-            if likely.iter().all(|other| other.dot(axis).abs() < SAME_AXIS) {
-                likely.push(axis);
+        let mut likely: Vec<(DVec3, u32)> = Vec::new();
+        for (_, axis, fold) in found {
+            if likely.iter().all(|(other, _)| other.dot(axis).abs() < SAME_AXIS) {
+                likely.push((axis, fold));
             }
         }
         likely
     }
 
-    /// An axis as it fits best, and its symmetry; `None` where it has none.
-    fn judged(&self, axis: DVec3) -> Option<(DVec3, Fold)> {
-        let loose = self.tolerance_m + SPACING * self.shape.diameter_m;
-        let fits = |fold: &u32| self.shape.may_deviate_less(DMat3::from_axis_angle(axis, TAU / f64::from(*fold)), loose);
-        let refined: Vec<DVec3> = FIRST_FOLDS.into_iter().filter(fits).map(|fold| self.refined(axis, fold)).collect();
-        refined.into_iter().find_map(|axis| Some((axis, self.fold(axis)?)))
+    /// A direction moved to where it fits best, and its symmetry; `None` where it has none.
+    fn judged(&self, axis: DVec3, fold: u32) -> Option<(DVec3, Fold)> {
+        let axis = self.refined(axis, fold);
+        Some((axis, self.fold(axis)?))
     }
 
     /// The direction near `axis` about which one of `fold` turns fits best: a compass search, whose step is halved where no side is better.
@@ -133,9 +144,18 @@ impl Search<'_> {
         if CONTINUOUS_TURNS.into_iter().all(|angle| self.holds(turn(angle))) {
             return Some(Fold::Continuous);
         }
-        // Small turns of anything nearly round fit, so all multiples have to. Half of them are the others turned back.
-        let all_hold = |fold: &u32| (1..=fold / 2).all(|k| self.holds(turn(TAU * f64::from(k) / f64::from(*fold))));
-        (2..=MOST_FOLDS).rev().find(all_hold).map(Fold::Turns)
+        // Small turns of anything nearly round fit, so all multiples have to; those of a divisor are known by then. The largest move most.
+        let own_turns_hold = |n: u32| {
+            let own = (1..=n / 2).rev().filter(|k| greatest_divisor(*k, n) == 1);
+            own.map(|k| turn(TAU * f64::from(k) / f64::from(n))).all(|turn| self.holds(turn))
+        };
+        let mut holding: Vec<u32> = Vec::new();
+        for n in 2..=MOST_FOLDS {
+            if (2..n).filter(|divisor| n % divisor == 0).all(|divisor| holding.contains(&divisor)) && own_turns_hold(n) {
+                holding.push(n);
+            }
+        }
+        holding.pop().map(Fold::Turns)
     }
 
     /// The half turn that exchanges the ends of a continuous axis, if it is a symmetry.
@@ -144,6 +164,10 @@ impl Search<'_> {
         let half = DMat3::from_axis_angle(across.unwrap_or_else(|| axis.any_orthonormal_vector()), PI);
         self.holds(half).then_some(half)
     }
+}
+
+fn greatest_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
 }
 
 fn largest(v: DVec3) -> usize {

@@ -98,11 +98,3 @@ fn a_scene_without_labels_is_to_be_labelled() {
         "it has neither box files nor a mesh (mesh_vertices.hdf5 is missing in _detail/mesh), so poses of objects are not known; add one";
     assert!(refused(&dataset).contains(expected), "{}", refused(&dataset));
 }
-
-#[test]
-fn dump_for_comparison() {
-    let Some(out) = std::env::var_os("BOP_DUMP") else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let dataset = crate::common::write(&folder.path().join("dataset"), &crate::common::pinhole());
-    export(&dataset, &ExportConfig::new(Format::Bop, vec!["room".into(), "room-two".into()]), Path::new(&out), Existing::Refuse, &Quiet).unwrap();
-}
