@@ -50,20 +50,21 @@ def render(vertices, faces, R, t, K, size):
     image = image[:, :2] / image[:, 2:]
     columns, rows = np.meshgrid(np.arange(width), np.arange(height))
     rays = np.stack([columns, rows, np.ones_like(rows)], -1) @ np.linalg.inv(K).T
-    for face in faces:
+    for face in faces[points[faces, 2].min(1) > 0]:
         a, b, c = image[face]
-        if points[face, 2].min() <= 0:
-            continue
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-        if abs(area) < 1e-12:
+        low = np.maximum(np.floor(image[face].min(0)), 0).astype(int)
+        high = np.minimum(np.ceil(image[face].max(0)) + 1, size).astype(int)
+        if abs(area) < 1e-12 or (high <= low).any():
             continue
-        inside = np.ones_like(depth, bool)
+        here = np.s_[low[1] : high[1], low[0] : high[0]]
+        inside = np.ones_like(depth[here], bool)
         for p, q in ((a, b), (b, c), (c, a)):
-            inside &= ((q[0] - p[0]) * (rows - p[1]) - (q[1] - p[1]) * (columns - p[0])) * np.sign(area) >= 0
+            inside &= ((q[0] - p[0]) * (rows[here] - p[1]) - (q[1] - p[1]) * (columns[here] - p[0])) * np.sign(area) >= 0
         normal = np.cross(points[face[1]] - points[face[0]], points[face[2]] - points[face[0]])
-        slope = rays @ normal
+        slope = rays[here] @ normal
         z = np.where(inside & (slope != 0), (normal @ points[face[0]]) / np.where(slope == 0, 1, slope), 0)
-        depth = np.where((z > 0) & ((depth == 0) | (z < depth)), z, depth)
+        depth[here] = np.where((z > 0) & ((depth[here] == 0) | (z < depth[here])), z, depth[here])
     return depth
 
 
