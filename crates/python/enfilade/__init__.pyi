@@ -474,6 +474,7 @@ def export(
     layers: Names | None = None,
     shard_mb: int = 1000,
     cloud: Literal["frames", "mesh"] = "frames",
+    symmetries: Literal["shape", "bop", "none"] = "shape",
     # end of options
     scenes: Names | None = None,
     cameras: Names | None = None,

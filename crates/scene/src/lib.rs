@@ -38,7 +38,7 @@ pub use camera::{
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
 pub use drawn_plan::{DrawnOpening, DrawnPlan, DrawnRoom};
-pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing};
+pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing, printable};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, is_stuff};

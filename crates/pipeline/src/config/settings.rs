@@ -10,6 +10,7 @@ use super::import::FileSource;
 use super::select::select;
 use crate::error::Error;
 use crate::request::Request;
+use enfilade_compose::ObjectGroup;
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
@@ -50,6 +51,9 @@ pub struct SceneConfig {
     pub seed: u64,
     /// Where the scene comes from.
     pub source: Source,
+    /// Models that are placed in it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objects: Vec<ObjectGroup>,
     /// Where its labels come from; `None` takes what comes with the scene.
     pub labels: Option<LabelSource>,
     /// What kind of room it is, in Hypersim's words; `None` where its rooms say it, or nothing does.

@@ -1,6 +1,6 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
-use super::{Input, Inputs, Job, Outcome, Record};
+use super::{Input, Inputs, Job, Outcome, Record, objects};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
@@ -36,6 +36,11 @@ const GEOMETRY: [&str; 10] = [
 ];
 
 pub(super) fn settings(job: &Job) -> Hash {
+    let source = source_settings(job);
+    if job.scene.objects.is_empty() { source } else { Hash::of(&(source, objects::settings(job))) }
+}
+
+fn source_settings(job: &Job) -> Hash {
     match &job.scene.source {
         Source::Home(config) if !config.assets.is_empty() => {
             Hash::of(&(&job.scene.source, assets::names(config, &|path| job.config.path(path))))
@@ -47,13 +52,14 @@ pub(super) fn settings(job: &Job) -> Hash {
 /// The files that the last import read or looked for in vain: they are known only after reading.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
     let source = match &job.scene.source {
-        Source::Home(config) => return asset_inputs(job, config).map(Some),
-        Source::File(source) => source,
+        Source::Home(config) if job.scene.objects.is_empty() => return asset_inputs(job, config).map(Some),
+        Source::Home(_) => None,
+        Source::File(source) => Some(source),
     };
     let Some(record) = previous else { return Ok(None) };
     // If the configuration names other files now, the files read before do not matter, although they may still exist.
     let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == in_folder(path));
-    if named(source).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
+    if source.into_iter().flat_map(named).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
     // A file that cannot be read makes the stage run, and its error has the reason.
@@ -80,7 +86,7 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let (scene, labels, rooms, inputs, report, offset_m) = match &job.scene.source {
+    let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let mut report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
@@ -100,6 +106,16 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             (imported.scene, labels, None, Some(inputs), report, imported.report.offset_m)
         }
     };
+    let mut placed = None;
+    if !job.scene.objects.is_empty() {
+        let composed = objects::place(job, scene, labels, cx)?;
+        let of_source = match (inputs, &job.scene.source) {
+            (None, Source::Home(config)) => asset_inputs(job, config)?,
+            (inputs, _) => inputs.unwrap_or_default(),
+        };
+        inputs = Some([of_source, composed.inputs].concat());
+        (scene, labels, placed) = (composed.scene.scene, Some(composed.scene.labels), Some(composed.placed));
+    }
     let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
     remove_frames_of_other_scenes(job, &package, &bytes)?;
     job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
@@ -111,6 +127,14 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
+    let placed_file = layout.placed_objects(name);
+    match &placed {
+        Some(placed) => {
+            job.dataset.write_placed_objects(name, placed).map_err(Error::stage)?;
+            outputs.push(placed_file);
+        }
+        None => remove_if_there(&placed_file)?,
+    }
     let drawn = [layout.rooms(name), layout.rooms_drawing(name)];
     match &rooms {
         Some(rooms) => {
@@ -120,7 +144,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
         None => remove_built_rooms(job, &drawn)?,
     }
-    Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+    let summary = describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
+    Ok(Outcome { summary, outputs, inputs, report })
 }
 
 /// Removes the rooms of a home that the scene was before. Those that were fitted to its labels are a product of their own.

@@ -15,6 +15,7 @@ mod job;
 mod kept;
 mod label;
 mod made;
+mod objects;
 mod pilot;
 mod plan;
 mod plan_preview;
@@ -24,6 +25,7 @@ mod record;
 mod render;
 mod shift;
 mod starts;
+mod targets;
 mod verify;
 
 use crate::error::Error;
