@@ -11,7 +11,7 @@ words! {
     /// The shapes of the rooms of plans that are made.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "snake_case")]
-    pub enum Shape {
+    pub enum RoomShape {
         /// Rectangles.
         #[default]
         Rectangular = "rectangular",
@@ -43,7 +43,7 @@ options! {
         pub plan: Option<String> = None => named("FILE"),
         /// Shapes of rooms where no `plan` is given.
         #[serde(skip_serializing_if = "is_rectangular")]
-        pub shape: Shape = Shape::Rectangular,
+        pub shape: RoomShape = RoomShape::Rectangular,
         /// Seed of the floor plan alone: areas, shape of the whole, doors and windows.
         ///
         /// Areas are uniform over what is usual for each kind of room.
@@ -86,8 +86,8 @@ fn is_one(share: &f32) -> bool {
 
 /// As [`is_one`].
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
-fn is_rectangular(shape: &Shape) -> bool {
-    *shape == Shape::Rectangular
+fn is_rectangular(shape: &RoomShape) -> bool {
+    *shape == RoomShape::Rectangular
 }
 
 impl HomeConfig {
@@ -104,7 +104,7 @@ impl HomeConfig {
         if self.rooms.len() > Self::MOST_ROOMS && self.plan.is_none() {
             return Some(format!("a home has at most {} rooms, found {}", Self::MOST_ROOMS, self.rooms.len()));
         }
-        if self.plan.is_some() && self.shape != Shape::Rectangular {
+        if self.plan.is_some() && self.shape != RoomShape::Rectangular {
             return Some("a `plan` has the shapes that were drawn: leave `shape` out".into());
         }
         if !(0.0..=4.0).contains(&self.clutter) {

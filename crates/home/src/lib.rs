@@ -31,7 +31,7 @@ mod rooms;
 mod settle;
 mod shell;
 
-pub use config::{HomeConfig, Shape};
+pub use config::{HomeConfig, RoomShape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
 pub use plan::FloorPlan;
@@ -57,8 +57,8 @@ pub fn home(config: &HomeConfig) -> Home {
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
     let plan = match config.shape {
-        Shape::Rectangular => plan,
-        Shape::Varied => plan.varied(&config.stream(config.layout, 7)),
+        RoomShape::Rectangular => plan,
+        RoomShape::Varied => plan.varied(&config.stream(config.layout, 7)),
     };
     furnished(config, library, plan)
 }
@@ -110,7 +110,7 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     rooms::furnish(&mut builder, &plan, &decor, config, library);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
     let (scene, labels) = builder.finish();
-    let (removed, moved, credits, notes) = Default::default();
+    let (removed, moved, credits, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut home = Home { scene, labels, plan, fronts, removed, moved, credits, notes };
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);

@@ -102,7 +102,7 @@ pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wa
 
 fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng: &mut Rng) {
     let at = pose(f64::from(room.center.x), f64::from(room.center.y), 0.0, 0.0);
-    let reach = |side: Side| depth(room, &room.face(side.wall()).backs[0]);
+    let reach = |side: Side| depth(&room.face(side.wall()).backs[0]);
     let (low, high) = (Vec2::new(reach(Side::West), reach(Side::South)), Vec2::new(reach(Side::East), reach(Side::North)));
     let half = 0.5 * room.size.truncate();
     let sheet = |z0: f32, z1: f32| board([-half.x - low.x, -half.y - low.y, z0], [half.x + high.x, half.y + high.y, z1], 0.001);
@@ -133,18 +133,14 @@ fn is_shell_family(family: &str) -> bool {
 }
 
 /// Depth of the part of a piece of wall that belongs to the room, metres.
-fn depth(room: &Room, back: &Back) -> f32 {
-    match back.outer {
-        true => back.thickness,
-        false if room.rectangular => room.inner_half() - AIR,
-        false => 0.5 * back.thickness - AIR,
-    }
+fn depth(back: &Back) -> f32 {
+    if back.outer { back.thickness } else { 0.5 * back.thickness - AIR }
 }
 
 fn slab(room: &Room, side: Side) -> Mesh {
     let back = |side: Side| &room.face(side.wall()).backs[0];
     let corner = |other: Side| match (side.along().x == 0.0, back(other).outer) {
-        (false, _) => depth(room, back(other)),
+        (false, _) => depth(back(other)),
         (true, true) => OVERLAP,
         (true, false) => THIN_OVERLAP,
     };
@@ -153,7 +149,7 @@ fn slab(room: &Room, side: Side) -> Mesh {
     let shift = 0.5 * (after - before);
     let height = [-OVERLAP, room.size.z + OVERLAP];
     let holes = holes(room, side.wall(), shift);
-    slab_with_openings(room.length(side.wall()) + before + after, height, depth(room, back(side)), &holes).moved(Vec3::new(shift, 0.0, 0.0))
+    slab_with_openings(room.length(side.wall()) + before + after, height, depth(back(side)), &holes).moved(Vec3::new(shift, 0.0, 0.0))
 }
 
 /// The openings of a wall, measured from the point `middle` of its x axis.
@@ -168,10 +164,12 @@ fn skirting(b: &mut Builder, room: &Room, built_in: &[(Wall, [f32; 2])]) {
     for wall in room.walls() {
         let side = Side::facing(room.inward(wall));
         let length = 0.5 * room.length(wall);
-        let half = match room.rectangular {
-            true if side.along().x == 0.0 => [length - (SKIRTING.x + 0.0005); 2],
-            true => [length; 2],
-            false => polygon::beyond(room, wall).map(|beyond| length + beyond),
+        let half = if !room.rectangular {
+            polygon::beyond(room, wall).map(|beyond| length + beyond)
+        } else if side.along().x == 0.0 {
+            [length - (SKIRTING.x + 0.0005); 2]
+        } else {
+            [length; 2]
         };
         let mut ways: Vec<[f32; 2]> = room.ways().filter(|o| o.wall == wall).map(|o| [o.x[0] - 0.054, o.x[1] + 0.054]).collect();
         ways.extend(built_in.iter().filter(|(w, _)| *w == wall).map(|(_, x)| *x));

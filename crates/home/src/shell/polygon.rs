@@ -26,7 +26,7 @@ pub fn slab(room: &Room, wall: Wall) -> Mesh {
     let last = face.backs.len() - 1;
     let mut mesh = Mesh::default();
     for (i, back) in face.backs.iter().enumerate() {
-        let depth = depth(room, back);
+        let depth = depth(back);
         let low = if i == 0 { -half - overlap(room, wall, 0) } else { back.x[0] };
         let high = if i == last { half + overlap(room, wall, 1) } else { back.x[1] };
         let middle = 0.5 * (low + high);
@@ -48,7 +48,7 @@ fn overlap(room: &Room, wall: Wall, end: usize) -> f32 {
     let other = room.beside(wall)[end];
     let (own, others) = (&room.face(wall).backs, &room.face(other).backs);
     let (own, other) = if end == 0 { (&own[0], &others[others.len() - 1]) } else { (&own[own.len() - 1], &others[0]) };
-    let mitre = (depth(room, other) + depth(room, own) * angle.cos()) / angle.sin();
+    let mitre = (depth(other) + depth(own) * angle.cos()) / angle.sin();
     // The second of two slabs that end in one plane is a little shorter.
     if own.outer && other.outer { mitre.clamp(THIN_OVERLAP, LONGEST) - AIR * (1 + end) as f32 } else { mitre.clamp(0.005, THIN_OVERLAP) }
 }
@@ -67,7 +67,7 @@ pub fn beyond(room: &Room, wall: Wall) -> [f32; 2] {
 /// Adds floor and ceiling.
 pub fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng: &mut Rng) {
     let at = pose(f64::from(room.box_center.x), f64::from(room.box_center.y), 0.0, f64::from(room.grain));
-    let thinnest = room.faces.iter().flat_map(|face| &face.backs).map(|back| depth(room, back)).fold(f32::INFINITY, f32::min);
+    let thinnest = room.faces.iter().flat_map(|face| &face.backs).map(depth).fold(f32::INFINITY, f32::min);
     let grown = |by: f32| -> Vec<Vec2> {
         let turn = Vec2::from_angle(-room.grain);
         room.outline.grown(by.min(WITHIN * thinnest)).into_iter().map(|p| turn.rotate(p - room.box_center)).collect()

@@ -1,6 +1,6 @@
 //! DXF drawings, as text: closed polylines are rooms, texts within them say what they are for.
 //!
-//! Pairs of a group code and a value (AutoCAD's DXF Reference). Read are `LWPOLYLINE` and `POLYLINE` with their `VERTEX` entities (bulges
+//! Pairs of a group code and a value (Autodesk's DXF Reference). Read are `LWPOLYLINE` and `POLYLINE` with their `VERTEX` entities (bulges
 //! are taken as straight, and said), `LINE`, `TEXT` and `MTEXT` in the section `ENTITIES`, and the unit `$INSUNITS`. A polyline or line on a
 //! layer whose name contains "door", "window" or "passage" is an opening as long as it is; polylines that are open are left out. A room
 //! without a text is called as its layer.

@@ -145,7 +145,9 @@ fn path(d: &str) -> Result<Vec<DVec2>, String> {
             }
             'Z' => break,
             _ => {
-                return Err(format!("the path has the command {command:?}, expected straight pieces: M, L, H, V and Z; flatten its curves"));
+                return Err(format!(
+                    "the path has the command {command:?}, expected straight pieces: M, L, H, V and Z; flatten its curves"
+                ));
             }
         }
     }
