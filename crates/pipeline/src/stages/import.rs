@@ -1,6 +1,6 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
-use super::{Input, Inputs, Job, Outcome, Record};
+use super::{Input, Inputs, Job, Outcome, Record, variation};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
@@ -11,7 +11,7 @@ use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
 use enfilade_math::Vec3;
-use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
+use enfilade_scene::{Labels, PACKAGE_HEAD_BYTES, Rooms, Scene, WorldMesh, is_current_package};
 use enfilade_show::planview::rooms_svg;
 use std::fs::File;
 use std::io::Read;
@@ -36,6 +36,9 @@ const GEOMETRY: [&str; 10] = [
 ];
 
 pub(super) fn settings(job: &Job) -> Hash {
+    if let Some(varies) = &job.scene.varies {
+        return variation::settings(job, varies);
+    }
     match &job.scene.source {
         Source::Home(config) if !config.assets.is_empty() => {
             Hash::of(&(&job.scene.source, assets::names(config, &|path| job.config.path(path))))
@@ -46,6 +49,9 @@ pub(super) fn settings(job: &Job) -> Hash {
 
 /// The files that the last import read or looked for in vain: they are known only after reading.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
+    if let Some(first) = job.first()? {
+        return variation::inputs(&first);
+    }
     let source = match &job.scene.source {
         Source::Home(config) => return asset_inputs(job, config).map(Some),
         Source::File(source) => source,
@@ -80,6 +86,10 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
+    if let (Some(varies), Some(first)) = (&job.scene.varies, job.first()?) {
+        return variation::run(job, varies, &first, cx);
+    }
+    remove_if_there(&job.dataset.layout().variation(name))?;
     let (scene, labels, rooms, inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
@@ -97,9 +107,22 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             (imported.scene, labels, None, Some(inputs), report, imported.report.offset_m)
         }
     };
-    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
+    let outputs = write(job, &scene, labels.as_ref(), rooms.as_ref(), offset_m)?;
+    Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+}
+
+/// Writes the package, the labels and the dataset's files of a scene; returns them.
+pub(super) fn write(
+    job: &Job,
+    scene: &Scene,
+    labels: Option<&Labels>,
+    rooms: Option<&Rooms>,
+    offset_m: Option<[f64; 3]>,
+) -> Result<Vec<PathBuf>, Error> {
+    let name = &job.scene.name;
+    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(scene));
     remove_frames_of_other_scenes(job, &package, &bytes)?;
-    job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
+    job.dataset.write_scene(name, scene).map_err(Error::stage)?;
     offset_m.map_or(Ok(()), |offset_m| job.dataset.write_offset(name, offset_m)).map_err(Error::stage)?;
     write_bytes(&package, &bytes)?;
     let labels_file = job.work_file(LABELS)?;
@@ -109,7 +132,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
     let drawn = [layout.rooms(name), layout.rooms_drawing(name)];
-    match &rooms {
+    match rooms {
         Some(rooms) => {
             job.dataset.write_rooms(name, rooms).map_err(Error::stage)?;
             write_bytes(&drawn[1], rooms_svg(rooms))?;
@@ -117,7 +140,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
         None => remove_built_rooms(job, &drawn)?,
     }
-    Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+    Ok(outputs)
 }
 
 /// Removes the rooms of a home that the scene was before. Those that were fitted to its labels are a product of their own.

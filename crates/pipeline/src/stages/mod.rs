@@ -24,6 +24,7 @@ mod record;
 mod render;
 mod shift;
 mod starts;
+mod variation;
 mod verify;
 
 use crate::error::Error;
