@@ -78,6 +78,11 @@ options! {
         /// that its seed decides, unless given.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub outside: Option<Outside> = None,
+        /// Names of the parts or materials of a file whose glow stands for daylight, as windows of rooms without a sky do; `*` is any run
+        /// of characters. Unless given, those of windows, doors, blinds and curtains, and upright ones without a class of half a
+        /// square metre or more.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub daylight: Option<Vec<String>> = None,
     }
 }
 

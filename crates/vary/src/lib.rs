@@ -22,7 +22,7 @@ pub use planck::{chromaticity, color as planckian};
 use enfilade_dataset::Variation;
 use enfilade_home::light::LightConfig;
 use enfilade_math::{Rng, Vec2};
-use enfilade_scene::{Cx, EditError, LabelledScene, Rooms};
+use enfilade_scene::{Cx, EditError, LabelledScene, Quiet, Rooms};
 use std::collections::BTreeSet;
 
 /// The scene that is varied, and what is known about it.
@@ -89,6 +89,8 @@ pub enum VaryError {
 /// # Errors
 /// When the configuration names only classes that the scene does not have.
 pub fn vary(first: &First, config: &VaryConfig, seeds: &Seeds, record: &mut Variation, cx: &dyn Cx) -> Result<Varied, VaryError> {
+    // What is to be said is the same for all variations of a scene.
+    let cx: &dyn Cx = if record.number == 1 { cx } else { &Quiet };
     let mut scene = first.scene.clone();
     if let Some(materials) = &config.materials {
         record.materials = materials::vary(&mut scene, first, materials, &Rng::new(seeds.materials), cx)?;

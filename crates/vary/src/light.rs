@@ -7,7 +7,7 @@
 use crate::config::{LampVary, SkyVary};
 use crate::draw::{chance, log_uniform, reciprocal_uniform, uniform};
 use crate::repaint::{Paint, repaint};
-use crate::sources::{Glowing, Lamp, flux, glowing, lamps, tinted};
+use crate::sources::{Glowing, Lamp, flux, glow_of_parts, lamps, tinted};
 use crate::survey::Survey;
 use crate::{First, Seeds};
 use enfilade_dataset::{Variation, VariedLamp, VariedSky};
@@ -45,9 +45,10 @@ pub fn light(
     record: &mut Variation,
     cx: &dyn Cx,
 ) {
-    let found = lamps(scene);
+    let glow = glow_of_parts(scene, kinds.1.and_then(|sky| sky.daylight.as_deref()));
+    let found = lamps(scene, &glow);
     let warn = |message: String| cx.warn(Warning { place: first.name.into(), message });
-    let survey = (first.home.is_none() && kinds.1.is_some()).then(|| Survey::of(scene));
+    let survey = (first.home.is_none() && kinds.1.is_some()).then(|| Survey::of(&scene.scene, &glow));
     let sky = kinds.1.filter(|_| match &survey {
         Some(survey) if survey.open_share == 0.0 && survey.daylight == 0.0 => {
             warn("no daylight comes into it, so `sky` of [vary] changes nothing".into());
@@ -61,6 +62,9 @@ pub fn light(
         }
         !found.is_empty()
     });
+    if let Some(sky) = sky {
+        tell_guess(scene, sky, &glow, &warn);
+    }
     let measure = Measure::of(scene, first, survey.as_ref(), &found);
     let moment = sky.map(|sky| drawn_sky(sky, first, survey.as_ref(), !found.is_empty(), seeds, &warn));
     record.sky = moment.as_ref().map(described);
@@ -77,10 +81,24 @@ pub fn light(
         let weather = light.weather();
         Exposure::of(weather.sky_klx(), weather.sun_klx(), klm * measure.lamps_per_klm)
     });
-    shine(scene, &found, &record.lamps, &Change { measure: &measure, exposure, light: moment });
-    if let Some(light) = moment {
+    shine(scene, &glow, &found, &record.lamps, &Change { measure: &measure, exposure, light: moment });
+    // Around a closed room a sky would only cost samples.
+    let is_closed = survey.is_some_and(|survey| survey.open_share == 0.0);
+    if let Some(light) = moment.filter(|_| !is_closed) {
         let outward = first.home.as_ref().map_or(&[][..], |home| &home.outward);
         replace_sky(&mut scene.scene, &light, outward, exposure);
+    }
+}
+
+/// Says which surfaces were taken for windows without a class that says so.
+fn tell_guess(scene: &LabelledScene, sky: &SkyVary, glow: &[Glowing], warn: &dyn Fn(String)) {
+    let is_guessed = |part: &usize| glow[*part] == Glowing::Daylight && scene.labels.parts[*part].semantic < 1;
+    let guessed: Vec<&str> = (0..glow.len()).filter(is_guessed).map(|part| scene.scene.parts[part].name.as_str()).collect();
+    if sky.daylight.is_none() && !guessed.is_empty() {
+        warn(format!(
+            "{} glow upright and have no class, and were taken for daylight: sky = {{ daylight = [\"NAME*\"] }} of [vary] says what is",
+            guessed.join(", ")
+        ));
     }
 }
 
@@ -210,11 +228,11 @@ impl Change<'_> {
 }
 
 /// Changes what glows.
-fn shine(scene: &mut LabelledScene, found: &[Lamp], states: &[VariedLamp], change: &Change) {
+fn shine(scene: &mut LabelledScene, glow: &[Glowing], found: &[Lamp], states: &[VariedLamp], change: &Change) {
     let mut paints: BTreeMap<PartId, Paint> = BTreeMap::new();
     for part in 0..scene.scene.parts.len() as PartId {
         let emission = scene.scene.materials[scene.scene.parts[part as usize].material as usize].emission;
-        let factor = match glowing(scene, part) {
+        let factor = match glow[part as usize] {
             Glowing::Daylight => change.daylight(emission.factor),
             Glowing::Other => change.exposure.expose(change.measured(emission.factor)),
             Glowing::No | Glowing::Lamp => continue,

@@ -3,10 +3,10 @@
 //! Points are drawn on surfaces that face upward and have something above them, evenly by area; rays from each, in proportion to the
 //! cosine, and to every light without a surface. Light through clear panes counts, light that bounces does not.
 
-use crate::sources::{Glowing, glowing};
+use crate::sources::Glowing;
 use enfilade_geometry::Bvh;
 use enfilade_math::{Ray, Rgb, Rng, Vec2, Vec3, offset_origin, warp};
-use enfilade_scene::{Environment, LabelledScene, Light, Scene, WorldMesh, uv_from_direction};
+use enfilade_scene::{Environment, Light, Scene, WorldMesh, uv_from_direction};
 use std::f32::consts::PI;
 
 /// Points, and rays from each.
@@ -32,11 +32,10 @@ pub struct Survey {
 
 impl Survey {
     /// Surveys a scene.
-    pub fn of(scene: &LabelledScene) -> Self {
-        let world = WorldMesh::new(&scene.scene);
+    pub fn of(scene: &Scene, glow: &[Glowing]) -> Self {
+        let world = WorldMesh::new(scene);
         let bvh = Bvh::new(&world.corners, &|_| false);
-        let kinds: Vec<Glowing> = (0..scene.scene.parts.len() as u32).map(|part| glowing(scene, part)).collect();
-        let room = Room { scene: &scene.scene, world: &world, bvh: &bvh, kinds: &kinds };
+        let room = Room { scene, world: &world, bvh: &bvh, kinds: glow };
         let mut rng = Rng::new(SEED);
         let points = room.points(&mut rng);
         let (mut sum, mut out) = (Self::default(), Vec2::ZERO);

@@ -15,3 +15,4 @@ mod rooms;
 mod stored;
 mod suspicions;
 mod trajectories;
+mod variations;

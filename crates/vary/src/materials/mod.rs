@@ -9,7 +9,7 @@ mod recolor;
 
 use crate::config::{ColorRange, MaterialVary};
 use crate::draw::chance;
-use crate::sources::{Glowing, area_m2, glowing};
+use crate::sources::{area_m2, glows};
 use crate::{First, VaryError};
 use enfilade_dataset::VariedMaterial;
 use enfilade_math::{Rgb, Rng, hash_text};
@@ -27,7 +27,11 @@ const WOODEN: [&str; 14] =
     ["wood", "oak", "walnut", "parquet", "plank", "veneer", "timber", "pine", "cherry", "beech", "birch", "laminate", "teak", "mahogany"];
 /// Words in the names of materials that keep their colours whatever they cover: what grows, and metals that files have as other things.
 const KEPT: [&str; 12] = ["leaf", "leaves", "plant", "branch", "dirt", "soil", "steel", "chrome", "metal", "alumin", "brass", "mirror"];
-/// Hues, chroma and lightness of wood: brown. Of textured materials alone, because brown paint is not wood.
+/// Share of a material's area at the ceiling from which on it is the ceiling's, whatever else it covers.
+const CEILING_SHARE: f32 = 0.2;
+/// Least share of a material's area that is of classes made like the one that has most.
+const ALIKE_SHARE: f32 = 0.8;
+/// Hues and chroma of wood: brown. Of textured materials alone, because brown paint is not wood.
 const BROWN_DEG: [f32; 2] = [40.0, 95.0];
 const BROWN_CHROMA: [f32; 2] = [0.03, 0.14];
 
@@ -74,18 +78,32 @@ fn is_brown(mean: Rgb) -> bool {
     within(BROWN_DEG, color.hue_deg) && within(BROWN_CHROMA, color.chroma)
 }
 
-/// The class that has most of each material's area, by the number of the material; without those that glow and those without a class.
+/// The class of each material, by the number of the material; without those that glow, and those of no class or several.
 fn classes_of_materials(scene: &LabelledScene) -> BTreeMap<u32, &'static str> {
     let mut areas: BTreeMap<u32, BTreeMap<i16, f32>> = BTreeMap::new();
     for (id, part) in scene.scene.parts.iter().enumerate() {
-        if glowing(scene, id as PartId) == Glowing::No {
+        if !glows(&scene.scene, id as PartId) {
             let class = scene.labels.parts[id].semantic;
             *areas.entry(part.material).or_default().entry(class).or_default() += area_m2(&scene.scene, part);
         }
     }
+    areas.iter().filter_map(|(material, areas)| Some((*material, class_of(areas)?))).collect()
+}
+
+/// The class of a material with these areas; `None` where too much of it is of classes that are made otherwise.
+fn class_of(areas: &BTreeMap<i16, f32>) -> Option<&'static str> {
     let name = |class: i16| usize::try_from(class - 1).ok().and_then(|at| NYU40.get(at)).map(|class| class.name);
-    let most = |areas: &BTreeMap<i16, f32>| areas.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0))).map(|(class, _)| *class);
-    areas.iter().filter_map(|(material, areas)| Some((*material, name(most(areas)?)?))).collect()
+    let known: Vec<(&'static str, f32)> = areas.iter().filter_map(|(class, area)| Some((name(*class)?, *area))).collect();
+    let all: f32 = known.iter().map(|(_, area)| area).sum();
+    let ceiling = known.iter().find(|(class, area)| *class == "ceiling" && *area >= CEILING_SHARE * all);
+    if let Some((class, _)) = ceiling {
+        return Some(class);
+    }
+    let (class, _) = known.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(a.0)))?;
+    let is_listed = |class: &str| CLASSES.iter().any(|(known, _)| *known == class);
+    let alike = |other: &str| other == *class || is_listed(other) && is_listed(class) && made(other) == made(class);
+    let share: f32 = known.iter().filter(|(other, _)| alike(other)).map(|(_, area)| area).sum();
+    (share >= ALIKE_SHARE * all).then_some(class)
 }
 
 type Ranges = BTreeMap<&'static str, (palette::Made, ColorRange)>;

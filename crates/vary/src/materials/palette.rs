@@ -22,9 +22,9 @@ pub enum Made {
     Thing,
 }
 
-/// The classes that vary, with what they are made of. Glass, mirrors, pictures, screens, books, plants and people are not among them, nor
-/// what is of enamel and steel everywhere.
-pub const CLASSES: [(&str, Made); 26] = [
+/// The classes that vary, with what they are made of. Windows, doors, mirrors, pictures, screens, books, plants and people are not among
+/// them, nor what is of enamel and steel everywhere.
+pub const CLASSES: [(&str, Made); 24] = [
     ("wall", Made::Wall),
     ("ceiling", Made::Ceiling),
     ("floor", Made::Floor),
@@ -33,7 +33,6 @@ pub const CLASSES: [(&str, Made); 26] = [
     ("chair", Made::Cloth),
     ("sofa", Made::Cloth),
     ("table", Made::Joinery),
-    ("door", Made::Joinery),
     ("bookshelf", Made::Joinery),
     ("counter", Made::Joinery),
     ("blinds", Made::Cloth),
@@ -49,7 +48,6 @@ pub const CLASSES: [(&str, Made); 26] = [
     ("box", Made::Thing),
     ("nightstand", Made::Joinery),
     ("bag", Made::Cloth),
-    ("otherstructure", Made::Joinery),
     ("otherfurniture", Made::Joinery),
 ];
 
@@ -67,14 +65,14 @@ const WARM: [f64; 2] = [55.0, 100.0];
 
 const WALL: [Row; 4] = [
     Row(0.45, [0.88, 0.95], [0.0, 0.02], WARM),
-    Row(0.3, [0.8, 0.92], [0.01, 0.045], ANY),
-    Row(0.15, [0.6, 0.8], [0.03, 0.085], ANY),
-    Row(0.1, [0.34, 0.5], [0.01, 0.055], ANY),
+    Row(0.3, [0.8, 0.92], [0.01, 0.03], ANY),
+    Row(0.15, [0.62, 0.8], [0.025, 0.06], ANY),
+    Row(0.1, [0.36, 0.5], [0.005, 0.035], ANY),
 ];
 const CEILING: [Row; 1] = [Row(1.0, [0.91, 0.955], [0.0, 0.012], WARM)];
 const FLOOR: [Row; 2] = [Row(0.6, [0.45, 0.82], [0.0, 0.03], WARM), Row(0.4, [0.3, 0.75], [0.0, 0.04], ANY)];
 const JOINERY: [Row; 3] =
-    [Row(0.45, [0.82, 0.94], [0.0, 0.015], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.02], ANY), Row(0.35, [0.4, 0.75], [0.03, 0.1], ANY)];
+    [Row(0.45, [0.82, 0.94], [0.0, 0.015], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.02], ANY), Row(0.35, [0.4, 0.75], [0.02, 0.07], ANY)];
 const CLOTH: [Row; 3] =
     [Row(0.35, [0.65, 0.9], [0.005, 0.035], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.025], ANY), Row(0.45, [0.35, 0.75], [0.04, 0.125], ANY)];
 const THING: [Row; 1] = [Row(1.0, [0.3, 0.9], [0.0, 0.14], ANY)];

@@ -13,7 +13,7 @@ pub const LEAST: f32 = 0.02;
 /// Reflectance of fresh snow, which no surface exceeds.
 pub const MOST: f32 = 0.9;
 /// Most by which the factor of one channel may exceed that of another.
-const SPREAD: f32 = 4.0;
+const SPREAD: f32 = 12.0;
 /// Texels of a picture that are looked at, at most.
 const TEXELS: usize = 4096;
 /// Share of the texels that may be brighter than [`MOST`].
