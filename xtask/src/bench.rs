@@ -14,12 +14,13 @@ struct Bench {
 }
 
 /// All measurements; each is an instrument of that name.
-const BENCHES: [Bench; 7] = [
+const BENCHES: [Bench; 8] = [
     Bench {
         name: "rays",
         about: "millions of rays per second of one thread, ours and Embree's, which it fetches: camera, bounced, shadow",
     },
     Bench { name: "explore", about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs" },
+    Bench { name: "place", about: "objects placed on tables: time, how deep they are in anything, and how far they move afterwards" },
     Bench { name: "noise", about: "noise that a second of rendering leaves, in the demo's room" },
     Bench { name: "memory", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },

@@ -16,7 +16,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 40] = [
+const FLOORS: [(&str, Floor); 41] = [
     ("math", Floor::Number(0)),
     ("options", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
@@ -38,6 +38,7 @@ const FLOORS: [(&str, Floor); 40] = [
     ("multiview", Floor::Number(4)),
     ("sensors", Floor::Number(4)),
     ("vray", Floor::Number(4)),
+    ("compose", Floor::Number(4)),
     ("home", Floor::Number(5)),
     ("describe", Floor::Number(5)),
     ("verify", Floor::Number(5)),

@@ -16,6 +16,7 @@ mod measure;
 mod memory;
 mod network;
 mod noise;
+mod place;
 mod plans;
 mod rays;
 mod showroom;
@@ -44,12 +45,17 @@ struct Instrument {
 }
 
 /// All instruments.
-const INSTRUMENTS: [Instrument; 20] = [
+const INSTRUMENTS: [Instrument; 21] = [
     Instrument { name: "rays", about: "millions of rays per second of one thread, ours and Embree's", run: || done(rays::run()) },
     Instrument {
         name: "explore",
         about: "core-seconds of carving and walking, beside those recorded of Hypersim's programs",
         run: || done(explore::run()),
+    },
+    Instrument {
+        name: "place",
+        about: "objects placed on tables: time, how deep they are in anything, and how far they move afterwards",
+        run: place::run,
     },
     Instrument { name: "noise", about: "noise that a second of rendering leaves, in the demo's room", run: || done(noise::run()) },
     Instrument { name: "memory", about: "memory for a million triangles under eight textures of 4096x4096", run: || done(memory::run()) },

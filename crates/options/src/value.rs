@@ -119,6 +119,14 @@ impl<const N: usize> Value for [f64; N] {
     }
 }
 
+impl<const N: usize> Value for [[f64; N]; 2] {
+    const FORM: Form = Form::Two(&Form::List(&Form::Number));
+
+    fn read(given: &Given) -> Option<Self> {
+        Vec::read(given)?.try_into().ok()
+    }
+}
+
 impl<T: Value> Value for Option<T> {
     const FORM: Form = T::FORM;
 

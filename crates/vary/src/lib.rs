@@ -1,12 +1,13 @@
 //! Variations of a scene: the same room at another time, in other colours, with its furniture a little elsewhere.
 //!
 //! [`vary`] is a function of a labelled scene, a configuration and seeds alone. Each kind of variation has a file and random numbers of its
-//! own: [`light`](mod@light) (which lamps are lit, their colour and power, sun and sky), `materials` (colours by class), `arrange` (poses
+//! own: `light` (which lamps are lit, their colour and power, sun and sky), `materials` (colours by class), `arrange` (poses
 //! of furniture, and what lies about). What differs is returned as a record, by name.
 
 mod arrange;
 mod config;
 mod draw;
+mod first;
 mod light;
 mod materials;
 mod planck;
@@ -15,50 +16,15 @@ mod sources;
 mod survey;
 mod things;
 
-pub use config::{Classes, ClutterVary, ColorRange, FurnitureVary, LampVary, MOST, MaterialVary, Misset, SkyVary, VaryConfig, VaryKeys};
+pub use config::{Classes, ClutterVary, ColorRange, FurnitureVary, LampVary, MaterialVary, Misset, SkyVary, VaryConfig, VaryKeys};
+pub use first::{First, HomeLight, Seeds, VaryError};
 pub use materials::{LEAST as LEAST_REFLECTANCE, MOST as MOST_REFLECTANCE};
 pub use planck::{chromaticity, color as planckian};
 
 use enfilade_dataset::Variation;
-use enfilade_home::light::LightConfig;
-use enfilade_math::{Rng, Vec2};
+use enfilade_math::Rng;
 use enfilade_scene::{Cx, EditError, LabelledScene, Quiet, Rooms};
 use std::collections::BTreeSet;
-
-/// The scene that is varied, and what is known about it.
-pub struct First<'a> {
-    /// Name of the scene, for messages.
-    pub name: &'a str,
-    /// The scene and its labels.
-    pub scene: &'a LabelledScene,
-    /// The light of a generated home; `None` for scenes of files.
-    pub home: Option<HomeLight>,
-    /// Rooms, doors and names of things, where they are known.
-    pub rooms: Option<&'a Rooms>,
-    /// Instances whose poses are written elsewhere and that stay where they are.
-    pub fixed: BTreeSet<i16>,
-}
-
-/// The light that a home has.
-pub struct HomeLight {
-    /// Place, date, hour and weather.
-    pub light: LightConfig,
-    /// Directions in which its windows look out.
-    pub outward: Vec<Vec2>,
-}
-
-/// Seeds of a variation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Seeds {
-    /// Of what all variations of a scene have in common: where on the globe it is, and how it is turned.
-    pub place: u64,
-    /// Of its light.
-    pub light: u64,
-    /// Of its materials.
-    pub materials: u64,
-    /// Of its arrangement.
-    pub arrangement: u64,
-}
 
 /// A variation.
 pub struct Varied {
@@ -66,22 +32,6 @@ pub struct Varied {
     pub scene: LabelledScene,
     /// The rooms, with what has moved.
     pub rooms: Option<Rooms>,
-}
-
-/// Why a scene cannot be varied.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum VaryError {
-    /// The configuration names only what the scene does not have.
-    #[error("scene {scene:?} cannot vary: {message}")]
-    NothingToVary {
-        /// Name of the scene.
-        scene: String,
-        /// What it does not have, and what it has.
-        message: String,
-    },
-    /// The varied scene is not valid.
-    #[error(transparent)]
-    Scene(#[from] EditError),
 }
 
 /// The variation of `first` that `seeds` decide; `record` is told what differs. `cx` hears what of the configuration changes nothing.

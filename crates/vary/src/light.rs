@@ -9,7 +9,7 @@ use crate::draw::{chance, log_uniform, reciprocal_uniform, uniform};
 use crate::repaint::{Paint, repaint};
 use crate::sources::{Glowing, Lamp, flux, glow_of_parts, lamps, tinted};
 use crate::survey::Survey;
-use crate::{First, Seeds};
+use crate::first::{First, Seeds};
 use enfilade_dataset::{Variation, VariedLamp, VariedSky};
 use enfilade_furniture::{Exposure, Glow};
 use enfilade_home::light::{LightConfig, Moment};

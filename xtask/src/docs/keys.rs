@@ -33,10 +33,10 @@ const NOTHING: Group = Group { heading: "", about: "", of: "", with: &[], withou
 const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 
 /// Sections, and the keys that have a table of their own.
-const SECTIONS: [&str; 9] = ["import", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
+const SECTIONS: [&str; 10] = ["import", "object", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
 
 /// All keys.
-const GROUPS: [Group; 26] = [
+const GROUPS: [Group; 27] = [
     Group {
         heading: "At the top of the file",
         about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",
@@ -76,6 +76,14 @@ const GROUPS: [Group; 26] = [
         of: "HomeConfig",
         file: "[[scene]]\nname = \"a\"\n[scene.home]\n§\n",
         at: &["scenes/0/source/home/§"],
+        ..NOTHING
+    },
+    Group {
+        heading: "`[[object]]`",
+        about: "Models that are placed in every scene; `[[scene.object]]` in one: [your own objects](compose.md).",
+        of: "ObjectGroup",
+        file: "[[object]]\nfiles = \"a.glb\"\non = \"floor\"\n§\n",
+        at: &["scenes/0/objects/0/§"],
         ..NOTHING
     },
     Group {

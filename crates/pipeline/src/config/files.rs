@@ -1,7 +1,7 @@
 //! `files` of a `[[scene]]`: every file that a pattern means is a scene of its own, named after its file.
 
 use super::document::SceneKeys;
-use enfilade_import::{Match, matches, scene_name};
+use enfilade_import::{Format, Match, matches, scene_name};
 use std::path::Path;
 use toml::Spanned;
 
@@ -35,6 +35,30 @@ pub(super) fn entries<'a>(
     let spanned = |text: String| Spanned::new(pattern.span(), text);
     let written = Written::new(pattern.get_ref(), expanded);
     Ok(found.iter().map(|found| Entry { keys, name: spanned(name(found)), file: Some(spanned(written.path(found))), nth: 0 }).collect())
+}
+
+/// The models that `pattern` means, as they would be written, in the order of their paths; of a folder, those in it. `expanded` is the pattern
+/// without variables; relative ones begin in `folder`.
+///
+/// # Errors
+/// Message and help, when it means none.
+pub(crate) fn models(pattern: &str, expanded: &str, folder: &Path) -> Result<Vec<String>, (String, String)> {
+    let help = "name models, with `*` and `?`, or a folder of them; paths begin in the folder of the configuration";
+    let mut found = Vec::new();
+    for one in matches(folder, expanded).map_err(|problem| (problem, help.to_string()))? {
+        if folder.join(&one.path).is_dir() {
+            let within = matches(folder, &format!("{}/*", one.path)).map_err(|problem| (problem, help.to_string()))?;
+            found.extend(within.into_iter().filter(|model| Format::of(&folder.join(&model.path)).is_ok()));
+        } else {
+            found.push(one);
+        }
+    }
+    if found.is_empty() {
+        let message = format!("no model is called {expanded:?} in {}", whole(folder).display());
+        return Err((message, format!("{}{help}", nearest(folder, expanded))));
+    }
+    let written = Written::new(pattern, expanded);
+    Ok(found.iter().map(|found| written.path(found)).collect())
 }
 
 /// The name of a scene: that of its file, or of the folder that told it from others; what a name cannot hold becomes `_`.

@@ -35,6 +35,7 @@ use std::path::Path;
 pub use camera::{CameraConfig, CameraModel, LensConfig, StereoConfig};
 pub use choices::{Overrides, Quality, RenderChoices};
 pub use farm::{FarmConfig, Placeholder};
+pub(crate) use files::models;
 pub use import::{FileSource, Lamps};
 pub use select::select;
 pub use sensors::read_sensors;

@@ -18,6 +18,7 @@ use super::settings::{Config, Gone, LabelSource, SceneConfig, Source, keep_rende
 use super::vary;
 use crate::error::ConfigError;
 use crate::request::{Product, Request};
+use enfilade_compose::ObjectGroup;
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
@@ -35,6 +36,8 @@ const SIZE: [u32; 2] = [1024, 768];
 const QUALITY: Quality = Quality::Normal;
 /// What colour layers hold unless the file says.
 const COLOR: ColorKind = ColorKind::Denoised;
+/// Where the keys of `[[object]]` are explained.
+const OBJECTS: &str = "docs/compose.md explains the keys";
 /// Homes of one table.
 const MAX_COUNT: u32 = 100_000;
 
@@ -183,6 +186,7 @@ impl Resolver<'_> {
             seed,
             source: self.scene_source(entry, seed)?,
             varies: None,
+            objects: self.objects(keys)?,
             labels: self.labels(keys, &name)?,
             scene_type: keys.scene_type.as_ref().map(|word| self.scene_type(word)).transpose()?,
             cameras: keys.cameras.chosen.clone(),
@@ -221,6 +225,21 @@ impl Resolver<'_> {
         }
         self.check_products(&scene, keys)?;
         Ok(scene)
+    }
+
+    /// The models that are placed in a scene.
+    fn objects(&self, keys: &SceneKeys) -> Result<Vec<ObjectGroup>, ConfigError> {
+        let Some(tables) = keys.level.object.as_ref().or(self.document.level.object.as_ref()) else { return Ok(Vec::new()) };
+        let mut groups = Vec::new();
+        for (number, table) in (1..).zip(tables) {
+            let read: Result<ObjectGroup, toml::de::Error> = table.get_ref().clone().try_into();
+            let group =
+                read.map_err(|e| self.refuse(table, format!("in [[object]]: {}", with_nearest(&in_words(e.message()).0)), OBJECTS))?;
+            group.validate(number).map_err(|wrong| self.refuse(table, wrong.to_string(), OBJECTS))?;
+            group.files.0.iter().try_for_each(|pattern| self.check_path(pattern, table))?;
+            groups.push(group);
+        }
+        Ok(groups)
     }
 
     /// What is asked for of a scene; its own key replaces that of the file.

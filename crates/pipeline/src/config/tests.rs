@@ -748,6 +748,22 @@ fn products_of_which_nothing_could_be_made_are_refused() {
 }
 
 #[test]
+fn objects_are_groups_of_the_file_or_of_a_scene() {
+    let group = |on: &str| format!("files = \"models/*.glb\"\non = \"{on}\"\n");
+    let scene = |name: &str| format!("[[scene]]\nname = \"{name}\"\nfile = \"a.glb\"\n");
+    let text = format!("[[object]]\n{}{}{}[[scene.object]]\n{}", group("table"), scene("a"), scene("b"), group("floor"));
+    let config = config(&text);
+    let on = |scene: usize| config.scenes[scene].objects.iter().map(|group| group.on.0.clone()).collect::<Vec<_>>();
+    assert_eq!((on(0), on(1)), (vec![vec!["table".to_string()]], vec![vec!["floor".to_string()]]));
+
+    let wrong = |line: &str| error(&format!("[[object]]\n{}{line}\n{}", group("table"), scene("a")));
+    assert!(wrong("label = \"chare\"").contains("NYU40 has no class \"chare\""), "{}", wrong("label = \"chare\""));
+    assert!(wrong("lable = \"chair\"").contains("did you mean `label`"), "{}", wrong("lable = \"chair\""));
+    assert!(wrong("visible_share = 2").contains("[[object]] 1: visible_share: found 2, expected a share from 0 to 1"));
+    assert!(wrong("count = \"many\"").contains("expected a whole number such as 10, or [least, most]"), "{}", wrong("count = \"many\""));
+}
+
+#[test]
 fn variations_follow_their_scene_and_are_named_after_it() {
     let vary = |keys: &str| format!("{SCENE}[scene.vary]\n{keys}");
     let config = config(&vary("count = 3\nlight_sets = 2\nlamps = {}\nmaterials = {}\n"));

@@ -50,8 +50,9 @@ pub(super) fn variations(first: &SceneConfig, config: &VaryConfig) -> Vec<SceneC
     let variation = |number: u32| SceneConfig {
         name: format!("{}_v{number:0digits$}", first.name),
         varies: Some(Varies { of: first.name.clone(), number, sets: config.sets(number), config: config.of_one() }),
-        // They come from the first scene, however it has got them.
+        // Both come with the first scene, however it has got them.
         labels: None,
+        objects: Vec::new(),
         ..first.clone()
     };
     (1..=count).map(variation).collect()

@@ -1,13 +1,13 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
-use super::{Input, Inputs, Job, Outcome, Record, variation};
+use super::{Input, Inputs, Job, Outcome, Record, objects, variation};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::intake::{self, labels_by_part};
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
+use enfilade_dataset::{FrameRecord, PlacedObjects, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
 use enfilade_math::Vec3;
@@ -39,6 +39,11 @@ pub(super) fn settings(job: &Job) -> Hash {
     if let Some(varies) = &job.scene.varies {
         return variation::settings(job, varies);
     }
+    let source = source_settings(job);
+    if job.scene.objects.is_empty() { source } else { Hash::of(&(source, objects::settings(job))) }
+}
+
+fn source_settings(job: &Job) -> Hash {
     match &job.scene.source {
         Source::Home(config) if !config.assets.is_empty() => {
             Hash::of(&(&job.scene.source, assets::names(config, &|path| job.config.path(path))))
@@ -53,13 +58,14 @@ pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
         return variation::inputs(&first);
     }
     let source = match &job.scene.source {
-        Source::Home(config) => return asset_inputs(job, config).map(Some),
-        Source::File(source) => source,
+        Source::Home(config) if job.scene.objects.is_empty() => return asset_inputs(job, config).map(Some),
+        Source::Home(_) => None,
+        Source::File(source) => Some(source),
     };
     let Some(record) = previous else { return Ok(None) };
     // If the configuration names other files now, the files read before do not matter, although they may still exist.
     let was_read = |path: &Path| record.inputs.iter().any(|input| input.path == in_folder(path));
-    if named(source).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
+    if source.into_iter().flat_map(named).any(|written| job.config.path(&written).is_ok_and(|path| !was_read(&path))) {
         return Ok(None);
     }
     // A file that cannot be read makes the stage run, and its error has the reason.
@@ -85,12 +91,11 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    let name = &job.scene.name;
     if let (Some(varies), Some(first)) = (&job.scene.varies, job.first()?) {
         return variation::run(job, varies, &first, cx);
     }
-    remove_if_there(&job.dataset.layout().variation(name))?;
-    let (scene, labels, rooms, inputs, report, offset_m) = match &job.scene.source {
+    remove_if_there(&job.dataset.layout().variation(&job.scene.name))?;
+    let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
             let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
@@ -107,8 +112,19 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             (imported.scene, labels, None, Some(inputs), report, imported.report.offset_m)
         }
     };
-    let outputs = write(job, &scene, labels.as_ref(), rooms.as_ref(), offset_m)?;
-    Ok(Outcome { summary: describe(&scene), outputs, inputs, report })
+    let mut placed = None;
+    if !job.scene.objects.is_empty() {
+        let composed = objects::place(job, scene, labels, cx)?;
+        let of_source = match (inputs, &job.scene.source) {
+            (None, Source::Home(config)) => asset_inputs(job, config)?,
+            (inputs, _) => inputs.unwrap_or_default(),
+        };
+        inputs = Some([of_source, composed.inputs].concat());
+        (scene, labels, placed) = (composed.scene.scene, Some(composed.scene.labels), Some(composed.placed));
+    }
+    let outputs = write(job, &scene, labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
+    let summary = describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
+    Ok(Outcome { summary, outputs, inputs, report })
 }
 
 /// Writes the package, the labels and the dataset's files of a scene; returns them.
@@ -116,7 +132,7 @@ pub(super) fn write(
     job: &Job,
     scene: &Scene,
     labels: Option<&Labels>,
-    rooms: Option<&Rooms>,
+    (rooms, placed): (Option<&Rooms>, Option<&PlacedObjects>),
     offset_m: Option<[f64; 3]>,
 ) -> Result<Vec<PathBuf>, Error> {
     let name = &job.scene.name;
@@ -131,6 +147,14 @@ pub(super) fn write(
     let layout = job.dataset.layout();
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
+    let placed_file = layout.placed_objects(name);
+    match placed {
+        Some(placed) => {
+            job.dataset.write_placed_objects(name, placed).map_err(Error::stage)?;
+            outputs.push(placed_file);
+        }
+        None => remove_if_there(&placed_file)?,
+    }
     let drawn = [layout.rooms(name), layout.rooms_drawing(name)];
     match rooms {
         Some(rooms) => {

@@ -1,6 +1,6 @@
 //! `label`: what every part is, as people annotated it, from a table or from the scene itself, joined to the entity ids of finished frames.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, import};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, import, objects};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
@@ -156,7 +156,10 @@ fn labels_of(job: &Job, cx: &dyn Cx) -> Result<(Labels, serde_json::Value), Erro
         let labels = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten().unwrap_or_else(none);
         return Ok((labels, serde_json::Value::Null));
     };
-    let (labels, report) = assign_table(&job.config.path(&source.table)?, &source.scene, &scene, cx)?;
+    let (mut labels, report) = assign_table(&job.config.path(&source.table)?, &source.scene, &scene, cx)?;
+    if let Some(own) = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten() {
+        objects::keep_labels(job, &scene, &own, &mut labels)?;
+    }
     Ok((labels, serde_json::to_value(&report).unwrap_or_default()))
 }
 

@@ -15,6 +15,7 @@ mod job;
 mod kept;
 mod label;
 mod made;
+mod objects;
 mod pilot;
 mod plan;
 mod plan_preview;

@@ -52,13 +52,9 @@ pub(super) fn run(job: &Job, varies: &Varies, first: &Job, cx: &StageCx) -> Resu
     let varied = vary(&known, &varies.config, &job.scene.variation_seeds(varies), &mut record, cx)
         .map_err(|error| Error::scene(error.to_string(), "docs/vary.md says what varies, and by which labels"))?;
     let scene = varied.scene;
-    let mut outputs = import::write(job, &scene.scene, Some(&scene.labels), varied.rooms.as_ref(), None)?;
+    let mut outputs = import::write(job, &scene.scene, Some(&scene.labels), (varied.rooms.as_ref(), placed.as_ref()), None)?;
     // The units and the offset are the file's.
     take_file(&layout.metadata_scene(&first.scene.name), &layout.metadata_scene(name))?;
-    if placed.is_some() {
-        take_file(&layout.placed_objects(&first.scene.name), &layout.placed_objects(name))?;
-        outputs.push(layout.placed_objects(name));
-    }
     job.dataset.write_variation(name, &record).map_err(Error::stage)?;
     outputs.push(layout.variation(name));
     let shared = share(job, first, &outputs)?;
@@ -134,8 +130,9 @@ pub(super) fn of_same_geometry<'a>(job: &Job<'a>) -> Result<Option<Job<'a>>, Err
 /// The outcome of a stage whose files `outputs` are those of the first scene: its summary, and the time that is saved.
 pub(super) fn taken_over(first: &Job, stage: Stage, outputs: Vec<PathBuf>) -> Result<Outcome, Error> {
     let record: Option<Record> = read_json(&first.work_file(&stage.record())?);
-    let Some(Record { summary, report, .. }) = record else { return Err(first.run_first(stage)) };
-    Ok(Outcome { summary: format!("{summary}; taken from {}", first.scene.name), outputs, report, ..Outcome::default() })
+    let Some(Record { summary, report, wall_s, .. }) = record else { return Err(first.run_first(stage)) };
+    let summary = format!("{summary}; taken from {}, where it took {wall_s:.1} s", first.scene.name);
+    Ok(Outcome { summary, outputs, report, ..Outcome::default() })
 }
 
 /// The files of the first scene's trajectories.

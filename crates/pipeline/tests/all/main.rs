@@ -8,6 +8,7 @@ mod demo;
 mod fitted_rooms;
 mod gates;
 mod intake;
+mod objects;
 mod places;
 mod presets;
 mod products;
