@@ -82,8 +82,7 @@ impl Session<'_> {
         // Variations are made from the files of their first scene, so all of them are tried in one place.
         let first = |scene: &SceneConfig| scene.varies.as_ref().map_or_else(|| scene.name.clone(), |varies| varies.of.clone());
         let unplanned: BTreeSet<String> = scenes.iter().filter(|scene| !self.is_planned(scene)).map(|scene| first(scene)).collect();
-        let sessions: Vec<&Session> =
-            scenes.iter().map(|scene| if unplanned.contains(&first(scene)) { &aside } else { self }).collect();
+        let sessions: Vec<&Session> = scenes.iter().map(|scene| if unplanned.contains(&first(scene)) { &aside } else { self }).collect();
         let (mut outcomes, mut forecasts) = (Vec::new(), Vec::new());
         for (session, scene) in sessions.iter().zip(scenes) {
             let mut outcome = session.run_scene(scene, &before_rendering(), false, &outcomes, reporter);

@@ -2,8 +2,8 @@
 
 use crate::config::{ClutterVary, FurnitureVary, class_id};
 use crate::draw::{chance, uniform};
-use crate::things::{Things, turned_and_shifted};
 use crate::first::{First, VaryError};
+use crate::things::{Things, turned_and_shifted};
 use enfilade_dataset::{MovedThing, Variation};
 use enfilade_math::{Bounds3, DAffine3, DVec3, Rng, Vec3, hash_text, place};
 use enfilade_scene::{Cx, LabelledScene, Light, OpeningKind, Rooms, Warning};

@@ -6,10 +6,10 @@
 
 use crate::config::{LampVary, SkyVary};
 use crate::draw::{chance, log_uniform, reciprocal_uniform, uniform};
+use crate::first::{First, Seeds};
 use crate::repaint::{Paint, repaint};
 use crate::sources::{Glowing, Lamp, flux, glow_of_parts, lamps, tinted};
 use crate::survey::Survey;
-use crate::first::{First, Seeds};
 use enfilade_dataset::{Variation, VariedLamp, VariedSky};
 use enfilade_furniture::{Exposure, Glow};
 use enfilade_home::light::{LightConfig, Moment};
@@ -23,6 +23,8 @@ const DAY_KLX: f32 = 0.6;
 const LAMPS_KLX: f32 = 0.09;
 /// Share of the lamps that have a colour of their own.
 const ODD_LAMPS: f64 = 0.2;
+/// With a smaller share of the rays that leave a room it is closed but for cracks.
+const OPEN_SHARE: f32 = 1e-3;
 /// Directions whose sky gives daylight its colour.
 const SKY_DIRECTIONS: u32 = 64;
 
@@ -50,7 +52,7 @@ pub fn light(
     let warn = |message: String| cx.warn(Warning { place: first.name.into(), message });
     let survey = (first.home.is_none() && kinds.1.is_some()).then(|| Survey::of(&scene.scene, &glow));
     let sky = kinds.1.filter(|_| match &survey {
-        Some(survey) if survey.open_share == 0.0 && survey.daylight == 0.0 => {
+        Some(survey) if survey.open_share < OPEN_SHARE && survey.daylight == 0.0 => {
             warn("no daylight comes into it, so `sky` of [vary] changes nothing".into());
             false
         }
@@ -83,7 +85,7 @@ pub fn light(
     });
     shine(scene, &glow, &found, &record.lamps, &Change { measure: &measure, exposure, light: moment });
     // Around a closed room a sky would only cost samples.
-    let is_closed = survey.is_some_and(|survey| survey.open_share == 0.0);
+    let is_closed = survey.is_some_and(|survey| survey.open_share < OPEN_SHARE);
     if let Some(light) = moment.filter(|_| !is_closed) {
         let outward = first.home.as_ref().map_or(&[][..], |home| &home.outward);
         replace_sky(&mut scene.scene, &light, outward, exposure);

@@ -9,8 +9,8 @@ mod recolor;
 
 use crate::config::{ColorRange, MaterialVary};
 use crate::draw::chance;
-use crate::sources::{area_m2, glows};
 use crate::first::{First, VaryError};
+use crate::sources::{area_m2, glows};
 use enfilade_dataset::VariedMaterial;
 use enfilade_math::{Rgb, Rng, hash_text};
 use enfilade_options::closest;
