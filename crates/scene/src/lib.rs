@@ -7,6 +7,7 @@ mod atmosphere;
 mod camera;
 mod contrast;
 mod cx;
+mod drawn_plan;
 mod edit;
 mod environment;
 mod git_lfs;
@@ -36,6 +37,7 @@ pub use camera::{
     TiltedPinhole,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
+pub use drawn_plan::{DrawnOpening, DrawnPlan, DrawnRoom};
 pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing, printable};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
