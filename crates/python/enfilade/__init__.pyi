@@ -326,6 +326,8 @@ class Scene:
         # options: HomeConfig
         seed: int = 0,
         rooms: Names | None = None,
+        plan: str | None = None,
+        shape: Literal["rectangular", "varied"] = "rectangular",
         layout: int | None = None,
         furniture: int | None = None,
         materials: int | None = None,
@@ -504,6 +506,8 @@ def home(
     # options: HomeConfig
     seed: int = 0,
     rooms: Names | None = None,
+    plan: str | None = None,
+    shape: Literal["rectangular", "varied"] = "rectangular",
     layout: int | None = None,
     furniture: int | None = None,
     materials: int | None = None,
