@@ -16,7 +16,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 40] = [
+const FLOORS: [(&str, Floor); 41] = [
     ("math", Floor::Number(0)),
     ("options", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
@@ -43,6 +43,7 @@ const FLOORS: [(&str, Floor); 40] = [
     ("describe", Floor::Number(5)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),
+    ("vary", Floor::Number(6)),
     ("pipeline", Floor::Number(7)),
     ("export", Floor::Number(7)),
     ("animate", Floor::Number(7)),

@@ -88,24 +88,55 @@ pub(crate) fn rename(aside: &Path, path: &Path) -> Result<(), DatasetError> {
 /// Gives the file at `from` the second name `path`: a hard link, or a copy where the file system has none. What is there is replaced, unless
 /// it is the same already.
 pub(crate) fn link(from: &Path, path: &Path) -> Result<(), DatasetError> {
-    if is_same(from, path) {
-        return Ok(());
-    }
+    if is_same(from, path) { Ok(()) } else { take_file(from, path) }
+}
+
+/// Gives the file at `from` the second name `path`, in place of what is there: a hard link, or a copy where the file system has none.
+/// Files are replaced and never changed, so neither name shows what later becomes of the other.
+///
+/// # Errors
+/// When the name cannot be given.
+pub fn take_file(from: &Path, path: &Path) -> Result<(), DatasetError> {
     replace_file(path, |aside| {
         remove_if_there(aside)?;
         fs::hard_link(from, aside).or_else(|_| fs::copy(from, aside).map(drop)).map_err(DatasetError::at("write", path))
     })
 }
 
+/// Makes the file at `path` a second name of the one at `from`, where both have the same bytes; returns whether they have.
+///
+/// # Errors
+/// When a file cannot be read, or the name cannot be given.
+pub fn share_file(from: &Path, path: &Path) -> Result<bool, DatasetError> {
+    let (Ok(of_from), Ok(of_path)) = (fs::metadata(from), fs::metadata(path)) else { return Ok(false) };
+    if is_one(&of_from, &of_path) {
+        return Ok(true);
+    }
+    let read = |path: &Path| fs::read(path).map_err(DatasetError::at("read", path));
+    if of_from.len() != of_path.len() || read(from)? != read(path)? {
+        return Ok(false);
+    }
+    take_file(from, path).map(|()| true)
+}
+
+/// True when both are about one file.
+#[cfg(unix)]
+fn is_one(a: &fs::Metadata, b: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+/// False: here it is not known.
+#[cfg(not(unix))]
+fn is_one(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    false
+}
+
 /// True when both paths lead to one file, or to files of the same bytes.
 fn is_same(a: &Path, b: &Path) -> bool {
     let (Ok(of_a), Ok(of_b)) = (fs::metadata(a), fs::metadata(b)) else { return false };
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        if (of_a.dev(), of_a.ino()) == (of_b.dev(), of_b.ino()) {
-            return true;
-        }
+    if is_one(&of_a, &of_b) {
+        return true;
     }
     of_a.len() == of_b.len() && fs::read(a).is_ok_and(|bytes| fs::read(b).is_ok_and(|other| other == bytes))
 }

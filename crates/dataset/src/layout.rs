@@ -3,7 +3,7 @@
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/metadata_fixtures.csv`,
 //! `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
-//! `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
+//! `_detail/variation.json`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
 //! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`,
 //! `questions.jsonl`, `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users'
 //! programs have made on a farm and, for cameras that are more than a pinhole, `camera.json` and its arrays. The layers of fixtures are
@@ -441,6 +441,11 @@ impl Layout {
     /// The rooms of a scene as a drawing.
     pub fn rooms_drawing(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("layout.svg")
+    }
+
+    /// What the scene differs in from the one that it varies.
+    pub fn variation(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("variation.json")
     }
 
     /// The objects that were placed in the scene.

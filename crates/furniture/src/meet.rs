@@ -43,6 +43,11 @@ impl Body {
         parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&Bounds3::from_points(**t), window, 0.0))
     }
 
+    /// The triangles of the body, part by part.
+    pub fn parts(&self) -> impl Iterator<Item = &[Triangle]> {
+        self.parts.iter().map(|(_, triangles)| triangles.as_slice())
+    }
+
     /// Volume of the box around it, cubic metres: of two bodies the smaller gives way.
     pub fn volume(&self) -> f32 {
         self.bounds.extent().max(Vec3::splat(1e-3)).element_product()

@@ -121,6 +121,12 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     home
 }
 
+/// The light of the home that [`home()`] makes of `config`, and the directions in which its windows look out, each once.
+pub fn light_of(config: &HomeConfig) -> (LightConfig, Vec<Vec2>) {
+    let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
+    (light(&plan, config, &config.stream(config.light, 4)), outlooks(&plan))
+}
+
 /// The models that are still in the scene, one line each.
 fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> {
     let used = scene.parts.iter().filter_map(|part| models.get(object_of(&part.name)));

@@ -9,6 +9,7 @@ use crate::run::{Session, first_of, store_config, told_failure};
 use crate::stages::{FramesByTrajectory, Job, STAGES, Stage, StageSpec, is_up_to_date, missing_frames, pilot};
 use crate::workdir::Workdir;
 use enfilade_dataset::Dataset;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Results of scenes before rendering, and forecasts of those that succeeded.
@@ -78,7 +79,10 @@ impl Session<'_> {
         let folder = self.workdir.aside()?;
         let workdir = Workdir::create(folder.path())?;
         let aside = Session::new(self.config, &workdir)?;
-        let sessions: Vec<&Session> = scenes.iter().map(|scene| if self.is_planned(scene) { self } else { &aside }).collect();
+        // Variations are made from the files of their first scene, so all of them are tried in one place.
+        let first = |scene: &SceneConfig| scene.varies.as_ref().map_or_else(|| scene.name.clone(), |varies| varies.of.clone());
+        let unplanned: BTreeSet<String> = scenes.iter().filter(|scene| !self.is_planned(scene)).map(|scene| first(scene)).collect();
+        let sessions: Vec<&Session> = scenes.iter().map(|scene| if unplanned.contains(&first(scene)) { &aside } else { self }).collect();
         let (mut outcomes, mut forecasts) = (Vec::new(), Vec::new());
         for (session, scene) in sessions.iter().zip(scenes) {
             let mut outcome = session.run_scene(scene, &before_rendering(), false, &outcomes, reporter);

@@ -16,6 +16,9 @@ pub struct PartitionReport {
     pub config: PartitionConfig,
     /// The scenes of each side.
     pub scenes: BTreeMap<String, BTreeSet<String>>,
+    /// The variations of scenes, by the names of these: each is on the side of the scene that it varies.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub variations: BTreeMap<String, BTreeSet<String>>,
     /// Number of images on each side, 0 where it is empty, and of those left out (`excluded`).
     pub images: BTreeMap<String, usize>,
     /// Meshes and textures that several scenes have, those on several sides first.
@@ -36,9 +39,10 @@ impl PartitionReport {
         Some(format!("{sides} of the partition {are} empty; more scenes{or_seed} fill {them}"))
     }
 
-    /// True where there are fewer scenes than sides that get a share.
+    /// True where there are fewer scenes, each with its variations, than sides that get a share.
     pub fn has_few_scenes(&self) -> bool {
-        self.scenes.values().map(BTreeSet::len).sum::<usize>() < self.asked_for().count()
+        let variations: BTreeSet<&String> = self.variations.values().flatten().collect();
+        self.scenes.values().flatten().filter(|scene| !variations.contains(scene)).count() < self.asked_for().count()
     }
 
     /// The sides that get a share.
@@ -106,7 +110,8 @@ fn choice(workdir: &Workdir) -> Result<PartitionConfig, Error> {
 pub(crate) fn write_partition(dataset: &Dataset, workdir: &Workdir, manifest: &Manifest) -> Result<PartitionReport, Error> {
     let config = choice(workdir)?;
     let rejected = rejected(dataset, manifest)?;
-    let (sides, rows) = (config.sides(manifest, &rejected), config.rows(manifest, &rejected));
+    let first_of = first_of(dataset, manifest)?;
+    let (sides, rows) = (config.sides(manifest, &rejected, &first_of), config.rows(manifest, &rejected, &first_of));
     // A run that changes nothing touches no file.
     if dataset.read_partition().ok().as_ref() != Some(&rows) {
         dataset.write_partition(&rows).map_err(Error::stage)?;
@@ -124,12 +129,26 @@ pub(crate) fn write_partition(dataset: &Dataset, workdir: &Workdir, manifest: &M
         *images.entry(side.as_ref().map_or("excluded", |p| p.name()).into()).or_default() += 1;
     }
     let shared_assets = shared_assets(&assets, |scene| sides.get(scene).copied().unwrap_or_else(|| config.side(scene)));
-    let report = PartitionReport { config, scenes, images, shared_assets };
+    let mut variations: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (variation, first) in first_of {
+        variations.entry(first).or_default().insert(variation);
+    }
+    let report = PartitionReport { config, scenes, variations, images, shared_assets };
     let path = dataset.layout().partition_report();
     if read_json::<PartitionReport>(&path).as_ref() != Some(&report) {
         write_json(&path, &report)?;
     }
     Ok(report)
+}
+
+/// The scenes that variations vary, by the names of these.
+fn first_of(dataset: &Dataset, manifest: &Manifest) -> Result<BTreeMap<String, String>, Error> {
+    let mut first_of = BTreeMap::new();
+    for scene in manifest.scenes.keys() {
+        let variation = dataset.read_variation(scene).map_err(Error::stage)?;
+        first_of.extend(variation.map(|variation| (scene.clone(), variation.of)));
+    }
+    Ok(first_of)
 }
 
 /// The views that gates reject, in Hypersim's manner of giving reasons: "BARE WALL".
@@ -181,6 +200,7 @@ mod tests {
         let report = |shared_assets| PartitionReport {
             config: PartitionConfig::default(),
             scenes: BTreeMap::new(),
+            variations: BTreeMap::new(),
             images: BTreeMap::new(),
             shared_assets,
         };
@@ -195,6 +215,7 @@ mod tests {
         let report = |shares, images: &[(&str, usize)]| PartitionReport {
             config: PartitionConfig { shares, ..PartitionConfig::default() },
             scenes: scenes.clone(),
+            variations: BTreeMap::new(),
             images: images.iter().map(|(side, count)| (side.to_string(), *count)).collect(),
             shared_assets: Vec::new(),
         };

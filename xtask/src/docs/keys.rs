@@ -33,10 +33,10 @@ const NOTHING: Group = Group { heading: "", about: "", of: "", with: &[], withou
 const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 
 /// Sections, and the keys that have a table of their own.
-const SECTIONS: [&str; 9] = ["import", "object", "render", "camera", "plan", "carve", "gate", "farm", "scene"];
+const SECTIONS: [&str; 10] = ["import", "object", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
 
 /// All keys.
-const GROUPS: [Group; 20] = [
+const GROUPS: [Group; 27] = [
     Group {
         heading: "At the top of the file",
         about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",
@@ -49,7 +49,7 @@ const GROUPS: [Group; 20] = [
     Group {
         heading: "`[[scene]]`",
         about: "One for each scene, with the keys above, and those of `[import]` without that heading. `[scene.render]`, `[scene.camera]`, \
-                `[scene.plan]`, `[scene.carve]` and `[scene.gate]` are the sections below for one scene.",
+                `[scene.plan]`, `[scene.carve]`, `[scene.gate]` and `[scene.vary]` are the sections below for one scene.",
         of: "SceneKeys",
         file: "[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n§\n",
         ..NOTHING
@@ -166,6 +166,27 @@ const GROUPS: [Group; 20] = [
         ..NOTHING
     },
     Group {
+        heading: "`[vary]`",
+        about: "Variations of every scene: [what varies](vary.md). Only what has a key does.",
+        of: "VaryKeys",
+        file: "[vary]\ncount = 2\nexposure = [0, 0]\n§\n",
+        at: &["scenes/1/varies/config/§"],
+        ..NOTHING
+    },
+    varied("`lamps = { … }`", "LampVary", "[vary]\ncount = 2\n[vary.lamps]\n§\n", &["scenes/1/varies/config/lamps/§"]),
+    varied("`sky = { … }`", "SkyVary", "[vary]\ncount = 2\n[vary.sky]\n§\n", &["scenes/1/varies/config/sky/§"]),
+    varied("`materials = { … }`", "MaterialVary", "[vary]\ncount = 2\n[vary.materials]\n§\n", &["scenes/1/varies/config/materials/§"]),
+    Group {
+        heading: "`classes = { wall = { … }, … }`",
+        about: "Of `materials`: the colours that a class of NYU40 may have.",
+        of: "ColorRange",
+        file: "[vary]\ncount = 2\n[vary.materials.classes.wall]\n§\n",
+        at: &["scenes/1/varies/config/materials/classes/wall/§"],
+        ..NOTHING
+    },
+    varied("`furniture = { … }`", "FurnitureVary", "[vary]\ncount = 2\n[vary.furniture]\n§\n", &["scenes/1/varies/config/furniture/§"]),
+    varied("`clutter = { … }`", "ClutterVary", "[vary]\ncount = 2\n[vary.clutter]\n§\n", &["scenes/1/varies/config/clutter/§"]),
+    Group {
         heading: "`[farm]`",
         about: "What nodes of a [farm](farm.md) do besides; at the top of the file alone.",
         of: "FarmKeys",
@@ -177,6 +198,10 @@ const GROUPS: [Group; 20] = [
 
 const fn mode(heading: &'static str, of: &'static str, file: &'static str) -> Group {
     Group { heading, about: "Of `[plan]`.", of, file, at: &["scenes/0/plan/mode/§"], ..NOTHING }
+}
+
+const fn varied(heading: &'static str, of: &'static str, file: &'static str, at: &'static [&'static str]) -> Group {
+    Group { heading, about: "Of `[vary]`.", of, file, at, ..NOTHING }
 }
 
 impl Group {

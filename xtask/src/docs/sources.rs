@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Files that declare the contents of `dataset.toml`.
-const FILES: [&str; 18] = [
+const FILES: [&str; 20] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
@@ -24,6 +24,8 @@ const FILES: [&str; 18] = [
     "crates/home/src/config.rs",
     "crates/furniture/src/room_kind.rs",
     "crates/home/src/light/mod.rs",
+    "crates/home/src/light/outside/mod.rs",
+    "crates/vary/src/config.rs",
     "crates/import/src/environment.rs",
     "crates/import/src/options.rs",
 ];
@@ -149,7 +151,7 @@ impl Sources {
                 }
             }
             _ => match last_name(of).as_deref() {
-                Some("u16" | "u32" | "u64" | "usize") => "whole number".into(),
+                Some("u16" | "u32" | "u64" | "usize" | "Whole") => "whole number".into(),
                 Some("f32" | "f64") => "number".into(),
                 Some("bool") => "true or false".into(),
                 Some("String" | "PathBuf") => "text".into(),

@@ -13,7 +13,7 @@ pub use files::{PartitionRow, Side};
 use crate::{FrameEntry, FrameStatus, Manifest, SceneEntry};
 use enfilade_math::hash_u64;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The settings of a partition of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,22 +43,31 @@ impl PartitionConfig {
     /// The side of every scene of a dataset.
     ///
     /// It is [`side`](Self::side)'s, but where fewer scenes than sides that get a share have images, or none of them is for
-    /// learning: then the first of them by name is, for without anything to learn from a dataset is of no use. `excluded` as in
-    /// [`rows`](Self::rows).
-    pub fn sides<'m>(&self, manifest: &'m Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> BTreeMap<&'m str, Side> {
-        let mut sides: BTreeMap<&str, Side> = manifest.scenes.keys().map(|scene| (scene.as_str(), self.side(scene))).collect();
+    /// learning: then the first of them by name is, for without anything to learn from a dataset is of no use. Variations of a scene are
+    /// where that scene is, and count as one with it. `excluded` as in [`rows`](Self::rows).
+    pub fn sides<'m>(
+        &self,
+        manifest: &'m Manifest,
+        excluded: &BTreeMap<(String, String, u32), String>,
+        first_of: &BTreeMap<String, String>,
+    ) -> BTreeMap<&'m str, Side> {
+        let first = |scene: &'m str| {
+            first_of.get(scene).map_or(scene, |first| manifest.scenes.get_key_value(first).map_or(scene, |(name, _)| name))
+        };
+        let side = |scene: &str| self.side(first_of.get(scene).map_or(scene, String::as_str));
+        let mut sides: BTreeMap<&str, Side> = manifest.scenes.keys().map(|scene| (scene.as_str(), side(scene))).collect();
         let has_image = |scene: &str, entry: &SceneEntry| {
             let is_there = |camera: &str, frame: &FrameEntry| {
                 frame.status == FrameStatus::Complete && !excluded.contains_key(&(scene.to_string(), camera.to_string(), frame.frame))
             };
             entry.cameras.iter().any(|(name, camera)| camera.frames.iter().any(|frame| is_there(name, frame)))
         };
-        let with_images: Vec<&str> =
-            manifest.scenes.iter().filter(|(scene, entry)| has_image(scene, entry)).map(|(scene, _)| scene.as_str()).collect();
+        let with_images: BTreeSet<&str> =
+            manifest.scenes.iter().filter(|(scene, entry)| has_image(scene, entry)).map(|(scene, _)| first(scene)).collect();
         let is_few = with_images.len() < self.shares.iter().filter(|share| **share > 0.0).count();
         let lacks_train = with_images.iter().all(|scene| sides[scene] != Side::Train);
-        if let Some(first) = with_images.first().filter(|_| self.shares[0] > 0.0 && (is_few || lacks_train)) {
-            sides.insert(first, Side::Train);
+        if let Some(chosen) = with_images.first().filter(|_| self.shares[0] > 0.0 && (is_few || lacks_train)) {
+            sides.iter_mut().filter(|(scene, _)| first(scene) == *chosen).for_each(|(_, side)| *side = Side::Train);
         }
         sides
     }
@@ -76,9 +85,14 @@ impl PartitionConfig {
     }
 
     /// Every frame of every trajectory. Those that are not rendered are left out of the partition, with the reason; so are those in
-    /// `excluded`, by scene, camera and frame.
-    pub fn rows(&self, manifest: &Manifest, excluded: &BTreeMap<(String, String, u32), String>) -> Vec<PartitionRow> {
-        let (sides, mut rows) = (self.sides(manifest, excluded), Vec::new());
+    /// `excluded`, by scene, camera and frame. `first_of` has the scenes that variations vary, by the names of these.
+    pub fn rows(
+        &self,
+        manifest: &Manifest,
+        excluded: &BTreeMap<(String, String, u32), String>,
+        first_of: &BTreeMap<String, String>,
+    ) -> Vec<PartitionRow> {
+        let (sides, mut rows) = (self.sides(manifest, excluded, first_of), Vec::new());
         for (scene, entry) in &manifest.scenes {
             for (camera, frame) in entry.cameras.iter().flat_map(|(name, camera)| camera.frames.iter().map(move |frame| (name, frame))) {
                 let missing =
@@ -128,7 +142,7 @@ mod tests {
         let name = |side| names(100).into_iter().filter(|name| config.side(name) == side).collect::<Vec<_>>();
         let (trains, vals, tests) = (name(Side::Train), name(Side::Val), name(Side::Test));
         let there = || vec![frame(0, FrameStatus::Complete, None)];
-        let sides = |scenes: &Manifest| -> Vec<Side> { config.sides(scenes, &BTreeMap::new()).into_values().collect() };
+        let sides = |scenes: &Manifest| -> Vec<Side> { config.sides(scenes, &BTreeMap::new(), &BTreeMap::new()).into_values().collect() };
         for alone in [&trains[0], &vals[0], &tests[0]] {
             assert_eq!(sides(&manifest([(alone, there())])), [Side::Train]);
         }
@@ -142,10 +156,33 @@ mod tests {
         let mut first_is_test = [&tests[0], &trains[0], &vals[0]].map(|name| (name.as_str(), there()));
         first_is_test.sort_by_key(|(name, _)| name.to_string());
         let all = manifest(first_is_test);
-        assert!(config.sides(&all, &BTreeMap::new()).into_iter().all(|(name, side)| side == config.side(name)));
+        assert!(config.sides(&all, &BTreeMap::new(), &BTreeMap::new()).into_iter().all(|(name, side)| side == config.side(name)));
         // Nobody who wants all in test gets another side.
         let all_test = PartitionConfig { shares: [0.0, 0.0, 1.0], ..config };
-        assert_eq!(all_test.sides(&manifest(four), &BTreeMap::new()).into_values().collect::<Vec<_>>(), [Side::Test; 4]);
+        assert_eq!(all_test.sides(&manifest(four), &BTreeMap::new(), &BTreeMap::new()).into_values().collect::<Vec<_>>(), [Side::Test; 4]);
+    }
+
+    #[test]
+    fn variations_are_on_the_side_of_their_first_scene_and_count_as_one_with_it() {
+        let config = PartitionConfig::default();
+        let (rooms, there) = (names(40), || vec![frame(0, FrameStatus::Complete, None)]);
+        let mut listed = manifest([]);
+        let mut first_of = BTreeMap::new();
+        for room in &rooms {
+            for name in std::iter::once(room.clone()).chain((1..4).map(|k| format!("{room}_v{k:02}"))) {
+                listed.scenes.extend(manifest([(&name, there())]).scenes);
+                first_of.insert(name, room.clone());
+            }
+        }
+        rooms.iter().for_each(|room| drop(first_of.remove(room)));
+        let sides = config.sides(&listed, &BTreeMap::new(), &first_of);
+        assert!(Side::ALL.into_iter().all(|side| sides.values().any(|found| *found == side)));
+        assert!(sides.iter().all(|(name, side)| *side == config.side(first_of.get(*name).map_or(name, |first| first))));
+        // One room that would be for testing, with its variations: all of it is to learn from.
+        let test = rooms.iter().find(|room| config.side(room) == Side::Test).unwrap();
+        listed.scenes.retain(|name, _| name.starts_with(test.as_str()));
+        assert_eq!(listed.scenes.len(), 4);
+        assert!(config.sides(&listed, &BTreeMap::new(), &first_of).into_values().all(|side| side == Side::Train));
     }
 
     fn names(count: usize) -> Vec<String> {
@@ -185,7 +222,7 @@ mod tests {
         let manifest = manifest([("room", frames)]);
         let excluded = [(("room".to_string(), "cam_00".to_string(), 3), "blank".to_string())].into();
         let config = PartitionConfig::default();
-        let found: Vec<_> = config.rows(&manifest, &excluded).into_iter().map(|row| row.side).collect();
+        let found: Vec<_> = config.rows(&manifest, &excluded, &BTreeMap::new()).into_iter().map(|row| row.side).collect();
         assert_eq!(found, [Ok(Side::Train), Err("disk full".into()), Err("NOT RENDERED".into()), Err("blank".into())]);
     }
 }

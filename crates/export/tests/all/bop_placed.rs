@@ -1,5 +1,6 @@
 //! BOP's export of objects that `[[object]]` placed.
 
+use enfilade_dataset::mesh_names::VERTICES;
 use enfilade_dataset::{Dataset, PartitionRow, PlacedObject, PlacedObjects, Side};
 use enfilade_export::{Existing, ExportConfig, Format, SymmetryRule, export};
 use enfilade_scene::{Heard, Quiet};
@@ -127,6 +128,10 @@ fn numbers_are_the_same_when_scenes_are_exported_apart() {
         assert_eq!(std::fs::read(one.join(name)).unwrap(), std::fs::read(all.join(name)).unwrap(), "{name}");
     }
     judge(&one);
+    // A scene that is not finished has numbers, but no models.
+    std::fs::remove_file(dataset.layout().mesh_file("room-two", VERTICES)).unwrap();
+    export(&dataset, &config(&["room"]), &folder.path().join("early"), Existing::Refuse, &Quiet).unwrap();
+    assert_eq!(read(&folder.path().join("early"), "objects.json"), json!({"1": read(&one, "objects.json")["1"]}));
 }
 
 #[test]

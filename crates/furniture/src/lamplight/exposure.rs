@@ -49,6 +49,11 @@ impl Exposure {
         photometric * self.balance * self.per_kcd
     }
 
+    /// Radiance in kcd/m², or irradiance in kilo-lux, of one of the scene: the inverse of [`Exposure::expose`].
+    pub fn measure(self, scene: Rgb) -> Rgb {
+        scene / self.balance * (1.0 / self.per_kcd)
+    }
+
     /// Scene radiance per kcd/m².
     pub fn per_kcd(self) -> f32 {
         self.per_kcd

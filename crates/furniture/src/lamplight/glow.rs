@@ -45,15 +45,23 @@ impl Glow {
         blackbody(self.kelvin) * (self.lumens / (1000.0 * PI * area_m2.max(1e-6)))
     }
 
+    /// The light of a lamp's luminous part, lit or not, by the name of its material, [`Glow::material_name`]; `None` for others.
+    pub fn of_material(name: &str) -> Option<Self> {
+        let (_, glow) = name.split_once("lit lamp ")?;
+        let (lumens, kelvin) = glow.strip_suffix(" K")?.split_once(" lm ")?;
+        Some(Self { lumens: lumens.parse().ok()?, kelvin: kelvin.parse().ok()? })
+    }
+
     /// The material of a part with this mesh: white opal that glows where the lamp is `lit`.
     pub fn material(&self, mesh: &Mesh, lit: bool, exposure: Exposure) -> Material {
         let body = Rgb::new(0.72, 0.70, 0.66);
         let emission = if lit { exposure.expose(self.luminance_kcd(area_m2(mesh))) } else { Rgb::BLACK };
-        let state = if lit { "lit" } else { "unlit" };
-        Material {
-            emission: emission.into(),
-            ..Material::diffuse(format!("{state} lamp {:.0} lm {:.0} K", self.lumens, self.kelvin), body)
-        }
+        Material { emission: emission.into(), ..Material::diffuse(self.material_name(lit), body) }
+    }
+
+    /// Name of the material of a part with this light, from which [`Glow::of_material`] reads it.
+    pub fn material_name(&self, lit: bool) -> String {
+        format!("{} lamp {:.0} lm {:.0} K", if lit { "lit" } else { "unlit" }, self.lumens, self.kelvin)
     }
 }
 
@@ -79,6 +87,15 @@ mod tests {
         // A sphere of luminance L has the intensity L π r² in every direction, and 4π times that is its flux.
         let luminance = Glow::BULB.luminance_kcd(area).luminance() * 1000.0;
         assert!((luminance * PI * 0.01 * 4.0 * PI / 806.0 - 1.0).abs() < 0.01, "{luminance} cd/m²");
+    }
+
+    #[test]
+    fn the_name_of_a_material_tells_the_light_of_its_lamp() {
+        let globe = sphere(0.1, 16);
+        for lit in [true, false] {
+            assert_eq!(Glow::of_material(&Glow::CEILING.material(&globe, lit, Exposure::new(1.0)).name), Some(Glow::CEILING));
+        }
+        assert_eq!([Glow::of_material("oak"), Glow::of_material("lit screen")], [None; 2]);
     }
 
     #[test]

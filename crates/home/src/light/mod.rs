@@ -92,15 +92,28 @@ impl LightConfig {
     /// degrees, all days of the year, a third of them cloudy.
     pub fn random(moment: Moment, rng: &mut Rng) -> Self {
         let (place, date, weather, lamps) = (&mut rng.fork(1), &mut rng.fork(2), &mut rng.fork(3), &mut rng.fork(4));
-        let mut light = Self {
+        let light = Self {
             latitude_deg: place.range(25.0, 60.0),
             north_deg: place.range(0.0, 360.0),
             outside: Outside::ALL[place.below(Outside::ALL.len())],
+            seed: lamps.next_u64(),
+            ..Self::default()
+        };
+        light.drawn(moment, date, weather, lamps)
+    }
+
+    /// The light of this place on another day: date, hour, weather and the share of lit lamps are drawn as by [`LightConfig::random`].
+    #[must_use]
+    pub fn at(self, moment: Moment, rng: &mut Rng) -> Self {
+        self.drawn(moment, &mut rng.fork(2), &mut rng.fork(3), &mut rng.fork(4))
+    }
+
+    fn drawn(self, moment: Moment, date: &mut Rng, weather: &mut Rng, lamps: &mut Rng) -> Self {
+        let mut light = Self {
             day_of_year: 1 + date.below(365) as u32,
             turbidity: weather.range(2.2, 7.0),
             cloud: [0.0, 0.0, 0.25, 0.25, 0.6, 1.0][weather.below(6)],
-            seed: lamps.next_u64(),
-            ..Self::default()
+            ..self
         };
         let u = date.next_f32();
         light.hour = match moment {
@@ -151,9 +164,14 @@ impl LightConfig {
     /// Adds sun, sky and surroundings to `scene`. `outward` are the directions out of the home's windows: what faces away from all of
     /// them stays black, since no light from there can come in, and a renderer need not look for any.
     pub fn illuminate(&self, scene: &mut Scene, outward: &[Vec2]) {
+        self.illuminate_exposed(scene, outward, self.exposure());
+    }
+
+    /// Adds sun, sky and surroundings as [`LightConfig::illuminate`] does, shown at a given exposure.
+    pub fn illuminate_exposed(&self, scene: &mut Scene, outward: &[Vec2], exposure: Exposure) {
         let weather = self.weather();
         let surroundings = weather.surroundings(self.outside, self.seed as u32);
-        sky::illuminate(scene, outward, &weather, &surroundings, self.exposure());
+        sky::illuminate(scene, outward, &weather, &surroundings, exposure);
     }
 
     /// Sun and sky.

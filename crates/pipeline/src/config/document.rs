@@ -9,6 +9,7 @@ use super::rendering::RenderSection;
 use super::settings::CameraChoice;
 use enfilade_explore::{CarveKeys, PlanKeys, Preset};
 use enfilade_options::keys;
+use enfilade_vary::VaryKeys;
 use enfilade_verify::view_gates::GateKeys;
 use serde::de::{
     MapAccess, SeqAccess, Unexpected, Visitor,
@@ -82,6 +83,7 @@ keys! {
         pub plan: PlanKeys,
         pub carve: CarveKeys,
         pub gate: GateKeys,
+        pub vary: VaryKeys,
     }
 }
 

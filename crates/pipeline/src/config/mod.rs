@@ -22,6 +22,7 @@ mod sensors;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod vary;
 
 use crate::error::Error;
 use crate::workdir::refuse_other_text;
@@ -38,7 +39,7 @@ pub(crate) use files::models;
 pub use import::{FileSource, Lamps};
 pub use select::select;
 pub use sensors::read_sensors;
-pub use settings::{CameraChoice, Config, LabelSource, SceneConfig, Source};
+pub use settings::{CameraChoice, Config, LabelSource, SceneConfig, Source, Varies};
 
 impl Config {
     /// Reads and resolves `file`.

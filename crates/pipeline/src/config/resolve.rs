@@ -15,6 +15,7 @@ use super::import::FileSource;
 use super::locate::{Source as Text, in_words};
 use super::presets;
 use super::settings::{Config, Gone, LabelSource, SceneConfig, Source, keep_rendered, save_every_s};
+use super::vary;
 use crate::error::ConfigError;
 use crate::request::{Product, Request};
 use enfilade_compose::ObjectGroup;
@@ -74,6 +75,7 @@ pub(super) fn resolve(
         scenes.push(resolver.scene(entry)?);
     }
     resolver.check_homes(&entries, &scenes)?;
+    let scenes = resolver.with_variations(&entries, scenes)?;
     Ok(Config { base: Default::default(), carried: Default::default(), name, scenes, farm: resolver.farm()? })
 }
 
@@ -138,6 +140,41 @@ impl Resolver<'_> {
         Ok((0..homes).map(entry).collect())
     }
 
+    /// The scenes, each followed by its variations.
+    fn with_variations(&self, entries: &[Entry], scenes: Vec<SceneConfig>) -> Result<Vec<SceneConfig>, ConfigError> {
+        let names: HashSet<String> = scenes.iter().map(|scene| scene.name.clone()).collect();
+        let (mut all, mut varied) = (Vec::new(), false);
+        for (entry, scene) in entries.iter().zip(scenes) {
+            let misset = |(wrong, place): (enfilade_vary::Misset, Option<Range<usize>>)| ConfigError {
+                help: Some(wrong.help),
+                ..self.source.error(Some(place.unwrap_or_else(|| entry.name.span())), wrong.message)
+            };
+            let config = vary::configured([&self.document.level, &entry.keys.level]).map_err(misset)?;
+            let variations = config.map_or_else(Vec::new, |config| vary::variations(&scene, &config));
+            varied |= !variations.is_empty();
+            all.push(scene);
+            for variation in variations {
+                if names.contains(&variation.name) {
+                    let message = format!("the scene {:?} has the name of a variation", variation.name);
+                    return Err(self.refuse(&entry.name, message, "give one of the two scenes another name"));
+                }
+                self.checked_scene_name(&Spanned::new(entry.name.span(), variation.name.clone()))?;
+                all.push(variation);
+            }
+        }
+        match vary::first_given(&self.document.level.vary).filter(|_| !varied) {
+            Some(place) => {
+                let help =
+                    "say how many variations to make of every scene, count = 20, or give scenes a count of their own: vary.count = 20";
+                Err(ConfigError {
+                    help: Some(help.into()),
+                    ..self.source.error(Some(place), "[vary] has no `count`, and no scene has one")
+                })
+            }
+            None => Ok(all),
+        }
+    }
+
     fn scene(&self, entry: &Entry) -> Result<SceneConfig, ConfigError> {
         let (document, keys) = (&self.document.level, entry.keys);
         let name = self.checked_scene_name(&entry.name)?;
@@ -148,6 +185,7 @@ impl Resolver<'_> {
         let mut scene = SceneConfig {
             seed,
             source: self.scene_source(entry, seed)?,
+            varies: None,
             objects: self.objects(keys)?,
             labels: self.labels(keys, &name)?,
             scene_type: keys.scene_type.as_ref().map(|word| self.scene_type(word)).transpose()?,

@@ -16,6 +16,7 @@ use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
 use enfilade_math::hash_u64;
 use enfilade_render::RenderConfig;
+use enfilade_vary::{Seeds, VaryConfig};
 use enfilade_verify::view_gates::GateConfig;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -54,6 +55,9 @@ pub struct SceneConfig {
     /// Models that are placed in it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objects: Vec<ObjectGroup>,
+    /// The scene of which it is a variation, and what varies; `None` for scenes by themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub varies: Option<Varies>,
     /// Where its labels come from; `None` takes what comes with the scene.
     pub labels: Option<LabelSource>,
     /// What kind of room it is, in Hypersim's words; `None` where its rooms say it, or nothing does.
@@ -99,6 +103,20 @@ pub struct SceneConfig {
     /// What is made of it beside the outputs of the stages.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub products: Vec<Request>,
+}
+
+/// What a scene is a variation of. It shares that scene's geometry, free space and trajectories.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Varies {
+    /// Name of the first scene, which is before it in the configuration.
+    pub of: String,
+    /// Number of the variation, from 1.
+    pub number: u32,
+    /// Numbers of its light, its materials and its arrangement, from 0.
+    pub sets: [u32; 3],
+    /// What varies.
+    pub config: VaryConfig,
 }
 
 /// A setting of earlier versions: any stored value is read and ignored, and `null` is stored.
@@ -187,22 +205,43 @@ impl Config {
 }
 
 impl SceneConfig {
-    /// Takes labels from `table` from now on, with the rows of the scene as before.
+    /// Takes labels from `table` from now on, with the rows of the scene as before. Variations take theirs from the first scene.
     pub(crate) fn set_label_table(&mut self, table: &str) {
+        if self.varies.is_some() {
+            return;
+        }
         let scene = self.labels.take().map_or_else(|| self.name.clone(), |labels| labels.scene);
         self.labels = Some(LabelSource { table: table.replace('$', "$$"), scene });
     }
 
     /// Seed of the part of the work named by `purpose`: different for every scene and purpose.
     pub fn seed_for(&self, purpose: &str) -> u64 {
-        let text = self.name.bytes().chain([0]).chain(purpose.bytes());
+        self.seed_of(&self.name, purpose)
+    }
+
+    /// [`SceneConfig::seed_for`] the scene `name` of the same seed.
+    fn seed_of(&self, name: &str, purpose: &str) -> u64 {
+        let text = name.bytes().chain([0]).chain(purpose.bytes());
         text.fold(hash_u64(self.seed), |hash, byte| hash_u64(hash ^ u64::from(byte)))
     }
 
-    /// [`SceneConfig::seed_for`] exploring by a preset. Hypersim's programs are given the seed as it is, 0 unless told otherwise.
+    /// The seeds of a variation: of its place and of its sets, which are those of all variations of the first scene.
+    pub(crate) fn variation_seeds(&self, varies: &Varies) -> Seeds {
+        let of_set = |kind: &str, set: u32| self.seed_of(&varies.of, &format!("vary/{kind}/{set}"));
+        let [light, materials, arrangement] = varies.sets;
+        Seeds {
+            place: self.seed_of(&varies.of, "vary/place"),
+            light: of_set("light", light),
+            materials: of_set("materials", materials),
+            arrangement: of_set("arrangement", arrangement),
+        }
+    }
+
+    /// [`SceneConfig::seed_for`] exploring by a preset: for variations that of the first scene. Hypersim's programs are given the seed as it
+    /// is, 0 unless told otherwise.
     pub fn exploring_seed(&self, purpose: &str, preset: Preset) -> u64 {
         match preset {
-            Preset::Default | Preset::Paper => self.seed_for(purpose),
+            Preset::Default | Preset::Paper => self.seed_of(self.varies.as_ref().map_or(&self.name, |varies| &varies.of), purpose),
             Preset::Hypersim => self.seed,
         }
     }

@@ -775,3 +775,43 @@ fn objects_are_groups_of_the_file_or_of_a_scene() {
     assert!(wrong("visible_share = 2").contains("[[object]] 1: visible_share: found 2, expected a share from 0 to 1"));
     assert!(wrong("count = \"many\"").contains("expected a whole number such as 10, or [least, most]"), "{}", wrong("count = \"many\""));
 }
+
+#[test]
+fn variations_follow_their_scene_and_are_named_after_it() {
+    let vary = |keys: &str| format!("{SCENE}[scene.vary]\n{keys}");
+    let config = config(&vary("count = 3\nlight_sets = 2\nlamps = {}\nmaterials = {}\n"));
+    let names: Vec<&str> = config.scenes.iter().map(|scene| scene.name.as_str()).collect();
+    let first = names[0];
+    assert_eq!(names, [first.to_string(), format!("{first}_v01"), format!("{first}_v02"), format!("{first}_v03")]);
+    assert_eq!(config.scenes[0].varies, None);
+    let varies: Vec<&Varies> = config.scenes[1..].iter().map(|scene| scene.varies.as_ref().unwrap()).collect();
+    assert_eq!(varies.iter().map(|varies| varies.sets).collect::<Vec<_>>(), [[0, 0, 0], [1, 1, 1], [0, 1, 2]]);
+    // What variations have in common is the first scene's; their noise is their own.
+    let [one, two] = [&config.scenes[1], &config.scenes[3]];
+    assert_eq!(one.exploring_seed("plan", Preset::Default), config.scenes[0].exploring_seed("plan", Preset::Default));
+    assert_eq!(one.variation_seeds(varies[0]).light, two.variation_seeds(varies[2]).light);
+    assert_ne!(one.variation_seeds(varies[0]).arrangement, two.variation_seeds(varies[2]).arrangement);
+    assert_ne!(one.seed_for("render"), two.seed_for("render"));
+    // They come back from where settings are stored, and scenes without them are stored as before.
+    let stored = serde_json::to_string(&config.scenes[1]).unwrap();
+    assert_eq!(serde_json::from_str::<SceneConfig>(&stored).unwrap(), config.scenes[1]);
+    assert!(!serde_json::to_string(&config.scenes[0]).unwrap().contains("varies"));
+}
+
+#[test]
+fn variations_that_cannot_be_are_refused_where_they_are_said() {
+    for (keys, expected) in [
+        ("count = 0\nlamps = {}\n", "expected a whole number from 1 to 9999, found 0"),
+        ("lamps = {}\n", "[vary] has no `count`"),
+        ("count = 2\n", "nothing varies"),
+        ("count = 2\nlamps = { kelvin = [4000, 2700] }\n", "lamps.kelvin must be two numbers from 1700 to 20000, the smaller one first"),
+        ("count = 2\nlamps = { kelvn = [2700, 4000] }\n", "did you mean `kelvin`?"),
+        ("count = 2\nmaterials = { classes = { walls = {} } }\n", "did you mean \"wall\"?"),
+        ("count = 2\nlmaps = {}\n", "did you mean `lamps`?"),
+    ] {
+        let text = error(&format!("{SCENE}[scene.vary]\n{keys}"));
+        assert!(text.starts_with("sets/dataset.toml:") && text.contains(expected), "{keys}: {text}");
+    }
+    let text = error(&format!("[vary]\nlamps = {{}}\n{SCENE}"));
+    assert!(text.contains("[vary] has no `count`, and no scene has one"), "{text}");
+}

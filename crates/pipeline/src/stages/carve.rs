@@ -1,11 +1,11 @@
 //! `carve`: the scene to its free space, beginning at the cameras where trajectories will begin.
 
 use super::starts::carved;
-use super::{Inputs, Job, Outcome, Record, Stage};
+use super::{Inputs, Job, Outcome, Record, Stage, variation};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{counted, write_json};
+use enfilade_dataset::{counted, take_file, write_json};
 use enfilade_explore::{FreeSpace, StartReport};
 use enfilade_scene::StartCamera;
 use serde::{Deserialize, Serialize};
@@ -53,10 +53,18 @@ pub(super) fn settings(job: &Job) -> Hash {
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
+    if let Some(first) = variation::of_same_geometry(job)? {
+        return outputs(&first)?.iter().map(|path| first.input_from(Stage::Carve, path)).collect::<Result<_, _>>().map(Some);
+    }
     Ok(Some(vec![job.input_from(Stage::Import, &job.package()?)?]))
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
+    if let Some(first) = variation::of_same_geometry(job)? {
+        let (from, to) = (outputs(&first)?, outputs(job)?);
+        from.iter().zip(&to).try_for_each(|(from, to)| take_file(from, to))?;
+        return variation::taken_over(&first, Stage::Carve, to);
+    }
     let name = &job.scene.name;
     let world = job.load_world()?;
     let (starts, space) = carved(job, &world, exploring_seed(job), cx)?;

@@ -1,17 +1,17 @@
 //! `import`: a scene file, or a generated home, to a scene package, the labels that came with it, and the dataset's scene files.
 
-use super::{Input, Inputs, Job, Outcome, Record, objects};
+use super::{Input, Inputs, Job, Outcome, Record, objects, variation};
 use crate::assets;
 use crate::config::{FileSource, Source};
 use crate::error::Error;
 use crate::intake::{self, labels_by_part};
 use crate::report::StageCx;
 use crate::workdir::Hash;
-use enfilade_dataset::{FrameRecord, counted, mesh_names, remove_if_there, write_bytes, write_json};
+use enfilade_dataset::{FrameRecord, PlacedObjects, counted, mesh_names, remove_if_there, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
 use enfilade_math::Vec3;
-use enfilade_scene::{PACKAGE_HEAD_BYTES, Scene, WorldMesh, is_current_package};
+use enfilade_scene::{Labels, PACKAGE_HEAD_BYTES, Rooms, Scene, WorldMesh, is_current_package};
 use enfilade_show::planview::rooms_svg;
 use std::fs::File;
 use std::io::Read;
@@ -36,6 +36,9 @@ const GEOMETRY: [&str; 10] = [
 ];
 
 pub(super) fn settings(job: &Job) -> Hash {
+    if let Some(varies) = &job.scene.varies {
+        return variation::settings(job, varies);
+    }
     let source = source_settings(job);
     if job.scene.objects.is_empty() { source } else { Hash::of(&(source, objects::settings(job))) }
 }
@@ -51,6 +54,9 @@ fn source_settings(job: &Job) -> Hash {
 
 /// The files that the last import read or looked for in vain: they are known only after reading.
 pub(super) fn inputs(job: &Job, previous: Option<&Record>) -> Inputs {
+    if let Some(first) = job.first()? {
+        return variation::inputs(&first);
+    }
     let source = match &job.scene.source {
         Source::Home(config) if job.scene.objects.is_empty() => return asset_inputs(job, config).map(Some),
         Source::Home(_) => None,
@@ -85,7 +91,10 @@ fn asset_inputs(job: &Job, config: &HomeConfig) -> Result<Vec<Input>, Error> {
 }
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
-    let name = &job.scene.name;
+    if let (Some(varies), Some(first)) = (&job.scene.varies, job.first()?) {
+        return variation::run(job, varies, &first, cx);
+    }
+    remove_if_there(&job.dataset.layout().variation(&job.scene.name))?;
     let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
@@ -116,9 +125,23 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         inputs = Some([of_source, composed.inputs].concat());
         (scene, labels, placed) = (composed.scene.scene, Some(composed.scene.labels), Some(composed.placed));
     }
-    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(&scene));
+    let outputs = write(job, &scene, labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
+    let summary = describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
+    Ok(Outcome { summary, outputs, inputs, report })
+}
+
+/// Writes the package, the labels and the dataset's files of a scene; returns them.
+pub(super) fn write(
+    job: &Job,
+    scene: &Scene,
+    labels: Option<&Labels>,
+    (rooms, placed): (Option<&Rooms>, Option<&PlacedObjects>),
+    offset_m: Option<[f64; 3]>,
+) -> Result<Vec<PathBuf>, Error> {
+    let name = &job.scene.name;
+    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(scene));
     remove_frames_of_other_scenes(job, &package, &bytes)?;
-    job.dataset.write_scene(name, &scene).map_err(Error::stage)?;
+    job.dataset.write_scene(name, scene).map_err(Error::stage)?;
     offset_m.map_or(Ok(()), |offset_m| job.dataset.write_offset(name, offset_m)).map_err(Error::stage)?;
     write_bytes(&package, &bytes)?;
     let labels_file = job.work_file(LABELS)?;
@@ -128,7 +151,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let mut outputs = vec![package, labels_file, layout.metadata_scene(name), layout.metadata_nodes(name), layout.metadata_materials(name)];
     outputs.extend(GEOMETRY.iter().map(|file| layout.mesh_file(name, file)));
     let placed_file = layout.placed_objects(name);
-    match &placed {
+    match placed {
         Some(placed) => {
             job.dataset.write_placed_objects(name, placed).map_err(Error::stage)?;
             outputs.push(placed_file);
@@ -136,7 +159,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         None => remove_if_there(&placed_file)?,
     }
     let drawn = [layout.rooms(name), layout.rooms_drawing(name)];
-    match &rooms {
+    match rooms {
         Some(rooms) => {
             job.dataset.write_rooms(name, rooms).map_err(Error::stage)?;
             write_bytes(&drawn[1], rooms_svg(rooms))?;
@@ -144,8 +167,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         }
         None => remove_built_rooms(job, &drawn)?,
     }
-    let summary = describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
-    Ok(Outcome { summary, outputs, inputs, report })
+    Ok(outputs)
 }
 
 /// Removes the rooms of a home that the scene was before. Those that were fitted to its labels are a product of their own.

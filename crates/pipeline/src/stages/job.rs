@@ -52,6 +52,17 @@ impl<'a> Job<'a> {
         Job { config, scene, dataset, force, shift: Some(shift), workdir, loaded: self.loaded.clone() }
     }
 
+    /// A job of the scene that this one is a variation of; `None` for scenes by themselves.
+    pub fn first(&self) -> Result<Option<Job<'a>>, Error> {
+        let Some(varies) = &self.scene.varies else { return Ok(None) };
+        let first = self.config.scenes.iter().find(|scene| scene.name == varies.of && scene.varies.is_none());
+        let first = first.ok_or_else(|| {
+            let message = format!("scene {} is a variation of {}, which the configuration does not have", self.scene.name, varies.of);
+            Error::scene(message, "give that scene to the configuration too: variations are made from it")
+        })?;
+        Ok(Some(Job::new(self.config, first, self.dataset, self.workdir, false)))
+    }
+
     /// The dataset's folder.
     pub fn out(&self) -> &Path {
         self.workdir.out()
@@ -210,7 +221,7 @@ impl<'a> Job<'a> {
         Ok(Input { path, content: Hash::of(&record.as_rendered()) })
     }
 
-    fn run_first(&self, stage: Stage) -> Error {
+    pub fn run_first(&self, stage: Stage) -> Error {
         let message = format!("the results of `{}` for scene {} are not there", stage.name(), self.scene.name);
         Error::scene(message, format!("run first: {}", self.command(stage)))
     }

@@ -8,7 +8,7 @@ use enfilade_dataset::{ANNOTATION_LOG, CLASS_LIST, Classes, DatasetError, LabelC
 use enfilade_frame::{Frame, Layer, Pass, Values};
 use enfilade_label::annotation::{Annotation, AnnotationError};
 use enfilade_label::{LabelReport, LabelTable, Pieces, doubts, join};
-use enfilade_scene::{Cx, Labels, PartLabel, Scene, Warning};
+use enfilade_scene::{Cx, Labels, PartLabel, Quiet, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -136,8 +136,20 @@ fn other_scene(job: &Job, files: &MeshFiles, error: &AnnotationError) -> Error {
     Error::scene(error.to_string(), hint)
 }
 
+/// The labels of the parts of a scene before or after its label stage, and whether people split parts.
+///
+/// # Errors
+/// When the annotation or the table cannot be read.
+pub(super) fn known_labels(job: &Job) -> Result<(Labels, bool), Error> {
+    match annotation(job)? {
+        Some(annotation) => Ok((annotation.labels, !annotation.pieces.is_empty())),
+        // What is wrong with the table, the label stage of this scene tells.
+        None => labels_of(job, &Quiet).map(|(labels, _)| (labels, false)),
+    }
+}
+
 /// From the table if there is one, else what came with the scene, else none.
-fn labels_of(job: &Job, cx: &StageCx) -> Result<(Labels, serde_json::Value), Error> {
+fn labels_of(job: &Job, cx: &dyn Cx) -> Result<(Labels, serde_json::Value), Error> {
     let scene = job.load_scene()?;
     let Some(source) = &job.scene.labels else {
         let none = || Labels { parts: vec![PartLabel::NONE; scene.parts.len()] };

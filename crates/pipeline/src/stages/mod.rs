@@ -26,6 +26,7 @@ mod render;
 mod shift;
 mod starts;
 mod targets;
+mod variation;
 mod verify;
 
 use crate::error::Error;

@@ -1,7 +1,7 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::kept::{Plan, remove_frames_of_other_poses};
-use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, targets};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, targets, variation};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
@@ -31,6 +31,9 @@ pub(super) fn settings(job: &Job) -> Hash {
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
+    if let Some(first) = job.first()? {
+        return variation::plan_inputs(&first).map(Some);
+    }
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     for path in carve::outputs(job)? {
         inputs.push(job.input_from(Stage::Carve, &path)?);
@@ -54,23 +57,8 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
 
 pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let name = &job.scene.name;
-    let starts = carve::starts(job)?;
-    let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
-    let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
-    if job.scene.fov_x_deg.is_none() && job.scene.camera.takes_field_of_view() && !matches!(job.scene.plan.mode, Mode::Keyframes(_)) {
-        warn_of_other_views(&starts, cx);
-    }
-    let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
-    let mut reports = Vec::new();
-    let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
-    for (number, Planned { trajectory, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
-        match job.scene.camera.stereo {
-            None => filmed.push((trajectory, None)),
-            Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
-        }
-        // The report of a rig is the report of its left camera, which was planned.
-        reports.push(report);
-    }
+    let first = job.first()?;
+    let Made { camera, filmed, reports, summary } = first.as_ref().map_or_else(|| plan_anew(job, cx), variation::plan_of)?;
     let trajectories: Vec<Trajectory> = filmed.iter().map(|(trajectory, _)| trajectory.clone()).collect();
     // Remove what was made from an earlier plan, before it can be mistaken for something of this one.
     remove_plan_preview(job.dataset, name).map_err(Error::stage)?;
@@ -98,8 +86,43 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         write_json(&path, report)?;
         outputs.push(path);
     }
+    if let Some(first) = &first {
+        variation::share(job, first, &outputs)?;
+    }
     let report = serde_json::to_value(&reports).unwrap_or_default();
-    Ok(Outcome { summary: summary(&reports, fov_x_rad), outputs, report, ..Outcome::default() })
+    Ok(Outcome { summary, outputs, report, ..Outcome::default() })
+}
+
+/// The trajectories of a scene, what they are filmed with, and a report of each that was planned.
+pub(super) struct Made {
+    pub camera: Camera,
+    pub filmed: Vec<(Trajectory, Option<StereoRecord>)>,
+    pub reports: Vec<PlanReport>,
+    /// One line.
+    pub summary: String,
+}
+
+/// Plans the trajectories of a scene.
+fn plan_anew(job: &Job, cx: &StageCx) -> Result<Made, Error> {
+    let starts = carve::starts(job)?;
+    let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
+    let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
+    if job.scene.fov_x_deg.is_none() && job.scene.camera.takes_field_of_view() && !matches!(job.scene.plan.mode, Mode::Keyframes(_)) {
+        warn_of_other_views(&starts, cx);
+    }
+    let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
+    let mut reports = Vec::new();
+    let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
+    for (number, Planned { trajectory, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
+        match job.scene.camera.stereo {
+            None => filmed.push((trajectory, None)),
+            Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
+        }
+        // The report of a rig is the report of its left camera, which was planned.
+        reports.push(report);
+    }
+    let summary = summary(&reports, fov_x_rad);
+    Ok(Made { camera, filmed, reports, summary })
 }
 
 /// Sets the scene's row of the table that scenes share, and warns if the old table could not be read.

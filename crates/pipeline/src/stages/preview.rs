@@ -1,6 +1,6 @@
 //! `preview`: pictures of every layer of finished frames, boxes drawn over them, and a contact sheet per trajectory.
 
-use super::{Inputs, Job, Outcome, Record, Stage, boxes, made};
+use super::{Inputs, Job, Outcome, Record, Stage, boxes, made, variation};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
@@ -10,8 +10,12 @@ use enfilade_show::drivers::{expose_camera, preview_boxes, preview_camera, write
 use enfilade_show::sheet::SheetConfig;
 use std::collections::BTreeSet;
 
-pub(super) fn settings(_job: &Job) -> Hash {
-    Hash::of(&SheetConfig::default())
+pub(super) fn settings(job: &Job) -> Hash {
+    let sheet = SheetConfig::default();
+    match variation::exposure_stops(job) {
+        0.0 => Hash::of(&sheet),
+        stops => Hash::of(&(sheet, stops)),
+    }
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {

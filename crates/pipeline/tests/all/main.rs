@@ -16,3 +16,4 @@ mod rooms;
 mod stored;
 mod suspicions;
 mod trajectories;
+mod variations;

@@ -96,5 +96,5 @@ fn objects_to_look_at_that_the_scene_does_not_have_are_named() {
     let summary = run(&config, &folder.path().join("out"), None, &Silent).unwrap();
     let failure = summary.scenes[0].failure.as_ref().unwrap();
     assert!(failure.message.contains("look at \"unicorn\""), "{}", failure.message);
-    assert!(failure.hint.as_ref().unwrap().contains("sofa"), "{:?}", failure.hint);
+    assert!(failure.hint.as_ref().unwrap().contains("armchair_1, "), "{:?}", failure.hint);
 }

@@ -27,13 +27,16 @@ impl Exposures {
     }
 }
 
-/// Measures how the frames of a camera are exposed and writes it to `metadata_tonemap.csv`; returns that file too.
+/// Measures how the frames of a camera are exposed and writes it to `metadata_tonemap.csv`; returns that file too. Displayed pictures of
+/// variations are brighter or darker by what [`enfilade_dataset::Variation`] says.
 ///
 /// # Errors
 /// When a layer cannot be read or the file cannot be written.
 pub fn expose_camera(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32]) -> Result<(Exposures, PathBuf), DatasetError> {
     let measured = measure_exposures(dataset, [scene, camera], frames)?;
-    let display = display_exposure(&measured);
+    let stops = dataset.read_variation(scene)?.map_or(0.0, |variation| variation.exposure_stops);
+    let chosen = display_exposure(&measured);
+    let display = Display { scale: chosen.scale * stops.exp2(), ..chosen };
     let tones: Vec<ToneMap> = measured.iter().map(|frame| ToneMap::of_percentile(frame.percentile)).collect();
     let row = |((&frame, measured), tone): ((&u32, &Brightness), &ToneMap)| ToneMapRow {
         frame,

@@ -103,8 +103,13 @@ impl Placed {
             for object in targets(found) {
                 let id = self.ids[&key(object)];
                 let problem = |problem: String| selected.unsuitable(format!("{scene}: object {:?}", object.name), problem);
+                let mesh = match meshes.get(&object.instance) {
+                    Some(mesh) => mesh,
+                    None if is_exported => return Err(problem(without_mesh(object.instance))),
+                    // Scenes that are not finished yet do not hinder the others.
+                    None => continue,
+                };
                 let pose = rigid(object).ok_or_else(|| problem(NOT_RIGID.into()))?;
-                let mesh = meshes.get(&object.instance).ok_or_else(|| problem(without_mesh(object.instance)))?;
                 let vertices: Vec<DVec3> = mesh.vertices.iter().map(|v| pose.rotation.transpose() * (*v - pose.translation)).collect();
                 match objects.get(&id) {
                     Some(first) => check_copy(first, &vertices).map_err(problem)?,

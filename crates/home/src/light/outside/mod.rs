@@ -8,30 +8,28 @@ mod houses;
 mod skyline;
 
 use enfilade_math::{Rgb, Vec2, Vec3};
+use enfilade_options::words;
 use enfilade_textures::noise::smoothstep;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
-/// A kind of surroundings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Outside {
-    /// Lawn, shrubs and trees.
-    #[default]
-    Garden,
-    /// A row of town houses across the street, seen from the first floor.
-    Street,
-    /// Detached houses among trees.
-    Suburb,
-    /// Towers near and far, seen from high up.
-    Skyline,
-    /// Meadows, hedges and hills.
-    Country,
-}
-
-impl Outside {
-    /// All kinds.
-    pub const ALL: [Self; 5] = [Self::Garden, Self::Street, Self::Suburb, Self::Skyline, Self::Country];
+words! {
+    /// A kind of surroundings.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Outside {
+        /// Lawn, shrubs and trees.
+        #[default]
+        Garden = "garden",
+        /// A row of town houses across the street, seen from the first floor.
+        Street = "street",
+        /// Detached houses among trees.
+        Suburb = "suburb",
+        /// Towers near and far, seen from high up.
+        Skyline = "skyline",
+        /// Meadows, hedges and hills.
+        Country = "country",
+    }
 }
 
 /// Surroundings in the light of a moment. Illuminances are in kilo-lux, radiances in kcd/m².

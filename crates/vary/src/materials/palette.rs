@@ -1,0 +1,129 @@
+//! The colours that things of each class come in: the table of what varies.
+
+use super::oklab::Oklch;
+use crate::config::ColorRange;
+use crate::draw::uniform;
+use enfilade_math::Rng;
+
+/// What a class is usually made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    /// Painted or papered: three of four pale, the others coloured or dark.
+    Wall,
+    /// Nearly white.
+    Ceiling,
+    /// Stone, tiles, carpet: quiet, of any lightness.
+    Floor,
+    /// Lacquer, where it is not of wood: half of it white to grey, half coloured.
+    Joinery,
+    /// Cloth and leather: any hue, of middling chroma.
+    Cloth,
+    /// Cardboard, plastic, paper: any colour.
+    Thing,
+}
+
+/// The classes that vary, with what they are made of. Windows, doors, mirrors, pictures, screens, books, plants and people are not among
+/// them, nor what is of enamel and steel everywhere.
+pub const CLASSES: [(&str, Made); 24] = [
+    ("wall", Made::Wall),
+    ("ceiling", Made::Ceiling),
+    ("floor", Made::Floor),
+    ("cabinet", Made::Joinery),
+    ("bed", Made::Cloth),
+    ("chair", Made::Cloth),
+    ("sofa", Made::Cloth),
+    ("table", Made::Joinery),
+    ("bookshelf", Made::Joinery),
+    ("counter", Made::Joinery),
+    ("blinds", Made::Cloth),
+    ("desk", Made::Joinery),
+    ("shelves", Made::Joinery),
+    ("curtain", Made::Cloth),
+    ("dresser", Made::Joinery),
+    ("pillow", Made::Cloth),
+    ("floormat", Made::Cloth),
+    ("clothes", Made::Cloth),
+    ("towel", Made::Cloth),
+    ("showercurtain", Made::Cloth),
+    ("box", Made::Thing),
+    ("nightstand", Made::Joinery),
+    ("bag", Made::Cloth),
+    ("otherfurniture", Made::Joinery),
+];
+
+/// What a class is made of that is not in the table.
+pub fn made(class: &str) -> Made {
+    CLASSES.iter().find(|(name, _)| *name == class).map_or(Made::Thing, |(_, made)| *made)
+}
+
+/// Ranges of lightness, chroma and hue, with the probability of each row; hues are any where none are given.
+struct Row(f64, [f64; 2], [f64; 2], [f64; 2]);
+
+const ANY: [f64; 2] = [0.0, 360.0];
+/// Yellow to orange: the hues of warm whites, sand and wood.
+const WARM: [f64; 2] = [55.0, 100.0];
+
+const WALL: [Row; 4] = [
+    Row(0.45, [0.88, 0.95], [0.0, 0.02], WARM),
+    Row(0.3, [0.8, 0.92], [0.01, 0.03], ANY),
+    Row(0.15, [0.62, 0.8], [0.025, 0.06], ANY),
+    Row(0.1, [0.36, 0.5], [0.005, 0.035], ANY),
+];
+const CEILING: [Row; 1] = [Row(1.0, [0.91, 0.955], [0.0, 0.012], WARM)];
+const FLOOR: [Row; 2] = [Row(0.6, [0.45, 0.82], [0.0, 0.03], WARM), Row(0.4, [0.3, 0.75], [0.0, 0.04], ANY)];
+const JOINERY: [Row; 3] =
+    [Row(0.45, [0.82, 0.94], [0.0, 0.015], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.02], ANY), Row(0.35, [0.4, 0.75], [0.02, 0.07], ANY)];
+const CLOTH: [Row; 3] =
+    [Row(0.35, [0.65, 0.9], [0.005, 0.035], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.025], ANY), Row(0.45, [0.35, 0.75], [0.04, 0.125], ANY)];
+const THING: [Row; 1] = [Row(1.0, [0.3, 0.9], [0.0, 0.14], ANY)];
+/// Wood: from bleached over oak, beech and cherry to walnut and wenge.
+const WOOD: [Row; 4] = [
+    Row(0.25, [0.74, 0.84], [0.03, 0.06], [70.0, 88.0]),
+    Row(0.35, [0.6, 0.74], [0.05, 0.085], [62.0, 80.0]),
+    Row(0.25, [0.42, 0.56], [0.045, 0.08], [45.0, 68.0]),
+    Row(0.15, [0.28, 0.4], [0.02, 0.045], [40.0, 70.0]),
+];
+
+/// A colour for a class; where the configuration has ranges, within these.
+pub fn draw(made: Made, is_wood: bool, given: &ColorRange, rng: &mut Rng) -> Oklch {
+    let rows: &[Row] = match made {
+        _ if is_wood => &WOOD,
+        Made::Wall => &WALL,
+        Made::Ceiling => &CEILING,
+        Made::Floor => &FLOOR,
+        Made::Joinery => &JOINERY,
+        Made::Cloth => &CLOTH,
+        Made::Thing => &THING,
+    };
+    let mut place = rng.next_f64();
+    let row = rows.iter().find(|Row(share, ..)| (place < *share, place -= share).0).unwrap_or(&rows[rows.len() - 1]);
+    let Row(_, lightness, chroma, hue_deg) = row;
+    Oklch {
+        lightness: uniform(rng, given.lightness.unwrap_or(*lightness)) as f32,
+        chroma: uniform(rng, given.chroma.unwrap_or(*chroma)) as f32,
+        hue_deg: uniform(rng, given.hue_deg.unwrap_or(*hue_deg)) as f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::class_id;
+
+    #[test]
+    fn all_classes_exist_and_shares_add_up() {
+        assert!(CLASSES.iter().all(|(name, _)| class_id(name).is_some()));
+        for rows in [&WALL[..], &CEILING, &FLOOR, &JOINERY, &CLOTH, &THING, &WOOD] {
+            assert!((rows.iter().map(|Row(share, ..)| share).sum::<f64>() - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn most_walls_are_pale_and_given_ranges_win() {
+        let rng = &mut Rng::new(7);
+        let pale = (0..1000).filter(|_| draw(Made::Wall, false, &ColorRange::default(), rng).lightness > 0.79).count();
+        assert!((700..800).contains(&pale), "{pale}");
+        let red = ColorRange { lightness: Some([0.5, 0.5]), chroma: Some([0.1, 0.12]), hue_deg: Some([20.0, 30.0]) };
+        assert!((0..100).map(|_| draw(Made::Cloth, true, &red, rng)).all(|c| c.lightness == 0.5 && (20.0..30.0).contains(&c.hue_deg)));
+    }
+}

@@ -1,0 +1,134 @@
+//! Another colour for a material: its textures stay, so that grain, weave and pattern do, and the factor over them changes.
+//!
+//! The factor brings the mean of the texture to the new colour, channel by channel. It is lowered where more than one texel in a hundred
+//! would reflect more than [`MOST`], and channels of a texture are never raised so far above the others that faint noise of a channel
+//! would become colour.
+
+use enfilade_math::Rgb;
+use enfilade_scene::{Bsdf, ColorParam, Image, Pixels};
+use std::sync::Arc;
+
+/// Reflectance of soot, which no surface stays below.
+pub const LEAST: f32 = 0.02;
+/// Reflectance of fresh snow, which no surface exceeds.
+pub const MOST: f32 = 0.9;
+/// Most by which the factor of one channel may exceed that of another.
+const SPREAD: f32 = 12.0;
+/// Texels of a picture that are looked at, at most.
+const TEXELS: usize = 4096;
+/// Share of the texels that may be brighter than [`MOST`].
+const BRIGHTEST: f64 = 0.99;
+
+/// The reflectances of a colour's texture: mean, and the bright end of each channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Albedo {
+    pub mean: Rgb,
+    pub bright: Rgb,
+}
+
+impl Albedo {
+    /// Of a parameter.
+    pub fn of(param: &ColorParam, images: &[Arc<Image>]) -> Self {
+        let texture = param.texture.map_or(Self { mean: Rgb::WHITE, bright: Rgb::WHITE }, |t| Self::of_image(&images[t.image as usize]));
+        Self { mean: texture.mean * param.factor, bright: texture.bright * param.factor }
+    }
+
+    fn of_image(image: &Image) -> Self {
+        let len = match &image.pixels {
+            Pixels::Rgba8 { texels, .. } => texels.len(),
+            Pixels::RgbF32(texels) => texels.len(),
+        };
+        let count = len.min(TEXELS);
+        // Spread over the image by the golden ratio, so that no pattern of rows or columns is missed.
+        let at = |k: usize| ((k as f64 * 0.618_033_988_749_894_9).fract() * len as f64) as usize;
+        let texels: Vec<(Rgb, f32)> = (0..count)
+            .map(|k| {
+                let index = at(k).min(len - 1);
+                image.texel(index % image.width as usize, index / image.width as usize)
+            })
+            .collect();
+        // What is cut out does not count.
+        let there: Vec<Rgb> = texels.iter().filter(|(_, alpha)| *alpha > 0.5).map(|(rgb, _)| *rgb).collect();
+        let seen = if there.is_empty() { texels.iter().map(|(rgb, _)| *rgb).collect() } else { there };
+        let mean = seen.iter().copied().sum::<Rgb>() / seen.len() as f32;
+        let bright = |channel: usize| {
+            let mut values: Vec<f32> = seen.iter().map(|rgb| rgb[channel]).collect();
+            values.sort_by(f32::total_cmp);
+            values[((values.len() - 1) as f64 * BRIGHTEST) as usize]
+        };
+        Self { mean, bright: Rgb::new(bright(0), bright(1), bright(2)) }
+    }
+}
+
+/// The colour that a material's surface has before and after.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recolored {
+    pub from: Rgb,
+    pub to: Rgb,
+}
+
+/// The colour parameters of a surface that say what colour it is: none of metal, glass and what light passes.
+pub fn base_colors(bsdf: &mut Bsdf) -> Vec<&mut ColorParam> {
+    match bsdf {
+        Bsdf::Diffuse { reflectance } | Bsdf::RoughDiffuse { reflectance, .. } => vec![reflectance],
+        Bsdf::Plastic { diffuse, .. } => vec![diffuse],
+        Bsdf::Principled(p) if p.metallic.factor < 0.5 && p.transmission.factor == 0.0 => vec![&mut p.base_color],
+        Bsdf::Disney(p) if p.metallic.factor < 0.5 && p.spec_trans.factor == 0.0 => vec![&mut p.base_color],
+        Bsdf::Blend { first, second, .. } => {
+            let mut colors = base_colors(first);
+            colors.extend(base_colors(second));
+            colors
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Gives a colour parameter the mean `target`, as nearly as reflectances and its texture allow; returns the means.
+pub fn recolor(param: &mut ColorParam, images: &[Arc<Image>], target: Rgb) -> Recolored {
+    let before = Albedo::of(param, images);
+    let target = target.map(|channel| channel.clamp(LEAST, MOST));
+    let channel = |c: usize| target[c] / before.mean[c].max(1e-3);
+    let mut gain = Rgb::new(channel(0), channel(1), channel(2));
+    if param.texture.is_some() {
+        let least = gain.r.min(gain.g).min(gain.b);
+        gain = gain.map(|g| g.min(SPREAD * least));
+    }
+    let brightest = (before.bright * gain).max_component();
+    if brightest > MOST {
+        gain = gain * (MOST / brightest);
+    }
+    param.factor = param.factor * gain;
+    Recolored { from: before.mean, to: before.mean * gain }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_scene::TextureRef;
+
+    fn picture(texels: Vec<[f32; 3]>) -> Arc<Image> {
+        Image { name: "t".into(), width: texels.len() as u32, height: 1, pixels: Pixels::RgbF32(texels) }.into()
+    }
+
+    #[test]
+    fn the_mean_becomes_the_colour_and_the_texture_keeps_its_contrast() {
+        let images = [picture(vec![[0.2, 0.1, 0.05], [0.4, 0.2, 0.1]])];
+        let mut param = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
+        let Recolored { from, to } = recolor(&mut param, &images, Rgb::new(0.15, 0.12, 0.1));
+        assert!((from.r - 0.3).abs() < 1e-5 && (to.r - 0.15).abs() < 1e-5 && (to.b - 0.1).abs() < 1e-5, "{from:?} {to:?}");
+        assert!((Albedo::of(&param, &images).mean.g - 0.12).abs() < 1e-5);
+        let mut plain = ColorParam::from(Rgb::splat(0.5));
+        recolor(&mut plain, &[], Rgb::new(0.7, 0.001, 2.0));
+        assert!((0..3).all(|c| (plain.factor[c] - [0.7, 0.02, 0.9][c]).abs() < 1e-4), "{:?}", plain.factor);
+    }
+
+    #[test]
+    fn nothing_reflects_more_than_it_may() {
+        let images = [picture(vec![[0.05, 0.05, 0.05], [0.8, 0.8, 0.8]])];
+        for target in [Rgb::splat(0.9), Rgb::new(0.9, 0.3, 0.1), Rgb::splat(5.0)] {
+            let mut param = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
+            recolor(&mut param, &images, target);
+            assert!(Albedo::of(&param, &images).bright.max_component() <= MOST + 1e-4, "{:?}", param.factor);
+        }
+    }
+}
