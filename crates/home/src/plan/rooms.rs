@@ -104,7 +104,7 @@ fn outline(room: &Room, number: u32) -> RoomOutline {
 
 /// Where the pieces of a wall begin.
 fn corners(room: &Room, i: usize, face: &Face) -> impl Iterator<Item = [f64; 2]> {
-    let corner = |i: usize| room.outline.corners[i % room.outline.len()];
+    let corner = |i: usize| room.outline.corners[i % room.outline.count()];
     let (from, to) = (corner(i), corner(i + 1));
     let along = (to - from).normalize_or_zero();
     let later = face.backs.iter().skip(1).map(move |back| from + along * f64::from(back.x[0] + 0.5 * face.length));

@@ -55,7 +55,7 @@ impl FloorPlan {
     fn changed(&self, room: usize, change: Change, own: &mut Rng, rng: &Rng) -> Option<Self> {
         let mut drawn = DrawnPlan::from(&self.to_rooms());
         let walls = Walls::of(self);
-        if self.rooms[room].outline.len() != 4 || f64::from(self.rooms[room].area) < SMALLEST {
+        if self.rooms[room].outline.count() != 4 || f64::from(self.rooms[room].area) < SMALLEST {
             return None;
         }
         change(&mut drawn, &walls, room, own)?;
@@ -298,7 +298,7 @@ mod tests {
             assert_eq!(varied.doorways.len(), rectangles.doorways.len(), "seed {seed}");
             let windows = |plan: &FloorPlan| plan.rooms.iter().flat_map(crate::room::Room::windows).count();
             assert_eq!(windows(&varied), windows(&rectangles), "seed {seed}");
-            other += usize::from(varied.rooms.iter().any(|room| room.outline.len() != 4));
+            other += usize::from(varied.rooms.iter().any(|room| room.outline.count() != 4));
             // All together rooms have about the floor that they had.
             let area = |plan: &FloorPlan| plan.rooms.iter().map(|room| room.area).sum::<f32>();
             assert!((area(&varied) - area(&rectangles)).abs() < 0.12 * area(&rectangles), "seed {seed}");

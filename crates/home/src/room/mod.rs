@@ -136,7 +136,7 @@ impl Room {
     /// A room over a simple counter-clockwise polygon; `backs` gives what is behind each of its edges, by their numbers.
     pub fn polygon(kind: RoomKind, outline: Outline, height: f32, thickness: [f32; 2], backs: impl Fn(usize) -> Vec<Back>) -> Self {
         let [low, high] = outline.bounds();
-        let faces = (0..outline.len()).map(|i| Face::over(&outline, i, backs(i))).collect();
+        let faces = (0..outline.count()).map(|i| Face::over(&outline, i, backs(i))).collect();
         let mut room = Self {
             kind,
             center: outline.middle(),

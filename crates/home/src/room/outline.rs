@@ -23,12 +23,12 @@ impl Outline {
     pub fn new(corners: Vec<DVec2>) -> Self {
         let points: Vec<Vec2> = corners.iter().map(|p| p.as_vec2()).collect();
         let mut outline = Self { corners, points, convex: false };
-        outline.convex = (0..outline.len()).all(|i| outline.angle(i) < PI + STRAIGHT);
+        outline.convex = (0..outline.count()).all(|i| outline.angle(i) < PI + STRAIGHT);
         outline
     }
 
     /// Number of corners.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.points.len()
     }
 
@@ -39,7 +39,7 @@ impl Outline {
 
     /// A corner; they go round.
     pub fn corner(&self, i: usize) -> Vec2 {
-        self.points[i % self.len()]
+        self.points[i % self.count()]
     }
 
     /// An edge, from its beginning to its end.
@@ -49,20 +49,20 @@ impl Outline {
 
     /// All edges.
     pub fn edges(&self) -> impl Iterator<Item = [Vec2; 2]> {
-        (0..self.len()).map(|i| self.edge(i))
+        (0..self.count()).map(|i| self.edge(i))
     }
 
     /// The angle inside at a corner, radians: above π where the corner points into the polygon.
     pub fn angle(&self, i: usize) -> f32 {
-        let (before, at, after) = (self.corner(i + self.len() - 1), self.corner(i), self.corner(i + 1));
+        let (before, at, after) = (self.corner(i + self.count() - 1), self.corner(i), self.corner(i + 1));
         let turn = (after - at).angle_to(before - at);
         if turn < 0.0 { turn + TAU } else { turn }
     }
 
     /// Area, m².
     pub fn area(&self) -> f32 {
-        let corner = |i: usize| self.corners[i % self.len()];
-        let twice: f64 = (0..self.len()).map(|i| corner(i).perp_dot(corner(i + 1))).sum();
+        let corner = |i: usize| self.corners[i % self.count()];
+        let twice: f64 = (0..self.count()).map(|i| corner(i).perp_dot(corner(i + 1))).sum();
         (0.5 * twice) as f32
     }
 
@@ -92,7 +92,7 @@ impl Outline {
             let (t, u) = ((a - from).perp_dot(b - a) / across, (a - from).perp_dot(way) / across);
             (across.abs() > 1e-9 && t > 1e-4 && (-1e-6..=1.0 + 1e-6).contains(&u)).then_some((t, i))
         };
-        (0..self.len()).filter_map(meets).min_by(|a, b| a.0.total_cmp(&b.0))
+        (0..self.count()).filter_map(meets).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The point farthest from all edges, which is in the middle of the widest part (on a grid that is refined around the best points).
@@ -128,14 +128,14 @@ impl Outline {
     /// The polygon with every edge moved outwards by `by` metres.
     pub fn grown(&self, by: f32) -> Vec<Vec2> {
         let outward = |i: usize| {
-            let [a, b] = self.edge(i % self.len());
+            let [a, b] = self.edge(i % self.count());
             -(b - a).normalize_or_zero().perp()
         };
         let corner = |i: usize| {
-            let (n, m) = (outward(i + self.len() - 1), outward(i));
+            let (n, m) = (outward(i + self.count() - 1), outward(i));
             self.corner(i) + by * (n + m) / (1.0 + n.dot(m)).max(0.15)
         };
-        (0..self.len()).map(corner).collect()
+        (0..self.count()).map(corner).collect()
     }
 }
 
@@ -213,7 +213,7 @@ mod tests {
             })
             .collect();
         for outline in [l_shape(), polygon(&star)] {
-            let points: Vec<Vec2> = (0..outline.len()).map(|i| outline.corner(i)).collect();
+            let points: Vec<Vec2> = (0..outline.count()).map(|i| outline.corner(i)).collect();
             let covering = triangles(&points);
             let area: f32 = covering.iter().map(|t| t.map(|i| points[i])).map(|[a, b, c]| 0.5 * (b - a).perp_dot(c - a)).sum();
             assert_eq!(covering.len(), points.len() - 2);

@@ -574,7 +574,11 @@ fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
 #[test]
 fn the_plan_of_a_home_must_be_there_and_has_its_own_shape() {
     let refused = |home: &str| homes(&[home], &Overrides::default()).unwrap_err().to_string();
-    assert!(refused("{ plan = \"nowhere.json\" }").contains("there is no floor plan nowhere.json"), "{}", refused("{ plan = \"nowhere.json\" }"));
+    assert!(
+        refused("{ plan = \"nowhere.json\" }").contains("there is no floor plan nowhere.json"),
+        "{}",
+        refused("{ plan = \"nowhere.json\" }")
+    );
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("plan.json");
     std::fs::write(&file, "{}").unwrap();

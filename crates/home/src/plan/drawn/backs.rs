@@ -17,7 +17,7 @@ pub fn backs(outlines: &[Outline], room: usize, wall: usize) -> Vec<Back> {
     let (length, along) = (from.distance(to), (to - from).normalize_or_zero());
     let outward = -along.perp();
     let mut cuts: Vec<f32> = vec![0.0, length];
-    let corners = outlines.iter().flat_map(|outline| (0..outline.len()).map(|i| outline.corner(i)));
+    let corners = outlines.iter().flat_map(|outline| (0..outline.count()).map(|i| outline.corner(i)));
     cuts.extend(corners.map(|p| (p - from).dot(along)).filter(|s| *s > 0.01 && *s < length - 0.01));
     cuts.sort_by(f32::total_cmp);
     cuts.dedup_by(|a, b| *a - *b < 0.01);

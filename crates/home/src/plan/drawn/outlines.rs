@@ -152,12 +152,12 @@ fn insets(outlines: &[Outline], room: usize) -> Vec<f32> {
             });
         gaps.reduce(f32::min).map_or(0.0, |gap| 0.5 * (INNER_WALL - gap))
     };
-    (0..own.len()).map(inset).collect()
+    (0..own.count()).map(inset).collect()
 }
 
 /// The outline with each edge moved inwards by its own length.
 fn moved(outline: &Outline, insets: &[f32]) -> Outline {
-    let n = outline.len();
+    let n = outline.count();
     let corner = |i: usize| outline.corners[i % n];
     let line = |i: usize| {
         let along = (corner(i + 1) - corner(i)).normalize_or_zero();
