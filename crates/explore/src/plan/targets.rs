@@ -92,7 +92,7 @@ impl Targets {
             }
         }
         let rays = planner.image.rays(pose);
-        let mut is_shown = |(target, visible): (&Target, u32)| {
+        let is_shown = |(target, visible): (&Target, u32)| {
             if visible == 0 {
                 return false;
             }
@@ -103,6 +103,6 @@ impl Targets {
             let whole = unhidden as f64 * target.points.len() as f64 / framed as f64;
             f64::from(visible) >= LEAST_VISIBLE * whole
         };
-        self.list.iter().zip(visible).map(|one| is_shown(one)).collect()
+        self.list.iter().zip(visible).map(is_shown).collect()
     }
 }

@@ -64,7 +64,7 @@ pub(super) fn placed(selected: &SelectedFrames<'_>) -> Result<Option<Placed>, Ex
         let message = "[[object]] placed nothing in it: its images are exported without poses".to_string();
         selected.warn(Warning { place: scene.clone(), message });
     }
-    let keys: BTreeMap<Key, ()> = scenes.values().flat_map(|found| targets(found)).map(|object| (key(object), ())).collect();
+    let keys: BTreeMap<Key, ()> = scenes.values().flat_map(targets).map(|object| (key(object), ())).collect();
     Ok(Some(Placed { scenes, ids: keys.into_keys().zip(1..).collect() }))
 }
 
