@@ -12,8 +12,16 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-/// Directions of the rays that tell inside from outside; two of three decide.
-const DIRECTIONS: [Vec3; 3] = [Vec3::new(0.36, 0.48, 0.8), Vec3::new(-0.6, 0.64, 0.48), Vec3::new(0.28, -0.96, 0.0)];
+/// Directions of the rays that tell inside from outside: a point is inside if all but one of them say so, since a ray may meet an edge.
+const DIRECTIONS: [Vec3; 7] = [
+    Vec3::new(0.36, 0.48, 0.8),
+    Vec3::new(-0.6, 0.64, 0.48),
+    Vec3::new(0.28, -0.96, 0.0),
+    Vec3::new(-0.48, -0.36, 0.8),
+    Vec3::new(0.64, 0.48, -0.6),
+    Vec3::new(-0.352, 0.264, -0.898),
+    Vec3::new(0.123, -0.456, -0.881),
+];
 
 /// Runs the instrument.
 pub fn run() -> Result<(), Box<dyn Error>> {
@@ -42,10 +50,10 @@ pub fn run() -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let composed = compose(&room, &classes, &[(group, files.clone())], &|_, file| model(file), seed, &Quiet)?;
         seconds += start.elapsed().as_secs_f64();
-        let depth = depth(&composed);
+        let (depth, pair) = depth(&composed);
         let moved = moved_again(&room, &composed.placed, &|file| model(file))?;
         println!(
-            "scene {seed} ({}): {} placed, {} not, {:.2} mm deep, moved {:.2} mm",
+            "scene {seed} ({}): {} placed, {} not, {:.2} mm deep ({pair}), moved {:.2} mm",
             pose.name(),
             composed.placed.objects.len(),
             composed.placed.missing.len(),
@@ -101,7 +109,7 @@ impl Body {
             return 0.0;
         }
         let inside = DIRECTIONS.iter().filter(|direction| self.crossings(point, **direction) % 2 == 1).count();
-        if inside < 2 {
+        if inside < DIRECTIONS.len() - 1 {
             return 0.0;
         }
         let point = point.as_dvec3();
@@ -123,20 +131,28 @@ impl Body {
     }
 }
 
-/// The greatest depth of a point of a placed object in a part of the scene or in another object, and of a point of those in it.
-fn depth(composed: &Composed) -> f64 {
+/// The greatest depth of a point of a placed object in a part of the scene or in another object, and of a point of those in it; and of what in
+/// what.
+fn depth(composed: &Composed) -> (f64, String) {
     let scene = &composed.scene.scene;
     let names: Vec<&str> = composed.placed.objects.iter().map(|object| object.name.as_str()).collect();
     let owner = |part: &Part| names.iter().position(|name| part.name.split('/').next() == Some(name));
     let own = |number| scene.parts.iter().filter(move |part| owner(part) == Some(number)).collect::<Vec<_>>();
     let objects: Vec<Body> = (0..names.len()).map(|number| Body::new(scene, &own(number))).collect();
-    let others: Vec<Body> = scene.parts.iter().filter(|part| owner(part).is_none()).map(|part| Body::new(scene, &[part])).collect();
-    let mut deepest = 0.0f64;
-    for (i, object) in objects.iter().enumerate() {
-        let rest = objects.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other).chain(&others);
-        for other in rest.filter(|other| object.bounds[0].cmple(other.bounds[1]).all() && object.bounds[1].cmpge(other.bounds[0]).all()) {
-            deepest = object.points().map(|point| other.depth(point)).fold(deepest, f64::max);
-            deepest = other.points().map(|point| object.depth(point)).fold(deepest, f64::max);
+    let rest = scene.parts.iter().filter(|part| owner(part).is_none());
+    let others: Vec<(&str, Body)> = rest.map(|part| (part.name.as_str(), Body::new(scene, &[part]))).collect();
+    let named = || names.iter().copied().zip(&objects);
+    let mut deepest = (0.0f64, String::from("-"));
+    for (name, object) in named() {
+        let rest = named().chain(others.iter().map(|(name, body)| (*name, body))).filter(|(other, _)| *other != name);
+        for (other, body) in
+            rest.filter(|(_, body)| object.bounds[0].cmple(body.bounds[1]).all() && object.bounds[1].cmpge(body.bounds[0]).all())
+        {
+            let depth = object.points().map(|point| body.depth(point)).fold(0.0, f64::max);
+            let depth = body.points().map(|point| object.depth(point)).fold(depth, f64::max);
+            if depth > deepest.0 {
+                deepest = (depth, format!("{name}, {other}"));
+            }
         }
     }
     deepest

@@ -1,6 +1,6 @@
 //! `plans [FIRST] [COUNT] -o FILE.svg [--rooms a,b,c]` draws floor plans of consecutive seeds from above, with the furniture in them.
 
-use enfilade_home::room::{Filling, Room, Wall};
+use enfilade_home::room::{Filling, Room};
 use enfilade_home::{FloorPlan, Home, HomeConfig, RoomKind, home};
 use enfilade_math::Vec2;
 use std::fmt::Write;
@@ -45,13 +45,13 @@ fn draw(svg: &mut String, home: &Home) {
     let outer = rooms.first().map_or(0.3, |room| room.outer_wall);
     rectangle(svg, whole.min - outer, whole.max + outer, "#555");
     for room in rooms {
-        let half = 0.5 * room.size.truncate();
-        rectangle(svg, room.center - half, room.center + half, if room.kind.wet() { "#dfe9f0" } else { "#f7f2e8" });
+        let corners: String = room.outline.corners.iter().map(|p| format!("{},{} ", p.x, p.y)).collect();
+        let _ = writeln!(svg, "<polygon points='{corners}' fill='{}'/>", if room.kind.wet() { "#dfe9f0" } else { "#f7f2e8" });
         openings(svg, room);
     }
     things(svg, home);
     for room in rooms {
-        let (c, area) = (room.center, room.size.x * room.size.y);
+        let (c, area) = (room.center, room.area);
         let _ = writeln!(
             svg,
             "<text transform='translate({},{}) scale(1,-1)' font-size='0.34' text-anchor='middle' fill='#a00'>{} {area:.1}</text>",
@@ -83,18 +83,16 @@ fn rectangle(svg: &mut String, min: Vec2, max: Vec2, fill: &str) {
 fn openings(svg: &mut String, room: &Room) {
     for o in &room.openings {
         let [a, b] = o.x.map(|x| room.before(o.wall, x, 0.0));
-        let depth = if o.is_way() { 0.5 * room.thickness(o.wall) + 0.01 } else { room.outer_wall };
-        let back = -o.wall.inward() * depth;
-        let corners = [a, b, a + back, b + back];
-        let (min, max) = (corners.into_iter().reduce(Vec2::min).unwrap_or(a), corners.into_iter().reduce(Vec2::max).unwrap_or(b));
-        rectangle(svg, min, max, if o.is_way() { "#f7f2e8" } else { "#9cf" });
+        let depth = if o.is_way() { 0.5 * room.thickness(o) + 0.01 } else { room.outer_wall };
+        let back = -room.inward(o.wall) * depth;
+        let corners: String = [a, b, b + back, a + back].iter().map(|p| format!("{},{} ", p.x, p.y)).collect();
+        let _ = writeln!(svg, "<polygon points='{corners}' fill='{}'/>", if o.is_way() { "#f7f2e8" } else { "#9cf" });
         if let Filling::Door(leaf) = o.filling {
             let hinge = if leaf.hinge > 0.0 { b } else { a };
-            let tip = hinge + Vec2::from_angle(-leaf.hinge * leaf.open_rad).rotate(-leaf.hinge * o.wall.along()) * o.size().x;
+            let tip = hinge + Vec2::from_angle(-leaf.hinge * leaf.open_rad).rotate(-leaf.hinge * room.face(o.wall).along()) * o.size().x;
             let _ = writeln!(svg, "<path d='M{} {} L{} {}' stroke='#840' stroke-width='0.05'/>", hinge.x, hinge.y, tip.x, tip.y);
         }
     }
-    debug_assert_eq!(Wall::ALL.len(), 4);
 }
 
 /// The outline from above of every part below the lintels, as the box around it.

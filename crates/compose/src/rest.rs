@@ -27,21 +27,21 @@ pub fn settle_all(world: &mut World, placed: &mut Vec<Placed<'_>>) -> Vec<(usize
     let mut removed = Vec::new();
     let mut round = 0;
     loop {
-        let before: Vec<_> = (0..world.len()).map(|number| world.placement(number)).collect();
-        let poses = world.poses();
-        world.run(AGAIN_S);
-        let way = |number: usize| moved(&placed[number], &before[number], &world.placement(number));
+        let mut next = world.renewed();
+        next.run(AGAIN_S);
+        let way = |number: usize| moved(&placed[number], &world.placement(number), &next.placement(number));
         let worst = (0..world.len()).map(|number| (way(number), number)).max_by(|a, b| a.0.total_cmp(&b.0));
         round += 1;
-        let restless = worst.filter(|(way, _)| *way > STEADY_M);
-        let reason = match restless {
+        let reason = match worst.filter(|(way, _)| *way > STEADY_M) {
             None => {
-                world.restore(&poses);
                 let deep = (0..world.len()).map(|number| (world.depth(number), number)).max_by(|a, b| a.0.total_cmp(&b.0));
                 let Some((depth, number)) = deep.filter(|(depth, _)| *depth > DEEPEST_M) else { return removed };
                 (number, format!("{:.1} mm deep in something else at rest", depth * 1e3))
             }
-            Some(_) if round < ROUNDS => continue,
+            Some(_) if round < ROUNDS => {
+                *world = next;
+                continue;
+            }
             Some((way, number)) => (number, format!("it does not come to rest: {:.0} mm in {AGAIN_S} s", way * 1e3)),
         };
         world.remove(reason.0);

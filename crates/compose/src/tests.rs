@@ -1,6 +1,6 @@
 //! Objects on a table in an empty room.
 
-use crate::{ClassWord, ComposeError, Composed, Extent, Many, Missing, Number, ObjectGroup, Pose, compose};
+use crate::{ClassWord, ComposeError, Composed, Extent, Many, Missing, Number, ObjectGroup, Pose, compose, moved_again};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Heard, LabelledScene, Material, NewPart, Quiet};
@@ -149,6 +149,16 @@ fn a_heap_comes_to_rest_and_nothing_is_in_anything() {
     }
     let again = placed(group, &["book.glb", "can.glb"], 7).unwrap();
     assert_eq!((again.placed, again.scene), (composed.placed, composed.scene));
+}
+
+#[test]
+fn a_new_simulation_leaves_everything_where_it_is() {
+    for pose in Pose::ALL {
+        let group = ObjectGroup { count: Some(Number([12, 12])), pose, ..on("table_1") };
+        let composed = placed(group, &["book.glb", "can.glb"], 3).unwrap();
+        let moved = moved_again(&room(), &composed.placed, &model).unwrap();
+        assert!(moved < 2e-3, "{}: {moved} m", pose.name());
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use crate::shapes::{ours, placement, point, vector};
 use enfilade_math::{DAffine3, DVec3, Vec3};
 use enfilade_scene::{PartId, Scene};
-use rapier3d_f64::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d_f64::dynamics::{FrictionModel, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d_f64::geometry::ColliderBuilder;
 use rapier3d_f64::math::{Pose3, Vector};
 use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
@@ -21,8 +21,9 @@ pub const SOLVER: &str = "rapier3d 0.36";
 const STEPS: f64 = 240.0;
 /// Tolerances of the simulation are for things of about this size, metres.
 const LENGTH_UNIT_M: f64 = 0.1;
-/// Natural frequency of contacts between objects, Hz; to the scene twice as much. The stiffer, the less things sink into each other.
-const STIFFNESS_HZ: f64 = 120.0;
+/// Natural frequency of contacts between objects, Hz; to the scene twice as much. The stiffer, the less things sink into each other, and
+/// the longer they tremble.
+const STIFFNESS_HZ: f64 = 45.0;
 const FRICTION: f64 = 0.6;
 /// Mass of objects, kg/m³: that of wood.
 const DENSITY: f64 = 600.0;
@@ -36,6 +37,7 @@ const TOUCH_M: f64 = 0.002;
 const CARRIES_COS: f64 = 0.3;
 
 /// A part of the scene, or a piece of it near the surfaces that are used.
+#[derive(Clone)]
 struct Still {
     part: PartId,
     shape: SharedShape,
@@ -67,22 +69,43 @@ pub struct World {
 impl World {
     /// The triangles of a scene that meet one of the boxes, at rest.
     pub fn new(scene: &Scene, boxes: &[[DVec3; 2]]) -> Self {
-        let mut physics = PhysicsWorld::new();
-        physics.gravity = Vector::new(0.0, 0.0, -9.81);
-        physics.integration_parameters.dt = 1.0 / STEPS;
-        physics.integration_parameters.length_unit = LENGTH_UNIT_M;
-        physics.integration_parameters.num_solver_iterations = 8;
-        physics.integration_parameters.contact_softness.natural_frequency = STIFFNESS_HZ;
-        physics.integration_parameters.static_contact_softness.natural_frequency = 2.0 * STIFFNESS_HZ;
-        let ground = physics.insert_body(RigidBodyBuilder::fixed());
         let mut still = Vec::new();
         for (part, id) in scene.parts.iter().zip(0..) {
             let triangles = (0..scene.meshes[part.mesh as usize].triangles.len()).map(|triangle| scene.world_corners(part, triangle));
             let near: Vec<[Vec3; 3]> = triangles.filter(|corners| meets_one(corners, boxes)).collect();
             let Some(shape) = trimesh(&near) else { continue };
-            physics.insert_collider(ColliderBuilder::new(shape.clone()).friction(FRICTION), Some(ground));
             let bounds = shape.compute_local_aabb();
             still.push(Still { part: id, shape, bounds });
+        }
+        Self::of(still)
+    }
+
+    /// A simulation that begins with everything where it is, and knows nothing of what was before.
+    pub fn renewed(&self) -> Self {
+        let mut new = Self::of(self.still.clone());
+        for (body, pose) in self.bodies.iter().zip(self.poses()) {
+            new.add(body.shape.clone(), pose);
+        }
+        new
+    }
+
+    fn of(still: Vec<Still>) -> Self {
+        let mut physics = PhysicsWorld::new();
+        physics.gravity = Vector::new(0.0, 0.0, -9.81);
+        let parameters = &mut physics.integration_parameters;
+        parameters.dt = 1.0 / STEPS;
+        parameters.length_unit = LENGTH_UNIT_M;
+        parameters.num_solver_iterations = 8;
+        parameters.contact_softness.natural_frequency = STIFFNESS_HZ;
+        parameters.static_contact_softness.natural_frequency = 2.0 * STIFFNESS_HZ;
+        // With the short cuts that the library takes unless told otherwise, a can creeps by millimetres a second, turning about itself.
+        parameters.friction_model = FrictionModel::Coulomb;
+        parameters.friction_in_bias_pass = true;
+        parameters.contact_recycling = false;
+        parameters.contact_clustering = false;
+        let ground = physics.insert_body(RigidBodyBuilder::fixed());
+        for Still { shape, .. } in &still {
+            physics.insert_collider(ColliderBuilder::new(shape.clone()).friction(FRICTION), Some(ground));
         }
         Self { physics, still, bodies: Vec::new() }
     }

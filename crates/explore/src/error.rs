@@ -146,6 +146,28 @@ pub enum ExploreError {
         /// The configured clearance.
         clearance_m: f64,
     },
+    /// The mode that looks at objects has none.
+    #[error("mode objects has nothing to look at: place objects with [[object]], or name some of the scene: look_at = [\"sofa\"]")]
+    NoObjects,
+    /// An object to look at has no surface.
+    #[error("object {name:?} has no triangles to look at; leave it out of look_at, or mend its model")]
+    EmptyObject {
+        /// Name of the object.
+        name: String,
+    },
+    /// No camera around the objects keeps the rules of a pose.
+    #[error(
+        "trajectory {trajectory} has no view of its objects: of all cameras drawn {nearest_m} to {farthest_m} m from them none is in free space and \
+         sees ahead; widen radius_m or elevation_deg, or lower clearance_m"
+    )]
+    NoViewOfObjects {
+        /// Name of the trajectory.
+        trajectory: String,
+        /// The configured least distance.
+        nearest_m: f64,
+        /// The configured greatest distance.
+        farthest_m: f64,
+    },
     /// A path that cannot be made.
     #[error("trajectory {trajectory} has no way at {position}: {problem}")]
     NoWay {

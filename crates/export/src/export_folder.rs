@@ -55,6 +55,8 @@ pub(crate) struct ExportFolder {
     bytes: AtomicU64,
     /// Text in front of the page for people.
     front_matter: OnceLock<String>,
+    /// The page for people, where it is not the format's usual one.
+    page: OnceLock<&'static str>,
 }
 
 impl ExportFolder {
@@ -75,6 +77,7 @@ impl ExportFolder {
             files: AtomicUsize::new(0),
             bytes: AtomicU64::new(0),
             front_matter: OnceLock::new(),
+            page: OnceLock::new(),
         })
     }
 
@@ -112,10 +115,15 @@ impl ExportFolder {
         self.front_matter.get_or_init(|| text);
     }
 
+    /// Puts another page for people in the place of the format's own.
+    pub fn set_page(&self, page: &'static str) {
+        self.page.get_or_init(|| page);
+    }
+
     /// Adds the page for people and the record, and puts the export in its place.
     pub fn finish(self, format: Format, selected: &SelectedFrames<'_>) -> Result<Exported, ExportError> {
         let front_matter = self.front_matter.get().map_or("", String::as_str);
-        self.write("README.md", [front_matter, format.spec().readme].concat().as_bytes())?;
+        self.write("README.md", [front_matter, self.page.get().copied().unwrap_or(format.spec().readme)].concat().as_bytes())?;
         let mut frames: BTreeMap<String, BTreeMap<String, Vec<u32>>> = BTreeMap::new();
         for view in selected.views() {
             frames.entry(view.track.scene.clone()).or_default().entry(view.track.name.clone()).or_default().push(view.frame());

@@ -22,6 +22,7 @@ mod formats;
 mod instances;
 mod intrinsics;
 mod mesh;
+mod model_meshes;
 mod numpy;
 mod options;
 mod picture;
@@ -29,12 +30,13 @@ mod points;
 mod scene_file;
 mod scene_gltf;
 mod selected_frames;
+mod symmetries;
 
 pub use error::ExportError;
 pub use export_folder::{Existing, Exported};
 pub use format::{FORMATS, Format, FormatSpec};
 pub use intrinsics::intrinsics_csv;
-pub use options::{CloudSource, ExportOptions};
+pub use options::{CloudSource, ExportOptions, SymmetryRule};
 pub use scene_file::{SceneEncoder, scene_encoder};
 pub use scene_gltf::{SceneGltf, scene_gltf};
 pub use selected_frames::Selection;
@@ -57,6 +59,8 @@ pub struct ExportConfig {
     pub shard_bytes: u64,
     /// Source of SpatialLM's point clouds.
     pub cloud: CloudSource,
+    /// The rule by which BOP's models have symmetries.
+    pub symmetries: SymmetryRule,
 }
 
 impl ExportConfig {
@@ -64,7 +68,7 @@ impl ExportConfig {
     pub fn new(format: Format, scenes: Vec<String>) -> Self {
         let usual = ExportOptions::default();
         let selection = Selection { scenes, ..Selection::default() };
-        Self { format, selection, shard_bytes: usual.shard_bytes(), cloud: usual.cloud }
+        Self { format, selection, shard_bytes: usual.shard_bytes(), cloud: usual.cloud, symmetries: usual.symmetries }
     }
 }
 
@@ -79,7 +83,7 @@ pub fn export(dataset: &Dataset, config: &ExportConfig, out: &Path, existing: Ex
     let out = ExportFolder::prepare(out, dataset.root(), existing)?;
     match config.format {
         Format::Coco => formats::coco::write(&selected, &out),
-        Format::Bop => formats::bop::write(&selected, &out),
+        Format::Bop => formats::bop::write(&selected, &out, config.symmetries),
         Format::Nerfstudio => formats::nerfstudio::write(&selected, &out),
         Format::Colmap => formats::colmap::write(&selected, &out, formats::colmap::binary),
         Format::ColmapText => formats::colmap::write(&selected, &out, formats::colmap_text::text),

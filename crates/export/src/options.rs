@@ -15,6 +15,21 @@ options! {
         pub shard_mb: Whole<1> = Whole::new(1000) => named("MB"),
         /// With spatiallm: points of what the frames show, and its rooms ("frames"); or of the whole mesh, and all rooms ("mesh").
         pub cloud: CloudSource = CloudSource::Frames => named("FROM"),
+        /// With bop, for objects that `[[object]]` placed: which rotations of a model count as its symmetries.
+        pub symmetries: SymmetryRule = SymmetryRule::Shape => named("RULE"),
+    }
+}
+
+words! {
+    /// Which rotations of a model count as its symmetries. Colours and pictures on a model are not looked at.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SymmetryRule {
+        /// Those that move no point of the surface away from it by more than 2 % of the model's diameter.
+        Shape = "shape",
+        /// The same with BOP's tolerance: 15 mm, or 10 % of the diameter if that is more.
+        Bop = "bop",
+        /// None: for models that their colours tell apart from every side.
+        None = "none",
     }
 }
 
@@ -43,7 +58,7 @@ impl ExportOptions {
         let layer = |name: &String| Layer::named(name.trim()).map_err(ExportError::Selection);
         let layers = self.layers.as_ref().map(|names| names.iter().map(layer).collect()).transpose()?;
         let selection = Selection { layers, ..frames };
-        Ok(ExportConfig { format, selection, shard_bytes: self.shard_bytes(), cloud: self.cloud })
+        Ok(ExportConfig { format, selection, shard_bytes: self.shard_bytes(), cloud: self.cloud, symmetries: self.symmetries })
     }
 }
 

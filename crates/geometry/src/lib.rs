@@ -1,6 +1,7 @@
 //! Triangle meshes, the ray-tracing hierarchy and the occupancy octree.
 
 mod bvh;
+mod disjoint_sets;
 mod mesh;
 mod nearest;
 mod nearest_triangle;
@@ -8,6 +9,7 @@ mod octree;
 mod primitives;
 
 pub use bvh::{Bvh, Hit, NOTHING, PinholeRays, Placement, VisibilityBuffer};
+pub use disjoint_sets::DisjointSets;
 pub use mesh::{Mesh, MeshError};
 pub use nearest::Surfaces;
 pub use nearest_triangle::NearestTriangle;

@@ -8,8 +8,8 @@ use crate::plan::FloorPlan;
 use crate::room::Room;
 use enfilade_furniture::{Class, RoomKind};
 use enfilade_geometry::Bvh;
-use enfilade_math::{Bounds3, DMat3, DVec3, Ray, Vec2, Vec3};
-use enfilade_scene::{Labels, Scene, StartCamera, WorldMesh};
+use enfilade_math::{Bounds3, DAffine3, DMat3, DVec3, Ray, Vec2, Vec3};
+use enfilade_scene::{Labels, Part, Scene, StartCamera, WorldMesh};
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;
 
@@ -47,7 +47,7 @@ const ENOUGH: f32 = 0.2;
 pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCamera> {
     let world = WorldMesh::new(scene);
     let bvh = Bvh::new(&world.corners, &|_| false);
-    let boxes = part_boxes(scene, &world);
+    let boxes = Obstacle::all(scene, plan);
     let home = Surroundings { scene, labels, world: &world, bvh: &bvh };
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
@@ -58,7 +58,7 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
             RoomKind::Bathroom | RoomKind::Hall => 2,
             _ => 3,
         };
-        let fov = FOV_X_RAD[usize::from(room.size.x * room.size.y < SMALL)];
+        let fov = FOV_X_RAD[usize::from(room.area < SMALL)];
         let eyes = places(&boxes, room);
         let mut views: Vec<View> = enfilade_parallel::flat_map(&eyes, |&eye| home.look_around(room, eye, fov as f32));
         views.sort_by(|a, b| b.worth.total_cmp(&a.worth));
@@ -170,7 +170,7 @@ impl Surroundings<'_> {
         let part = self.world.sources[hit.triangle as usize].part as usize;
         let label = self.labels.parts[part];
         let at = ray.at(hit.t);
-        let within = |margin: f32| (at.truncate() - room.center).abs().cmple(0.5 * room.size.truncate() + margin).all();
+        let within = |margin: f32| room.contains(at.truncate(), margin);
         let glazed = label.semantic == Class::Window as i16;
         let here = within(if glazed { REVEAL } else { 0.05 });
         let thing = (here && label.instance >= 0).then(|| {
@@ -238,28 +238,52 @@ fn view(eye: Vec3, k: usize, fov: f32, sights: &[Option<Sight>], things: &[Thing
     View { eye, toward: Vec2::from_angle(TAU * k as f32 / AROUND as f32), worth }
 }
 
-/// World boxes of all parts.
-fn part_boxes(scene: &Scene, world: &WorldMesh) -> Vec<Bounds3> {
-    let mut boxes = vec![Bounds3::EMPTY; scene.parts.len()];
-    for (corners, source) in world.corners.iter().zip(&world.sources) {
-        let part = &mut boxes[source.part as usize];
-        *part = corners.iter().fold(*part, |b, &p| b.include(p));
+/// A box around a part that cameras keep away from.
+pub struct Obstacle {
+    /// Along the axes of the home.
+    around: Bounds3,
+    /// The part's own box and its space, where that is turned from the axes.
+    own: Option<(Bounds3, DAffine3)>,
+}
+
+impl Obstacle {
+    /// The boxes of all parts: along the axes of the home, or, where it has walls that are not along them, along those of each part.
+    pub fn all(scene: &Scene, plan: &FloorPlan) -> Vec<Self> {
+        let is_turned = plan.rooms.iter().any(|room| !room.rectangular);
+        let of = |part: &Part| {
+            let around = Bounds3::from_points(scene.world_positions(part));
+            let mesh = &scene.meshes[part.mesh as usize];
+            let own = || (Bounds3::from_points(mesh.positions.iter().copied()), part.world_from_mesh.inverse());
+            Self { around, own: is_turned.then(own) }
+        };
+        scene.parts.iter().map(of).collect()
     }
-    boxes
+
+    /// Distance of a point from the box, metres.
+    pub fn distance(&self, p: Vec3) -> f32 {
+        match &self.own {
+            None => p.distance(p.clamp(self.around.min, self.around.max)),
+            Some((own, mesh_from_world)) => {
+                let p = mesh_from_world.transform_point3(p.as_dvec3()).as_vec3();
+                p.distance(p.clamp(own.min, own.max))
+            }
+        }
+    }
 }
 
 /// Places of a room's eye that are free of every part's box.
-fn places(boxes: &[Bounds3], room: &Room) -> Vec<Vec3> {
+fn places(boxes: &[Obstacle], room: &Room) -> Vec<Vec3> {
     let half = 0.5 * room.size.truncate();
     for clearance in CLEARANCES {
-        let (low, high) = ((room.center - half - clearance).extend(0.0), (room.center + half + clearance).extend(room.size.z));
-        let near: Vec<&Bounds3> = boxes.iter().filter(|b| b.min.cmplt(high).all() && b.max.cmpgt(low).all()).collect();
-        let free = |p: &Vec3| near.iter().all(|b| p.distance(p.clamp(b.min, b.max)) >= clearance);
+        let (low, high) = ((room.box_center - half - clearance).extend(0.0), (room.box_center + half + clearance).extend(room.size.z));
+        let near: Vec<&Obstacle> = boxes.iter().filter(|b| b.around.min.cmplt(high).all() && b.around.max.cmpgt(low).all()).collect();
+        let inside = |p: &Vec3| room.rectangular || room.contains(p.truncate(), -clearance);
+        let free = |p: &Vec3| inside(p) && near.iter().all(|b| b.distance(*p) >= clearance);
         let reach = (half - clearance - 0.01).max(Vec2::ZERO);
         let steps = (2.0 * reach / STEP).floor();
         let place = |k: usize| {
             let (i, j) = (k % (steps.x as usize + 1), k / (steps.x as usize + 1));
-            (room.center - 0.5 * steps * STEP + STEP * Vec2::new(i as f32, j as f32)).extend(EYE)
+            (room.box_center - 0.5 * steps * STEP + STEP * Vec2::new(i as f32, j as f32)).extend(EYE)
         };
         let found: Vec<Vec3> = (0..(steps.x as usize + 1) * (steps.y as usize + 1)).map(place).filter(free).collect();
         if !found.is_empty() {

@@ -4,8 +4,21 @@ use crate::light::Moment;
 use crate::room::kind::usual_programme;
 use enfilade_furniture::RoomKind;
 use enfilade_math::Rng;
-use enfilade_options::{named, options};
+use enfilade_options::{named, options, words};
 use serde::{Deserialize, Serialize};
+
+words! {
+    /// The shapes of the rooms of plans that are made.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum RoomShape {
+        /// Rectangles.
+        #[default]
+        Rectangular = "rectangular",
+        /// Some rooms go around a corner, or have a bay, a niche, a column or a slanted wall.
+        Varied = "varied",
+    }
+}
 
 options! {
     /// What a home is a function of. Equal values give equal bytes.
@@ -22,6 +35,15 @@ options! {
         ///
         /// Four to eight rooms are equally often, of the usual programme of that number. The most are [`HomeConfig::MOST_ROOMS`].
         pub rooms: Vec<RoomKind> = Vec::new() => named("KIND,KIND"),
+        /// File with the floor plan, in place of one that is made: rooms as polygons with doors and windows.
+        ///
+        /// A plan written by hand, a `layout.json`, a file of Structured3D, SpatialLM, 3D-FRONT or ProcTHOR, an SVG or a DXF drawing. `rooms`
+        /// then gives the kinds of its rooms, in the file's order, if they are not to be those of the file. As written; the caller reads it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub plan: Option<String> = None => named("FILE"),
+        /// Shapes of rooms where no `plan` is given.
+        #[serde(skip_serializing_if = "is_rectangular")]
+        pub shape: RoomShape = RoomShape::Rectangular,
         /// Seed of the floor plan alone: areas, shape of the whole, doors and windows.
         ///
         /// Areas are uniform over what is usual for each kind of room.
@@ -62,6 +84,12 @@ fn is_one(share: &f32) -> bool {
     *share == 1.0
 }
 
+/// As [`is_one`].
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
+fn is_rectangular(shape: &RoomShape) -> bool {
+    *shape == RoomShape::Rectangular
+}
+
 impl HomeConfig {
     /// Largest number of rooms.
     pub const MOST_ROOMS: usize = 12;
@@ -73,8 +101,11 @@ impl HomeConfig {
 
     /// Why no home can be made of it, if none can.
     pub fn problem(&self) -> Option<String> {
-        if self.rooms.len() > Self::MOST_ROOMS {
+        if self.rooms.len() > Self::MOST_ROOMS && self.plan.is_none() {
             return Some(format!("a home has at most {} rooms, found {}", Self::MOST_ROOMS, self.rooms.len()));
+        }
+        if self.plan.is_some() && self.shape != RoomShape::Rectangular {
+            return Some("a `plan` has the shapes that were drawn: leave `shape` out".into());
         }
         if !(0.0..=4.0).contains(&self.clutter) {
             return Some(format!("clutter must lie between 0 and 4, found {}", self.clutter));

@@ -27,6 +27,8 @@ pub struct Home {
     pub moved: Vec<Shift>,
     /// The models of others in the scene, with their files and licences; sorted, each once.
     pub credits: Vec<String>,
+    /// What of a drawn plan was left out, guessed or added, and what its rooms lack; empty for other homes.
+    pub notes: Vec<String>,
 }
 
 impl Home {

@@ -22,6 +22,7 @@ mod config;
 mod fault;
 mod gravity;
 mod home;
+mod lacks;
 pub mod light;
 mod place;
 mod plan;
@@ -30,7 +31,7 @@ mod rooms;
 mod settle;
 mod shell;
 
-pub use config::HomeConfig;
+pub use config::{HomeConfig, RoomShape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
 pub use plan::FloorPlan;
@@ -39,9 +40,8 @@ use enfilade_furniture::assets::Library;
 use enfilade_furniture::models::Model;
 use enfilade_furniture::{Builder, DecorConfig, Materials, object_of};
 use enfilade_math::{Rng, Vec2};
-use enfilade_scene::Scene;
+use enfilade_scene::{DrawnPlan, Scene};
 use light::{LightConfig, Moment};
-use room::Wall;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -52,11 +52,57 @@ pub fn home(config: &HomeConfig) -> Home {
 
 /// A furnished home in which models of `library`, which the caller has read from [`HomeConfig::assets`], replace our furniture.
 ///
-/// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards.
+/// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards. [`HomeConfig::plan`] is
+/// not read: see [`home_on`].
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
-    // What is decided before anything is built: the plan, the hour, the colours. Each has random numbers of its own.
-    let kinds = config.programme();
-    let plan = FloorPlan::new(&kinds, &config.stream(config.layout, 1));
+    let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
+    let plan = match config.shape {
+        RoomShape::Rectangular => plan,
+        RoomShape::Varied => plan.varied(&config.stream(config.layout, 7)),
+    };
+    furnished(config, library, plan)
+}
+
+/// A furnished home on a plan that somebody drew, which the caller has read from [`HomeConfig::plan`].
+///
+/// ```
+/// use enfilade_furniture::assets::Library;
+/// use enfilade_home::{HomeConfig, home_on};
+/// use enfilade_scene::{DrawnPlan, DrawnRoom};
+///
+/// let polygon = [[0.0, 0.0], [2.4, 0.0], [2.4, 1.6], [1.6, 2.2], [0.0, 2.2]].map(Into::into).to_vec();
+/// let room = DrawnRoom { name: "bath".into(), kind: "bathroom".into(), polygon, height_m: None };
+/// let config = HomeConfig { clutter: 0.0, ..HomeConfig::of_seed(3) };
+/// let made = home_on(&config, &Library::default(), &DrawnPlan { rooms: vec![room], ..DrawnPlan::default() })?;
+/// assert_eq!(made.rooms().outlines[0].polygon.len(), 5);
+/// assert!(made.notes[0].contains("an entrance was added"));
+/// # Ok::<(), String>(())
+/// ```
+///
+/// # Errors
+/// What is wrong with the plan: overlapping rooms, an outline that crosses itself, an unknown kind of room, and so on.
+pub fn home_on(config: &HomeConfig, library: &Library, drawn: &DrawnPlan) -> Result<Home, String> {
+    let (plan, mut notes) = FloorPlan::drawn(&named(drawn, &config.rooms)?, &config.stream(config.layout, 1))?;
+    let mut home = furnished(config, library, plan);
+    notes.extend(lacks::lacks(&home));
+    home.notes = notes;
+    Ok(home)
+}
+
+/// The plan with these kinds of rooms, unless there are none.
+fn named(drawn: &DrawnPlan, kinds: &[RoomKind]) -> Result<DrawnPlan, String> {
+    if !kinds.is_empty() && kinds.len() != drawn.rooms.len() {
+        return Err(format!("`rooms` gives {} kinds of rooms, but the plan has {} rooms", kinds.len(), drawn.rooms.len()));
+    }
+    let mut named = drawn.clone();
+    for (room, kind) in named.rooms.iter_mut().zip(kinds) {
+        room.kind = kind.name().into();
+    }
+    Ok(named)
+}
+
+fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
+    // What is decided before anything is built: the hour, the colours. Each has random numbers of its own.
     let light = light(&plan, config, &config.stream(config.light, 4));
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     // Shell and furniture of every room.
@@ -64,10 +110,11 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
     rooms::furnish(&mut builder, &plan, &decor, config, library);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
     let (scene, labels) = builder.finish();
-    let mut home = Home { scene, labels, plan, fronts, removed: Vec::new(), moved: Vec::new(), credits: Vec::new() };
+    let (removed, moved, credits, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut home = Home { scene, labels, plan, fronts, removed, moved, credits, notes };
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
-    home.credits = credits(&home.scene, &models);
+    home.credits = self::credits(&home.scene, &models);
     // Light and cameras are for the home as it is in the end.
     light.illuminate(&mut home.scene, &outlooks(&home.plan));
     home.scene.cameras = cameras::cameras(&home.scene, &home.labels, &home.plan);
@@ -96,13 +143,18 @@ fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
     } else {
         LightConfig::random(moment, &mut rng.fork(2))
     };
-    let largest = |room: &room::Room| room.windows().max_by(|a, b| a.size().x.total_cmp(&b.size().x)).map(|w| -w.wall.inward());
+    let largest = |room: &room::Room| room.windows().max_by(|a, b| a.size().x.total_cmp(&b.size().x)).map(|w| -room.inward(w.wall));
     let out = plan.rooms.iter().find_map(largest).unwrap_or(Vec2::Y);
     light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
 }
 
 /// The directions in which windows look out, each once.
 fn outlooks(plan: &FloorPlan) -> Vec<Vec2> {
-    let looks = |wall: &Wall| plan.rooms.iter().flat_map(room::Room::windows).any(|w| w.wall == *wall);
-    Wall::ALL.into_iter().filter(looks).map(|wall| -wall.inward()).collect()
+    let mut found: Vec<Vec2> = Vec::new();
+    for out in plan.rooms.iter().flat_map(|room| room.windows().map(|window| -room.inward(window.wall))) {
+        if !found.contains(&out) {
+            found.push(out);
+        }
+    }
+    found
 }

@@ -129,7 +129,7 @@ mod tests {
         let at = room.before(way.wall, way.center_x(), 0.3);
         let size = Vec3::new(way.size().x + 0.2, 0.02, 1.2);
         home.scene.meshes.push(bevelled_box(size, 0.01).into());
-        let world_from_mesh = pose(f64::from(at.x), f64::from(at.y), 0.601, way.wall.yaw());
+        let world_from_mesh = pose(f64::from(at.x), f64::from(at.y), 0.601, f64::from(room.yaw(way.wall)));
         let mesh = home.scene.meshes.len() as u32 - 1;
         home.scene.parts.push(Part { name: "crate_1/body".into(), object: None, mesh, world_from_mesh, ..home.scene.parts[0].clone() });
         home.labels.parts.push(home.labels.parts[0]);

@@ -2,6 +2,7 @@
 //!
 //! Parts are represented by their bounding boxes, so that only parts that are certainly apart are reported.
 
+use enfilade_geometry::DisjointSets;
 use enfilade_math::{Bounds3, Vec3};
 use enfilade_scene::{Labels, PartId, Scene, is_stuff};
 use std::collections::BTreeMap;
@@ -76,19 +77,19 @@ impl Doubts {
 
 /// The two nearest parts of an instance that are apart, and their distance; `None` if all parts are connected.
 fn apart(parts: &[PartId], boxes: &[Bounds3], labels: &Labels) -> Option<([PartId; 2], f32)> {
-    let mut group: Vec<usize> = (0..parts.len()).collect();
+    let mut sets = DisjointSets::new(parts.len());
     let mut far: Vec<(f32, usize, usize)> = Vec::new();
     for i in 0..parts.len() {
         for k in 0..i {
             let [p, q] = nearest(&boxes[parts[i] as usize], &boxes[parts[k] as usize]);
             match p.distance(q) {
-                gap if gap < APART_M || is_something_between(p, q, parts, boxes, labels) => join(&mut group, i, k),
+                gap if gap < APART_M || is_something_between(p, q, parts, boxes, labels) => _ = sets.unite(i as u32, k as u32),
                 gap => far.push((gap, k, i)),
             }
         }
     }
-    let of_two = |&&(_, i, k): &&(f32, usize, usize)| root(&group, i) != root(&group, k);
-    far.iter().filter(of_two).min_by(|a, b| a.0.total_cmp(&b.0)).map(|&(gap, i, k)| ([parts[i], parts[k]], gap))
+    let of_two = |&(_, i, k): &(f32, usize, usize)| sets.root(i as u32) != sets.root(k as u32);
+    far.into_iter().filter(of_two).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(gap, i, k)| ([parts[i], parts[k]], gap))
 }
 
 /// Two parts of an object and class that touch and are of different instances.
@@ -144,18 +145,6 @@ fn nearest(a: &Bounds3, b: &Bounds3) -> [Vec3; 2] {
         (points[0][axis], points[1][axis]) = (of_a, of_b);
     }
     points
-}
-
-fn root(group: &[usize], mut i: usize) -> usize {
-    while group[i] != i {
-        i = group[i];
-    }
-    i
-}
-
-fn join(group: &mut [usize], i: usize, k: usize) {
-    let (i, k) = (root(group, i), root(group, k));
-    group[i.max(k)] = i.min(k);
 }
 
 #[cfg(test)]

@@ -2,12 +2,13 @@
 
 use super::pieces::Piece;
 use super::scene::AnnotatedScene;
+use enfilade_geometry::DisjointSets;
 use std::collections::{HashMap, HashSet};
 
 /// Groups of faces that are connected by shared corners. Corners are the same where their coordinates are, exactly.
 pub fn by_component(scene: &AnnotatedScene, faces: &[u32]) -> Vec<Vec<u32>> {
     let mut of_corner: HashMap<[u32; 3], u32> = HashMap::new();
-    let mut sets = Sets((0..faces.len() as u32).collect());
+    let mut sets = DisjointSets::new(faces.len());
     for (i, &face) in faces.iter().enumerate() {
         for corner in &scene.corners[face as usize] {
             // Adding 0 turns −0 into 0, whose bits differ.
@@ -52,22 +53,4 @@ fn grouped(faces: &[u32], mut key: impl FnMut(usize) -> u32) -> Vec<Vec<u32>> {
         groups[group].push(face);
     }
     groups
-}
-
-/// Disjoint sets, each a tree of parents.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            self.0[i as usize] = self.0[self.0[i as usize] as usize];
-            i = self.0[i as usize];
-        }
-        i
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

@@ -139,7 +139,7 @@ pub fn make_home(
     let home = assets::home(config, &|path| Ok(path.into()), cx)?;
     let (bytes, lost) = encode(&home.scene, Some(&home.labels), &PictureFiles::new());
     write_output(output, &bytes)?;
-    let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.size.x * room.size.y));
+    let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.area));
     Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })
 }
 

@@ -326,6 +326,8 @@ class Scene:
         # options: HomeConfig
         seed: int = 0,
         rooms: Names | None = None,
+        plan: str | None = None,
+        shape: Literal["rectangular", "varied"] = "rectangular",
         layout: int | None = None,
         furniture: int | None = None,
         materials: int | None = None,
@@ -474,6 +476,7 @@ def export(
     layers: Names | None = None,
     shard_mb: int = 1000,
     cloud: Literal["frames", "mesh"] = "frames",
+    symmetries: Literal["shape", "bop", "none"] = "shape",
     # end of options
     scenes: Names | None = None,
     cameras: Names | None = None,
@@ -503,6 +506,8 @@ def home(
     # options: HomeConfig
     seed: int = 0,
     rooms: Names | None = None,
+    plan: str | None = None,
+    shape: Literal["rectangular", "varied"] = "rectangular",
     layout: int | None = None,
     furniture: int | None = None,
     materials: int | None = None,

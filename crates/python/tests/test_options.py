@@ -16,7 +16,7 @@ DECLARED = {
     enfilade.render: {"seed": 0, "quality": None, "lambertian": False, "progress": None},
     enfilade.Config.demo: {"seed": None, "size": None, "time_limit_s": None, "extra": False},
     enfilade.make: {"overlap": None, "baseline_m": None, "points": 256, "layers": 8, "stale": False},
-    enfilade.export: {"layers": None, "shard_mb": 1000, "cloud": "frames", "force": False},
+    enfilade.export: {"layers": None, "shard_mb": 1000, "cloud": "frames", "symmetries": "shape", "force": False},
     enfilade.farm.plan: {"minutes": 15.0, "cpus": 8, "price": None},
     enfilade.farm.submit: {"memory_mib": None, "array_limit": 1000, "dry_run": False},
 }

@@ -7,6 +7,7 @@ mod atmosphere;
 mod camera;
 mod contrast;
 mod cx;
+mod drawn_plan;
 mod edit;
 mod environment;
 mod git_lfs;
@@ -36,7 +37,8 @@ pub use camera::{
     TiltedPinhole,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
-pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing};
+pub use drawn_plan::{DrawnOpening, DrawnPlan, DrawnRoom};
+pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing, printable};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};
 pub use git_lfs::{GIT_LFS_POINTER, is_git_lfs_pointer};
 pub use labels::{CEILING, FLOOR, Labels, NYU40, PartLabel, SemanticClass, WALL, is_stuff};

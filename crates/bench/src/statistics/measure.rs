@@ -87,12 +87,8 @@ fn unlabelled(labels: &Labels) -> usize {
 }
 
 fn rooms(home: &Home) -> Vec<Room> {
-    let mut rooms: Vec<Room> = home
-        .plan
-        .rooms
-        .iter()
-        .map(|room| Room { kind: room.kind.name().into(), area_m2: room.size.x * room.size.y, surface_m2: 0.0 })
-        .collect();
+    let mut rooms: Vec<Room> =
+        home.plan.rooms.iter().map(|room| Room { kind: room.kind.name().into(), area_m2: room.area, surface_m2: 0.0 }).collect();
     let carrying = home.scene.parts.iter().zip(&home.labels.parts).filter(|(_, label)| CARRIES.contains(&label.semantic));
     for (part, _) in carrying {
         for triangle in 0..home.scene.meshes[part.mesh as usize].triangles.len() {
@@ -108,7 +104,7 @@ fn rooms(home: &Home) -> Vec<Room> {
 }
 
 fn room_at(home: &Home, place: Vec2) -> Option<usize> {
-    home.plan.rooms.iter().position(|room| (place - room.center).abs().cmple(0.5 * room.size.truncate()).all())
+    home.plan.rooms.iter().position(|room| room.contains(place, 0.0))
 }
 
 /// All labelled things, in the order of their names. Walls, floors and ceilings are none.

@@ -101,6 +101,8 @@ pub enum Mode {
     Stills(StillsConfig),
     /// Every surface seen a number of times from different angles.
     Coverage(CoverageConfig),
+    /// Views of objects from above and around them.
+    Objects(ObjectsConfig),
     /// Poses made by hand.
     Keyframes(KeyframesConfig),
 }
@@ -195,6 +197,26 @@ impl Default for CoverageConfig {
     }
 }
 
+/// Views of objects from above and around them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ObjectsConfig {
+    /// The least and the greatest distance of the camera from the point that it looks at, metres.
+    pub radius_m: [f64; 2],
+    /// The least and the greatest angle of the camera above that point, degrees from the horizon.
+    pub elevation_deg: [f64; 2],
+    /// Names of objects or parts of the scene that cameras look at, beside those that `[[object]]` placed.
+    pub look_at: Vec<String>,
+    /// Share of the frames in which each of `look_at` is to be visible; objects of `[[object]]` have their own.
+    pub visible_share: f64,
+}
+
+impl Default for ObjectsConfig {
+    fn default() -> Self {
+        Self { radius_m: [0.5, 1.5], elevation_deg: [10.0, 80.0], look_at: Vec::new(), visible_share: 0.5 }
+    }
+}
+
 /// Poses made by hand.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -211,6 +233,7 @@ impl Mode {
             Self::Video(_) => "video",
             Self::Stills(_) => "stills",
             Self::Coverage(_) => "coverage",
+            Self::Objects(_) => "objects",
             Self::Keyframes(_) => "keyframes",
         }
     }
@@ -240,12 +263,34 @@ impl Mode {
                 let incidence = c.max_incidence_deg;
                 require(incidence > 0.0 && incidence < 90.0, "max_incidence_deg", incidence, "an angle between 0 and 90 degrees")
             }
+            Self::Objects(o) => o.validate(),
             Self::Keyframes(k) => {
                 require(!k.files.is_empty(), "files", "[]", "at least one file of poses, as in files = [\"kitchen.csv\"]")
             }
         }
     }
 }
+
+impl ObjectsConfig {
+    fn validate(&self) -> Result<(), ExploreError> {
+        let [near, far] = self.radius_m;
+        let shown = |[low, high]: [f64; 2]| format!("[{low}, {high}]");
+        let ok = near > 0.0 && far >= near && far.is_finite();
+        require(ok, "radius_m", shown(self.radius_m), "two distances above 0 in metres, the lower one first")?;
+        let [low, high] = self.elevation_deg;
+        let ok = low >= 0.0 && high >= low && high <= STEEPEST_ELEVATION_DEG;
+        require(
+            ok,
+            "elevation_deg",
+            shown(self.elevation_deg),
+            "two angles from 0 to 84 degrees, the lower one first: steeper views have no roll",
+        )?;
+        require((0.0..=1.0).contains(&self.visible_share), "visible_share", self.visible_share, "a share from 0 to 1")
+    }
+}
+
+/// Steeper views have no meaningful roll and are not taken.
+const STEEPEST_ELEVATION_DEG: f64 = 84.0;
 
 fn is_zero(v: &f64) -> bool {
     *v == 0.0

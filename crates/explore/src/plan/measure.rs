@@ -71,6 +71,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
         relaxed,
         bare_frames,
         coverage: draft.coverage,
+        objects: draft.objects,
         per_frame,
     };
     Planned { trajectory: Trajectory { name: planner.name.to_string(), poses }, report }

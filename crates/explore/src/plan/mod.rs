@@ -9,6 +9,7 @@ mod headings;
 mod hypersim;
 mod keyframes;
 mod measure;
+mod objects;
 mod paper;
 mod patches;
 mod places;
@@ -17,6 +18,7 @@ mod report;
 mod rules;
 mod spline;
 mod stills;
+mod targets;
 mod timing;
 mod tour;
 mod video;
@@ -30,13 +32,15 @@ use gates::Gates;
 use glance::Glancer;
 use planner::{Draft, Planner};
 use rules::Rules;
+use targets::Targets;
 
-pub use config::{CoverageConfig, KeyframesConfig, Mode, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig};
+pub use config::{CoverageConfig, KeyframesConfig, Mode, ObjectsConfig, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{
-    CoverageReport, Fault, FrameValues, PartCoverage, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame,
-    Spread, WalkBox, WalkBoxes,
+    CoverageReport, Fault, FrameValues, ObjectVisibility, PartCoverage, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts,
+    RelaxedFrame, Spread, WalkBox, WalkBoxes,
 };
+pub use targets::TargetObject;
 
 /// Finds trajectory `trajectory_index` (`cam_00`, `cam_01`, …), which begins at `start`, by the configured [`Mode`].
 ///
@@ -81,8 +85,31 @@ pub fn plan_accepted(
     accepts: &(dyn Fn(&Pose) -> bool + Sync),
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
-    // The common inputs of all modes: the rules of a pose, the gates of a view, and the arguments.
+    plan_objects(world, bvh, space, start, name, trajectory_index, config, &[], accepts, cx)
+}
+
+/// Plans a trajectory as [`plan_accepted`] does, with the objects that the mode `objects` looks at; other modes have no use for them.
+///
+/// The mode's first pose is not the start camera's. Its cameras may be nearer to what they look at than `min_look_distance_m`: as near as
+/// half of the least `radius_m`.
+///
+/// # Errors
+/// As [`plan`]; also when the mode has no objects, or no camera around them is in free space.
+pub fn plan_objects(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    space: &FreeSpace,
+    start: &StartCamera,
+    name: &str,
+    trajectory_index: u32,
+    config: &PlanConfig,
+    objects: &[TargetObject],
+    accepts: &(dyn Fn(&Pose) -> bool + Sync),
+    cx: &dyn Cx,
+) -> Result<Planned, ExploreError> {
     config.validate()?;
+    let config = &near_objects(config);
+    // The common inputs of all modes: the rules of a pose, the gates of a view, and the arguments.
     let rules = Rules::new(bvh, space, config);
     let glancer = Glancer::new(&rules, world);
     let gates = Gates::new(&glancer, config, world, start, cx);
@@ -97,8 +124,13 @@ pub fn plan_accepted(
         return Ok(measure::finish(&planner, Draft { poses, views, ..Draft::default() }));
     }
 
-    // The first pose, then the others by the configured mode.
     let rng = Rng::new(config.seed).fork(u64::from(trajectory_index));
+    if let Mode::Objects(mode) = &config.mode {
+        let draft = objects::objects(&planner, mode, &Targets::new(world, objects)?, &rng)?;
+        return Ok(measure::finish(&planner, draft));
+    }
+
+    // The first pose, then the others by the configured mode.
     let first = first::pose(&rules, start, &planner.image, cx)?;
     let draft = match &config.mode {
         Mode::Walk(_) if config.preset == Preset::Paper => paper::walk(&planner, first, &rng),
@@ -106,15 +138,21 @@ pub fn plan_accepted(
         Mode::Video(video) => video::video(&planner, first, video, &rng),
         Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),
         Mode::Coverage(coverage) => coverage::cover(&planner, first, coverage, &rng),
-        Mode::Keyframes(_) => Err(ExploreError::Config {
+        Mode::Objects(_) | Mode::Keyframes(_) => Err(ExploreError::Config {
             field: "mode",
-            found: "keyframes".into(),
+            found: config.mode.name().into(),
             expected: "a mode that finds poses; poses that are given go to `follow`",
         }),
     }?;
 
     // Measure what came out.
     Ok(measure::finish(&planner, draft))
+}
+
+/// The configuration with a target distance that cameras near objects can keep.
+fn near_objects(config: &PlanConfig) -> PlanConfig {
+    let Mode::Objects(mode) = &config.mode else { return config.clone() };
+    PlanConfig { min_look_distance_m: config.min_look_distance_m.min(0.5 * mode.radius_m[0]), ..config.clone() }
 }
 
 /// The trajectory `name` through poses made by hand, with every frame between two of them interpolated: positions and targets on

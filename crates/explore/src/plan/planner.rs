@@ -2,7 +2,7 @@
 
 use super::PlanConfig;
 use super::gates::Gates;
-use super::report::{CoverageReport, Fault, RejectedCounts};
+use super::report::{CoverageReport, Fault, ObjectVisibility, RejectedCounts};
 use super::rules::Rules;
 use crate::ViewStats;
 use crate::view::{Sight, TestImage};
@@ -36,6 +36,8 @@ pub(super) struct Draft {
     pub views: Vec<ViewStats>,
     pub rejected: RejectedCounts,
     pub coverage: Option<CoverageReport>,
+    /// Visibility of the objects, if the mode looks at some.
+    pub objects: Vec<ObjectVisibility>,
 }
 
 impl<'a> Planner<'a> {

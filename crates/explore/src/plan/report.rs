@@ -19,7 +19,7 @@ pub struct Planned {
 pub struct PlanReport {
     /// Name of the trajectory: `cam_00`, `cam_01`, …
     pub trajectory: String,
-    /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage` or `keyframes`.
+    /// Name of the mode that made it: `walk`, `video`, `stills`, `coverage`, `objects` or `keyframes`.
     pub mode: String,
     /// Preset whose rules it follows.
     #[serde(default)]
@@ -47,6 +47,9 @@ pub struct PlanReport {
     pub bare_frames: Vec<u32>,
     /// The coverage reached, if the mode plans for coverage.
     pub coverage: Option<CoverageReport>,
+    /// The objects that the frames look at, if the mode is `objects`, and how often each is visible.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objects: Vec<ObjectVisibility>,
     /// Values of every frame.
     pub per_frame: FrameValues,
 }
@@ -216,6 +219,18 @@ pub struct PartCoverage {
     pub area_m2: f64,
     /// Share of the part's area that the frames see, as [`CoverageReport::seen_share`].
     pub seen_share: Vec<f64>,
+}
+
+/// How often an object is visible: in frames whose test image shows at least a tenth of the pixels that it would have if nothing hid it, and
+/// if it were whole in the picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ObjectVisibility {
+    /// Name of the object.
+    pub name: String,
+    /// Share of the frames in which it is to be visible.
+    pub wanted_share: f64,
+    /// Share of the frames in which it is.
+    pub visible_share: f64,
 }
 
 /// One entry of each of [`FrameValues`].

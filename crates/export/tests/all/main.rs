@@ -1,6 +1,7 @@
 //! Exports, read back by the programs that they are for.
 
 mod bop;
+mod bop_placed;
 mod coco;
 mod common;
 mod dust3r;

@@ -6,7 +6,7 @@ use enfilade_export::{CloudSource, Existing, ExportConfig, Format, export};
 use enfilade_home::{FloorPlan, RoomKind};
 use enfilade_import::{ImportOptions, load};
 use enfilade_math::{Rng, Vec3};
-use enfilade_scene::{Heard, Part, Quiet, Rooms, Scene};
+use enfilade_scene::{Heard, Part, Quiet, Rooms, Scene, WallOpening};
 use std::path::{Path, PathBuf};
 
 fn home(seed: u64) -> Rooms {
@@ -64,6 +64,35 @@ fn structured3ds_planes_have_the_areas_of_the_home_and_face_into_its_rooms() {
         let expected = areas(&rooms);
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-3 * expected, "seed {seed}: {found} m2, expected {expected}");
+        }
+    }
+}
+
+#[test]
+fn plans_read_from_exports_are_those_of_the_home() {
+    for (format, file) in [(Format::Structured3d, "scene_00000/annotation_3d.json"), (Format::Spatiallm, "layout/room.txt")] {
+        let rooms = home(3);
+        let folder = tempfile::tempdir().unwrap();
+        let dataset: Dataset = write(&folder.path().join("dataset"), &crate::common::pinhole());
+        dataset.write_rooms("room", &rooms).unwrap();
+        let config = ExportConfig { cloud: CloudSource::Mesh, ..ExportConfig::new(format, vec!["room".into()]) };
+        let out = folder.path().join("out");
+        export(&dataset, &config, &out, Existing::Refuse, &Quiet).unwrap();
+        let bytes = std::fs::read(out.join(file)).unwrap();
+        let drawn = enfilade_import::read_plan(&bytes, &out.join(file)).unwrap();
+        let (plan, notes) = FloorPlan::drawn(&drawn, &Rng::new(1)).unwrap();
+        let again = plan.to_rooms();
+        for (a, b) in again.outlines.iter().zip(&rooms.outlines) {
+            assert!((a.area_m2() - b.area_m2()).abs() < 1e-3, "{format:?}: {a:?}, expected {b:?}");
+            assert!((a.ceiling_z_m - b.ceiling_z_m).abs() < 1e-3, "{format:?}");
+        }
+        assert_eq!((again.outlines.len(), again.openings.len()), (rooms.outlines.len(), rooms.openings.len()), "{format:?}: {notes:#?}");
+        for opening in &rooms.openings {
+            let same = |other: &&WallOpening| {
+                let apart = other.center().distance(opening.center());
+                apart < 0.4 && other.size_m().iter().zip(opening.size_m()).all(|(a, b)| (a - b).abs() < 0.02)
+            };
+            assert!(again.openings.iter().any(|other| same(&other)), "{format:?}: no {opening:?} in {:#?}\n{notes:#?}", again.openings);
         }
     }
 }

@@ -96,6 +96,7 @@ pub const TARGETS: &[Target] = &[
     #[cfg(feature = "program")]
     own("pix3d", "Pix3D: pix3d.json, its splits, and voxels, MATLAB 5", 8 << 10, training::pix3d, training::pix3d_files),
     own("keyframes", "poses made by hand, CSV and JSON", 4 << 10, texts::keyframes, none),
+    own("plans", "floor plans: ours, layouts, of collections, SVG and DXF", 8 << 10, texts::plan, none),
     #[cfg(feature = "program")]
     own("config", "configurations of datasets and sensors, TOML", 4 << 10, texts::config, none),
     #[cfg(feature = "program")]

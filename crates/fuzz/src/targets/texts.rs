@@ -1,4 +1,4 @@
-//! Texts that people write by hand: poses as CSV and JSON, and configurations as TOML.
+//! Texts that people write by hand: poses as CSV and JSON, floor plans, and configurations as TOML.
 
 use crate::Run;
 use enfilade_explore::parse_keyframes;
@@ -10,6 +10,11 @@ pub fn keyframes(_: &Path) -> Run {
         let text = String::from_utf8_lossy(bytes);
         drop((parse_keyframes("poses.csv", &text), parse_keyframes("poses.json", &text)));
     })
+}
+
+/// Reads a floor plan of whatever kind.
+pub fn plan(_: &Path) -> Run {
+    Box::new(|bytes| drop(enfilade_import::read_plan(bytes, Path::new("plan"))))
 }
 
 /// Reads a configuration, and as one of sensors.

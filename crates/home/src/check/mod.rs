@@ -8,12 +8,12 @@ pub(crate) mod walk;
 pub use crate::fault::Fault;
 
 use crate::Home;
-use crate::cameras::CLEARANCES;
+use crate::cameras::{CLEARANCES, Obstacle};
 use contact::Contacts;
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::object_of;
 use enfilade_geometry::Mesh;
-use enfilade_math::{Bounds3, Vec3};
+use enfilade_math::Vec3;
 use enfilade_scene::{NYU40, is_stuff};
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ pub fn faults(home: &Home) -> Vec<Fault> {
     let mut faults = unlabelled(home);
     faults.extend(of_bodies(&bodies));
     faults.extend(walk::unreachable(home).into_iter().map(Fault::Unreachable));
-    faults.extend(blocked_cameras(home, &bodies));
+    faults.extend(blocked_cameras(home));
     faults
 }
 
@@ -61,10 +61,10 @@ fn unlabelled(home: &Home) -> Vec<Fault> {
     (0..parts.len()).filter(|&i| !named(i)).map(|i| Fault::Nameless(parts[i].name.clone())).collect()
 }
 
-fn blocked_cameras(home: &Home, bodies: &[Body]) -> Vec<Fault> {
-    let boxes: Vec<Bounds3> = bodies.iter().flat_map(Body::boxes).collect();
+fn blocked_cameras(home: &Home) -> Vec<Fault> {
+    let boxes = Obstacle::all(&home.scene, &home.plan);
     let clearance = CLEARANCES[1] - ROUNDING;
-    let free = |eye: Vec3| boxes.iter().all(|b| eye.distance(eye.clamp(b.min, b.max)) >= clearance);
+    let free = |eye: Vec3| boxes.iter().all(|b| b.distance(eye) >= clearance);
     let cameras = home.scene.cameras.iter();
     cameras.filter(|c| !free(c.position.as_vec3())).map(|c| Fault::Camera(c.name.clone())).collect()
 }

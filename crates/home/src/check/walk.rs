@@ -129,7 +129,7 @@ impl<'a> Floor<'a> {
         let grid = Grid::of(plan);
         let entered = plan.doorways.first().map_or(0, |way| way.into);
         let start = plan.rooms.get(entered).and_then(|room| {
-            let way = room.openings.iter().find(|o| o.is_way() && room.outer[o.wall as usize])?;
+            let way = room.openings.iter().find(|o| o.is_way() && room.is_outer(o))?;
             grid.cell(room.before(way.wall, way.center_x(), BODY + 0.08))
         });
         let obstacles = obstacles(home, &grid);
@@ -154,8 +154,7 @@ impl<'a> Floor<'a> {
     /// The cells of a room.
     fn within(&self, room: usize) -> impl Iterator<Item = usize> {
         let room = &self.plan.rooms[room];
-        let half: Vec2 = 0.5 * room.size.truncate();
-        (0..self.grid.columns * self.grid.rows).filter(move |&c| (self.grid.place(c) - room.center).abs().cmplt(half).all())
+        (0..self.grid.columns * self.grid.rows).filter(move |&c| room.contains(self.grid.place(c), 0.0))
     }
 
     /// Dijkstra's algorithm: the cost of a cell is the sum of its obstacles' costs.

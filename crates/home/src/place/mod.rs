@@ -136,7 +136,7 @@ impl Floor {
     /// The floor before a piece of wall, `depth` metres deep.
     pub fn strip(&self, wall: Wall, x: [f32; 2], depth: f32) -> Footprint {
         let center = self.room.before(wall, 0.5 * (x[0] + x[1]), 0.5 * depth);
-        Footprint { center, half: Vec2::new(0.5 * (x[1] - x[0]), 0.5 * depth), yaw: wall.yaw() as f32 }
+        Footprint { center, half: Vec2::new(0.5 * (x[1] - x[0]), 0.5 * depth), yaw: self.room.yaw(wall) }
     }
 
     /// Records something solid that is there whatever is placed.
@@ -154,7 +154,7 @@ impl Floor {
 
     /// Spots along all walls for something `width` wide, its ends included.
     pub fn along_walls(&self, width: f32) -> Vec<Spot> {
-        Wall::ALL.into_iter().flat_map(|wall| self.along(wall, width)).collect()
+        self.room.walls().into_iter().flat_map(|wall| self.along(wall, width)).collect()
     }
 
     /// Spots along one wall for something `width` wide.
@@ -162,19 +162,19 @@ impl Floor {
         let end = 0.5 * (self.room.length(wall) - width) - self.gap;
         let steps = (2.0 * end / STEP).ceil().max(0.0) as usize;
         let x = |k: usize| if steps == 0 { 0.0 } else { end * (2.0 * k as f32 / steps as f32 - 1.0) };
-        let spot = |x: f32| Spot { origin: self.room.before(wall, x, self.gap), yaw: wall.yaw() as f32, wall: Some(wall), x };
+        let spot = |x: f32| Spot { origin: self.room.before(wall, x, self.gap), yaw: self.room.yaw(wall), wall: Some(wall), x };
         if end < 0.0 { Vec::new() } else { (0..=steps).map(|k| spot(x(k))).collect() }
     }
 
-    /// Spots all over the floor, turned by each of `yaws`.
+    /// Spots all over the floor, turned by each of `yaws` from the direction of most walls.
     pub fn everywhere(&self, step: f32, yaws: &[f32]) -> Vec<Spot> {
         let half = 0.5 * self.room.size.truncate();
         let count = (2.0 * half / step).floor();
         let mut spots = Vec::new();
         for j in 0..=count.y as usize {
             for i in 0..=count.x as usize {
-                let p = self.room.center - half + 0.5 * (2.0 * half - count * step) + step * Vec2::new(i as f32, j as f32);
-                spots.extend(yaws.iter().map(|&yaw| Spot { origin: p, yaw, wall: None, x: 0.0 }));
+                let p = self.room.box_center - half + 0.5 * (2.0 * half - count * step) + step * Vec2::new(i as f32, j as f32);
+                spots.extend(yaws.iter().map(|&yaw| Spot { origin: p, yaw: self.room.grain + yaw, wall: None, x: 0.0 }));
             }
         }
         spots
@@ -227,17 +227,17 @@ impl Floor {
 
     fn fits(&self, group: &[Piece], spot: &Spot) -> bool {
         // Things at a wall keep the distance of their group.
-        let half = 0.5 * self.room.size.truncate() - if spot.wall.is_some() { -0.0005 } else { self.gap };
+        let inset = if spot.wall.is_some() { -0.0005 } else { self.gap };
         group.iter().all(|piece| {
             let own = footprint(piece, spot);
-            let inside = own.corners().iter().all(|c| (*c - self.room.center).abs().cmple(half).all());
+            let inside = self.room.holds(&own, inset);
             let z = [piece.z, piece.z + piece.size.z];
             let overlaps = |t: &Taken| z[0] < t.z[1] && t.z[0] < z[1];
             let meets = |t: &Taken| overlaps(t) && t.footprint.meets(&own, if t.solid { AIR } else { 0.0 });
             let front = front(piece, spot);
             let blocked =
                 |t: &Taken| t.solid && t.z[0] < HEADROOM && t.z[1] > UNDERFOOT && front.is_some_and(|f| t.footprint.meets(&f, -0.02));
-            let within = front.is_none_or(|f| f.corners().iter().all(|c| (*c - self.room.center).abs().cmple(half + 0.04).all()));
+            let within = front.is_none_or(|f| self.room.holds(&f, inset - 0.04));
             inside && within && !self.taken.iter().any(|t| meets(t) || blocked(t))
         })
     }

@@ -26,13 +26,12 @@ impl Walk {
     /// The empty room.
     pub fn new(room: &Room) -> Self {
         let half = 0.5 * room.size.truncate();
-        let min = room.center - half;
+        let min = room.box_center - half;
         let columns = (room.size.x / CELL).ceil() as usize;
         let rows = (room.size.y / CELL).ceil() as usize;
         let mut walk = Self { min, columns, blocked: vec![false; columns * rows], starts: Vec::new() };
-        let inside = half - BODY + TOLERANCE;
         for cell in 0..walk.blocked.len() {
-            walk.blocked[cell] = (walk.place(cell) - room.center).abs().cmpgt(inside).any();
+            walk.blocked[cell] = !room.contains(walk.place(cell), TOLERANCE - BODY);
         }
         walk.starts = room.ways().filter_map(|way| walk.cell(room.before(way.wall, way.center_x(), BODY + 0.06))).collect();
         walk

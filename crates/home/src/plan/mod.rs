@@ -1,16 +1,19 @@
 //! Floor plans: from a list of rooms and a seed to rooms with walls, doors and windows.
 //!
 //! A home is a rectangle cut into cells (`slicing`); a search looks for cuts whose rooms have the widths, proportions, daylight and
-//! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`).
+//! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`). Plans that people draw
+//! are built as they are (`drawn`).
 
+mod drawn;
 mod openings;
 mod rooms;
 mod search;
 pub mod slicing;
+mod varied;
 
 pub use openings::Doorway;
 
-use crate::room::{Room, Wall};
+use crate::room::{Room, Side};
 use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec3};
 use search::{Site, Sketch, on_side, search};
@@ -38,7 +41,7 @@ impl FloorPlan {
     pub fn new(kinds: &[RoomKind], rng: &Rng) -> Self {
         assert!(!kinds.is_empty(), "a home has at least one room, found none");
         let mut draw = rng.fork(0);
-        let entrance = [Wall::West, Wall::East][draw.below(2)];
+        let entrance = [Side::West, Side::East][draw.below(2)];
         let mut open = [true; 4];
         open[entrance as usize] = kinds.len() == 1;
         open[entrance.turned(2) as usize] = kinds.len() > 6 || draw.below(3) > 0;
@@ -61,18 +64,20 @@ impl FloorPlan {
         let (inner_wall, outer_wall) = (rng.range(0.11, 0.15), rng.range(0.32, 0.4));
         let height = rng.range(2.5, 2.75);
         let room = |(&kind, cell): (&RoomKind, &Cell)| {
-            let outer = Wall::ALL.map(|w| on_side(cell, &sketch.whole, w));
-            let inset = |w: Wall| if outer[w as usize] { 0.0 } else { 0.5 * inner_wall };
+            let outer = Side::ALL.map(|w| on_side(cell, &sketch.whole, w));
+            let inset = |w: Side| if outer[w as usize] { 0.0 } else { 0.5 * inner_wall };
             let mut clear = *cell;
-            clear.min += enfilade_math::Vec2::new(inset(Wall::West), inset(Wall::South));
-            clear.max -= enfilade_math::Vec2::new(inset(Wall::East), inset(Wall::North));
+            clear.min += enfilade_math::Vec2::new(inset(Side::West), inset(Side::South));
+            clear.max -= enfilade_math::Vec2::new(inset(Side::East), inset(Side::North));
             let size = Vec3::new(clear.size().x, clear.size().y, height);
-            Room { kind, center: clear.center(), size, outer, inner_wall, outer_wall, openings: Vec::new() }
+            Room::rectangle(kind, clear.center(), size, outer, [inner_wall, outer_wall])
         };
         let mut rooms: Vec<Room> = kinds.iter().zip(&sketch.cells).map(room).collect();
         let doorways = openings::add_doors(&mut rooms, sketch, kinds, site, rng);
         for room in &mut rooms {
-            openings::add_windows(room, site, rng);
+            let open = |side: &Side| room.face(side.wall()).has_outside() && site.open[*side as usize];
+            let walls = Side::ALL.into_iter().filter(open).map(Side::wall).collect();
+            openings::add_windows(room, walls, rng);
         }
         Self { rooms, doorways, whole: sketch.whole }
     }

@@ -1,16 +1,16 @@
 //! A floor plan as rooms, wall faces and openings: exactly as a dataset of a generated home states them.
 
 use super::FloorPlan;
-use crate::room::{Filling, Opening, Room, Wall};
+use crate::room::{Face, Filling, Opening, Room};
 use enfilade_furniture::Leaf;
-use enfilade_math::{DVec2, DVec3, Vec2};
+use enfilade_math::{DVec3, Vec2};
 use enfilade_scene::{DoorLeaf, Hinge, OpeningKind, RoomOutline, Rooms, WallOpening};
 use std::collections::BTreeMap;
 
-/// Rooms have four walls, in the order of [`Wall::ALL`].
-const SIDES: usize = 4;
-/// Two rooms state the same opening and wall within this, metres: the rounding of single precision.
-const SAME: f32 = 1e-3;
+/// Two rooms state the same opening within this, metres: the rounding of single precision, and walls that are not quite parallel.
+const SAME: f32 = 0.02;
+/// Cosine of the angle between walls that are the two faces of one, at most.
+const OPPOSITE: f32 = -0.999;
 
 impl FloorPlan {
     /// Rooms in the order of the programme, the faces of their walls, and what opens in them.
@@ -28,7 +28,8 @@ impl FloorPlan {
         for room in &self.rooms {
             let number = numbers.entry(room.kind.name()).or_default();
             *number += 1;
-            let edges = Wall::ALL.map(|wall| (f64::from(room.thickness(wall)), room.outer[wall as usize]));
+            let edges: Vec<(f64, bool)> =
+                room.faces.iter().flat_map(|face| &face.backs).map(|back| (f64::from(back.thickness), back.outer)).collect();
             rooms.push_room(outline(room, *number), &edges);
         }
         let leading = self.rooms.iter().enumerate().flat_map(|(number, room)| room.openings.iter().map(move |o| (number, room, o)));
@@ -38,9 +39,10 @@ impl FloorPlan {
     }
 
     fn opening(&self, number: usize, room: &Room, opening: &Opening, rooms: &Rooms) -> WallOpening {
-        let first = SIDES * number + opening.wall as usize;
+        let first = self.piece(number, opening);
         let face = &rooms.walls[first];
-        let along = opening.x.map(|x| 0.5 * face.length_m() + f64::from(x));
+        let back = room.face(opening.wall).back(opening.center_x());
+        let along = opening.x.map(|x| 0.5 * face.length_m() + f64::from(x) - f64::from(0.5 * (back.x[0] + back.x[1])));
         let [low, high] = opening.z.map(f64::from);
         let corner = |along: f64, z: f64| DVec3::to_array(&face.point(along, z));
         let kind = match opening.filling {
@@ -56,15 +58,26 @@ impl FloorPlan {
         }
     }
 
+    /// The number of the piece of wall that an opening of a room is in: walls with several things behind them are several.
+    fn piece(&self, number: usize, opening: &Opening) -> usize {
+        let pieces = |room: &Room| room.faces.iter().map(|face| face.backs.len()).sum::<usize>();
+        let faces = &self.rooms[number].faces;
+        let face = &faces[opening.wall.0];
+        let before =
+            self.rooms[..number].iter().map(pieces).sum::<usize>() + faces[..opening.wall.0].iter().map(|f| f.backs.len()).sum::<usize>();
+        before + face.backs.iter().position(|back| opening.center_x() <= back.x[1]).unwrap_or(face.backs.len() - 1)
+    }
+
     /// The face beyond an opening, if there is a room beyond it.
     fn other_side(&self, room: &Room, opening: &Opening) -> Option<usize> {
         let ends = |room: &Room, o: &Opening| o.x.map(|x| room.before(o.wall, x, 0.0));
-        let here = ends(room, opening);
-        let beyond = -opening.wall.inward() * room.inner_wall;
+        let (here, inward) = (ends(room, opening), room.inward(opening.wall));
+        let beyond = -inward * room.thickness(opening);
         let meets = |there: [Vec2; 2]| (here[0] + beyond).distance(there[1]) < SAME && (here[1] + beyond).distance(there[0]) < SAME;
         self.rooms.iter().enumerate().find_map(|(number, other)| {
-            let twin = other.openings.iter().find(|o| is_other_side(o) && o.wall == opening.wall.turned(2) && meets(ends(other, o)))?;
-            Some(SIDES * number + twin.wall as usize)
+            let is_twin = |o: &&Opening| is_other_side(o) && other.inward(o.wall).dot(inward) < OPPOSITE && meets(ends(other, o));
+            let twin = other.openings.iter().find(is_twin)?;
+            Some(self.piece(number, twin))
         })
     }
 }
@@ -80,15 +93,22 @@ fn is_other_side(opening: &Opening) -> bool {
 }
 
 fn outline(room: &Room, number: u32) -> RoomOutline {
-    let (center, half) = (room.center.as_dvec2(), 0.5 * room.size.truncate().as_dvec2());
-    let corner = |x: f64, y: f64| (center + half * DVec2::new(x, y)).to_array();
     RoomOutline {
         name: format!("{}_{number}", room.kind.name()),
         kind: room.kind.name().into(),
-        polygon: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+        polygon: room.faces.iter().enumerate().flat_map(|(i, face)| corners(room, i, face)).collect(),
         floor_z_m: 0.0,
         ceiling_z_m: room.size.z.into(),
     }
+}
+
+/// Where the pieces of a wall begin.
+fn corners(room: &Room, i: usize, face: &Face) -> impl Iterator<Item = [f64; 2]> {
+    let corner = |i: usize| room.outline.corners[i % room.outline.count()];
+    let (from, to) = (corner(i), corner(i + 1));
+    let along = (to - from).normalize_or_zero();
+    let later = face.backs.iter().skip(1).map(move |back| from + along * f64::from(back.x[0] + 0.5 * face.length));
+    std::iter::once(from).chain(later).map(|p| p.to_array())
 }
 
 #[cfg(test)]

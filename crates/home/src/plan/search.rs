@@ -1,7 +1,7 @@
 //! The search for a floor plan: simulated annealing over slicing plans, areas and the shape of the whole.
 
 use super::slicing::{Cell, Slicing};
-use crate::room::Wall;
+use crate::room::Side;
 use crate::room::kind::{access, norm};
 use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec2};
@@ -25,7 +25,7 @@ pub struct Site {
     /// Sides with windows; the others have neighbours or the stairs behind them.
     pub open: [bool; 4],
     /// The side that one enters from.
-    pub entrance: Wall,
+    pub entrance: Side,
 }
 
 /// Rooms in their cells, how good that is, and which rooms have doors to which.
@@ -49,12 +49,12 @@ impl Sketch {
 }
 
 /// The piece of wall between two cells: the wall of the first, and from where to where along x or y.
-pub fn shared_wall(a: &Cell, b: &Cell) -> Option<(Wall, [f32; 2])> {
+pub fn shared_wall(a: &Cell, b: &Cell) -> Option<(Side, [f32; 2])> {
     for (wall, axis, touch) in [
-        (Wall::South, 0, a.min.y - b.max.y),
-        (Wall::East, 1, a.max.x - b.min.x),
-        (Wall::North, 0, a.max.y - b.min.y),
-        (Wall::West, 1, a.min.x - b.max.x),
+        (Side::South, 0, a.min.y - b.max.y),
+        (Side::East, 1, a.max.x - b.min.x),
+        (Side::North, 0, a.max.y - b.min.y),
+        (Side::West, 1, a.min.x - b.max.x),
     ] {
         let span = [a.min[axis].max(b.min[axis]), a.max[axis].min(b.max[axis])];
         if touch.abs() < SAME && span[1] > span[0] + SAME {
@@ -65,18 +65,18 @@ pub fn shared_wall(a: &Cell, b: &Cell) -> Option<(Wall, [f32; 2])> {
 }
 
 /// True if `cell` touches this side of the whole.
-pub fn on_side(cell: &Cell, whole: &Cell, wall: Wall) -> bool {
+pub fn on_side(cell: &Cell, whole: &Cell, wall: Side) -> bool {
     let gap = match wall {
-        Wall::South => cell.min.y - whole.min.y,
-        Wall::East => whole.max.x - cell.max.x,
-        Wall::North => whole.max.y - cell.max.y,
-        Wall::West => cell.min.x - whole.min.x,
+        Side::South => cell.min.y - whole.min.y,
+        Side::East => whole.max.x - cell.max.x,
+        Side::North => whole.max.y - cell.max.y,
+        Side::West => cell.min.x - whole.min.x,
     };
     gap.abs() < SAME
 }
 
 /// Length of a cell's side.
-pub fn side_length(cell: &Cell, wall: Wall) -> f32 {
+pub fn side_length(cell: &Cell, wall: Side) -> f32 {
     if wall.along().x == 0.0 { cell.size().y } else { cell.size().x }
 }
 
@@ -154,7 +154,7 @@ fn judge(kinds: &[RoomKind], site: Site, state: &State, wished: &[f32]) -> Sketc
     for (kind, cell) in kinds.iter().zip(&cells) {
         cost += shape_cost(*kind, cell) + daylight_cost(*kind, cell, &whole, site);
     }
-    if !Wall::ALL.into_iter().any(|w| on_side(&cells[hub], &whole, w) && side_length(&cells[hub], w) > DOOR_WALL + 0.25) {
+    if !Side::ALL.into_iter().any(|w| on_side(&cells[hub], &whole, w) && side_length(&cells[hub], w) > DOOR_WALL + 0.25) {
         cost += BROKEN;
     } else if !on_side(&cells[hub], &whole, site.entrance) {
         cost += 1.5;
@@ -176,8 +176,8 @@ fn shape_cost(kind: RoomKind, cell: &Cell) -> f32 {
 }
 
 fn daylight_cost(kind: RoomKind, cell: &Cell, whole: &Cell, site: Site) -> f32 {
-    let wall = |w: Wall| if site.open[w as usize] && on_side(cell, whole, w) { side_length(cell, w) } else { 0.0 };
-    let (longest, all) = Wall::ALL.into_iter().map(wall).fold((0.0f32, 0.0f32), |(l, a), w| (l.max(w), a + w));
+    let wall = |w: Side| if site.open[w as usize] && on_side(cell, whole, w) { side_length(cell, w) } else { 0.0 };
+    let (longest, all) = Side::ALL.into_iter().map(wall).fold((0.0f32, 0.0f32), |(l, a), w| (l.max(w), a + w));
     match kind {
         _ if norm(kind).window && longest < WINDOW_WALL => 1.5 * BROKEN - 2.0 * longest,
         RoomKind::Living => 0.5 * (4.5 - longest).max(0.0) - 0.05 * all,

@@ -6,7 +6,7 @@ use super::wishes::{by_door, by_window, cornered, in_view, tucked_away};
 /// Furnishes a bathroom: the largest things first, so that the others find their places around them, and the indispensable ones before a
 /// second place to wash.
 pub fn furnish(f: &mut Furnisher) {
-    let large = f.room.size.x * f.room.size.y > 6.0;
+    let large = f.room.area > 6.0;
     let first = if large || f.chance(0.55) { "bathtub" } else { "shower" };
     let has_tub = f.furnish(first, cornered).is_some() && first == "bathtub";
     f.toilet();

@@ -28,7 +28,7 @@ const BELOW: f32 = 1.8;
 
 /// Furnishes the room.
 pub fn furnish(f: &mut Furnisher) {
-    let sleepers = if f.room.size.x * f.room.size.y > 9.5 { 2 } else { 1 };
+    let sleepers = if f.room.area > 9.5 { 2 } else { 1 };
     if !bed(f, sleepers) {
         bed(f, 1);
     }

@@ -1,7 +1,7 @@
 //! Switches by the doors, and sockets.
 
 use super::Furnisher;
-use crate::room::{Filling, Opening, Wall};
+use crate::room::{Filling, Opening};
 use enfilade_furniture::{Furniture, RoomKind, Socket, Switch, on};
 use enfilade_math::Vec3;
 
@@ -38,7 +38,7 @@ impl Furnisher<'_> {
         let z = [SWITCH - 0.05, SWITCH + 0.05];
         let free = |x: &f32| free(x) && !swings(*x) && self.floor.is_free(&self.floor.strip(way.wall, [x - 0.05, x + 0.05], 0.02), z);
         let Some(x) = [place(-hinge), place(hinge)].into_iter().find(free) else { return };
-        let mut rng = self.rng.fork(STREAM + way.wall as u64);
+        let mut rng = self.rng.fork(STREAM + way.wall.0 as u64);
         let low = !self.room.kind.wet() && rng.next_f32() < BELOW;
         let mut fix = |thing: &dyn Furniture, z: f32| {
             self.build(thing, on(self.room.wall_pose(way.wall), Vec3::new(x, 0.0, z), 0.0));
@@ -59,11 +59,12 @@ impl Furnisher<'_> {
         for near in std::mem::take(&mut self.plugs) {
             let cost = |distance: f32| if distance < FLEX { distance } else { f32::INFINITY };
             let socket = Socket::random(&mut rng);
-            self.hang(&socket, SOCKET, &Wall::ALL, |_, s| cost(s.origin.distance(near)));
+            self.hang(&socket, SOCKET, &self.room.walls(), |_, s| cost(s.origin.distance(near)));
         }
-        let first = rng.below(4);
-        let count = ((self.room.size.x * self.room.size.y / AREA) as usize).clamp(1, 4);
-        for wall in (0..count).map(|k| Wall::ALL[(first + k) % 4]) {
+        let walls = self.room.walls();
+        let first = rng.below(walls.len());
+        let count = ((self.room.area / AREA) as usize).clamp(1, 4);
+        for wall in (0..count).map(|k| walls[(first + k) % walls.len()]) {
             let wished = 0.45 * self.room.length(wall) * rng.range(-1.0, 1.0);
             self.hang(&Socket::random(&mut rng), SOCKET, &[wall], |_, s| (s.x - wished).abs());
         }

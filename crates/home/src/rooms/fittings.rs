@@ -110,7 +110,7 @@ impl Furnisher<'_> {
 
     /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
     pub fn ceiling_lamp(&mut self) {
-        self.ceiling_lamps(&[self.room.center]);
+        self.ceiling_lamps(&self.room.middles());
     }
 
     /// Hangs equal lamps over points of the floor, above people's heads, but where others hang already.

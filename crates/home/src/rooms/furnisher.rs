@@ -168,12 +168,12 @@ impl<'a> Furnisher<'a> {
             return None;
         }
         let thing = self.any(family)?;
-        self.hang(thing.as_ref(), height, &Wall::ALL, cost)
+        self.hang(thing.as_ref(), height, &self.room.walls(), cost)
     }
 
     /// Hangs one to `max` pictures, each where `cost` is lowest and not beside another on the same wall.
     pub fn art(&mut self, max: usize, cost: impl Fn(&Floor, &Spot) -> f32) {
-        let mut walls = Wall::ALL.to_vec();
+        let mut walls = self.room.walls();
         for _ in 0..1 + self.rng.below(max.max(1)) {
             let picture = PictureOnWall { palette: *self.palette, ..PictureOnWall::random(&mut self.rng) };
             let picture = self.or_borrowed("picture", picture);

@@ -57,12 +57,12 @@ impl Furnisher<'_> {
             self.stand(brush.as_ref(), |_, s| beside(s));
         }
         if let (Some(paper), Some(wall)) = (self.any("paper_holder"), wall) {
-            let sides = [wall.turned(1), wall.turned(3)];
+            let sides = self.room.beside(wall);
             let near = |floor: &Floor, s: &Spot| {
                 let gap = s.origin.distance(toilet.spot.point(Vec2::new(0.0, 0.5 * toilet.size.y)));
                 if gap < 0.9 && floor.to_way(s.origin) > 0.3 { gap } else { f32::INFINITY }
             };
-            self.hang(paper.as_ref(), 0.7, &[sides[0], sides[1], wall], near);
+            self.hang(paper.as_ref(), 0.7, &[sides[1], sides[0], wall], near);
         }
     }
 
@@ -84,10 +84,8 @@ impl Furnisher<'_> {
         let Some(plant) = self.any("hanging_plant") else { return };
         let (size, height) = (plant.size(), self.room.size.z);
         let piece = Piece { z: height - size.z, ..Piece::standing(size, 0.0).at(0.0, 0.0, 0.0) };
-        let (center, half) = (self.room.center, 0.5 * self.room.size.truncate());
         let cost = |floor: &Floor, s: &Spot| {
-            let from_walls = half - (s.origin - center).abs();
-            if from_walls.max_element() < CORNER { floor.to_window(s.origin) } else { f32::INFINITY }
+            if floor.room().to_walls(s.origin)[1] < CORNER { floor.to_window(s.origin) } else { f32::INFINITY }
         };
         let spots = self.floor.everywhere(0.1, &[0.0]);
         if let Some((spot, _)) = self.floor.place(&[piece], spots, cost) {
@@ -102,7 +100,7 @@ impl Furnisher<'_> {
             let family = families[self.rng.below(families.len())];
             let Some(thing) = self.any(family) else { continue };
             let target =
-                self.room.center + Vec2::new(self.rng.range(-1.0, 1.0), self.rng.range(-1.0, 1.0)) * 0.4 * self.room.size.truncate();
+                self.room.box_center + Vec2::new(self.rng.range(-1.0, 1.0), self.rng.range(-1.0, 1.0)) * 0.4 * self.room.size.truncate();
             let yaws = [self.rng.range(0.0, 2.0 * PI)];
             self.stand_free(thing.as_ref(), &yaws, |_, s| s.origin.distance(target));
         }

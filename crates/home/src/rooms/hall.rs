@@ -16,6 +16,8 @@ const LENGTHS: [f32; 4] = [2.4, 1.9, 1.5, 1.2];
 const BORDER: f32 = 0.5;
 /// Halls from this length on have two ceiling lamps, metres.
 const LONG: f32 = 3.2;
+/// Distance between lamps and walls, metres.
+const LAMP_AIR: f32 = 0.3;
 /// Height of the middle of a mirror over a console.
 const MIRROR: f32 = 1.55;
 
@@ -44,13 +46,14 @@ pub fn furnish(f: &mut Furnisher) {
 
 /// A lamp in the middle, or one over each half of a long hall.
 fn lamps(f: &mut Furnisher) {
-    let (size, center) = (f.room.size.truncate(), f.room.center);
+    let size = f.room.size.truncate();
     let along = if size.x >= size.y { Vec2::X } else { Vec2::Y };
     let apart = 0.25 * size.max_element() * along;
-    if size.max_element() < LONG {
+    let [low, high] = [f.room.box_center - apart, f.room.box_center + apart];
+    if size.max_element() < LONG || ![low, high].iter().all(|&p| f.room.contains(p, -LAMP_AIR)) {
         f.ceiling_lamp();
     } else {
-        f.ceiling_lamps(&[center - apart, center + apart]);
+        f.ceiling_lamps(&[low, high]);
     }
     f.hang_one(0.4, "wall_lamp", 1.75, in_view);
 }

@@ -20,6 +20,10 @@ const SILL: f32 = 0.08;
 const NO_REFRIGERATOR: f32 = 1.5;
 /// Shortest main run: sink, hob and a little worktop.
 const SHORTEST: f32 = 1.7;
+/// Corners with a smaller angle are acute, radians.
+const SQUARE: f32 = 1.56;
+/// Doors beyond corners with a larger angle do not swing over units, radians.
+const OBTUSE: f32 = 1.9;
 
 /// Furnishes the room.
 pub fn furnish(f: &mut Furnisher) {
@@ -45,26 +49,36 @@ struct Stretch {
 /// The longest stretches of each wall, the best first.
 fn stretches(f: &Furnisher) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
-    for wall in Wall::ALL {
+    for wall in f.room.walls() {
         let half = 0.5 * f.room.length(wall);
+        // Units do not reach into acute corners.
+        let angles = f.room.angles(wall);
+        let [low_end, high_end] = [0, 1].map(|k| if angles[k] < SQUARE { kitchen::DEPTH / angles[k].tan() } else { 0.0 });
+        let (low_end, high_end) = (-half + low_end, half - high_end);
         let mut ways: Vec<[f32; 2]> =
             f.room.ways().filter(|o| o.wall == wall).map(|o| [o.x[0] - BESIDE_DOOR, o.x[1] + BESIDE_DOOR]).collect();
         // Doors in the walls beside it swing over its ends.
-        for (side, end) in [(wall.turned(3), -1.0), (wall.turned(1), 1.0)] {
-            let near = f.room.ways().filter(|o| o.wall == side).any(|o| {
-                let along = 0.5 * f.room.length(side);
-                let gap = if end < 0.0 { along - o.x[1] } else { along + o.x[0] };
-                gap < kitchen::DEPTH + 0.06
-            });
+        for (k, end) in [(0, -1.0), (1, 1.0)] {
+            let side = f.room.beside(wall)[k];
+            let near = angles[k] < OBTUSE
+                && f.room.ways().filter(|o| o.wall == side).any(|o| {
+                    let along = 0.5 * f.room.length(side);
+                    let gap = if end < 0.0 { along - o.x[1] } else { along + o.x[0] };
+                    gap < kitchen::DEPTH + 0.06
+                });
             if near {
                 ways.push(if end < 0.0 { [-half, 0.95 - half] } else { [half - 0.95, half] });
             }
         }
         ways.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut from = -half;
-        for [low, high] in ways.into_iter().chain([[half, half]]) {
+        let mut from = low_end;
+        for [low, high] in ways.into_iter().chain([[high_end, high_end]]) {
             if low - from >= SHORTEST {
-                all.push(Stretch { wall, x: [from + GAP, low - GAP], corners: [from == -half, low == half] });
+                all.push(Stretch {
+                    wall,
+                    x: [from + GAP, low - GAP],
+                    corners: [from == low_end && f.room.is_square(wall, 0), low == high_end && f.room.is_square(wall, 1)],
+                });
             }
             from = from.max(high);
         }
@@ -111,7 +125,7 @@ fn windows(f: &Furnisher, stretch: &Stretch, middle: f32) -> Vec<[f32; 2]> {
     let half = 0.5 * (stretch.x[1] - stretch.x[0]);
     let behind = f.room.windows().filter(|o| o.wall == stretch.wall).map(|o| o.x.map(|x| x - middle));
     let beside = [0, 1].into_iter().filter(|&k| stretch.corners[k]).filter_map(|k| {
-        let side = stretch.wall.turned(3 - 2 * k);
+        let side = f.room.beside(stretch.wall)[k];
         let along = 0.5 * f.room.length(side);
         let gap = |o: &Opening| if k == 0 { along - o.x[1] } else { along + o.x[0] };
         let near = f.room.windows().filter(|o| o.wall == side).any(|o| gap(o) < kitchen::DEPTH + SILL);
@@ -134,7 +148,7 @@ fn shuts(kitchen: &FittedKitchen, windows: &[[f32; 2]]) -> bool {
 
 /// Greatest length of a wing in the corner at an end of a wall, metres.
 fn wing(f: &mut Furnisher, wall: Wall, end: usize) -> f32 {
-    let side = if end == 0 { wall.turned(3) } else { wall.turned(1) };
+    let side = f.room.beside(wall)[end];
     let along = f.room.length(side);
     let beside = |o: &Opening| if o.is_way() { BESIDE_DOOR } else { 0.1 };
     let gap = |o: &Opening| if end == 0 { 0.5 * along - o.x[1] } else { o.x[0] + 0.5 * along };
@@ -164,7 +178,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
         group.push(Piece { z: min.z, ..run(max - min, at, 0.0, 0.0) });
     }
     let spot =
-        Spot { origin: f.room.before(stretch.wall, middle, 0.0), yaw: stretch.wall.yaw() as f32, wall: Some(stretch.wall), x: middle };
+        Spot { origin: f.room.before(stretch.wall, middle, 0.0), yaw: f.room.yaw(stretch.wall), wall: Some(stretch.wall), x: middle };
     let (wall, corners) = (stretch.wall, stretch.corners);
     let Some(_) = f.floor.place(&group, vec![spot], |_, _| 0.0) else { return false };
     let at = spot.point(back);
@@ -177,7 +191,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
     f.built_in.push((wall, stretch.x));
     for (k, corner) in corners.into_iter().enumerate() {
         if let Some(wing) = &kitchen.wings[k] {
-            let side = if k == 0 { wall.turned(3) } else { wall.turned(1) };
+            let side = f.room.beside(wall)[k];
             let half = 0.5 * f.room.length(side);
             let length = wing.length() + kitchen::DEPTH + GAP;
             let x = if k == 0 { [half - length, half] } else { [-half, length - half] };
@@ -185,7 +199,7 @@ fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool 
             f.built_in.push((side, x));
         } else if corner {
             // The end of the run is against the side wall.
-            let side = if k == 0 { wall.turned(3) } else { wall.turned(1) };
+            let side = f.room.beside(wall)[k];
             let half = 0.5 * f.room.length(side);
             f.built_in.push((side, if k == 0 { [half - kitchen::DEPTH, half] } else { [-half, kitchen::DEPTH - half] }));
         }

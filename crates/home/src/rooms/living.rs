@@ -44,15 +44,17 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
     let table: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
     let bench = TelevisionBench::random(&mut f.rng);
     let rug = Rug { size: Vec2::new(f.rng.range(2.1, 2.4), f.rng.range(1.4, 1.5)) };
-    let mut walls = Wall::ALL.map(|wall| (wall_cost(f, wall) + f.rng.range(0.0, 0.6), wall));
+    let mut walls: Vec<(f32, Wall)> = Vec::new();
+    for wall in f.room.walls() {
+        walls.push((wall_cost(f, wall) + f.rng.range(0.0, 0.6), wall));
+    }
     walls.sort_by(|a, b| a.0.total_cmp(&b.0));
     let depth = sofa.size().y;
     let seat = Piece::standing(sofa.size(), KNEES - 0.05);
     let low = Piece::standing(table.size() + Vec3::new(0.0, 0.0, Rug::TOP), 0.0).at(0.0, depth + KNEES + 0.5 * table.size().y, 0.0);
     let mat = Piece { flat: true, ..Piece::standing(rug.size(), 0.0).at(0.0, depth + 0.04 + 0.5 * rug.size.y, 0.0) };
     for (with_screen, with_table) in [(true, true), (true, false), (false, true), (false, false)] {
-        for (_, wall) in walls {
-            let across = f.room.length(wall.turned(1));
+        for (across, wall) in walls.iter().flat_map(|&(_, wall)| f.room.depths(wall).into_iter().map(move |across| (across, wall))) {
             for aside in [0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0] {
                 let mut group = vec![seat, mat];
                 group.extend(with_table.then_some(low));
@@ -90,7 +92,8 @@ fn wall_cost(f: &Furnisher, wall: Wall) -> f32 {
         let cost = |o: &crate::room::Opening| if o.is_way() { way } else { window } * o.size().x;
         f.room.openings.iter().filter(|o| o.wall == wall).map(cost).sum::<f32>()
     };
-    on(wall, 1.0, 0.8) + on(wall.turned(2), 0.8, 0.6) + (f.room.length(wall.turned(1)) - 3.9).abs()
+    let face = f.room.face(wall);
+    on(wall, 1.0, 0.8) + on(face.opposite, 0.8, 0.6) + (face.across - 3.9).abs()
 }
 
 fn on_coffee_table(f: &mut Furnisher, table: &CoffeeTable, pose: DAffine3) {
@@ -222,7 +225,7 @@ fn pictures(f: &mut Furnisher, sofa: &Standing) {
             (0..3).for_each(|k| hang(f, 0.58 * (k as f32 - 1.0), 1.53, [0.46, 0.62], styles[k]));
         }
     }
-    let others: Vec<Wall> = Wall::ALL.into_iter().filter(|&w| w != wall).collect();
+    let others: Vec<Wall> = f.room.walls().into_iter().filter(|&w| w != wall).collect();
     if f.chance(0.5) {
         let mirror = Mirror { radius: f.rng.range(0.26, 0.34) };
         f.hang(&mirror, 1.5, &others, |floor, s| floor.to_way(s.origin));

@@ -2,11 +2,10 @@
 
 use super::Assembly;
 use super::labels::FileLabel;
-use super::names::printable;
 use crate::{ImportError, mesh};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
-use enfilade_scene::{Material, Object, ObjectId, Part, PartId, PartLabel, StartCamera};
+use enfilade_scene::{Material, Object, ObjectId, Part, PartId, PartLabel, StartCamera, printable};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -98,7 +97,7 @@ impl Assembly<'_> {
         let parent =
             parent.and_then(|parent| if depth(parent) < MAX_DEPTH { Some(parent) } else { self.scene.objects[parent as usize].parent });
         self.object_depths.push(parent.map_or(1, |parent| depth(parent) + 1));
-        self.scene.objects.push(Object { name: printable(name), parent });
+        self.scene.objects.push(Object { name: printable(name, ""), parent });
         (self.scene.objects.len() - 1) as ObjectId
     }
 

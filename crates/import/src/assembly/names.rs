@@ -1,11 +1,7 @@
 //! Names of parts and cameras, each of which occurs once.
 
+use enfilade_scene::printable;
 use std::collections::{HashMap, HashSet};
-
-/// A name without spaces around it, and with underscores for control characters, which would break tables.
-pub(super) fn printable(name: &str) -> String {
-    name.trim().chars().map(|c| if c.is_control() { '_' } else { c }).collect()
-}
 
 /// Names that are taken.
 #[derive(Default)]
@@ -16,10 +12,9 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// `name`, or `name_2`, `name_3` … when it is taken, made [`printable`].
+    /// `name`, or `name_2`, `name_3` … when it is taken, printable.
     pub(super) fn unique(&mut self, name: &str) -> String {
-        let name = printable(name);
-        let name = if name.is_empty() { "part".to_string() } else { name };
+        let name = printable(name, "part");
         if self.taken.insert(name.clone()) {
             return name;
         }

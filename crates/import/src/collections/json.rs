@@ -15,7 +15,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// When it is not JSON, or not of that form: place, what was found and what was expected.
-pub(super) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) -> Result<T, ImportError> {
+pub(crate) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) -> Result<T, ImportError> {
     let text = decoded_text(bytes);
     let text = without_padding(&text);
     let lenient = || T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();

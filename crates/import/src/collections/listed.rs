@@ -16,7 +16,7 @@ const SHOWN: usize = 60;
 
 /// The valid entries of a list.
 #[derive(Clone, Debug)]
-pub(super) struct Listed<T> {
+pub(crate) struct Listed<T> {
     items: Vec<T>,
     /// Number of other entries, and the fault of the first.
     odd: usize,

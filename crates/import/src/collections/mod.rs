@@ -29,15 +29,15 @@
 
 pub(crate) mod assets;
 mod detect;
-mod front3d;
+pub(crate) mod front3d;
 mod habitat;
 mod hm3d;
-mod json;
+pub(crate) mod json;
 mod lenient;
-mod listed;
+pub(crate) mod listed;
 mod matterport;
 mod objects;
-mod procthor;
+pub(crate) mod procthor;
 mod replica;
 mod scan;
 mod structured3d;

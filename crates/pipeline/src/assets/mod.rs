@@ -30,7 +30,11 @@ const LISTED: usize = 8;
 pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>, cx: &dyn Cx) -> Result<Home, Error> {
     let notes = Notes::default();
     let library = library(config, locate, &notes, cx)?;
-    let home = enfilade_home::home_with(config, &library);
+    let home = match &config.plan {
+        None => enfilade_home::home_with(config, &library),
+        Some(written) => on_plan(config, &library, &locate(written)?)?,
+    };
+    home.notes.iter().for_each(|note| cx.warn(Warning { place: "plan".into(), message: note.clone() }));
     let dropped = notes.take();
     if !dropped.is_empty() {
         cx.warn(Warning { place: "assets".into(), message: format!("models are not as their files say: {}", listed(&dropped)) });
@@ -46,6 +50,18 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
     Ok(home)
 }
 
+/// A home on the plan in a file.
+fn on_plan(config: &HomeConfig, library: &Library, file: &Path) -> Result<Home, Error> {
+    let bytes = std::fs::read(file).map_err(|error| {
+        let hint = "name a file with a floor plan in `plan`; docs/homes.md lists the kinds that are read";
+        Error::usage(format!("cannot read the plan {} ({error})", file.display()), hint)
+    })?;
+    let drawn = enfilade_import::read_plan(&bytes, file).map_err(Error::stage)?;
+    enfilade_home::home_on(config, library, &drawn).map_err(|problem| {
+        Error::usage(format!("{}: {problem}", file.display()), "correct the plan; docs/homes.md explains what plans have to be")
+    })
+}
+
 /// Reads every model of the library at `root`, as homes read the models that they use: returns names of the broken ones, with reasons. It
 /// is not for users, who make homes, but for fuzzing.
 ///
@@ -57,9 +73,13 @@ pub fn read_library(root: &Path, cx: &dyn Cx) -> Result<Vec<String>, Error> {
     Ok(models.iter().filter_map(|model| model.body().err().map(str::to_string)).collect())
 }
 
-/// Every file of the libraries, in the order of their names.
+/// Every file that a home is made from: those of the libraries, in the order of their names, and the plan.
 pub(crate) fn files(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf, Error>) -> Result<Vec<PathBuf>, Error> {
-    Ok(named_files(config, locate)?.into_iter().map(|(_, file)| file).collect())
+    let mut files: Vec<PathBuf> = named_files(config, locate)?.into_iter().map(|(_, file)| file).collect();
+    if let Some(plan) = &config.plan {
+        files.push(locate(plan)?);
+    }
+    Ok(files)
 }
 
 /// The names of the files of the libraries, each within its library; empty if a library does not exist, which is reported when it is read.

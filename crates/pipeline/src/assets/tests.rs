@@ -251,3 +251,28 @@ fn poly_havens_furniture_furnishes_a_living_room() {
     assert_eq!(faults(&home), []);
     assert!(heard.lines().iter().any(|line| line.contains("tea_set_01_1k.gltf")));
 }
+
+#[test]
+fn the_plan_of_a_home_is_one_of_its_files_and_its_errors_name_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plan.json");
+    let config = HomeConfig { plan: Some(file.display().to_string()), ..HomeConfig::of_seed(1) };
+    let locate = |path: &str| Ok(PathBuf::from(path));
+    assert_eq!(super::files(&config, &locate).unwrap(), [file.clone()]);
+    let refused = || home(&config, &locate, &Quiet).unwrap_err().to_string();
+    assert!(refused().contains("cannot read the plan"), "{}", refused());
+    for (rooms, expected) in [
+        ("", "the plan has 0 rooms"),
+        (r#"{"kind": "atic", "polygon": [[0, 0], [3, 0], [3, 3]]}"#, "is of the kind \"atic\""),
+        (r#"{"kind": "hall", "polygon": [[0, 0], [3, 3], [3, 0], [0, 3]]}"#, "crosses itself"),
+        (r#"{"kind": "hall", "polygon": [[0, 0], [3, "a"]]}"#, "line 1, column"),
+    ] {
+        std::fs::write(&file, format!(r#"{{"format": "enfilade plan 1", "rooms": [{rooms}]}}"#)).unwrap();
+        assert!(refused().contains(expected) && refused().contains("plan.json"), "{}", refused());
+    }
+    std::fs::write(&file, r#"{"rooms": [{"kind": "toilet", "polygon": [[0, 0], [1.6, 0], [1.6, 1.4], [0, 1.8]]}]}"#).unwrap();
+    let heard = Heard::default();
+    let made = home(&config, &locate, &heard).unwrap();
+    assert_eq!(faults(&made), []);
+    assert!(made.notes.iter().any(|note| note.contains("an entrance was added to \"toilet_1\"")), "{:?}", made.notes);
+}

@@ -403,6 +403,7 @@ impl Resolver<'_> {
         }
         home.seed = home.seed.wrapping_add(nth.into());
         home.assets.iter().try_for_each(|path| self.check_path(path, keys))?;
+        home.plan.iter().try_for_each(|file| self.new_file(file, keys, "floor plan").map(drop))?;
         Ok(home)
     }
 

@@ -572,6 +572,22 @@ fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
 }
 
 #[test]
+fn the_plan_of_a_home_must_be_there_and_has_its_own_shape() {
+    let refused = |home: &str| homes(&[home], &Overrides::default()).unwrap_err().to_string();
+    assert!(
+        refused("{ plan = \"nowhere.json\" }").contains("there is no floor plan nowhere.json"),
+        "{}",
+        refused("{ plan = \"nowhere.json\" }")
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plan.json");
+    std::fs::write(&file, "{}").unwrap();
+    let both = refused(&format!("{{ plan = {:?}, shape = \"varied\" }}", file.display().to_string()));
+    assert!(both.contains("leave `shape` out"), "{both}");
+    assert!(refused("{ shape = \"round\" }").contains("`rectangular`"), "{}", refused("{ shape = \"round\" }"));
+}
+
+#[test]
 fn one_home_for_two_scenes_is_refused_unless_both_say_its_seed() {
     for same in [["{}", "{}"], ["{ seed = 0 }", "{}"], ["{}", "{ seed = 0 }"]] {
         let error = homes(&same, &Overrides::default()).unwrap_err();
@@ -725,6 +741,7 @@ fn words_are_written_alike_in_files_and_on_the_command_line() {
     check(&Lamps::ALL, Lamps::name);
     check(&Moment::ALL, Moment::name);
     check(&RoomKind::ALL, RoomKind::name);
+    check(&enfilade_home::RoomShape::ALL, enfilade_home::RoomShape::name);
     check(&enfilade_render::Filter::ALL, enfilade_render::Filter::name);
     check(&GateAction::ALL, GateAction::name);
 }

@@ -94,7 +94,7 @@ impl LoadedScene {
     pub fn home(config: &HomeConfig, cx: &dyn Cx) -> Result<Self, Error> {
         let home = assets::home(config, &|path| Ok(path.into()), cx)?;
         let rooms = home.plan.rooms.iter().map(|room| {
-            let (kind, area_m2) = (room.kind.name(), room.size.x * room.size.y);
+            let (kind, area_m2) = (room.kind.name(), room.area);
             serde_json::json!({ "kind": kind, "area_m2": area_m2 })
         });
         let report = serde_json::json!({ "rooms": rooms.collect::<Vec<_>>(), "credits": home.credits });

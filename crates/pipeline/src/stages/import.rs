@@ -98,7 +98,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
-            let report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
+            let mut report = if home.credits.is_empty() { serde_json::Value::Null } else { serde_json::json!({ "credits": home.credits }) };
+            if !home.notes.is_empty() {
+                report["plan"] = serde_json::json!(home.notes);
+            }
             // Its files were known before, and hashed.
             let rooms = home.rooms();
             (home.scene, Some(home.labels), Some(rooms), None, report, None)

@@ -25,6 +25,7 @@ mod record;
 mod render;
 mod shift;
 mod starts;
+mod targets;
 mod variation;
 mod verify;
 

@@ -1,14 +1,17 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::kept::{Plan, remove_frames_of_other_poses};
-use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, variation};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, targets, variation};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use crate::world::World;
 use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
-use enfilade_explore::{CarveReport, ExploreError, FreeSpace, Keyframe, Mode, PlanConfig, PlanReport, Planned, Preset, parse_keyframes};
+use enfilade_explore::{
+    CarveReport, ExploreError, FreeSpace, Keyframe, Mode, ObjectVisibility, PlanConfig, PlanReport, Planned, Preset, Spread,
+    parse_keyframes, plan_objects,
+};
 use enfilade_geometry::OccupancyTree;
 use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning, decoded_text};
 use enfilade_show::planview::remove_plan_preview;
@@ -38,10 +41,16 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     if let Some(grid) = &job.scene.camera.ray_grid {
         inputs.push(Input::of(&job.config.path(grid)?)?);
     }
-    if let Mode::Keyframes(keyframes) = &job.scene.plan.mode {
-        for file in &keyframes.files {
-            inputs.push(Input::of(&job.config.path(file)?)?);
+    match &job.scene.plan.mode {
+        Mode::Keyframes(keyframes) => {
+            for file in &keyframes.files {
+                inputs.push(Input::of(&job.config.path(file)?)?);
+            }
         }
+        Mode::Objects(_) if !job.scene.objects.is_empty() => {
+            inputs.push(job.input_from(Stage::Import, &job.dataset.layout().placed_objects(&job.scene.name))?);
+        }
+        _ => {}
     }
     Ok(Some(inputs))
 }
@@ -175,6 +184,11 @@ fn summary(reports: &[PlanReport], fov_x_rad: f64) -> String {
             counted(coverage.never_seen.len(), "part")
         );
     }
+    let objects: Vec<&ObjectVisibility> = reports.iter().flat_map(|report| &report.objects).collect();
+    if !objects.is_empty() {
+        let shares = Spread::of(objects.iter().map(|one| 100.0 * one.visible_share));
+        text += &format!("; objects visible in {:.0} to {:.0} % of the frames, {:.0} % on average", shares.min, shares.max, shares.mean);
+    }
     text
 }
 
@@ -225,11 +239,13 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
     let gate = gate::config(job)?;
     let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &carve::standing(job)?, &gate)?) } else { None };
     let accepts = |pose: &Pose| keeper.as_ref().is_none_or(|keeper| passes(job, keeper, camera, pose));
+    let objects = targets::targets(job, &config.mode, &scene)?;
     let mut planned = Vec::new();
     let mut first_error = None;
     for (index, start) in starts.iter().enumerate() {
         let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
-        match enfilade_explore::plan_accepted(&world.mesh, &world.bvh, &space, start, &name, index as u32, &config, &accepts, cx) {
+        let number = index as u32;
+        match plan_objects(&world.mesh, &world.bvh, &space, start, &name, number, &config, &objects, &accepts, cx) {
             Ok(found) => planned.push(found),
             Err(error) => {
                 let message = format!("no trajectory begins here: {error}");

@@ -32,6 +32,7 @@ mod unused;
 
 pub use add::{NewPart, NewThing};
 pub use materials::MaterialChoice;
+pub use names::printable;
 
 use crate::{Labels, PictureFiles, Scene, SceneError};
 use enfilade_options::closest;

@@ -3,6 +3,7 @@
 mod gates;
 mod keyframes;
 mod modes;
+mod objects;
 mod supplement;
 mod walk;
 

@@ -5,6 +5,7 @@
 //! of segments are exact.
 
 use crate::mesh::SurfaceMesh;
+use enfilade_geometry::DisjointSets;
 use enfilade_math::DVec3;
 
 /// Threshold of the difference of normals within a segment, divided by its number of vertices: the `0.010000` in the file's name.
@@ -19,28 +20,28 @@ pub(super) fn segments(mesh: &SurfaceMesh) -> (Vec<u32>, u32) {
     let ends = |face: &[u32; 3]| [[face[0], face[1]], [face[0], face[2]], [face[2], face[1]]];
     let mut edges: Vec<(f64, [u32; 2])> = mesh.faces.iter().flat_map(ends).map(|edge| (weight(mesh, &normals, edge), edge)).collect();
     edges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut forest = Forest::new(mesh.vertices.len());
+    let mut sets = DisjointSets::new(mesh.vertices.len());
+    // The largest weight that still joins, at roots.
+    let mut bounds = vec![THRESHOLD; mesh.vertices.len()];
     for &(weight, [a, b]) in &edges {
-        let [a, b] = [forest.root(a), forest.root(b)];
-        if a != b && weight <= forest.bound[a as usize] && weight <= forest.bound[b as usize] {
-            let root = forest.join(a, b) as usize;
-            forest.bound[root] = weight + THRESHOLD / f64::from(forest.size[root]);
+        let [a, b] = [sets.root(a), sets.root(b)];
+        if a != b && weight <= bounds[a as usize] && weight <= bounds[b as usize] {
+            let root = sets.unite(a, b);
+            bounds[root as usize] = weight + THRESHOLD / f64::from(sets.size(root));
         }
     }
     for &(_, [a, b]) in &edges {
-        let [a, b] = [forest.root(a), forest.root(b)];
-        if a != b && forest.size[a as usize].min(forest.size[b as usize]) < FEWEST_VERTICES {
-            forest.join(a, b);
+        if sets.size(a).min(sets.size(b)) < FEWEST_VERTICES {
+            sets.unite(a, b);
         }
     }
-    numbered(&mut forest)
+    numbered(&mut sets, mesh.vertices.len())
 }
 
-fn numbered(forest: &mut Forest) -> (Vec<u32>, u32) {
-    let vertices = forest.parent.len();
+fn numbered(sets: &mut DisjointSets, vertices: usize) -> (Vec<u32>, u32) {
     let (mut of_root, mut count) = (vec![None; vertices], 0);
     let mut number = |vertex: u32| {
-        *of_root[forest.root(vertex) as usize].get_or_insert_with(|| {
+        *of_root[sets.root(vertex) as usize].get_or_insert_with(|| {
             count += 1;
             count - 1
         })
@@ -65,38 +66,6 @@ fn weight(mesh: &SurfaceMesh, normals: &[DVec3], [a, b]: [u32; 2]) -> f64 {
     let differ = 1.0 - normals[a].dot(normals[b]);
     let bulges = normals[b].dot(mesh.vertices[b] - mesh.vertices[a]) > 0.0;
     if bulges { differ * differ } else { differ }
-}
-
-/// Sets of vertices.
-struct Forest {
-    parent: Vec<u32>,
-    /// Vertices of the set, at roots.
-    size: Vec<u32>,
-    /// Largest weight that still joins, at roots.
-    bound: Vec<f64>,
-}
-
-impl Forest {
-    fn new(vertices: usize) -> Self {
-        Self { parent: (0..vertices as u32).collect(), size: vec![1; vertices], bound: vec![THRESHOLD; vertices] }
-    }
-
-    fn root(&mut self, mut vertex: u32) -> u32 {
-        while self.parent[vertex as usize] != vertex {
-            let above = self.parent[self.parent[vertex as usize] as usize];
-            self.parent[vertex as usize] = above;
-            vertex = above;
-        }
-        vertex
-    }
-
-    /// Makes two sets one, and gives its root; `a` and `b` are roots.
-    fn join(&mut self, a: u32, b: u32) -> u32 {
-        let (root, other) = if self.size[a as usize] >= self.size[b as usize] { (a, b) } else { (b, a) };
-        self.parent[other as usize] = root;
-        self.size[root as usize] += self.size[other as usize];
-        root
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use enfilade_math::DVec3;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
-pub(super) struct House {
+pub(crate) struct House {
     #[serde(default)]
     pub furniture: Listed<Furniture>,
     #[serde(default)]
@@ -19,7 +19,7 @@ pub(super) struct House {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Furniture {
+pub(crate) struct Furniture {
     pub uid: String,
     pub jid: String,
     pub category: Option<String>,
@@ -29,7 +29,7 @@ pub(super) struct Furniture {
 
 /// A mesh of the building.
 #[derive(Deserialize)]
-pub(super) struct Surface {
+pub(crate) struct Surface {
     pub uid: String,
     #[serde(default, deserialize_with = "or_default")]
     pub r#type: String,
@@ -44,7 +44,7 @@ pub(super) struct Surface {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Paint {
+pub(crate) struct Paint {
     pub uid: String,
     #[serde(default, deserialize_with = "or_default")]
     pub jid: String,
@@ -59,13 +59,16 @@ pub(super) struct Paint {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Rooms {
+pub(crate) struct Rooms {
     #[serde(default)]
     pub room: Listed<Room>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct Room {
+pub(crate) struct Room {
+    /// What the room is for.
+    #[serde(default, deserialize_with = "or_default")]
+    pub r#type: String,
     #[serde(default, deserialize_with = "or_default")]
     pub instanceid: String,
     #[serde(default)]
@@ -74,7 +77,7 @@ pub(super) struct Room {
 
 /// Something in a room.
 #[derive(Deserialize)]
-pub(super) struct Child {
+pub(crate) struct Child {
     pub r#ref: String,
     #[serde(default, deserialize_with = "or_default")]
     pub pos: DVec3,

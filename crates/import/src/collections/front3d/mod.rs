@@ -13,7 +13,7 @@
 //! | `lights` | rectangles and spheres (`VRayLight`) with place, size, strength and temperature, and the sun (`VraySun`) with a sky; others are left out, with a warning |
 //! | `extension`, `groups` | not used |
 
-mod house;
+pub(crate) mod house;
 mod lights;
 mod surface;
 

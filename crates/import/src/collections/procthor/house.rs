@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 #[derive(Deserialize)]
-pub(super) struct House {
+pub(crate) struct House {
     #[serde(default)]
     pub rooms: Listed<Room>,
     #[serde(default)]
@@ -24,7 +24,7 @@ pub(super) struct House {
 
 /// A point.
 #[derive(Clone, Copy, Deserialize)]
-pub(super) struct Xyz {
+pub(crate) struct Xyz {
     pub x: f64,
     pub y: f64,
     #[serde(default, deserialize_with = "or_default")]
@@ -39,7 +39,7 @@ impl Xyz {
 
 /// Angles, degrees.
 #[derive(Clone, Copy, Default, Deserialize)]
-pub(super) struct Euler {
+pub(crate) struct Euler {
     #[serde(default, deserialize_with = "or_default")]
     pub x: f64,
     #[serde(default, deserialize_with = "or_default")]
@@ -49,7 +49,7 @@ pub(super) struct Euler {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Room {
+pub(crate) struct Room {
     pub id: String,
     #[serde(rename = "roomType", default, deserialize_with = "or_default")]
     pub kind: String,
@@ -60,7 +60,7 @@ pub(super) struct Room {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Wall {
+pub(crate) struct Wall {
     pub id: String,
     #[serde(default, deserialize_with = "or_default")]
     pub polygon: Vec<Xyz>,
@@ -73,7 +73,7 @@ pub(super) struct Wall {
 
 /// A door or window.
 #[derive(Deserialize)]
-pub(super) struct Opening {
+pub(crate) struct Opening {
     pub id: String,
     #[serde(rename = "assetId", default, deserialize_with = "or_default")]
     pub asset: String,
@@ -88,7 +88,7 @@ pub(super) struct Opening {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     pub min: Xyz,
     pub max: Xyz,
 }
@@ -104,7 +104,7 @@ impl Opening {
 
 /// An object.
 #[derive(Deserialize)]
-pub(super) struct Thing {
+pub(crate) struct Thing {
     #[serde(default, deserialize_with = "or_default")]
     pub id: String,
     #[serde(rename = "assetId", default, deserialize_with = "or_default")]
@@ -117,13 +117,13 @@ pub(super) struct Thing {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Parameters {
+pub(crate) struct Parameters {
     #[serde(default)]
     pub lights: Listed<Lamp>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct Lamp {
+pub(crate) struct Lamp {
     #[serde(default, deserialize_with = "or_default")]
     pub id: String,
     #[serde(default, deserialize_with = "or_default")]
@@ -136,7 +136,7 @@ pub(super) struct Lamp {
 }
 
 #[derive(Clone, Copy, Deserialize)]
-pub(super) struct Rgb {
+pub(crate) struct Rgb {
     pub r: f64,
     pub g: f64,
     pub b: f64,

@@ -15,7 +15,7 @@
 //! | materials | `color` if it is stated, else plaster or wood of one colour: the pictures are within AI2-THOR |
 //! | `proceduralParameters.lights` | point and directional lights; Unity's strength × colour as W/sr or W/m², because Unity states no unit |
 
-mod house;
+pub(crate) mod house;
 mod models;
 mod shell;
 mod space;

@@ -5,6 +5,7 @@
 //! on each other.
 
 use crate::intake::seen::Look;
+use enfilade_geometry::DisjointSets;
 use enfilade_math::{Bounds3, DVec3, Ray, Vec3};
 use std::collections::HashMap;
 
@@ -52,32 +53,22 @@ fn rests(look: &Look, of_triangle: &[usize], bounds: &Bounds3, thing: usize, up:
 
 /// The connected surface of every triangle, by common corners, and the bounds of each surface.
 fn connected(corners: &[[Vec3; 3]]) -> (Vec<usize>, Vec<Bounds3>) {
-    let mut first: HashMap<[u32; 3], usize> = HashMap::new();
-    let mut parents: Vec<usize> = (0..corners.len()).collect();
-    for (triangle, points) in corners.iter().enumerate() {
+    let mut first: HashMap<[u32; 3], u32> = HashMap::new();
+    let mut sets = DisjointSets::new(corners.len());
+    for (triangle, points) in (0..).zip(corners) {
         for point in points {
             // Zero has two signs.
             let other = *first.entry((*point + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(triangle);
-            let (a, b) = (root(&mut parents, triangle), root(&mut parents, other));
-            parents[a.max(b)] = a.min(b);
+            sets.unite(triangle, other);
         }
     }
-    let mut numbers: HashMap<usize, usize> = HashMap::new();
+    let mut numbers: HashMap<u32, usize> = HashMap::new();
     let mut bounds: Vec<Bounds3> = Vec::new();
     let of_triangle = (0..corners.len()).map(|triangle| {
-        let root = root(&mut parents, triangle);
-        let number = *numbers.entry(root).or_insert(bounds.len());
+        let number = *numbers.entry(sets.root(triangle as u32)).or_insert(bounds.len());
         bounds.resize(bounds.len().max(number + 1), Bounds3::EMPTY);
         bounds[number] = corners[triangle].iter().fold(bounds[number], |all, &p| all.include(p));
         number
     });
     (of_triangle.collect(), bounds)
-}
-
-fn root(parents: &mut [usize], mut i: usize) -> usize {
-    while parents[i] != i {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    i
 }

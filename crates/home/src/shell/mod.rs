@@ -3,7 +3,9 @@
 //! Each room has its own half of the walls between rooms, so that both faces of a wall can have their own finish; outer walls belong
 //! to the room whole. The halves keep a hair's breadth apart; linings of doors and passages cover it.
 
-use crate::room::{Filling, Room, Wall};
+mod polygon;
+
+use crate::room::{Back, Filling, Room, Side, Wall};
 use enfilade_furniture::shape::{Reshape, slab_with_openings};
 use enfilade_furniture::{Builder, Class, Door, Finish, Passage, RoomKind, Window, board, family_of, pose};
 use enfilade_geometry::Mesh;
@@ -73,26 +75,18 @@ impl ShellFinish {
 
 /// Adds walls, floor, ceiling, skirting, windows and doors of `room`; there is no skirting behind what is built in.
 pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wall, [f32; 2])], rng: &mut Rng) {
-    for wall in Wall::ALL {
-        let object = b.object(&format!("wall_{}_{wall:?}", room.kind.name()).to_lowercase(), Class::Wall, room.wall_pose(wall));
+    for wall in room.walls() {
+        let side = Side::facing(room.inward(wall));
+        let object = b.object(&format!("wall_{}_{}", room.kind.name(), side.name()), Class::Wall, room.wall_pose(wall));
         let surface = finish.accent.filter(|(w, _)| *w == wall).map_or(finish.walls, |(_, f)| f);
-        b.part(&object, "plaster", slab(room, wall).uv_moved(Vec2::new(rng.range(0.0, 2.0), rng.range(0.0, 2.0))), surface);
+        let mesh = if room.rectangular { slab(room, side) } else { polygon::slab(room, wall) };
+        b.part(&object, "plaster", mesh.uv_moved(Vec2::new(rng.range(0.0, 2.0), rng.range(0.0, 2.0))), surface);
     }
-    let at = pose(f64::from(room.center.x), f64::from(room.center.y), 0.0, 0.0);
-    let reach = |wall: Wall| depth(room, wall);
-    let (low, high) = (Vec2::new(reach(Wall::West), reach(Wall::South)), Vec2::new(reach(Wall::East), reach(Wall::North)));
-    let half = 0.5 * room.size.truncate();
-    let sheet = |z0: f32, z1: f32| board([-half.x - low.x, -half.y - low.y, z0], [half.x + high.x, half.y + high.y, z1], 0.001);
-    let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
-    b.part(&ceiling, "plaster", sheet(room.size.z, room.size.z + 0.2), Finish::CeilingPaint);
-    let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
-    if finish.floor == Finish::PlankFloor {
-        b.part(&floor, "planks", planks(half + UNDER_WALLS, rng), finish.floor);
+    if room.rectangular {
+        floor_and_ceiling(b, room, finish, rng);
     } else {
-        let u = half + UNDER_WALLS;
-        b.part(&floor, "covering", board([-u.x, -u.y, -0.0195], [u.x, u.y, 0.0], 0.0005), finish.floor);
+        polygon::floor_and_ceiling(b, room, finish, rng);
     }
-    b.part(&floor, "screed", sheet(-0.3, -0.02), Finish::CeilingPaint);
     if !room.kind.wet() {
         skirting(b, room, built_in);
     }
@@ -104,6 +98,25 @@ pub fn build(b: &mut Builder, room: &Room, finish: &ShellFinish, built_in: &[(Wa
             Filling::Passage { lined: false } | Filling::DoorBack => {}
         }
     }
+}
+
+fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng: &mut Rng) {
+    let at = pose(f64::from(room.center.x), f64::from(room.center.y), 0.0, 0.0);
+    let reach = |side: Side| depth(&room.face(side.wall()).backs[0]);
+    let (low, high) = (Vec2::new(reach(Side::West), reach(Side::South)), Vec2::new(reach(Side::East), reach(Side::North)));
+    let half = 0.5 * room.size.truncate();
+    let sheet = |z0: f32, z1: f32| board([-half.x - low.x, -half.y - low.y, z0], [half.x + high.x, half.y + high.y, z1], 0.001);
+    let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
+    b.part(&ceiling, "plaster", sheet(room.size.z, room.size.z + 0.2), Finish::CeilingPaint);
+    let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
+    if finish.floor == Finish::PlankFloor {
+        let half = half + UNDER_WALLS;
+        b.part(&floor, "planks", planks([-half, half], rng).smoothed(20.0), finish.floor);
+    } else {
+        let u = half + UNDER_WALLS;
+        b.part(&floor, "covering", board([-u.x, -u.y, -0.0195], [u.x, u.y, 0.0], 0.0005), finish.floor);
+    }
+    b.part(&floor, "screed", sheet(-0.3, -0.02), Finish::CeilingPaint);
 }
 
 /// True for objects of the shell: its pieces reach into each other, and carry everything else.
@@ -119,65 +132,76 @@ fn is_shell_family(family: &str) -> bool {
     OPENINGS.contains(&family) || piece("wall_").is_some_and(wall) || SHEETS.iter().any(|sheet| piece(sheet).is_some_and(room))
 }
 
-/// Depth of the part of a wall that belongs to the room, metres.
-fn depth(room: &Room, wall: Wall) -> f32 {
-    if room.outer[wall as usize] { room.outer_wall } else { room.inner_half() - AIR }
+/// Depth of the part of a piece of wall that belongs to the room, metres.
+fn depth(back: &Back) -> f32 {
+    if back.outer { back.thickness } else { 0.5 * back.thickness - AIR }
 }
 
-fn slab(room: &Room, wall: Wall) -> Mesh {
-    let corner = |side: Wall| match (wall.along().x == 0.0, room.outer[side as usize]) {
-        (false, _) => depth(room, side),
+fn slab(room: &Room, side: Side) -> Mesh {
+    let back = |side: Side| &room.face(side.wall()).backs[0];
+    let corner = |other: Side| match (side.along().x == 0.0, back(other).outer) {
+        (false, _) => depth(back(other)),
         (true, true) => OVERLAP,
         (true, false) => THIN_OVERLAP,
     };
     // A wall's x axis runs from the wall before it to the one after it, counter-clockwise.
-    let (before, after) = (corner(wall.turned(3)), corner(wall.turned(1)));
+    let (before, after) = (corner(side.turned(3)), corner(side.turned(1)));
     let shift = 0.5 * (after - before);
-    let holes: Vec<[f32; 4]> = room
-        .openings
-        .iter()
-        .filter(|o| o.wall == wall)
-        .map(|o| [o.x[0] - shift, o.x[1] - shift, if o.z[0] <= 0.0 { -OVERLAP } else { o.z[0] }, o.z[1]])
-        .collect();
     let height = [-OVERLAP, room.size.z + OVERLAP];
-    slab_with_openings(room.length(wall) + before + after, height, depth(room, wall), &holes).moved(Vec3::new(shift, 0.0, 0.0))
+    let holes = holes(room, side.wall(), shift);
+    slab_with_openings(room.length(side.wall()) + before + after, height, depth(back(side)), &holes).moved(Vec3::new(shift, 0.0, 0.0))
+}
+
+/// The openings of a wall, measured from the point `middle` of its x axis.
+fn holes(room: &Room, wall: Wall, middle: f32) -> Vec<[f32; 4]> {
+    let of_wall = room.openings.iter().filter(|o| o.wall == wall);
+    of_wall.map(|o| [o.x[0] - middle, o.x[1] - middle, if o.z[0] <= 0.0 { -OVERLAP } else { o.z[0] }, o.z[1]]).collect()
 }
 
 fn skirting(b: &mut Builder, room: &Room, built_in: &[(Wall, [f32; 2])]) {
     let object = b.object(&format!("skirting_{}", room.kind.name()), Class::OtherStructure, DAffine3::IDENTITY);
-    for wall in Wall::ALL {
-        let half = 0.5 * room.length(wall) - if wall.along().x == 0.0 { SKIRTING.x + 0.0005 } else { 0.0 };
+    let mut counts = [0; 4];
+    for wall in room.walls() {
+        let side = Side::facing(room.inward(wall));
+        let length = 0.5 * room.length(wall);
+        let half = if !room.rectangular {
+            polygon::beyond(room, wall).map(|beyond| length + beyond)
+        } else if side.along().x == 0.0 {
+            [length - (SKIRTING.x + 0.0005); 2]
+        } else {
+            [length; 2]
+        };
         let mut ways: Vec<[f32; 2]> = room.ways().filter(|o| o.wall == wall).map(|o| [o.x[0] - 0.054, o.x[1] + 0.054]).collect();
         ways.extend(built_in.iter().filter(|(w, _)| *w == wall).map(|(_, x)| *x));
         ways.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut from = -half;
+        let mut from = -half[0];
         let mut runs = Vec::new();
-        for [low, high] in ways.into_iter().chain([[half, half]]) {
+        for [low, high] in ways.into_iter().chain([[half[1], half[1]]]) {
             runs.push([from, low]);
             from = from.max(high);
         }
-        for (i, run) in runs.iter().filter(|r| r[1] - r[0] > 0.02).enumerate() {
+        for run in runs.iter().filter(|r| r[1] - r[0] > 0.02) {
+            counts[side as usize] += 1;
             let mesh = board([run[0], -0.002, -0.002], [run[1], SKIRTING.x, SKIRTING.y], 0.004);
-            let name = format!("{wall:?}_{}", i + 1).to_lowercase();
-            b.part_at(&object, &name, mesh, room.wall_pose(wall), Finish::WhitePaint);
+            b.part_at(&object, &format!("{}_{}", side.name(), counts[side as usize]), mesh, room.wall_pose(wall), Finish::WhitePaint);
         }
     }
 }
 
-/// Floorboards along x over −`half`..`half`, laid in staggered rows with bevelled joints.
-fn planks(half: Vec2, rng: &mut Rng) -> Mesh {
+/// Floorboards along x over a rectangle, laid in staggered rows with bevelled joints; without normals.
+fn planks([low, high]: [Vec2; 2], rng: &mut Rng) -> Mesh {
     /// Width of a board, metres.
     const WIDTH: f32 = 0.165;
     /// Width and depth of the bevel along its edges, metres.
     const BEVEL: Vec2 = Vec2::new(0.0016, 0.0012);
     let mut mesh = Mesh::default();
-    let mut y = -half.y;
-    while y < half.y {
-        let y1 = (y + WIDTH).min(half.y);
-        let mut x = -half.x;
+    let mut y = low.y;
+    while y < high.y {
+        let y1 = (y + WIDTH).min(high.y);
+        let mut x = low.x;
         let mut length = rng.range(0.5, 1.8);
-        while x < half.x {
-            let x1 = if half.x - x - length < 0.35 { half.x } else { x + length };
+        while x < high.x {
+            let x1 = if high.x - x - length < 0.35 { high.x } else { x + length };
             let strip = (rng.below(FLOOR_STRIPS) as f32 + 0.03) / FLOOR_STRIPS as f32;
             let start = Vec2::new(rng.range(0.0, 2.0 - (x1 - x).min(1.99)), strip);
             plank(&mut mesh, [x, x1], [y, y1], BEVEL, start, rng.below(2) == 0);
@@ -186,7 +210,7 @@ fn planks(half: Vec2, rng: &mut Rng) -> Mesh {
         }
         y = y1;
     }
-    mesh.smoothed(20.0)
+    mesh
 }
 
 /// One floorboard with its top at z = 0: a raised field inside four bevels that go down to the joints.

@@ -1,0 +1,130 @@
+//! Homes on plans that people draw: whatever their shape, they are homes.
+
+use enfilade_furniture::assets::Library;
+use enfilade_geometry::Bvh;
+use enfilade_home::check::{Fault, faults};
+use enfilade_home::room::Room;
+use enfilade_home::{Home, HomeConfig, home_on};
+use enfilade_math::{DVec2, Ray, Vec2, warp};
+use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, WorldMesh, to_bytes};
+
+/// Seeds of each plan, and with `cargo xtask test --all`.
+const SEEDS: [u64; 2] = [2, 20];
+
+fn plan(rooms: &[(&str, &[[f64; 2]])], openings: &[(OpeningKind, [f64; 2])]) -> DrawnPlan {
+    let room = |(kind, polygon): &(&str, &[[f64; 2]])| DrawnRoom {
+        name: (*kind).into(),
+        kind: (*kind).into(),
+        polygon: polygon.iter().map(|&p| DVec2::from(p)).collect(),
+        height_m: None,
+    };
+    let openings = openings.iter().map(|&(kind, at)| DrawnOpening::new(kind, at.into())).collect();
+    DrawnPlan { rooms: rooms.iter().map(room).collect(), openings, strict: true, notes: Vec::new() }
+}
+
+/// A living room around the corner of a hall, and a bathroom.
+fn l_shape() -> DrawnPlan {
+    use OpeningKind::{Door, Window};
+    plan(
+        &[
+            ("living", &[[0.0, 0.0], [6.4, 0.0], [6.4, 3.4], [3.7, 3.4], [3.7, 6.0], [0.0, 6.0]]),
+            ("hall", &[[3.8, 3.5], [5.6, 3.5], [5.6, 6.0], [3.8, 6.0]]),
+            ("bathroom", &[[5.7, 3.5], [8.2, 3.5], [8.2, 6.0], [5.7, 6.0]]),
+        ],
+        &[(Door, [4.7, 3.45]), (Door, [5.65, 4.6]), (Door, [4.7, 6.1]), (Window, [2.0, 0.0]), (Window, [0.0, 4.0]), (Window, [7.0, 6.0])],
+    )
+}
+
+/// A bedroom with a bay of slanted walls, and a study.
+fn bay() -> DrawnPlan {
+    use OpeningKind::{Door, Window};
+    plan(
+        &[
+            ("bedroom", &[[0.0, 0.0], [1.0, 0.0], [1.7, -0.9], [3.3, -0.9], [4.0, 0.0], [5.0, 0.0], [5.0, 3.6], [0.0, 3.6]]),
+            ("study", &[[5.12, 0.0], [8.2, 0.0], [8.2, 3.6], [5.12, 3.6]]),
+        ],
+        &[(Door, [5.06, 3.0]), (Door, [6.5, 3.7]), (Window, [2.5, -0.9]), (Window, [6.6, 0.0])],
+    )
+}
+
+/// A kitchen and a children's room in trapezoids under a turned roof.
+fn trapezoid() -> DrawnPlan {
+    use OpeningKind::Window;
+    plan(
+        &[("kitchen", &[[0.0, 0.0], [4.4, 0.6], [3.6, 4.0], [0.0, 3.4]]), ("childrens", &[[4.4, 0.6], [8.4, 1.3], [7.4, 4.9], [3.6, 4.0]])],
+        &[(Window, [2.0, 0.3]), (Window, [6.4, 0.95])],
+    )
+}
+
+fn check(plan: &DrawnPlan) {
+    let seeds: Vec<u64> = (0..enfilade_testkit::seeds(SEEDS[0], SEEDS[1])).collect();
+    let removed = enfilade_parallel::map(&seeds, |&seed| {
+        // Every fifth home is lived in; the others are made faster.
+        let clutter = if seed % 5 == 0 { 1.0 } else { 0.1 };
+        let home = home_on(&HomeConfig { clutter, ..HomeConfig::of_seed(seed) }, &Library::default(), plan).unwrap();
+        let name = format!("seed {seed}");
+        assert_eq!(home.scene.validate(), Ok(()), "{name}");
+        assert_eq!(faults(&home), [], "{name}");
+        every_thing_stands_within_a_room(&home, &name);
+        no_ray_leaves(&home, &name);
+        home.removed
+    });
+    let in_walls = removed.iter().flatten().filter(|removal| matches!(&removal.fault, Fault::Meets(a, b) if is_wall(a) || is_wall(b)));
+    let in_walls: Vec<String> = in_walls.map(|removal| removal.fault.to_string()).collect();
+    assert_eq!(in_walls, Vec::<String>::new(), "things were placed in walls");
+}
+
+fn is_wall(object: &str) -> bool {
+    object.starts_with("wall_") && ["_south_", "_east_", "_north_", "_west_"].iter().any(|side| object.contains(side))
+}
+
+#[test]
+fn homes_around_corners_have_no_faults() {
+    check(&l_shape());
+}
+
+#[test]
+fn homes_with_bays_have_no_faults() {
+    check(&bay());
+}
+
+#[test]
+fn homes_with_slanted_walls_have_no_faults() {
+    check(&trapezoid());
+}
+
+#[test]
+fn the_same_plan_and_seed_give_the_same_bytes() {
+    let made =
+        || to_bytes(&home_on(&HomeConfig { clutter: 0.1, ..HomeConfig::of_seed(3) }, &Library::default(), &trapezoid()).unwrap().scene);
+    assert!(made() == made());
+}
+
+/// The middle of every thing on the floor is in a room: none is in the notch of an L, or beyond a slanted wall.
+fn every_thing_stands_within_a_room(home: &Home, name: &str) {
+    let shell = ["wall", "floor", "ceiling", "skirting", "door", "window", "passage", "blind", "curtain"];
+    for part in home.scene.parts.iter().filter(|part| !shell.iter().any(|family| part.name.starts_with(family))) {
+        for p in home.scene.world_positions(part) {
+            let p: Vec2 = p.truncate();
+            assert!(home.plan.rooms.iter().any(|room| room.contains(p, 0.4)), "{name}: {} at {p}", part.name);
+        }
+        let place = part.world_from_mesh.translation.as_vec3().truncate();
+        assert!(home.plan.rooms.iter().any(|room| room.contains(place, 0.3)), "{name}: {} stands at {place}", part.name);
+    }
+    for room in &home.plan.rooms {
+        let camera = |room: &Room| home.scene.cameras.iter().any(|camera| room.contains(camera.position.as_vec3().truncate(), -0.2));
+        assert!(camera(room), "{name}: no camera in {:?}", room.kind);
+    }
+}
+
+/// The shell is closed: no ray from a camera ends nowhere.
+fn no_ray_leaves(home: &Home, name: &str) {
+    let world = WorldMesh::new(&home.scene);
+    let bvh = Bvh::new(&world.corners, &|_| false);
+    for camera in &home.scene.cameras {
+        for k in 0..2_000 {
+            let ray = Ray::new(camera.position.as_vec3(), warp::sphere([(k as f32 + 0.5) / 2_000.0, (k as f32 * 0.618_034).fract()]));
+            assert!(bvh.closest(&ray).is_some(), "{name}: ray {ray:?} from {} leaves the home", camera.name);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Plans that people write by hand.
+//!
+//! ```json
+//! {
+//!   "format": "enfilade plan 1",
+//!   "height": 2.6,
+//!   "rooms": [
+//!     { "kind": "living", "polygon": [[0, 0], [6, 0], [6, 3], [3.5, 3], [3.5, 5], [0, 5]] },
+//!     { "kind": "hall", "name": "entrance hall", "polygon": [[3.6, 3.1], [6, 3.1], [6, 5], [3.6, 5]] }
+//!   ],
+//!   "doors": [{ "at": [4.5, 3.05] }, { "at": [6, 4], "width": 1.01 }],
+//!   "windows": [{ "at": [2, 0], "width": 2.2, "sill": 0.6, "head": 2.2 }]
+//! }
+//! ```
+//!
+//! Metres. A room's `kind` is one of ours, `polygon` its corners in either order, `height` its own; `name` is for messages. An opening is
+//! `at` a point in or near its wall, the middle of it; `width`, `sill` (of windows) and `head` are optional, and so are `open` (how far a
+//! door is open, degrees), `into` (the name of the room into which it swings) and `hinge` (`"left"` or `"right"` for someone in that room).
+//! `passages` are like doors, without a leaf.
+
+use super::Source;
+use crate::ImportError;
+use enfilade_math::DVec2;
+use enfilade_options::{proposal, with_nearest};
+use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, Hinge, OpeningKind};
+use serde::Deserialize;
+
+/// First key of the file, and its version.
+const FORMAT: &str = "enfilade plan 1";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plan {
+    format: Option<String>,
+    height: Option<f64>,
+    rooms: Vec<Room>,
+    #[serde(default)]
+    doors: Vec<Opening>,
+    #[serde(default)]
+    passages: Vec<Opening>,
+    #[serde(default)]
+    windows: Vec<Opening>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Room {
+    kind: String,
+    name: Option<String>,
+    polygon: Vec<[f64; 2]>,
+    height: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Opening {
+    at: [f64; 2],
+    width: Option<f64>,
+    sill: Option<f64>,
+    head: Option<f64>,
+    into: Option<String>,
+    hinge: Option<Hinge>,
+    open: Option<f64>,
+}
+
+pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
+    let plan: Plan = serde_json::from_str(source.text).map_err(|error| {
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        source.error(format!("line {}, column {}", error.line(), error.column()), with_nearest(message))
+    })?;
+    if plan.format.as_deref().is_some_and(|format| format != FORMAT) {
+        return Err(source.error("format", format!("found {:?}, expected {FORMAT:?}", plan.format.unwrap_or_default())));
+    }
+    let names: Vec<String> = plan
+        .rooms
+        .iter()
+        .enumerate()
+        .map(|(i, room)| {
+            let earlier = plan.rooms[..i].iter().filter(|other| other.kind == room.kind).count();
+            room.name.clone().unwrap_or_else(|| format!("{}_{}", room.kind, earlier + 1))
+        })
+        .collect();
+    let height = plan.height;
+    let rooms = plan.rooms.into_iter().zip(&names).map(|(room, name)| DrawnRoom {
+        name: name.clone(),
+        kind: room.kind,
+        polygon: room.polygon.into_iter().map(DVec2::from).collect(),
+        height_m: room.height.or(height),
+    });
+    let rooms: Vec<DrawnRoom> = rooms.collect();
+    let lists = [(OpeningKind::Door, plan.doors), (OpeningKind::Passage, plan.passages), (OpeningKind::Window, plan.windows)];
+    let mut openings = Vec::new();
+    for (kind, list) in lists {
+        for (i, opening) in list.into_iter().enumerate() {
+            openings.push(read_opening(source, kind, i, opening, &names)?);
+        }
+    }
+    Ok(DrawnPlan { rooms, openings, strict: true, notes: Vec::new() })
+}
+
+fn read_opening(
+    source: &Source,
+    kind: OpeningKind,
+    number: usize,
+    opening: Opening,
+    names: &[String],
+) -> Result<DrawnOpening, ImportError> {
+    let place = format!("{}s[{number}]", kind.name());
+    let into = match &opening.into {
+        None => None,
+        Some(name) => {
+            let known: Vec<&str> = names.iter().map(String::as_str).collect();
+            let found = names.iter().position(|known| known == name);
+            Some(found.ok_or_else(|| source.error(&place, format!("there is no room {name:?}; {}", proposal(name, &known))))?)
+        }
+    };
+    if kind != OpeningKind::Door && (into.is_some() || opening.hinge.is_some() || opening.open.is_some()) {
+        return Err(source.error(&place, "`into`, `hinge` and `open` are of doors"));
+    }
+    if into.is_none() && opening.hinge.is_some() {
+        return Err(source.error(&place, "`hinge` needs `into`, the name of the room into which the door swings"));
+    }
+    if opening.sill.is_some() && kind != OpeningKind::Window {
+        return Err(source.error(&place, "only windows have a `sill`"));
+    }
+    let z_m = match (kind, opening.sill, opening.head) {
+        (_, None, None) => None,
+        (OpeningKind::Window, Some(sill), Some(head)) => Some([sill, head]),
+        (OpeningKind::Window, ..) => return Err(source.error(&place, "a window has both `sill` and `head`, or neither")),
+        (_, _, Some(head)) => Some([0.0, head]),
+        (_, Some(_), None) => None,
+    };
+    Ok(DrawnOpening { kind, at: opening.at.into(), width_m: opening.width, z_m, into, hinge: opening.hinge, open_deg: opening.open })
+}
