@@ -39,8 +39,8 @@ pub use plan::FloorPlan;
 use enfilade_furniture::assets::Library;
 use enfilade_furniture::models::Model;
 use enfilade_furniture::{Builder, DecorConfig, Materials, object_of};
-use enfilade_math::{Rng, Vec2};
-use enfilade_scene::{DrawnPlan, Scene};
+use enfilade_math::{DVec2, DVec3, Rng, Vec2};
+use enfilade_scene::{DrawnPlan, OpeningKind, Rooms, Scene, WallOpening};
 use light::{LightConfig, Moment};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -121,10 +121,28 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     home
 }
 
-/// The light of the home that [`home()`] makes of `config`, and the directions in which its windows look out, each once.
-pub fn light_of(config: &HomeConfig) -> (LightConfig, Vec<Vec2>) {
-    let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
-    (light(&plan, config, &config.stream(config.light, 4)), outlooks(&plan))
+/// The light of a home that was made of `config` and has these rooms, and the directions in which its windows look out, each once.
+pub fn light_of(config: &HomeConfig, rooms: &Rooms) -> (LightConfig, Vec<Vec2>) {
+    let windows = |room: usize| {
+        let is_window = |opening: &&WallOpening| opening.kind == OpeningKind::Window;
+        let face = |opening: &WallOpening| opening.walls.first().and_then(|&wall| rooms.walls.get(wall));
+        rooms.openings.iter().filter(is_window).filter_map(move |opening| {
+            let [left, right] = [0, 1].map(|corner| DVec3::from(opening.corners[corner]));
+            let out = -DVec2::from(face(opening).filter(|face| face.room == room)?.inward).as_vec2();
+            Some((left.distance(right), out))
+        })
+    };
+    let mut outlooks: Vec<Vec2> = Vec::new();
+    let mut first = None;
+    for room in 0..rooms.outlines.len() {
+        first = first.or_else(|| windows(room).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, out)| out));
+        for (_, out) in windows(room) {
+            if !outlooks.contains(&out) {
+                outlooks.push(out);
+            }
+        }
+    }
+    (light_facing(first.unwrap_or(Vec2::Y), config, &config.stream(config.light, 4)), outlooks)
 }
 
 /// The models that are still in the scene, one line each.
@@ -136,6 +154,12 @@ fn credits(scene: &Scene, models: &BTreeMap<String, Arc<Model>>) -> Vec<String> 
 
 /// The light of a home: by day its sun is in front of the largest window of the first room that has one.
 fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
+    let largest = |room: &room::Room| room.windows().max_by(|a, b| a.size().x.total_cmp(&b.size().x)).map(|w| -room.inward(w.wall));
+    light_facing(plan.rooms.iter().find_map(largest).unwrap_or(Vec2::Y), config, rng)
+}
+
+/// The light of a home whose first windows look in the direction `out`.
+fn light_facing(out: Vec2, config: &HomeConfig, rng: &Rng) -> LightConfig {
     let cover = config.seed == 0 && config.light.is_none();
     let moment = config.moment.unwrap_or_else(|| if cover { Moment::Day } else { Moment::usual(&mut rng.fork(1)) });
     let light = if cover && moment == Moment::Day {
@@ -143,8 +167,6 @@ fn light(plan: &FloorPlan, config: &HomeConfig, rng: &Rng) -> LightConfig {
     } else {
         LightConfig::random(moment, &mut rng.fork(2))
     };
-    let largest = |room: &room::Room| room.windows().max_by(|a, b| a.size().x.total_cmp(&b.size().x)).map(|w| -room.inward(w.wall));
-    let out = plan.rooms.iter().find_map(largest).unwrap_or(Vec2::Y);
     light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
 }
 
@@ -157,4 +179,21 @@ fn outlooks(plan: &FloorPlan) -> Vec<Vec2> {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_light_of_a_home_follows_from_its_rooms() {
+        for seed in 1..4 {
+            let config = HomeConfig { seed, rooms: vec![RoomKind::Living], clutter: 0.0, ..HomeConfig::default() };
+            let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
+            let (found, looks) = light_of(&config, &plan.to_rooms());
+            let made = light(&plan, &config, &config.stream(config.light, 4));
+            assert!((found.north_deg - made.north_deg).abs() < 0.1, "{found:?} {made:?}");
+            assert_eq!((found.hour, found.seed, looks.len()), (made.hour, made.seed, outlooks(&plan).len()));
+        }
+    }
 }

@@ -246,8 +246,8 @@ impl VaryConfig {
         Ok(())
     }
 
-    /// Numbers of the sets of light, materials and arrangement that variation `number` (from 1) takes, from 0. Every light meets every set of
-    /// materials, and every such pair every arrangement, before any comes again.
+    /// Numbers of the sets of light, materials and arrangement that variation `number` (from 1) takes, from 0. Every light meets every set
+    /// of materials, and every such pair every arrangement, before any comes again.
     pub fn sets(&self, number: u32) -> [u32; 3] {
         let turn = u64::from(number.max(1) - 1);
         let count = u64::from(self.count.map_or(MOST, Whole::get)).max(turn + 1);

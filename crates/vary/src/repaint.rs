@@ -35,9 +35,9 @@ pub fn repaint(scene: &mut Scene, paints: &BTreeMap<PartId, Paint>) {
                 let named = Material { name: free_name(&painted.name, &before.name, &taken, made.is_empty()), ..painted.clone() };
                 taken.insert(named.name.clone());
                 if made.is_empty() {
-                    scene.materials[index as usize] = named
+                    scene.materials[index as usize] = named;
                 } else {
-                    scene.materials.push(named)
+                    scene.materials.push(named);
                 }
                 made.push((painted, at));
                 at

@@ -156,7 +156,7 @@ impl Things {
     fn is_free(&self, member: usize, group: &BTreeSet<usize>, carriers: &BTreeSet<usize>, to: &DAffine3) -> bool {
         let before = &self.list[member].body;
         let body = moved(before, to);
-        let others = (0..self.list.len()).filter(|other| !group.contains(other) && !self.list[*other].is_gone);
+        let mut others = (0..self.list.len()).filter(|other| !group.contains(other) && !self.list[*other].is_gone);
         let cuts = |other: usize| {
             let lift = if carriers.contains(&other) { Vec3::Z * LIFT_M } else { Vec3::ZERO };
             body.meets(&self.list[other].body, lift)
@@ -165,7 +165,7 @@ impl Things {
         self.cameras.iter().all(|camera| near(&body.bounds, camera) >= CAMERA_M.min(near(&before.bounds, camera)))
             && self.ways.iter().all(|way| !overlap(&body.bounds, way, 0.0) || overlap(&before.bounds, way, 0.0))
             && !self.is_parted(before.bounds.center(), body.bounds.center(), group)
-            && !{ others }.any(cuts)
+            && !others.any(cuts)
     }
 
     /// True when something outside of the group is between two points.

@@ -78,8 +78,9 @@ fn labelled(first: &Job, cx: &StageCx) -> Result<LabelledScene, Error> {
 /// The light and the rooms of a home; those that were fitted to labels are not as exact as a variation needs.
 fn of_home(first: &Job) -> Result<(Option<HomeLight>, Option<Rooms>), Error> {
     let Source::Home(config) = &first.scene.source else { return Ok((None, None)) };
-    let (light, outward) = light_of(config);
-    Ok((Some(HomeLight { light, outward }), first.dataset.read_rooms(&first.scene.name).map_err(Error::stage)?))
+    let rooms = first.dataset.read_rooms(&first.scene.name).map_err(Error::stage)?.ok_or_else(|| first.run_first(Stage::Import))?;
+    let (light, outward) = light_of(config, &rooms);
+    Ok((Some(HomeLight { light, outward }), Some(rooms)))
 }
 
 /// "evening, 4 of 7 lamps lit, 12 materials recoloured, 3 things moved"

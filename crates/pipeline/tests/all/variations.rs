@@ -18,8 +18,8 @@ fn config(folder: &Path, keys: &str) -> Config {
     fs::write(folder.join("labels.csv"), "name,semantic\nwall,wall\ntable,table\nlamp,lamp\nchair,chair\ncup,otherprop\n").unwrap();
     let text = format!(
         "name = \"set\"\nseed = 3\nlabels = \"labels.csv\"\nframes = 2\n[render]\nsize = [64, 48]\nsamples = 2\nmax_bounces = 2\n\
-         [carve]\nrays = 8192\niterations = 2\n[gate]\naction = \"report\"\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\nup_axis = \"z\"\n\
-         cameras = [{{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }}]\n\
+         [carve]\nrays = 8192\niterations = 2\n[gate]\naction = \"report\"\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\n\
+         up_axis = \"z\"\ncameras = [{{ position = [0.2, -0.9, 1.4], look_at = [0.0, 0.9, 0.6] }}]\n\
          plan.mode = {{ kind = \"keyframes\", files = [\"one.json\"] }}\n[scene.vary]\n{keys}"
     );
     fs::write(folder.join("dataset.toml"), text).unwrap();

@@ -95,9 +95,13 @@ pub fn draw(made: Made, is_wood: bool, given: &ColorRange, rng: &mut Rng) -> Okl
         Made::Cloth => &CLOTH,
         Made::Thing => &THING,
     };
-    let mut place = rng.next_f64();
-    let row = rows.iter().find(|Row(share, ..)| (place < *share, place -= share).0).unwrap_or(&rows[rows.len() - 1]);
-    let Row(_, lightness, chroma, hue_deg) = row;
+    let place = rng.next_f64();
+    let mut end = 0.0;
+    let row = rows.iter().find(|Row(share, ..)| {
+        end += share;
+        place < end
+    });
+    let Row(_, lightness, chroma, hue_deg) = row.unwrap_or(&rows[rows.len() - 1]);
     Oklch {
         lightness: uniform(rng, given.lightness.unwrap_or(*lightness)) as f32,
         chroma: uniform(rng, given.chroma.unwrap_or(*chroma)) as f32,

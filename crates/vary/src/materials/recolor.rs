@@ -95,9 +95,9 @@ pub fn recolor(param: &mut ColorParam, images: &[Arc<Image>], target: Rgb) -> Re
     }
     let brightest = (before.bright * gain).max_component();
     if brightest > MOST {
-        gain = gain * (MOST / brightest);
+        gain *= MOST / brightest;
     }
-    param.factor = param.factor * gain;
+    param.factor *= gain;
     Recolored { from: before.mean, to: before.mean * gain }
 }
 
