@@ -258,7 +258,7 @@ fn the_plan_of_a_home_is_one_of_its_files_and_its_errors_name_it() {
     let file = folder.path().join("plan.json");
     let config = HomeConfig { plan: Some(file.display().to_string()), ..HomeConfig::of_seed(1) };
     let locate = |path: &str| Ok(PathBuf::from(path));
-    assert_eq!(super::files(&config, &locate).unwrap(), [file.clone()]);
+    assert_eq!(super::files(&config, &locate).unwrap(), std::slice::from_ref(&file));
     let refused = || home(&config, &locate, &Quiet).unwrap_err().to_string();
     assert!(refused().contains("cannot read the plan"), "{}", refused());
     for (rooms, expected) in [

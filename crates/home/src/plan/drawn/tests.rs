@@ -95,15 +95,18 @@ fn the_layout_of_a_plan_gives_the_same_plan_again() {
     }
 }
 
+/// A change of a plan.
+type Change<'a> = &'a dyn Fn(&mut DrawnPlan);
+
 #[test]
 fn what_is_wrong_with_a_plan_is_told() {
     let l = l_shape();
-    let with = |change: &dyn Fn(&mut DrawnPlan)| {
+    let with = |change: Change| {
         let mut plan = l.clone();
         change(&mut plan);
         built(&plan).unwrap_err()
     };
-    let cases: [(&dyn Fn(&mut DrawnPlan), &str); 12] = [
+    let cases: [(Change, &str); 12] = [
         (&|p| p.rooms[1].polygon[0] = DVec2::new(3.0, 2.5), "rooms \"the living\" and \"the hall\" overlap at"),
         (&|p| p.rooms[0].polygon.swap(0, 1), "the outline of room \"the living\" crosses itself near"),
         (&|p| p.rooms[0].kind = "livingroom".into(), "is of the kind \"livingroom\"; did you mean `living`?"),
