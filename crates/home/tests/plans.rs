@@ -4,7 +4,7 @@ use enfilade_furniture::assets::Library;
 use enfilade_geometry::Bvh;
 use enfilade_home::check::{Fault, faults};
 use enfilade_home::room::Room;
-use enfilade_home::{Home, HomeConfig, home_on};
+use enfilade_home::{Home, HomeConfig, RoomShape, home, home_on};
 use enfilade_math::{DVec2, Ray, Vec2, warp};
 use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, WorldMesh, to_bytes};
 
@@ -57,11 +57,15 @@ fn trapezoid() -> DrawnPlan {
 }
 
 fn check(plan: &DrawnPlan) {
+    check_all(&|config| home_on(config, &Library::default(), plan).unwrap());
+}
+
+fn check_all(make: &(dyn Fn(&HomeConfig) -> Home + Sync)) {
     let seeds: Vec<u64> = (0..enfilade_testkit::seeds(SEEDS[0], SEEDS[1])).collect();
     let removed = enfilade_parallel::map(&seeds, |&seed| {
         // Every fifth home is lived in; the others are made faster.
         let clutter = if seed % 5 == 0 { 1.0 } else { 0.1 };
-        let home = home_on(&HomeConfig { clutter, ..HomeConfig::of_seed(seed) }, &Library::default(), plan).unwrap();
+        let home = make(&HomeConfig { clutter, ..HomeConfig::of_seed(seed) });
         let name = format!("seed {seed}");
         assert_eq!(home.scene.validate(), Ok(()), "{name}");
         assert_eq!(faults(&home), [], "{name}");
@@ -72,6 +76,11 @@ fn check(plan: &DrawnPlan) {
     let in_walls = removed.iter().flatten().filter(|removal| matches!(&removal.fault, Fault::Meets(a, b) if is_wall(a) || is_wall(b)));
     let in_walls: Vec<String> = in_walls.map(|removal| removal.fault.to_string()).collect();
     assert_eq!(in_walls, Vec::<String>::new(), "things were placed in walls");
+}
+
+#[test]
+fn homes_of_varied_shape_have_no_faults() {
+    check_all(&|config| home(&HomeConfig { shape: RoomShape::Varied, ..config.clone() }));
 }
 
 fn is_wall(object: &str) -> bool {

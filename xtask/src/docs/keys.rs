@@ -36,7 +36,7 @@ const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 const SECTIONS: [&str; 10] = ["import", "object", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
 
 /// All keys.
-const GROUPS: [Group; 27] = [
+const GROUPS: [Group; 28] = [
     Group {
         heading: "At the top of the file",
         about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",
@@ -138,6 +138,7 @@ const GROUPS: [Group; 27] = [
     mode("`mode = { kind = \"video\", … }`", "VideoConfig", "[plan.mode]\nkind = \"video\"\n§\n"),
     mode("`mode = { kind = \"stills\", … }`", "StillsConfig", "[plan.mode]\nkind = \"stills\"\n§\n"),
     mode("`mode = { kind = \"coverage\", … }`", "CoverageConfig", "[plan.mode]\nkind = \"coverage\"\n§\n"),
+    mode("`mode = { kind = \"objects\", … }`", "ObjectsConfig", "[plan.mode]\nkind = \"objects\"\n§\n"),
     mode("`mode = { kind = \"keyframes\", … }`", "KeyframesConfig", "[plan.mode]\nkind = \"keyframes\"\nfiles = [\"a.csv\"]\n§\n"),
     Group {
         heading: "`saliency = { kind = \"texture\", … }`",

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Files that declare the contents of `dataset.toml`.
-const FILES: [&str; 20] = [
+const FILES: [&str; 21] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
@@ -26,6 +26,7 @@ const FILES: [&str; 20] = [
     "crates/home/src/light/mod.rs",
     "crates/home/src/light/outside/mod.rs",
     "crates/vary/src/config.rs",
+    "crates/compose/src/group.rs",
     "crates/import/src/environment.rs",
     "crates/import/src/options.rs",
 ];
@@ -159,6 +160,10 @@ impl Sources {
                     words if words.contains('"') || words == "text" => format!("list of {words}"),
                     words => format!("list of {words}s"),
                 }),
+                Some("Many" | "Files") => "text, or list of texts".into(),
+                Some("Number") => "whole number, or 2 of them".into(),
+                Some("Extent") => "number, or 2 numbers".into(),
+                Some("ClassWord") => "text, or number".into(),
                 Some("ProductKey") => "product".into(),
                 Some("CamerasKey") => "list, or `\"found\"`".into(),
                 _ => "table".into(),
