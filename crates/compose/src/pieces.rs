@@ -16,8 +16,8 @@ const RESOLUTION: u32 = 64;
 const CONCAVITY: f64 = 0.01;
 /// A point farther than this outside a triangle's plane, as a share of the longest side, shows that a mesh is not convex.
 const HOLLOW: f64 = 1e-3;
-/// Directions in which a hull with more corners keeps its farthest ones. A sphere loses 0.4 % of its radius.
-const DIRECTIONS: usize = 400;
+/// Directions in which a hull with more corners keeps its farthest ones. A sphere loses 0.2 % of its radius.
+const DIRECTIONS: usize = 1000;
 /// A mesh that is thinner than this share of its length is one piece.
 const FLAT: f64 = 1e-3;
 

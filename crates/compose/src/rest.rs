@@ -15,7 +15,7 @@ const AGAIN_S: f64 = 2.0;
 /// How far an object may move in it, metres.
 const STEADY_M: f64 = 0.002;
 /// Depth to which things may be in each other at the end, metres.
-const DEEPEST_M: f64 = 0.0009;
+const DEEPEST_M: f64 = 0.0008;
 /// Space around objects in which the scene takes part, metres.
 const AROUND_M: f64 = 0.1;
 /// Times that this is repeated before what still moves is removed.

@@ -2,12 +2,13 @@
 
 use crate::config::{Config, Overrides, SceneConfig};
 use crate::error::Error;
+use crate::intake::read_table;
 use crate::partition::write_partition;
 use crate::products::{Pictures, Place, adopt, bring_up_to_date, not_judged, pictures, told_out_of_date, update_sheet, update_statistics};
 use crate::report::{Event, Failure, ProductOutcome, Reporter, SceneOutcome, StageCx, Stopwatch, Summary};
 use crate::request::{PairsRequest, Request};
 use crate::scene_types::write_scene_types;
-use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan, read_table};
+use crate::stages::{CARD, Job, STAGES, Stage, StageSpec, advance, draw_plan};
 use crate::workdir::{RUN, Workdir, read_json};
 use enfilade_dataset::{CameraEntry, Dataset, FrameStatus, ManifestInfo, WORKDIR, remove_if_there, write_json};
 use enfilade_scene::{Cx, Quiet, Warning};

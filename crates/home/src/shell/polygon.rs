@@ -3,7 +3,9 @@
 //! Walls are slabs over each piece with one thing behind it, which reach into each other at the corners. Floors and ceilings are prisms over
 //! the outline, a little wider, so that they end within the walls.
 
-use super::{AIR, OVERLAP, SKIRTING, ShellFinish, THIN_OVERLAP, UNDER_WALLS, depth, holes, planks};
+use super::boards::planks;
+use super::finish::ShellFinish;
+use super::measures::{AIR, OVERLAP, SKIRTING, THIN_OVERLAP, UNDER_WALLS, depth, holes};
 use crate::room::outline::triangles;
 use crate::room::{Room, Wall};
 use enfilade_furniture::shape::{Reshape, slab_with_openings};

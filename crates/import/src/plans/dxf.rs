@@ -5,8 +5,8 @@
 //! layer whose name contains "door", "window" or "passage" is an opening as long as it is; polylines that are open are left out. A room
 //! without a text is called as its layer.
 
-use super::Source;
 use super::loops::{around, contains};
+use super::source::Source;
 use crate::ImportError;
 use enfilade_math::DVec2;
 use enfilade_scene::{DrawnPlan, DrawnRoom, OpeningKind};

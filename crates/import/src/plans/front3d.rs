@@ -2,8 +2,8 @@
 //!
 //! Metres, y up: (x, y, z) is (x, −z) from above. A room's kind is its `type`. Holes that reach the floor are passages.
 
-use super::Source;
 use super::loops::{area, around, outlines};
+use super::source::Source;
 use crate::ImportError;
 use crate::collections::front3d::house::{Child, House, Surface};
 use crate::collections::json;

@@ -1,6 +1,6 @@
 //! Layouts of our datasets: the rooms of a generated home, or those fitted to a scene's labels.
 
-use super::Source;
+use super::source::Source;
 use crate::ImportError;
 use enfilade_scene::{DrawnPlan, Rooms};
 

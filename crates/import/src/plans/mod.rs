@@ -19,6 +19,7 @@ mod layout;
 mod loops;
 pub mod ours;
 mod procthor;
+mod source;
 mod spatiallm;
 mod structured3d;
 mod svg;
@@ -27,38 +28,8 @@ mod tests;
 
 use crate::ImportError;
 use enfilade_scene::{DrawnPlan, decoded_text, without_padding};
-use serde_json::Value;
+use source::Source;
 use std::path::Path;
-
-/// A file to be recognised and read.
-struct Source<'s> {
-    file: &'s Path,
-    bytes: &'s [u8],
-    text: &'s str,
-    /// Its JSON, where it is any.
-    json: Option<Value>,
-}
-
-impl Source<'_> {
-    /// Whether it is JSON with all of these keys.
-    fn has(&self, keys: &[&str]) -> bool {
-        self.json.as_ref().is_some_and(|json| keys.iter().all(|key| json.get(key).is_some()))
-    }
-
-    /// Whether its JSON states a format that begins so.
-    fn states(&self, format: &str) -> bool {
-        self.json.as_ref().and_then(|json| json.get("format")?.as_str()).is_some_and(|found| found.starts_with(format))
-    }
-
-    /// Whether the first room of its JSON has this key.
-    fn rooms_have(&self, key: &str) -> bool {
-        self.json.as_ref().and_then(|json| json.get("rooms")?.get(0)?.get(key)).is_some()
-    }
-
-    fn error(&self, place: impl Into<String>, problem: impl Into<String>) -> ImportError {
-        ImportError::malformed(self.file, place, problem)
-    }
-}
 
 /// A kind of file with a plan.
 struct Reader {
@@ -90,7 +61,7 @@ const READERS: [Reader; 8] = [
 pub fn read_plan(bytes: &[u8], file: &Path) -> Result<DrawnPlan, ImportError> {
     let decoded = decoded_text(bytes);
     let text = without_padding(&decoded);
-    let json = if text.trim_start().starts_with(['{', '[']) { Some(serde_json::from_str::<Value>(text)) } else { None };
+    let json = if text.trim_start().starts_with(['{', '[']) { Some(serde_json::from_str::<serde_json::Value>(text)) } else { None };
     let json = json.transpose().map_err(|error| {
         let place = format!("line {}, column {}", error.line(), error.column());
         let message = error.to_string();

@@ -18,7 +18,7 @@
 //! door is open, degrees), `into` (the name of the room into which it swings) and `hinge` (`"left"` or `"right"` for someone in that room).
 //! `passages` are like doors, without a leaf.
 
-use super::Source;
+use super::source::Source;
 use crate::ImportError;
 use enfilade_math::DVec2;
 use enfilade_options::{proposal, with_nearest};

@@ -3,7 +3,7 @@
 //! Unity's axes are left-handed with y up: x is mirrored and z goes along −y, as our importer of whole houses does it. Rooms are drawn by
 //! the middles of walls. A door without a model is a passage.
 
-use super::Source;
+use super::source::Source;
 use crate::ImportError;
 use crate::collections::json;
 use crate::collections::procthor::house::{House, Opening, Xyz};

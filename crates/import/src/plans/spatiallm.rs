@@ -1,8 +1,8 @@
 //! SpatialLM's layout text (`spatiallm/layout/entity.py`): `wall_0=Wall(ax,ay,az,bx,by,bz,height,thickness)`, doors and windows by their
 //! wall, middle, width and height, and boxes, from which the kinds of rooms are guessed.
 
-use super::Source;
 use super::loops::{area, contains, loops};
+use super::source::Source;
 use crate::ImportError;
 use enfilade_math::DVec2;
 use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind};

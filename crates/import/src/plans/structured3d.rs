@@ -4,8 +4,8 @@
 //! `planeLineMatrix` has the lines of each plane, `lineJunctionMatrix` the two junctions of each line. Doors and windows are where the
 //! junctions of their planes are.
 
-use super::Source;
 use super::loops::{around, loops};
+use super::source::Source;
 use crate::ImportError;
 use crate::collections::json;
 use enfilade_math::{DVec2, DVec3};

@@ -8,8 +8,8 @@
 //! SVG has no length of the real world: `data-meters-per-unit` of the root gives the metres of a unit; without it a unit is a centimetre.
 //! y points down in SVG and up in plans.
 
-use super::Source;
 use super::loops::around;
+use super::source::Source;
 use crate::ImportError;
 use enfilade_math::{DMat3, DVec2, DVec3};
 use enfilade_scene::{DrawnPlan, DrawnRoom, OpeningKind};

@@ -14,7 +14,7 @@ mod seen;
 mod suspect;
 
 pub(crate) use held::Held;
-pub(crate) use labels::{labelled, labels_by_part};
+pub(crate) use labels::{labelled, labels_by_part, read_table};
 pub(crate) use remarks::has_light;
 pub(crate) use seen::Look;
 

@@ -1,13 +1,14 @@
 //! `label`: what every part is, as people annotated it, from a table or from the scene itself, joined to the entity ids of finished frames.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, import, objects};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, imported, objects};
 use crate::error::Error;
+use crate::intake::read_table;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{ANNOTATION_LOG, CLASS_LIST, Classes, DatasetError, LabelColors, MeshFiles, counted, mesh_names, quoted};
 use enfilade_frame::{Frame, Layer, Pass, Values};
 use enfilade_label::annotation::{Annotation, AnnotationError};
-use enfilade_label::{LabelReport, LabelTable, Pieces, doubts, join};
+use enfilade_label::{LabelReport, Pieces, doubts, join};
 use enfilade_scene::{Cx, Labels, PartLabel, Quiet, Scene, Warning};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,7 @@ pub(super) fn settings(job: &Job) -> Hash {
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
-    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, Input::of(&job.work_file(import::LABELS)?)?];
+    let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, Input::of(&job.work_file(imported::LABELS)?)?];
     if let Some(labels) = &job.scene.labels {
         inputs.push(Input::of(&job.config.path(&labels.table)?)?);
     }
@@ -153,11 +154,11 @@ fn labels_of(job: &Job, cx: &dyn Cx) -> Result<(Labels, serde_json::Value), Erro
     let scene = job.load_scene()?;
     let Some(source) = &job.scene.labels else {
         let none = || Labels { parts: vec![PartLabel::NONE; scene.parts.len()] };
-        let labels = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten().unwrap_or_else(none);
+        let labels = read_json::<Option<Labels>>(&job.work_file(imported::LABELS)?).flatten().unwrap_or_else(none);
         return Ok((labels, serde_json::Value::Null));
     };
     let (mut labels, report) = assign_table(&job.config.path(&source.table)?, &source.scene, &scene, cx)?;
-    if let Some(own) = read_json::<Option<Labels>>(&job.work_file(import::LABELS)?).flatten() {
+    if let Some(own) = read_json::<Option<Labels>>(&job.work_file(imported::LABELS)?).flatten() {
         objects::keep_labels(job, &scene, &own, &mut labels)?;
     }
     Ok((labels, serde_json::to_value(&report).unwrap_or_default()))
@@ -174,15 +175,6 @@ pub(crate) fn assign_table(path: &Path, name: &str, scene: &Scene, cx: &dyn Cx) 
         cx.warn(Warning { place: path.display().to_string(), message });
     }
     Ok((labels, report))
-}
-
-/// Reads a table of labels.
-///
-/// # Errors
-/// When it cannot be read, or is no such table.
-pub(crate) fn read_table(path: &Path) -> Result<LabelTable, Error> {
-    let bytes = std::fs::read(path).map_err(Error::io("read the label table", path))?;
-    LabelTable::parse(&bytes, &path.display().to_string()).map_err(Error::stage)
 }
 
 fn warn_about(report: &LabelReport, table: &str, scene: &str, cx: &dyn Cx) {

@@ -1,9 +1,9 @@
 //! `[[object]]`: models that are placed in a scene when it is imported.
 
-use super::{Input, Job, label};
+use super::{Input, Job};
 use crate::config::models;
 use crate::error::Error;
-use crate::intake::labelled;
+use crate::intake::{labelled, read_table};
 use crate::report::StageCx;
 use enfilade_compose::{ObjectGroup, compose};
 use enfilade_dataset::{PlacedObjects, counted};
@@ -65,7 +65,7 @@ pub(super) fn place(job: &Job, scene: Scene, labels: Option<Labels>, cx: &StageC
     let labels = match &job.scene.labels {
         Some(source) => {
             let table = job.config.path(&source.table)?;
-            let (labels, _) = label::read_table(&table)?.assign(&source.scene, &scene);
+            let (labels, _) = read_table(&table)?.assign(&source.scene, &scene);
             inputs.insert(table);
             labels
         }

@@ -1,6 +1,7 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::kept::{Plan, remove_frames_of_other_poses};
+use super::planned::Made;
 use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, targets, variation};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
@@ -91,15 +92,6 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     let report = serde_json::to_value(&reports).unwrap_or_default();
     Ok(Outcome { summary, outputs, report, ..Outcome::default() })
-}
-
-/// The trajectories of a scene, what they are filmed with, and a report of each that was planned.
-pub(super) struct Made {
-    pub camera: Camera,
-    pub filmed: Vec<(Trajectory, Option<StereoRecord>)>,
-    pub reports: Vec<PlanReport>,
-    /// One line.
-    pub summary: String,
 }
 
 /// Plans the trajectories of a scene.

@@ -3,7 +3,8 @@
 //! A variation is a scene of its own. Files of it that are the same as those of the first scene are second names of these (hard links), so
 //! they take no room. Every stage has the first scene's files among its inputs, so that the variation follows when these change.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, import, label, plan};
+use super::planned::Made;
+use super::{Input, Inputs, Job, Outcome, Record, Stage, imported, label};
 use crate::config::{Source, Varies};
 use crate::error::Error;
 use crate::report::StageCx;
@@ -25,7 +26,7 @@ pub(super) fn inputs(first: &Job) -> Inputs {
     let files = first.dataset.mesh_files(&first.scene.name);
     let mut inputs = vec![
         first.input_from(Stage::Import, &first.package()?)?,
-        first.input_from(Stage::Import, &first.work_file(import::LABELS)?)?,
+        first.input_from(Stage::Import, &first.work_file(imported::LABELS)?)?,
         Input::of_any(&first.dataset.layout().placed_objects(&first.scene.name))?,
         Input::of_any(&files.file(ANNOTATION_LOG))?,
         Input::of_any(&files.file(CLASS_LIST))?,
@@ -52,13 +53,13 @@ pub(super) fn run(job: &Job, varies: &Varies, first: &Job, cx: &StageCx) -> Resu
     let varied = vary(&known, &varies.config, &job.scene.variation_seeds(varies), &mut record, cx)
         .map_err(|error| Error::scene(error.to_string(), "docs/vary.md says what varies, and by which labels"))?;
     let scene = varied.scene;
-    let mut outputs = import::write(job, &scene.scene, Some(&scene.labels), (varied.rooms.as_ref(), placed.as_ref()), None)?;
+    let mut outputs = imported::write(job, &scene.scene, Some(&scene.labels), (varied.rooms.as_ref(), placed.as_ref()), None)?;
     // The units and the offset are the file's.
     take_file(&layout.metadata_scene(&first.scene.name), &layout.metadata_scene(name))?;
     job.dataset.write_variation(name, &record).map_err(Error::stage)?;
     outputs.push(layout.variation(name));
     let shared = share(job, first, &outputs)?;
-    let summary = format!("{}, {}; {shared}", import::describe(&scene.scene), described(&record));
+    let summary = format!("{}, {}; {shared}", imported::describe(&scene.scene), described(&record));
     let report = serde_json::to_value(&record).unwrap_or_default();
     Ok(Outcome { summary, outputs, inputs, report })
 }
@@ -145,7 +146,7 @@ pub(super) fn plan_inputs(first: &Job) -> Result<Vec<Input>, Error> {
 
 /// The trajectories of the first scene. Those of a variation in which things have moved are the same: its gates leave out the views that
 /// are not worth rendering any more.
-pub(super) fn plan_of(first: &Job) -> Result<plan::Made, Error> {
+pub(super) fn plan_of(first: &Job) -> Result<Made, Error> {
     let name = &first.scene.name;
     let filmed = first.filmed()?;
     let camera = filmed.first().map(|(camera, _)| camera.clone()).ok_or_else(|| first.run_first(Stage::Plan))?;
@@ -158,7 +159,7 @@ pub(super) fn plan_of(first: &Job) -> Result<plan::Made, Error> {
         all.push((trajectory.clone(), stereo));
     }
     let summary = taken_over(first, Stage::Plan, Vec::new())?.summary;
-    Ok(plan::Made { camera, filmed: all, reports, summary })
+    Ok(Made { camera, filmed: all, reports, summary })
 }
 
 /// Offset of the exposure of displayed pictures, stops; 0 for scenes that are no variations.

@@ -12,6 +12,7 @@ mod model;
 mod own;
 mod placed;
 mod records;
+mod targets;
 mod whole;
 
 use crate::ExportError;
@@ -25,24 +26,14 @@ use crate::selected_frames::{SelectedFrames, Track, View};
 use coco::{SceneCoco, Silhouette, counted};
 use enfilade_dataset::{PixelArea, Side};
 use enfilade_frame::Layer;
-use enfilade_math::{DMat3, DVec3};
 use model::in_millimetres;
 use records::{DatasetCamera, EvaluationTarget, ImageCamera, SceneEntry, Truth, TruthInfo};
 use std::collections::BTreeMap;
+use targets::Targets;
 use whole::{Known, Whole, known_instances, visible_area, whole};
 
 /// The page of exports of placed objects.
 const PLACED_PAGE: &str = include_str!("../../readmes/bop_placed.md");
-
-/// Where a model is in the world, metres.
-#[derive(Clone, Copy)]
-struct Pose {
-    rotation: DMat3,
-    translation: DVec3,
-}
-
-/// Number of the object, and pose, by number of the instance.
-type Targets = BTreeMap<i16, (u32, Pose)>;
 
 /// One instance in one image.
 struct Seen {

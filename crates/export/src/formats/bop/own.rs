@@ -2,7 +2,7 @@
 
 use super::model::{bounds, model_info, ply};
 use super::records::{ModelInfo, OwnObject};
-use super::{Pose, Targets};
+use super::targets::{Pose, Targets};
 use crate::ExportError;
 use crate::boxes::instance_boxes;
 use crate::export_folder::ExportFolder;

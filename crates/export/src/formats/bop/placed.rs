@@ -2,7 +2,7 @@
 
 use super::model::{bounds, model_info, ply};
 use super::records::{CopiedObject, ModelInfo};
-use super::{Pose, Targets};
+use super::targets::{Pose, Targets};
 use crate::ExportError;
 use crate::export_folder::ExportFolder;
 use crate::mesh::{SurfaceMesh, instance_meshes};

@@ -1,7 +1,7 @@
 //! What is behind the walls of drawn rooms: other rooms, or the outside.
 
+use super::measures::{INNER_WALL, OUTER_WALL};
 use super::outlines::{OPPOSITE, behind};
-use super::{INNER_WALL, OUTER_WALL};
 use crate::room::Back;
 use crate::room::outline::Outline;
 use enfilade_math::Vec2;

@@ -1,11 +1,12 @@
 //! Floor plans that people draw: any simple polygons, with doors and windows where they say.
 //!
-//! Outlines are inner faces of walls. Two rooms whose walls run side by side less than [`THICKEST`] apart share a wall, whatever else is
+//! Outlines are inner faces of walls. Two rooms whose walls run side by side less than [`measures::THICKEST`] apart share a wall, whatever else is
 //! behind its other pieces; where they touch, they were drawn by the middles of walls, and are moved apart. What is missing is added by the
 //! rules of our own plans: an entrance, ways into rooms without one, and windows, where the file has none at all. Each is said.
 
 mod backs;
 mod kinds;
+mod measures;
 mod openings;
 mod outlines;
 mod repair;
@@ -18,13 +19,9 @@ use crate::room::Room;
 use enfilade_furniture::RoomKind;
 use enfilade_math::{DVec2, Rng, Vec2};
 use enfilade_scene::{DrawnPlan, DrawnRoom};
+use measures::{INNER_WALL, OUTER_WALL};
 use std::collections::BTreeMap;
 
-/// Thickness of walls between rooms that have none in the file, and of outer walls, metres.
-const INNER_WALL: f32 = 0.12;
-const OUTER_WALL: f32 = 0.36;
-/// Walls of two rooms farther from each other than this are two walls, metres.
-const THICKEST: f32 = 0.6;
 /// Height of rooms that have none in the file, metres; and the lowest and highest that can be furnished.
 const HEIGHT: f64 = 2.6;
 const HEIGHTS: [f64; 2] = [2.2, 6.0];

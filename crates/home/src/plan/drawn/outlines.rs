@@ -1,6 +1,6 @@
 //! Outlines of drawn rooms: cleaned, checked, and moved apart where they share a wall that has no thickness in the file.
 
-use super::{INNER_WALL, THICKEST};
+use super::measures::{INNER_WALL, THICKEST};
 use crate::room::outline::{Outline, distance};
 use enfilade_math::{DVec2, Vec2};
 use enfilade_scene::DrawnRoom;
