@@ -1,8 +1,8 @@
 //! People's own models in a scene.
 //!
 //! Each [`ObjectGroup`] tells which models are taken, how many, where they are put and how they lie. [`compose`] draws them, finds
-//! surfaces for them, and lets them come to rest: [`world`] is a rigid-body simulation in which the parts of the scene do not move. Models
-//! are simulated as the convex pieces that [`pieces`] cuts them into. What cannot be placed is left out with the reason, or refused.
+//! surfaces for them, and lets them come to rest: `world` is a rigid-body simulation in which the parts of the scene do not move. Models
+//! are simulated as the convex pieces that `pieces` cuts them into. What cannot be placed is left out with the reason, or refused.
 //!
 //! The result is a function of the scene, the groups and the seed: the simulation runs on one thread, in double precision, with an
 //! arithmetic that is the same on every processor.

@@ -8,7 +8,7 @@ use enfilade_math::Rgb;
 /// Temperatures that the splines cover, kelvin.
 pub const KELVIN: [f64; 2] = [1667.0, 25_000.0];
 
-/// Chromaticity x, y of a black body of `kelvin`, which is limited to [`KELVIN`].
+/// Chromaticity x, y of a black body of `kelvin`, which is limited to `KELVIN`.
 pub fn chromaticity(kelvin: f64) -> [f64; 2] {
     let t = kelvin.clamp(KELVIN[0], KELVIN[1]);
     let cubic = |[a, b, c, d]: [f64; 4], v: f64| ((a * v + b) * v + c) * v + d;
