@@ -42,7 +42,7 @@ words! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Materials {
-        /// Those of its file.
+        /// Materials of its file.
         Kept = "kept",
         /// One for the whole object, drawn: a fifth are metals; hue, saturation, lightness and roughness are uniform.
         Drawn = "drawn",

@@ -26,7 +26,7 @@ const SHELF_M: f64 = 1.0;
 
 /// An object of the simulation.
 pub struct Placed<'a> {
-    /// Its model.
+    /// Model that is placed.
     pub model: &'a Model,
     /// Size over that of the file.
     pub scale: f64,

@@ -29,7 +29,7 @@ pub(crate) fn clustered(mesh: &SurfaceMesh, cell_m: f64) -> SurfaceMesh {
     SurfaceMesh { vertices, faces: faces.filter(|[a, b, c]| a != b && b != c && c != a).collect() }
 }
 
-/// The same surface with no side longer than `side_m`: sides that are longer are halved, in all triangles that share them, so no gaps open.
+/// Subdivided surface with no side longer than `side_m`: sides that are longer are halved, in all triangles that share them, so no gaps open.
 pub(crate) fn with_short_sides(mesh: &SurfaceMesh, side_m: f64) -> SurfaceMesh {
     let mut vertices = mesh.vertices.clone();
     let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();

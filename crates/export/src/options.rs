@@ -26,7 +26,7 @@ words! {
     pub enum SymmetryRule {
         /// Those that move no point of the surface away from it by more than 2 % of the model's diameter.
         Shape = "shape",
-        /// The same with BOP's tolerance: 15 mm, or 10 % of the diameter if that is more.
+        /// By shape with BOP's tolerance: 15 mm, or 10 % of the diameter if that is more.
         Bop = "bop",
         /// None: for models that their colours tell apart from every side.
         None = "none",

@@ -81,7 +81,7 @@ pub struct Room {
     pub rectangular: bool,
     /// The corners.
     pub outline: Outline,
-    /// Its walls, counter-clockwise: over each edge of the outline one.
+    /// Walls of the room, counter-clockwise: one over each edge of the outline.
     pub faces: Vec<Face>,
     /// Thickness of walls between rooms.
     pub inner_wall: f32,
@@ -155,7 +155,7 @@ impl Room {
         room
     }
 
-    /// Its walls, counter-clockwise.
+    /// Walls of the room, counter-clockwise.
     pub fn walls(&self) -> Vec<Wall> {
         (0..self.faces.len()).map(Wall).collect()
     }

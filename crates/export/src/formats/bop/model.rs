@@ -19,7 +19,7 @@ pub(super) fn bounds(vertices: &[DVec3]) -> [DVec3; 2] {
 }
 
 impl ModelInfo {
-    /// The same with symmetries, which are in metres.
+    /// Facts about a model with its symmetries, which are in metres.
     pub fn with_symmetries(self, found: &Symmetries) -> Self {
         let offset = in_millimetres(found.center);
         let continuous = |axis: &DVec3| ContinuousSymmetry { axis: tidied(axis.to_array()), offset };
