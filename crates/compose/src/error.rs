@@ -13,6 +13,16 @@ pub enum ComposeError {
         /// The value found and what was expected.
         problem: String,
     },
+    /// A motion that cannot be.
+    #[error("[[motion]] {group}: {key}: {problem}")]
+    Motion {
+        /// Number of the group.
+        group: usize,
+        /// The key.
+        key: &'static str,
+        /// The value found and what was expected.
+        problem: String,
+    },
     /// A model that cannot be used or placed, in a group with `missing = "refuse"`.
     #[error("[[object]] {group}: {model}: {reason}; with missing = \"skip\" the scene is made without it")]
     Missing {

@@ -4,6 +4,8 @@
 //! surfaces for them, and lets them come to rest: `world` is a rigid-body simulation in which the parts of the scene do not move. Models
 //! are simulated as the convex pieces that `pieces` cuts them into. What cannot be placed is left out with the reason, or refused.
 //!
+//! What moves in a scene by `[[motion]]` is in `motion`.
+//!
 //! The result is a function of the scene, the groups and the seed: the simulation runs on one thread, in double precision, with an
 //! arithmetic that is the same on every processor.
 
@@ -13,6 +15,7 @@ mod error;
 mod group;
 mod materials;
 mod model;
+mod motion;
 mod pieces;
 mod place;
 mod rest;
@@ -26,5 +29,6 @@ mod world;
 pub use compose::{Composed, Models, compose};
 pub use error::ComposeError;
 pub use group::{Files, Materials, Missing, ObjectGroup, Pose, Turn};
+pub use motion::{MotionGroup, with_motion};
 pub use rest::moved_again;
 pub use words::{ClassWord, Extent, Many, Number};

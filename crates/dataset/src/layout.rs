@@ -2,9 +2,9 @@
 //!
 //! The tree is Hypersim's. Ours beside it: `manifest.json`, `manifest_times.csv`, `split.json`, `verify.json`, `verify.html`,
 //! `statistics/`, `sensors/`, `relit/`, `pairs.csv`, `_detail/covisibility.hdf5` with its list of frames, `_detail/metadata_fixtures.csv`,
-//! `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
+//! `_detail/metadata_bodies.csv`, `_detail/metadata_planes.csv`, `_detail/metadata_instances.csv`, `_detail/metadata_instance_relations.csv`, `_detail/plan_preview/`,
 //! `_detail/variation.json`, `_detail/gates.html`, and in each camera's `_detail` folder `metadata_view_gates.csv`, `rejected/`, `metadata_tonemap.csv`,
-//! `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`,
+//! `metadata_body_poses.csv`, `metadata_frame_instances.csv`, `amodal_instances/`, `pairs/`, `surfaces/`, `planes/`, `tracks.npz`, `captions.jsonl`,
 //! `questions.jsonl`, `cameras_opencv.json`, `plan_report.json`, `frames/` with the commit records, `after_frame/` with what users'
 //! programs have made on a farm and, for cameras that are more than a pinhole, `camera.json` and its arrays. The layers of fixtures are
 //! beside those of `scene_<camera>_final_hdf5`.
@@ -228,6 +228,16 @@ impl Layout {
     /// Materials, as the `material_id` layer numbers them.
     pub fn metadata_materials(&self, scene: &str) -> PathBuf {
         self.detail_dir(scene).join("metadata_materials.csv")
+    }
+
+    /// What moves in the scene, if anything does.
+    pub fn metadata_bodies(&self, scene: &str) -> PathBuf {
+        self.detail_dir(scene).join("metadata_bodies.csv")
+    }
+
+    /// The places of what moves, in the frames of a camera.
+    pub fn metadata_body_poses(&self, scene: &str, camera: &str) -> PathBuf {
+        self.camera_dir(scene, camera).join("metadata_body_poses.csv")
     }
 
     /// The fixtures that light the scene, if frames have the light of each apart.

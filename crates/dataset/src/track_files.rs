@@ -10,8 +10,10 @@ use enfilade_math::DVec3;
 pub struct Tracks {
     /// The numbers of the frames.
     pub frames: Vec<u32>,
-    /// The points in the world, metres; they do not move.
+    /// The points in the world, metres, in the frames that they were seeded in.
     pub positions: Vec<DVec3>,
+    /// By point: the part that it stays on, as `render_entity_id` numbers it; empty where nothing in the scene moves.
+    pub node_ids: Vec<i32>,
     /// By point: the frame (its place in `frames`) that it was seeded in, and the centre of the pixel (x, y) that shows it there, px.
     pub seeds: Vec<(u32, [f32; 2])>,
     /// By point, then frame: image point as a share of width and height, (0, 0) the upper left corner of the image and (1, 1) the lower
@@ -32,7 +34,7 @@ impl Dataset {
         let path = self.layout().tracks(scene, camera);
         let (n, t) = (tracks.positions.len(), tracks.frames.len());
         let queries = tracks.seeds.iter().flat_map(|&(frame, [x, y])| [frame as f32, y, x]);
-        let arrays = [
+        let mut arrays = vec![
             NpyArray::new("points", "<f4", &[n, t, 2], tracks.points.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect()),
             NpyArray::new("occluded", "|b1", &[n, t], tracks.occluded.iter().map(|&v| u8::from(v)).collect()),
             NpyArray::new("query_points", "<f4", &[n, 3], queries.flat_map(f32::to_le_bytes).collect()),
@@ -44,6 +46,9 @@ impl Dataset {
             ),
             NpyArray::new("frame_ids", "<i8", &[t], tracks.frames.iter().flat_map(|&frame| i64::from(frame).to_le_bytes()).collect()),
         ];
+        if !tracks.node_ids.is_empty() {
+            arrays.push(NpyArray::new("node_ids", "<i4", &[n], tracks.node_ids.iter().flat_map(|id| id.to_le_bytes()).collect()));
+        }
         write_bytes(&path, npz(&arrays).map_err(|error| DatasetError::io("write", &path, error))?)
     }
 
@@ -60,12 +65,18 @@ impl Dataset {
         let (n, t) = (positions.shape[0], frames.shape[0]);
         let (points, occluded) = (read("points", "<f4", &[n, t, 2])?, read("occluded", "|b1", &[n, t])?);
         let queries = read("query_points", "<f4", &[n, 3])?.floats();
+        let node_ids = match read("node_ids", "<i4", &[n]) {
+            Ok(ids) => ids.bytes.as_chunks().0.iter().map(|bytes| i32::from_le_bytes(*bytes)).collect(),
+            Err(_) if self.read_bodies(scene)?.is_empty() => Vec::new(),
+            Err(error) => return Err(error),
+        };
         let number = |bytes: &[u8; 8]| u32::try_from(i64::from_le_bytes(*bytes));
         let frames: Result<Vec<u32>, _> = frames.bytes.as_chunks().0.iter().map(number).collect();
         let coordinates: Vec<f64> = positions.bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
         Ok(Tracks {
             frames: frames.map_err(|_| DatasetError::text(&path, "frame_ids: expected numbers from 0; run enfilade make OUT tracks"))?,
             positions: coordinates.as_chunks().0.iter().map(|p| DVec3::from_array(*p)).collect(),
+            node_ids,
             seeds: queries.as_chunks().0.iter().map(|&[frame, y, x]| (frame as u32, [x, y])).collect(),
             points: points.floats().as_chunks().0.to_vec(),
             occluded: occluded.bytes.iter().map(|&v| v != 0).collect(),
@@ -84,6 +95,7 @@ mod tests {
         let tracks = Tracks {
             frames: vec![0, 1, 5],
             positions: vec![DVec3::new(0.1, 2.0, -3.0), DVec3::ONE],
+            node_ids: vec![3, -1],
             seeds: vec![(0, [10.5, 20.5]), (2, [3.5, 0.5])],
             points: vec![[0.5, 0.25], [-1.0, -1.0], [1.5, 0.0], [0.0, 0.0], [0.1, 0.2], [0.3, 0.4]],
             occluded: vec![false, true, true, false, true, false],

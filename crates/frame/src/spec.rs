@@ -115,6 +115,8 @@ pub mod traits {
     pub const PARTIAL: u8 = 8;
     /// The back of a surface that has only one side.
     pub const BACK: u8 = 16;
+    /// The surface moves by itself: on the way to the next frame, or from the one before.
+    pub const MOVES: u8 = 32;
 }
 
 /// The specification of a layer, for machines and people.
@@ -204,7 +206,7 @@ pub const LAYERS: [LayerSpec; 43] = layers![
         "Radiance that the surface emits towards the camera, at the pixel's centre.";
     NormalGeometricWorld "normal_geometric_world" Extra 3 F16, "", "world", "NaN", "Unit normal of the flat triangle, facing the camera.";
     SurfaceTraits "surface_traits" Extra 1 U8, "", "", "0",
-        "Sum of: 1 smooth metal, 2 glass, 4 emitter, 8 the pixel shows more than one part, 16 back of a one-sided surface.";
+        "Sum of: 1 smooth metal, 2 glass, 4 emitter, 8 the pixel shows more than one part, 16 back of a one-sided surface, 32 what moves by itself.";
     DepthBehindMeters "depth_behind_meters" Extra 1 F32, "m", "", "NaN",
         "Euclidean distance to the first surface that lets no light through, straight on through all glass; depth_meters where the first surface is that.";
     EntityBehindId "entity_behind_id" Extra 1 I16, "", "", "-1", "Part number of that surface, as render_entity_id.";

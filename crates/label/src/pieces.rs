@@ -94,7 +94,12 @@ impl Pieces {
         for (number, &part) in self.pieces.iter().enumerate() {
             let mut piece = scene.parts[part as usize].clone();
             piece.name = format!("{}~{number}", piece.name);
+            let id = pieces.parts.len() as PartId;
             pieces.parts.push(piece);
+            // A piece moves with the part that it was cut from.
+            if let Some(body) = pieces.bodies.iter_mut().find(|body| body.parts.contains(&part)) {
+                body.parts.push(id);
+            }
         }
         let of_part = |number: usize| match number.checked_sub(scene.parts.len()) {
             None => number as PartId,

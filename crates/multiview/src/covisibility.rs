@@ -5,6 +5,7 @@
 //! scene decides whether they are hidden; without the scene, a point counts as hidden if all four pixels show something clearly nearer. So
 //! the shares agree with `flow_visibility`, except for details finer than the pixels of the other frame.
 
+use crate::filmed::SurfacePoint;
 use crate::surroundings::{Around, Surroundings};
 use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::{Covisibility, CovisibleFrame, HiddenBy};
@@ -38,7 +39,7 @@ impl CovisibilityConfig {
 struct Grid {
     step_px: u32,
     /// Points of the pixels that show a surface, metres.
-    points: Vec<DVec3>,
+    points: Vec<SurfacePoint>,
 }
 
 /// Measures the share of each frame's surfaces that each other frame sees. Without a package, only the frames' distances decide what is
@@ -58,10 +59,11 @@ pub fn covisibility(
     let counted = Counted::new(cx, "grids", n);
     let grid = |frame: usize| counted.unit(|| read_grid(filmed, frame, config));
     let grids: Vec<Grid> = enfilade_parallel::try_map_up_to(n, grid)?;
-    let lookout = package.map(ScenePackage::lookout).transpose()?;
+    // Of a scene that moves each frame has its own.
+    let lookout = package.filter(|package| package.scene.is_still()).map(ScenePackage::lookout).transpose()?;
 
     let counted = Counted::new(cx, "frames", n);
-    let column = |by: usize| counted.unit(|| column(filmed, &grids, lookout.as_ref(), by));
+    let column = |by: usize| counted.unit(|| column(filmed, &grids, (package, lookout.as_ref()), by));
     let columns: Vec<Vec<f32>> = enfilade_parallel::try_map_up_to(n, column)?;
     let listed = |(frame, grid): (usize, &Grid)| {
         let (camera, number) = filmed.name(frame);
@@ -70,7 +72,7 @@ pub fn covisibility(
     };
     Ok(Covisibility {
         frames: grids.iter().enumerate().map(listed).collect(),
-        hidden_by: if lookout.is_some() { HiddenBy::Scene } else { HiddenBy::Distances },
+        hidden_by: if package.is_some() { HiddenBy::Scene } else { HiddenBy::Distances },
         shares: (0..n).flat_map(|of| columns.iter().map(move |column| column[of])).collect(),
     })
 }
@@ -78,16 +80,27 @@ pub fn covisibility(
 fn read_grid(filmed: &Filmed<'_>, frame: usize, config: CovisibilityConfig) -> Result<Grid, MultiviewError> {
     let size = filmed.view(frame).camera().size();
     let step_px = config.step_px(size);
-    let points = filmed.points(frame, &filmed.distances_m(frame)?, CovisibleFrame::grid(size, step_px));
+    let shown = (&*filmed.distances_m(frame)?, &*filmed.parts(frame)?);
+    let points = filmed.points(frame, shown, CovisibleFrame::grid(size, step_px));
     Ok(Grid { step_px, points })
 }
 
 /// The share of each frame's grid that the frame `by` sees.
-fn column(filmed: &Filmed<'_>, grids: &[Grid], lookout: Option<&Lookout<'_>>, by: usize) -> Result<Vec<f32>, MultiviewError> {
+fn column(
+    filmed: &Filmed<'_>,
+    grids: &[Grid],
+    (package, still): (Option<&ScenePackage>, Option<&Lookout<'_>>),
+    by: usize,
+) -> Result<Vec<f32>, MultiviewError> {
+    let moving = package.filter(|_| still.is_none());
+    let moment = moving.map(|package| package.scene.at(filmed.moment_s(by)));
+    let own = moving.zip(moment.as_ref()).map(|(package, moment)| package.ready(moment)).transpose()?;
+    let lookout = still.or(own.as_ref());
     let surroundings = Surroundings::new(filmed.view(by), filmed.distances_m(by)?);
     let share = |(of, grid): (usize, &Grid)| {
         // A frame sees what it shows.
-        let seen = if of == by { grid.points.len() } else { grid.points.iter().filter(|&&p| is_seen(&surroundings, lookout, p)).count() };
+        let is_seen = |point: &&SurfacePoint| is_seen(&surroundings, lookout, filmed.carry([of, by], point));
+        let seen = if of == by { grid.points.len() } else { grid.points.iter().filter(is_seen).count() };
         (seen as f64 / grid.points.len() as f64) as f32
     };
     Ok(grids.iter().enumerate().map(share).collect())

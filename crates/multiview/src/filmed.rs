@@ -1,7 +1,7 @@
 //! The finished frames of a scene, of all its cameras side by side.
 
 use crate::MultiviewError;
-use enfilade_dataset::{Dataset, DatasetError};
+use enfilade_dataset::{BodyPlaces, Dataset, DatasetError, FilmedBodies};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
 use enfilade_scene::{Camera, CameraView, Cx, Pose};
@@ -16,11 +16,24 @@ pub struct Filmed<'d> {
     pub(crate) frames: Vec<(usize, usize)>,
 }
 
+/// A point on a surface.
+#[derive(Clone, Copy)]
+pub(crate) struct SurfacePoint {
+    /// World, metres, in the frame that shows it.
+    pub p_world: DVec3,
+    /// Its part, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
+    pub part: i16,
+}
+
 /// A camera and its whole trajectory.
 struct Track {
     name: String,
     camera: Camera,
     poses: Vec<Pose>,
+    /// Seconds between frames.
+    frame_time_s: f64,
+    /// What moves in the scene.
+    bodies: Option<FilmedBodies>,
 }
 
 impl<'d> Filmed<'d> {
@@ -39,7 +52,9 @@ impl<'d> Filmed<'d> {
             let poses = dataset.read_trajectory(scene, &name)?.poses;
             let there = (0..poses.len()).filter(|&i| finished.binary_search(&poses[i].frame).is_ok());
             frames.extend(there.map(|i| (tracks.len(), i)));
-            tracks.push(Track { camera: dataset.read_camera(scene, &name)?, name, poses });
+            let (camera, frame_time_s) = (dataset.read_camera(scene, &name)?, dataset.read_frame_time(scene, &name)?);
+            let bodies = dataset.read_filmed_bodies(scene, &name)?;
+            tracks.push(Track { camera, name, poses, frame_time_s, bodies });
         }
         Ok(Self { dataset, scene: scene.into(), tracks, frames })
     }
@@ -77,6 +92,23 @@ impl<'d> Filmed<'d> {
         CameraView::of_frame(&self.tracks[track].camera, &self.tracks[track].poses, index)
     }
 
+    /// The moment of the scene that a frame shows, seconds.
+    pub(crate) fn moment_s(&self, frame: usize) -> f64 {
+        let (track, index) = self.frames[frame];
+        f64::from(self.tracks[track].poses[index].frame) * self.tracks[track].frame_time_s
+    }
+
+    /// Where the parts of the scene are in a frame.
+    fn places(&self, frame: usize) -> BodyPlaces<'_> {
+        let (track, _) = self.frames[frame];
+        self.tracks[track].bodies.as_ref().map_or_else(BodyPlaces::default, |bodies| bodies.at(self.name(frame).1))
+    }
+
+    /// True when nothing in the scene moves.
+    pub fn is_still(&self) -> bool {
+        self.tracks.iter().all(|track| track.bodies.is_none())
+    }
+
     /// Distance between the camera centres of two frames, metres.
     pub fn baseline_m(&self, [a, b]: [usize; 2]) -> f64 {
         self.pose(a).position.distance(self.pose(b).position)
@@ -104,15 +136,40 @@ impl<'d> Filmed<'d> {
         }
     }
 
-    /// The surface points that a frame shows in some of its pixels (column, row), world, metres; pixels that show nothing are left out.
-    pub(crate) fn points(&self, frame: usize, distances_m: &[f32], pixels: impl Iterator<Item = [u32; 2]>) -> Vec<DVec3> {
+    /// The part that each pixel of a frame shows, as `render_entity_id` numbers it; empty where nothing in the scene moves, because then
+    /// it does not matter.
+    pub(crate) fn parts(&self, frame: usize) -> Result<Vec<i16>, MultiviewError> {
+        if self.is_still() {
+            return Ok(Vec::new());
+        }
+        let (camera, number) = self.name(frame);
+        let read: Frame = self.dataset.read_frame(&self.scene, camera, number, &[Layer::RenderEntityId])?;
+        match read.get(Layer::RenderEntityId) {
+            Some(Values::I16(parts)) => Ok(parts.clone()),
+            _ => unreachable!("parts are read as int16"),
+        }
+    }
+
+    /// The surface points that a frame shows in some of its pixels (column, row); pixels that show nothing are left out.
+    pub(crate) fn points(
+        &self,
+        frame: usize,
+        (distances_m, parts): (&[f32], &[i16]),
+        pixels: impl Iterator<Item = [u32; 2]>,
+    ) -> Vec<SurfacePoint> {
         let view = self.view(frame);
         let width = view.camera().size()[0];
         let point = |[column, row]: [u32; 2]| {
-            let distance = f64::from(distances_m[(row * width + column) as usize]);
+            let pixel = (row * width + column) as usize;
+            let distance = f64::from(distances_m[pixel]);
             let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| distance.is_finite())?;
-            Some(ray.origin + ray.direction * distance)
+            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part: parts.get(pixel).copied().unwrap_or(-1) })
         };
         pixels.filter_map(point).collect()
+    }
+
+    /// The place in the frame `to` of a point that the frame `from` shows.
+    pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint) -> DVec3 {
+        self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world)
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::FramePair;
+use enfilade_render::{FlowTo, Moved};
 use enfilade_scene::Cx;
 
 impl Filmed<'_> {
@@ -36,11 +37,20 @@ impl Filmed<'_> {
 /// # Errors
 /// When the scene cannot be used, or a file cannot be written.
 pub fn write_flow(filmed: &Filmed<'_>, package: &ScenePackage, pairs: &[[usize; 2]], cx: &dyn Cx) -> Result<(), MultiviewError> {
-    let lookout = package.lookout()?;
+    let still = package.scene.is_still().then(|| package.lookout()).transpose()?;
     let total = pairs.len() as u64;
     for (done, &[first, second]) in pairs.iter().enumerate() {
         cx.progress("pairs", done as u64, total);
-        let layers = lookout.flow(&filmed.view(first), &filmed.view(second));
+        let (from, to) = (filmed.view(first), filmed.view(second));
+        let layers = match &still {
+            Some(lookout) => lookout.flow(&from, FlowTo::still(&to)),
+            None => {
+                let [here, there] = [first, second].map(|frame| filmed.moment_s(frame));
+                let (scene, then) = (package.scene.at(here), package.scene.at(there));
+                let moved = Moved { lookout: package.ready(&then)?, carried: package.scene.carried(here, there) };
+                package.ready(&scene)?.flow(&from, FlowTo { view: &to, moved: Some(&moved) })
+            }
+        };
         filmed.dataset.write_pair_layers(&filmed.pair([first, second]), &layers)?;
     }
     cx.progress("pairs", total, total);

@@ -41,16 +41,24 @@ impl ScenePackage {
     ///
     /// # Errors
     /// When the scene cannot be used.
-    pub fn lookout(&self) -> Result<Lookout<'_>, MultiviewError> {
-        Lookout::new(&self.scene).map_err(|error| self.wrong(&error))
+    pub(crate) fn lookout(&self) -> Result<Lookout<'_>, MultiviewError> {
+        self.ready(&self.scene)
     }
 
-    /// Prepares the scene for rays that look through surfaces.
+    /// A moment of the scene prepared for rays.
     ///
     /// # Errors
     /// As there.
-    pub fn lookout_through_surfaces(&self) -> Result<Lookout<'_>, MultiviewError> {
-        Lookout::through_surfaces(&self.scene).map_err(|error| self.wrong(&error))
+    pub(crate) fn ready<'s>(&self, moment: &'s Scene) -> Result<Lookout<'s>, MultiviewError> {
+        Lookout::new(moment).map_err(|error| self.wrong(&error))
+    }
+
+    /// A moment of the scene prepared for rays that look through surfaces.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn ready_through_surfaces<'s>(&self, moment: &'s Scene) -> Result<Lookout<'s>, MultiviewError> {
+        Lookout::through_surfaces(moment).map_err(|error| self.wrong(&error))
     }
 
     fn wrong(&self, error: &RenderError) -> MultiviewError {

@@ -1,11 +1,12 @@
 //! Points on surfaces, followed through the frames of a camera.
 //!
 //! Points are seeded evenly over time and over the image: point i of N in frame i T / N of T, at the pixel given by the evenly spaced R2
-//! sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); if that pixel shows nothing, at the next one. Scenes
-//! do not move, so a point is one place in the world. It is occluded where it is outside of the image, or a ray from the camera meets
-//! something before it, as in `flow_visibility`.
+//! sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); if that pixel shows nothing, at the next one. A point
+//! stays on its part, which may move. It is occluded where it is outside of the image, or a ray from the camera meets something before it,
+//! as in `flow_visibility`.
 
-use crate::{Filmed, MultiviewError};
+use crate::filmed::SurfacePoint;
+use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::Tracks;
 use enfilade_math::{DVec3, hash_u64};
 use enfilade_render::Lookout;
@@ -36,16 +37,16 @@ struct Seed {
     /// Place of the frame among those that are followed.
     frame: u32,
     pixel: [u32; 2],
-    p_world: DVec3,
+    point: SurfacePoint,
 }
 
-/// Follows points through `frames`, which are of one camera, in their order. `lookout` belongs to the scene that was filmed.
+/// Follows points through `frames`, which are of one camera, in their order. `package` is of the scene that was filmed.
 ///
 /// # Errors
 /// When a frame cannot be used.
 pub fn tracks(
     filmed: &Filmed<'_>,
-    lookout: &Lookout<'_>,
+    package: &ScenePackage,
     frames: &[usize],
     config: TracksConfig,
     cx: &dyn Cx,
@@ -54,18 +55,28 @@ pub fn tracks(
     let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
     let seeds: Vec<Vec<Seed>> = enfilade_parallel::try_map_up_to(frames.len(), seeds)?;
     let seeds: Vec<Seed> = seeds.into_iter().flatten().collect();
-    let views: Vec<CameraView<'_>> = frames.iter().map(|&frame| filmed.view(frame)).collect();
-    let follow = |seed: &Seed| {
-        let at = |(place, view): (usize, &CameraView<'_>)| image(lookout, view, seed, place == seed.frame as usize);
-        views.iter().enumerate().map(at).collect::<Vec<_>>()
-    };
-    let followed: Vec<([f32; 2], bool)> = enfilade_parallel::flat_map(&seeds, follow);
+    // By frame, then point: a scene that moves is another one in each frame.
+    let still = package.scene.is_still().then(|| package.lookout()).transpose()?;
+    let mut followed = Vec::with_capacity(frames.len());
+    for (place, &frame) in frames.iter().enumerate() {
+        let view = filmed.view(frame);
+        let moment = still.is_none().then(|| package.scene.at(filmed.moment_s(frame)));
+        let own = moment.as_ref().map(|moment| package.ready(moment)).transpose()?;
+        let Some(lookout) = still.as_ref().or(own.as_ref()) else { unreachable!("one of the two is there") };
+        let image = |seed: &Seed| {
+            let p_world = filmed.carry([frames[seed.frame as usize], frame], &seed.point);
+            image(lookout, &view, (seed, p_world), place == seed.frame as usize)
+        };
+        followed.push(enfilade_parallel::map::<_, ([f32; 2], bool)>(&seeds, image));
+    }
+    let by_point = || (0..seeds.len()).flat_map(|point| followed.iter().map(move |frame| frame[point]));
     Ok(Tracks {
         frames: frames.iter().map(|&frame| filmed.name(frame).1).collect(),
-        positions: seeds.iter().map(|seed| seed.p_world).collect(),
+        positions: seeds.iter().map(|seed| seed.point.p_world).collect(),
+        node_ids: if filmed.is_still() { Vec::new() } else { seeds.iter().map(|seed| i32::from(seed.point.part)).collect() },
         seeds: seeds.iter().map(|seed| (seed.frame, seed.pixel.map(|v| v as f32 + 0.5))).collect(),
-        points: followed.iter().map(|(point, _)| *point).collect(),
-        occluded: followed.iter().map(|(_, occluded)| *occluded).collect(),
+        points: by_point().map(|(point, _)| point).collect(),
+        occluded: by_point().map(|(_, occluded)| occluded).collect(),
     })
 }
 
@@ -78,11 +89,12 @@ fn seeds(filmed: &Filmed<'_>, frames: &[usize], place: usize, config: TracksConf
         return Ok(Vec::new());
     }
     let frame = frames[place];
-    let (distances_m, size) = (filmed.distances_m(frame)?, filmed.view(frame).camera().size());
+    let (distances_m, parts, size) = (filmed.distances_m(frame)?, filmed.parts(frame)?, filmed.view(frame).camera().size());
     let seed = |point: u64| {
         let pixels = (0..TRIES).map(|attempt| pixel(size, point + n * attempt, config.seed));
-        let mut shown = pixels.filter_map(|pixel| Some((pixel, filmed.points(frame, &distances_m, std::iter::once(pixel)).pop()?)));
-        shown.next().map(|(pixel, p_world)| Seed { frame: place as u32, pixel, p_world })
+        let mut shown =
+            pixels.filter_map(|pixel| Some((pixel, filmed.points(frame, (&distances_m, &parts), std::iter::once(pixel)).pop()?)));
+        shown.next().map(|(pixel, point)| Seed { frame: place as u32, pixel, point })
     };
     Ok(own.filter_map(seed).collect())
 }
@@ -100,15 +112,15 @@ fn pixel(size: [u32; 2], index: u64, seed: u64) -> [u32; 2] {
 
 /// Position of a point in a view, as shares of width and height, and whether it is occluded there; it is visible in the frame it was seeded
 /// in.
-fn image(lookout: &Lookout<'_>, view: &CameraView<'_>, seed: &Seed, is_own: bool) -> ([f32; 2], bool) {
+fn image(lookout: &Lookout<'_>, view: &CameraView<'_>, (seed, p_world): (&Seed, DVec3), is_own: bool) -> ([f32; 2], bool) {
     let size = view.camera().size().map(f64::from);
     let share = |(x, y): (f64, f64)| [(x / size[0]) as f32, (y / size[1]) as f32];
     if is_own {
         return (share((f64::from(seed.pixel[0]) + 0.5, f64::from(seed.pixel[1]) + 0.5)), false);
     }
-    match view.project(seed.p_world) {
+    match view.project(p_world) {
         None => ([-1.0; 2], true),
-        Some(at) => (share(at), !lookout.shows(view, seed.p_world)),
+        Some(at) => (share(at), !lookout.shows(view, p_world)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `replay`: a frame rendered once more from its commit record, and its files compared with those that the record lists.
 
 use crate::error::Error;
-use crate::stages::{Stage, add_extra, config_hash, program, views};
+use crate::stages::{Moment, Stage, Timing, add_extra, config_hash, frame_time, program, take_at, views};
 use crate::workdir::{Hash, PACKAGE};
 use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, WORKDIR, quoted};
 use enfilade_frame::{Frame, LAYERS};
@@ -46,6 +46,8 @@ struct Source {
     trajectory: Trajectory,
     /// Index of the frame in the trajectory.
     index: usize,
+    /// Seconds between frames, if the scene moves.
+    frame_time_s: Option<f64>,
 }
 
 /// Renders the frame of the commit record `file` (`OUT/scenes/SCENE/_detail/CAMERA/frames/frame.IIII.json`) once more and compares its
@@ -138,11 +140,14 @@ fn read(file: &Path) -> Result<Source, Error> {
     let at = trajectory.poses.iter().position(|pose| pose.frame == record.frame);
     let index = at.ok_or_else(|| changed(format!("the trajectory of {} has no frame {} any more", record.camera, record.frame)))?;
     let (scene, package) = read_package(&root, &record, &recipe, &changed)?;
-    if config_hash(&package, &config, recipe.time_limit_s, &camera, &trajectory, &trajectory.poses[index]) != record.config_hash {
+    let package_file = root.join(WORKDIR).join(&record.scene).join(PACKAGE);
+    let frame_time_s = frame_time(&dataset, &package_file, &record.scene, &record.camera)?;
+    let timing = Timing { limit_s: recipe.time_limit_s, frame_s: frame_time_s };
+    if config_hash(&package, &config, timing, &camera, &trajectory, &trajectory.poses[index]) != record.config_hash {
         return Err(changed(format!("the camera or the trajectory of {} is not the one that the frame was rendered with", record.camera)));
     }
     let folder = dataset.layout().scene_dir(&record.scene);
-    Ok(Source { folder, record, recipe, config, scene, camera, trajectory, index })
+    Ok(Source { folder, record, recipe, config, scene, camera, trajectory, index, frame_time_s })
 }
 
 /// The dataset's folder, if the file is at the place in it that the record states.
@@ -167,10 +172,21 @@ fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dy
 /// The frame, with as many samples as it had.
 fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
     let Source { record, config, scene, camera, trajectory, index, .. } = source;
-    let scene = RenderScene::new(scene, cx).map_err(Error::stage)?.settled(config);
     let views = views(camera, trajectory);
+    if let Some(frame_time_s) = source.frame_time_s {
+        let moment = Moment::new(scene, &trajectory.poses, *index, frame_time_s);
+        return Ok(take_at(&moment, &views, *index, config, |rendering| Ok((taken(record, rendering, cx), ())))?.0);
+    }
+    let scene = RenderScene::new(scene, cx).map_err(Error::stage)?.settled(config);
     let guide = Guide::learn(&scene, &views, config);
-    let mut rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;
+    let rendering = FrameRender::new(&scene, &guide, &views[*index], config).map_err(Error::stage)?;
+    let mut frame = taken(record, rendering, cx);
+    add_extra(&scene, &views, *index, config, &mut frame);
+    Ok(frame)
+}
+
+/// The frame after as many samples as the record states.
+fn taken(record: &FrameRecord, mut rendering: FrameRender<'_, '_>, cx: &dyn Cx) -> Frame {
     let ended = record.sampling.filter(|sampling| sampling.stopped_by == StoppedBy::TimeLimit);
     while !rendering.is_done() && ended.is_none_or(|sampling| rendering.samples() < sampling.samples_taken) {
         if ended.is_some() {
@@ -179,7 +195,5 @@ fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
             rendering.pass(cx);
         }
     }
-    let mut frame = rendering.frame();
-    add_extra(&scene, &views, *index, config, &mut frame);
-    Ok(frame)
+    rendering.frame()
 }

@@ -80,8 +80,8 @@ mod walk;
 
 pub use config::{Filter, RenderConfig, RenderKeys};
 pub use error::RenderError;
-pub use extra::add_extra_layers;
 pub use extra::surfaces::{Bent, RaySurfaces};
+pub use extra::{FlowTo, Moved, add_extra_layers};
 pub use guide::Guide;
 pub use light::{Fixture, FixtureKind};
 pub use look::{Look, Lookout};

@@ -3,7 +3,7 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{add_flow, flow};
+use crate::extra::{FlowTo, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
@@ -135,7 +135,7 @@ impl<'s> Lookout<'s> {
 
     /// `optical_flow`, `scene_flow` and `flow_visibility` from every pixel of the view `from` to the view `to`: of any two views, of
     /// different cameras too, forward and backward in time. To the next frame of a trajectory they are the numbers of its layers.
-    pub fn flow(&self, from: &CameraView<'_>, to: &CameraView<'_>) -> Frame {
+    pub fn flow(&self, from: &CameraView<'_>, to: FlowTo<'_>) -> Frame {
         let [width, height] = from.camera().size();
         let mut frame = Frame::new(width, height);
         add_flow(&self.scene, from, to, &mut frame);
@@ -150,6 +150,11 @@ impl<'s> Lookout<'s> {
     pub fn surfaces(&self, view: &CameraView<'_>, count: usize) -> RaySurfaces {
         assert!(self.asks_always, "made by Lookout::through_surfaces");
         surfaces(&self.scene, view, count)
+    }
+
+    /// The scene, without its light.
+    pub(crate) fn scene(&self) -> &RenderScene<'s> {
+        &self.scene
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

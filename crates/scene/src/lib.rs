@@ -4,6 +4,7 @@
 //! number is finite. Labels are kept apart from the scene ([`Labels`]), because they never enter the renderer.
 
 mod atmosphere;
+mod body;
 mod camera;
 mod contrast;
 mod cx;
@@ -32,6 +33,7 @@ mod texture;
 mod trajectory;
 mod world;
 
+pub use body::{Body, BodyId, BodyMotion, BodyStates, RigidPose};
 pub use camera::{
     Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
     TiltedPinhole,
@@ -47,7 +49,8 @@ pub use material::{Alpha, Bsdf, ColorParam, Disney, Distribution, Material, Norm
 pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV};
 pub use object::{Object, ObjectId};
 pub use package::{
-    PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, to_bytes, to_bytes_with_labels,
+    PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_with_labels, is_current_package, is_moving_package, to_bytes,
+    to_bytes_with_labels,
 };
 pub use photometry::PhotometricWeb;
 pub use picture_files::{PictureFile, PictureFiles};

@@ -1,7 +1,7 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
-//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
-//! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is distinguished from a scene that is wrong.
+//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene; in packages of scenes that
+//! move, which have a version of their own, the bodies; and, where the package has them, the labels of its parts. Reading checks the hash, so a truncated or altered package is distinguished from a scene that is wrong.
 //!
 //! ```
 //! # use enfilade_geometry::Mesh;
@@ -26,6 +26,8 @@ use crate::{Labels, Scene, SceneError};
 const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
 const VERSION: u32 = 4;
+/// The same for scenes that move: their bodies follow the scene.
+const MOVING: u32 = 5;
 /// More than the first line of any package has: as much as [`is_current_package`] looks at.
 pub const PACKAGE_HEAD_BYTES: u64 = 32;
 
@@ -62,20 +64,26 @@ pub enum PackageError {
 
 /// The package of `scene`, without labels. The same scene always gives the same bytes.
 pub fn to_bytes(scene: &Scene) -> Vec<u8> {
-    package(encoded(scene))
+    package(scene, None)
 }
 
 /// The package of `scene` with the labels of its parts.
 pub fn to_bytes_with_labels(scene: &Scene, labels: &Labels) -> Vec<u8> {
-    package([encoded(scene), encoded(labels)].concat())
+    package(scene, Some(labels))
 }
 
-fn encoded(data: &impl serde::Serialize) -> Vec<u8> {
+fn package(scene: &Scene, labels: Option<&Labels>) -> Vec<u8> {
+    let mut body = encoded(scene);
+    if !scene.is_still() {
+        body.extend(encoded(&scene.bodies));
+    }
+    body.extend(labels.map(encoded).unwrap_or_default());
+    let version = if scene.is_still() { VERSION } else { MOVING };
+    [format!("{NAME}{version}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
+}
+
+fn encoded<T: serde::Serialize>(data: &T) -> Vec<u8> {
     postcard::to_stdvec(data).expect("plain data encodes")
-}
-
-fn package(body: Vec<u8>) -> Vec<u8> {
-    [format!("{NAME}{VERSION}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
 }
 
 /// True if the bytes begin like the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
@@ -83,20 +91,25 @@ pub fn is_current_package(head: &[u8]) -> bool {
     split_head(head).is_ok()
 }
 
-/// The bytes after the first line.
-fn split_head(bytes: &[u8]) -> Result<&[u8], PackageError> {
+/// True if the bytes begin like the package of a scene that moves.
+pub fn is_moving_package(head: &[u8]) -> bool {
+    split_head(head).is_ok_and(|(_, moves)| moves)
+}
+
+/// The bytes after the first line, and whether they are of a scene that moves.
+fn split_head(bytes: &[u8]) -> Result<(&[u8], bool), PackageError> {
     let head = &bytes[..bytes.len().min(PACKAGE_HEAD_BYTES as usize)];
     let line = head.split_inclusive(|&b| b == b'\n').next().unwrap_or_default();
     let number = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok()?.parse().ok());
     match number {
-        Some(VERSION) => Ok(&bytes[line.len()..]),
+        Some(version @ (VERSION | MOVING)) => Ok((&bytes[line.len()..], version == MOVING)),
         Some(found) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
     }
 }
 
 fn age(found: u32) -> &'static str {
-    if found > VERSION { "a newer enfilade" } else { "an earlier enfilade" }
+    if found > MOVING { "a newer enfilade" } else { "an earlier enfilade" }
 }
 
 /// The scene in a package.
@@ -112,13 +125,16 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Scene, PackageError> {
 /// # Errors
 /// As [`from_bytes`], and when there are not as many labels as parts.
 pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
-    let rest = split_head(bytes)?;
+    let (rest, moves) = split_head(bytes)?;
     let (hash, body) = rest.split_at_checked(32).ok_or(PackageError::Checksum)?;
     if blake3::hash(body).as_bytes() != hash {
         return Err(PackageError::Checksum);
     }
     let decode = |e: postcard::Error| PackageError::Decode(e.to_string());
-    let (scene, rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
+    let (mut scene, mut rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
+    if moves {
+        (scene.bodies, rest) = postcard::take_from_bytes(rest).map_err(decode)?;
+    }
     let labels: Option<Labels> = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(decode)?) };
     scene.validate()?;
     match labels.as_ref().map(|labels| labels.parts.len()).filter(|&labels| labels != scene.parts.len()) {
@@ -130,7 +146,7 @@ pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), P
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Material, Part, PartLabel};
+    use crate::{Body, BodyMotion, Material, Part, PartLabel};
     use enfilade_geometry::Mesh;
     use enfilade_math::{DAffine3, Rgb, Vec3};
 
@@ -178,6 +194,20 @@ mod tests {
         assert_eq!(from_bytes_with_labels(&to_bytes(&scene())).unwrap().1, None);
         let message = from_bytes(&to_bytes_with_labels(&scene(), &labels(2))).unwrap_err().to_string();
         assert!(message.starts_with("the package has 2 labels for 1 parts"), "{message}");
+    }
+
+    #[test]
+    fn scenes_that_move_have_packages_of_their_own_and_still_ones_keep_their_bytes() {
+        let still = to_bytes(&scene());
+        assert!(still.starts_with(b"enfilade scene 4\n"));
+        let body = Body { name: "it".into(), parent: None, parts: vec![0], lights: Vec::new(), motion: BodyMotion::rest() };
+        let moving = Scene { bodies: vec![body], ..scene() };
+        let bytes = to_bytes(&moving);
+        assert!(bytes.starts_with(b"enfilade scene 5\n") && is_current_package(&bytes[..32]));
+        assert!(is_moving_package(&bytes[..32]) && !is_moving_package(&still[..32]));
+        assert_eq!(from_bytes(&bytes).unwrap(), moving);
+        let labels = Labels { parts: vec![PartLabel { semantic: 4, instance: 7 }] };
+        assert_eq!(from_bytes_with_labels(&to_bytes_with_labels(&moving, &labels)).unwrap(), (moving, Some(labels)));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A scene: meshes, the parts that place them, materials, pictures, lights and cameras as plain data, with the check that it is whole.
 
 use crate::material::Constant;
-use crate::{Alpha, Environment, Image, Light, Material, NormalMap, Object, ObjectId, Parameter, Pixels, StartCamera};
+use crate::{Alpha, Body, Environment, Image, Light, Material, NormalMap, Object, ObjectId, Parameter, Pixels, StartCamera};
 use enfilade_geometry::{Bvh, Mesh, MeshError};
 use enfilade_math::{DAffine3, DMat3, Vec3, place};
 use serde::{Deserialize, Serialize};
@@ -70,6 +70,9 @@ pub struct Scene {
     pub environment: Option<Environment>,
     /// Cameras of the file.
     pub cameras: Vec<StartCamera>,
+    /// What moves, and how; a body comes after the one that bears it. Packages have them apart from the rest.
+    #[serde(skip)]
+    pub bodies: Vec<Body>,
 }
 
 /// Why a scene is not valid: which of its things, and what is wrong with it.
@@ -101,7 +104,7 @@ pub enum SceneError {
     Dangling {
         /// The owner of the index.
         what: String,
-        /// "mesh", "material", "object" or "image".
+        /// "mesh", "material", "object", "image", "part", "light" or "the body".
         kind: &'static str,
         /// The index.
         index: u32,
@@ -200,7 +203,7 @@ impl Scene {
                 return Err(SceneError::Value { what: format!("camera {:?}", camera.name), problem });
             }
         }
-        Ok(())
+        self.validate_bodies()
     }
 
     fn validate_material(&self, material: &Material) -> Result<(), SceneError> {

@@ -5,7 +5,7 @@ use super::card::Card;
 use super::law::Law;
 use super::read::readable;
 use super::rounding::beyond;
-use enfilade_dataset::{BoxKind, Dataset, DatasetError, InstanceView};
+use enfilade_dataset::{BodyPlaces, BoxKind, Dataset, DatasetError, InstanceView};
 use enfilade_frame::vector;
 use enfilade_frame::{Frame, Layer};
 use enfilade_label::instances::visible_areas;
@@ -49,17 +49,25 @@ fn present(boxes: &Boxes) -> impl Iterator<Item = (usize, &OrientedBox)> {
     boxes.iter().enumerate().filter_map(|(i, shape)| Some((i, shape.as_ref()?)))
 }
 
-/// Checks that the visible points of each instance in a frame are within its boxes.
-pub(super) fn check_positions(boxes: &[(BoxKind, Boxes)], frame: &Frame, view: &View<'_>, place: &str, card: &mut Card) {
+/// Checks that the visible points of each instance in a frame are within its boxes, which are those at rest.
+pub(super) fn check_positions(
+    boxes: &[(BoxKind, Boxes)],
+    frame: &Frame,
+    (view, places): (&View<'_>, BodyPlaces<'_>),
+    place: &str,
+    card: &mut Card,
+) {
     let (Some(positions), Some(instances)) = (frame.get(Layer::Position), frame.get(Layer::SemanticInstance)) else { return };
+    let entities = frame.get(Layer::RenderEntityId);
     let center = view.camera.pose().position;
     for (kind, boxes) in boxes {
         let beyond = |pixel: usize| {
             let instance = instances.get(pixel);
-            let p: DVec3 = vector(positions, pixel);
+            let shown: DVec3 = vector(positions, pixel);
+            let p = entities.map_or(shown, |entities| places.at_rest(entities.get(pixel) as i64, shown));
             let shape = (instance >= 1.0).then(|| boxes.get(instance as usize).copied().flatten());
-            let open = view.rounding.of_position(p).length();
-            shape.map(|shape| shape.map_or(f64::INFINITY, |shape| beyond(shape.distance_beyond(p), open) / p.distance(center).max(1.0)))
+            let open = view.rounding.of_position(shown).length();
+            shape.map(|shape| shape.map_or(f64::INFINITY, |shape| beyond(shape.distance_beyond(p), open) / shown.distance(center).max(1.0)))
         };
         let worst = (0..instances.len()).filter_map(|pixel| Some((pixel, beyond(pixel)?))).max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((pixel, value)) = worst {
@@ -111,7 +119,7 @@ mod tests {
         check_boxes(&boxes, "room", &mut card);
         let (camera, rounding) = (CameraView::still(&camera, &pose), Rounding::default());
         let view = View { camera, rounding, denoised: true, released: false, entities: 3, labels: None, pieces: &[], last_class: 40 };
-        check_positions(&boxes, &testroom::frame(&pose), &view, "frame", &mut card);
+        check_positions(&boxes, &testroom::frame(&pose), (&view, BodyPlaces::default()), "frame", &mut card);
         card.failures()
     }
 

@@ -18,7 +18,8 @@ use super::whole;
 use super::worth;
 use super::{View, boxes, camera_files, check_frame, check_trajectory, described, fixtures, plane_ids, rooms, surfaces};
 use enfilade_dataset::{
-    BoxKind, ColorKind, Dataset, DatasetError, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord, StereoSide, loader_problem,
+    BodyPlaces, BoxKind, ColorKind, Dataset, DatasetError, FilmedBodies, FrameRecord, InstanceView, Manifest, MeshGeometry, StereoRecord,
+    StereoSide, loader_problem,
 };
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
@@ -141,6 +142,15 @@ struct Filmed {
     /// Record of the other camera of a stereo rig.
     stereo: Option<StereoRecord>,
     rules: PlanRules,
+    /// What moves in the scene, in the frames of the camera.
+    bodies: Option<FilmedBodies>,
+}
+
+impl Filmed {
+    /// Where what moves is in a frame.
+    fn places(&self, frame: u32) -> BodyPlaces<'_> {
+        self.bodies.as_ref().map_or_else(BodyPlaces::default, |bodies| bodies.at(frame))
+    }
 }
 
 impl SceneFacts {
@@ -273,9 +283,13 @@ impl SceneFacts {
         let index = poses.iter().position(|pose| pose.frame == number && filmed.frames.contains(&pose.frame))?;
         let view = CameraView::of_frame(filmed.camera.as_ref()?, poses, index);
         // Unreadable files are reported where that frame itself is checked.
-        let (read, _) = read_frame(self.stored(dataset), camera, number, &[Layer::DepthMeters], &mut Card::default())?;
+        let layers = if filmed.bodies.is_some() { &[Layer::DepthMeters, Layer::RenderEntityId][..] } else { &[Layer::DepthMeters] };
+        let (read, _) = read_frame(self.stored(dataset), camera, number, layers, &mut Card::default())?;
         let distances = read.get(Layer::DepthMeters).filter(|_| view.camera().size() == [read.width, read.height])?.clone();
-        Some(Listed::new(view, distances))
+        let moving = read.get(Layer::RenderEntityId).map(|parts| (parts.clone(), filmed.places(number)));
+        let mut listed = Listed::new(view, distances);
+        listed.moving = moving;
+        Some(listed)
     }
 
     /// The frame's record states the pose and calibration that the tables state.
@@ -334,7 +348,7 @@ impl SceneFacts {
             found.card.merge(fixtures::check(dataset, [&self.name, name], number, fixtures, &mut scan));
             found.card.merge(scan.card);
         }
-        boxes::check_positions(&self.boxes, &frame, &view, &place, &mut found.card);
+        boxes::check_positions(&self.boxes, &frame, (&view, filmed.places(number)), &place, &mut found.card);
         if let Some(rooms) = &self.rooms {
             rooms::check(rooms, &frame, &place, &mut found.card);
             if !self.not_judged.has(&dataset.layout().plane_ids(&self.name, name, number)) {
@@ -344,7 +358,7 @@ impl SceneFacts {
         if let Some(views) = &filmed.views {
             boxes::check_views(views, &frame, number, &place, &mut found.card);
         }
-        let sight = Sight { frame: &frame, view: camera, rounding, partly_there: &self.partly_there };
+        let sight = Sight { frame: &frame, view: camera, rounding, partly_there: &self.partly_there, places: filmed.places(number) };
         for (other, there) in self.neighbours(filmed, index) {
             let mut card = Card::default();
             found.pairs.extend(self.compare(dataset, (name, &sight), (other, there), &mut card));
@@ -390,7 +404,7 @@ impl SceneFacts {
         let (frame, rounding) = read_frame(self.stored(dataset), partner, number, &two_views::COMPARED, &mut Card::default())?;
         let view = CameraView::of_frame(other.camera.as_ref()?, poses, index);
         let names = [(name, sight.view.pose().frame), (partner.as_str(), number)];
-        let there = Sight { frame: &frame, view, rounding, partly_there: &self.partly_there };
+        let there = Sight { frame: &frame, view, rounding, partly_there: &self.partly_there, places: other.places(number) };
         two_views::compare(&self.name, names, [sight, &there], card)
     }
 }
@@ -408,7 +422,8 @@ fn read_filmed(dataset: &Dataset, scene: &str, card: &mut Card) -> Vec<Filmed> {
         let second = stereo.as_ref().filter(|stereo| stereo.side == StereoSide::Right);
         let planned = dataset.layout().plan_report(scene, second.map_or(&name, |stereo| &stereo.partner));
         let rules = PlanRules { is_second: second.is_some(), ..PlanRules::of(&planned) };
-        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, rules });
+        let bodies = readable(card, dataset.read_filmed_bodies(scene, &name)).flatten();
+        filmed.push(Filmed { trajectory, stored, frames, camera, views, stereo, rules, bodies });
     }
     filmed
 }

@@ -7,7 +7,7 @@
 
 use super::card::Card;
 use super::law::Law;
-use enfilade_dataset::{Covisibility, CovisibleFrame};
+use enfilade_dataset::{BodyPlaces, Covisibility, CovisibleFrame};
 use enfilade_frame::Values;
 use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
@@ -34,9 +34,14 @@ pub(super) struct Listed<'a> {
     pub view: CameraView<'a>,
     /// Metres, by pixel of the view; NaN where nothing was hit.
     pub distances: Values,
+    /// The part that each pixel shows, as `render_entity_id` numbers it, and where what moves is; `None` where nothing in the scene does.
+    pub moving: Option<(Values, BodyPlaces<'a>)>,
     /// The surface points of all pixels, computed on first use; NaN where there is none.
     shown: OnceLock<Vec<DVec3>>,
 }
+
+/// The surface points of a frame's grid with their parts, and where what moves is.
+type Grid<'a> = (Vec<(i64, DVec3)>, BodyPlaces<'a>);
 
 /// Numbers of points of a frame that another one certainly sees, and certainly does not see.
 #[derive(Default)]
@@ -48,9 +53,9 @@ struct Certain {
 /// Checks the matrix of a scene; `read` returns a listed frame, or `None` if it no longer exists.
 pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&CovisibleFrame) -> Option<Listed<'a>> + Sync, card: &mut Card) {
     check_range(scene, stored, card);
-    let grid = |frame: &CovisibleFrame| read(frame).map(|listed| listed.points(frame.grid_step_px));
-    let grids: Vec<Option<Vec<DVec3>>> = enfilade_parallel::map(&stored.frames, grid);
-    for (frame, points) in stored.frames.iter().zip(&grids).filter_map(|(frame, points)| Some((frame, points.as_ref()?))) {
+    let grid = |frame: &CovisibleFrame| read(frame).map(|listed| (listed.points(frame.grid_step_px), listed.places()));
+    let grids: Vec<Option<Grid<'a>>> = enfilade_parallel::map(&stored.frames, grid);
+    for (frame, (points, _)) in stored.frames.iter().zip(&grids).filter_map(|(frame, points)| Some((frame, points.as_ref()?))) {
         let off = points.len().abs_diff(frame.surface_pixels as usize) as f64 / f64::from(frame.surface_pixels.max(1));
         card.observe(Law::Covisibility, off, || {
             format!(
@@ -64,8 +69,10 @@ pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&Covis
     let column = |by: usize| {
         let (frame, mut card) = (&stored.frames[by], Card::default());
         let Some(listed) = grids[by].as_ref().and_then(|_| read(frame)) else { return card };
-        for (of, points) in grids.iter().enumerate().filter_map(|(of, points)| Some((of, points.as_ref().filter(|p| !p.is_empty())?))) {
-            let (certain, n, share) = (listed.certain(points), points.len() as f64, f64::from(stored.share(of, by)));
+        let of_frames =
+            grids.iter().enumerate().filter_map(|(of, grid)| Some((of, grid.as_ref().filter(|(points, _)| !points.is_empty())?)));
+        for (of, (points, places)) in of_frames {
+            let (certain, n, share) = (listed.certain((points, *places)), points.len() as f64, f64::from(stored.share(of, by)));
             let share_of = |points: usize| points.saturating_sub(BETWEEN_SAMPLES) as f64 / n;
             let (least, most) = (share_of(certain.seen), 1.0 - share_of(certain.unseen));
             card.observe(Law::Covisibility, (least - share).max(share - most).max(0.0), || {
@@ -99,13 +106,26 @@ fn name(frame: &CovisibleFrame) -> String {
 impl<'a> Listed<'a> {
     /// A list from a view and its distances.
     pub(super) fn new(view: CameraView<'a>, distances: Values) -> Self {
-        Self { view, distances, shown: OnceLock::new() }
+        Self { view, distances, moving: None, shown: OnceLock::new() }
     }
 
-    /// The surface points of a grid of pixels, world, metres.
-    fn points(&self, step_px: u32) -> Vec<DVec3> {
+    /// The part that a pixel shows; 0 where nothing in the scene moves.
+    pub(super) fn part(&self, pixel: usize) -> i64 {
+        self.moving.as_ref().map_or(0, |(parts, _)| parts.get(pixel) as i64)
+    }
+
+    /// Where what moves is in the frame.
+    pub(super) fn places(&self) -> BodyPlaces<'a> {
+        self.moving.as_ref().map_or_else(BodyPlaces::default, |(_, places)| *places)
+    }
+
+    /// The surface points of a grid of pixels, world, metres, with their parts.
+    fn points(&self, step_px: u32) -> Vec<(i64, DVec3)> {
         let [width, height] = self.view.camera().size();
-        let point = |[column, row]: [u32; 2]| self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, (row * width + column) as usize);
+        let point = |[column, row]: [u32; 2]| {
+            let pixel = (row * width + column) as usize;
+            Some((self.part(pixel), self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
+        };
         CovisibleFrame::grid([width, height], step_px).filter_map(point).collect()
     }
 
@@ -122,9 +142,9 @@ impl<'a> Listed<'a> {
     }
 
     /// Numbers of the points that this frame certainly sees, and certainly does not see.
-    fn certain(&self, points: &[DVec3]) -> Certain {
+    fn certain(&self, (points, places): (&[(i64, DVec3)], BodyPlaces<'_>)) -> Certain {
         let mut certain = Certain::default();
-        for seen in points.iter().filter_map(|&p| self.surely_seen(p)) {
+        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p))) {
             *(if seen { &mut certain.seen } else { &mut certain.unseen }) += 1;
         }
         certain
@@ -212,8 +232,9 @@ mod tests {
         let mut frame = testroom::frame(&pose);
         let of = |frame: &enfilade_frame::Frame, scale: f64| {
             let listed = Listed::new(CameraView::still(&camera, &pose), frame.get(Layer::DepthMeters).unwrap().clone());
-            let points: Vec<DVec3> = listed.points(8).iter().map(|p| pose.position + (*p - pose.position) * scale).collect();
-            let certain = listed.certain(&points);
+            let points: Vec<(i64, DVec3)> =
+                listed.points(8).iter().map(|(part, p)| (*part, pose.position + (*p - pose.position) * scale)).collect();
+            let certain = listed.certain((&points, BodyPlaces::default()));
             [certain.seen, certain.unseen, points.len()].map(|n| n as f64)
         };
         let [seen, unseen, all] = of(&frame, 1.0);

@@ -32,8 +32,9 @@ pub(super) fn check(pair: &FramePair, layers: &PairLayers, [first, second]: [&Li
             None => is_empty(layers, pixel),
             Some(p) => {
                 pixels += 1;
-                contradictions += usize::from(second.contradicts(p, layers.seen.get(pixel) == 1.0));
-                off(layers, pixel, [&first.view, &second.view], (x, y), p)
+                let then = first.places().carry(&second.places(), first.part(pixel), p);
+                contradictions += usize::from(second.contradicts(then, layers.seen.get(pixel) == 1.0));
+                off(layers, pixel, [&first.view, &second.view], (x, y), [p, then])
             }
         };
         if off > worst.0 || off.is_nan() {
@@ -54,9 +55,9 @@ fn is_empty(layers: &PairLayers, pixel: usize) -> f64 {
 }
 
 /// How far flow and scene flow are off, as a share of their lengths from 1 px and 1 m on.
-fn off(layers: &PairLayers, pixel: usize, [from, to]: [&CameraView<'_>; 2], (x, y): (f64, f64), p_world: DVec3) -> f64 {
+fn off(layers: &PairLayers, pixel: usize, [from, to]: [&CameraView<'_>; 2], (x, y): (f64, f64), [p_world, p_then]: [DVec3; 2]) -> f64 {
     let stored = DVec2::new(layers.flow.get(2 * pixel), layers.flow.get(2 * pixel + 1));
-    let there = to.project(p_world);
+    let there = to.project(p_then);
     let [width, height] = to.camera().size().map(f64::from);
     let within = |(x, y): &(f64, f64), beyond: f64| {
         (-beyond * width..(1.0 + beyond) * width).contains(x) && (-beyond * height..(1.0 + beyond) * height).contains(y)
@@ -68,12 +69,12 @@ fn off(layers: &PairLayers, pixel: usize, [from, to]: [&CameraView<'_>; 2], (x, 
         _ => 0.0,
     };
     let row = there.map_or(y, |(_, row)| row.clamp(0.0, height));
-    let in_camera = |view: &CameraView<'_>, row: f64| {
+    let in_camera = |view: &CameraView<'_>, p: DVec3, row: f64| {
         let (position, world_from_camera) = view.row_placement(row);
-        world_from_camera.transpose() * (p_world - position)
+        world_from_camera.transpose() * (p - position)
     };
     let moved: DVec3 = vector(&layers.moved, pixel);
-    let expected = in_camera(to, row) - in_camera(from, y);
+    let expected = in_camera(to, p_then, row) - in_camera(from, p_world, y);
     flow.max(moved.distance(expected) / moved.length().max(1.0))
 }
 

@@ -8,7 +8,7 @@ use super::not_judged::NotJudged;
 use super::pair_flow::{self, PairLayers};
 use super::read::readable;
 use super::tracks;
-use enfilade_dataset::{Dataset, FramePair, Tracks};
+use enfilade_dataset::{BodyPlaces, Dataset, FramePair, Tracks};
 use enfilade_frame::Layer;
 
 /// Returns a frame by camera and number; `None` if it does not exist.
@@ -35,16 +35,24 @@ pub(super) fn check(
     cards.into_iter().for_each(|found| card.merge(found));
     for camera in cameras.iter().filter(|camera| !not_judged.has(&layout.tracks(scene, camera))) {
         if let Some(stored) = there(dataset.read_tracks(scene, camera)).and_then(|read| readable(card, read)) {
-            check_tracks(&format!("{scene}/{camera}"), &stored, &|number| listed(camera, number), card);
+            let bodies = readable(card, dataset.read_filmed_bodies(scene, camera)).flatten();
+            let place = |&frame: &u32| bodies.as_ref().map_or_else(BodyPlaces::default, |bodies| bodies.at(frame));
+            let places: Vec<BodyPlaces<'_>> = stored.frames.iter().map(place).collect();
+            check_tracks(&format!("{scene}/{camera}"), (&stored, &places), &|number| listed(camera, number), card);
         }
     }
 }
 
 /// Checks the tracks of a camera in each of their frames.
-fn check_tracks<'a>(name: &str, stored: &Tracks, listed: &(dyn Fn(u32) -> Option<Listed<'a>> + Sync), card: &mut Card) {
+fn check_tracks<'a>(
+    name: &str,
+    (stored, places): (&Tracks, &[BodyPlaces<'_>]),
+    listed: &(dyn Fn(u32) -> Option<Listed<'a>> + Sync),
+    card: &mut Card,
+) {
     let check = |place: usize| {
         let mut card = Card::default();
-        let contradictions = listed(stored.frames[place]).map(|frame| tracks::check(name, stored, place, &frame, &mut card));
+        let contradictions = listed(stored.frames[place]).map(|frame| tracks::check(name, stored, (place, places), &frame, &mut card));
         (card, contradictions)
     };
     let found: Vec<(Card, Option<usize>)> = enfilade_parallel::map_up_to(stored.frames.len(), check);

@@ -3,7 +3,7 @@
 use super::card::Card;
 use super::law::Law;
 use super::many_views::Listed;
-use enfilade_dataset::Tracks;
+use enfilade_dataset::{BodyPlaces, Tracks};
 use enfilade_math::DVec2;
 
 /// Points are compared if they are at most this many image sizes beyond the borders: farther out, float32 is coarser than the bound.
@@ -11,11 +11,21 @@ const BEYOND: f64 = 1.0;
 
 /// Checks the points of a camera's tracks in one of their frames, the `place`-th. Returns the number of points whose occlusion certainly
 /// contradicts the distances.
-pub(super) fn check(name: &str, tracks: &Tracks, place: usize, frame: &Listed<'_>, card: &mut Card) -> usize {
+///
+/// `places` has the places of what moves in each of the frames.
+pub(super) fn check(
+    name: &str,
+    tracks: &Tracks,
+    (place, places): (usize, &[BodyPlaces<'_>]),
+    frame: &Listed<'_>,
+    card: &mut Card,
+) -> usize {
     let [width, height] = frame.view.camera().size().map(f64::from);
     let mut contradictions = 0;
     let number = tracks.frames[place];
-    for (point, &p) in tracks.positions.iter().enumerate() {
+    for (point, &seeded) in tracks.positions.iter().enumerate() {
+        let part = tracks.node_ids.get(point).map_or(0, |&part| i64::from(part));
+        let p = places[tracks.seeds[point].0 as usize].carry(&places[place], part, seeded);
         let at = point * tracks.frames.len() + place;
         let [x, y] = tracks.points[at].map(f64::from);
         let stored = DVec2::new(x * width, y * height);

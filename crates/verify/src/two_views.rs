@@ -1,6 +1,6 @@
 //! Two views of one scene must show the same surfaces where both see them.
 //!
-//! Each pixel of one frame is carried into the other by distance, calibration and pose. There it is between four pixel centres, which a
+//! Each pixel of one frame is carried into the other by distance, calibration and pose, and with what it shows where that moves. There it is between four pixel centres, which a
 //! smooth surface passes at their stored distances. There are three cases. It is beyond them, and something hides it. It is between them,
 //! and then part, instance and diffuse reflectance must be the same. Or it is in front of them, so that the second frame looks through a
 //! surface that the first one sees. Checked in both directions, these are all possible contradictions.
@@ -16,6 +16,7 @@
 use super::card::Card;
 use super::law::Law;
 use super::rounding::Rounding;
+use enfilade_dataset::BodyPlaces;
 use enfilade_frame::vector;
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::{DMat2, DVec2, DVec3};
@@ -57,6 +58,8 @@ pub(super) struct Sight<'a> {
     pub rounding: Rounding,
     /// By part: true if its reflectance partly belongs to the surfaces behind it, which each view shows at another place.
     pub partly_there: &'a [bool],
+    /// Where what moves is in the frame.
+    pub places: BodyPlaces<'a>,
 }
 
 /// Result of the comparison of two frames.
@@ -155,6 +158,7 @@ struct Raster<'a> {
     /// Only of cameras in focus and at rest: lens and shutter blur it.
     reflectance: Option<&'a Values>,
     partly_there: &'a [bool],
+    places: BodyPlaces<'a>,
 }
 
 /// Result of one direction.
@@ -208,6 +212,7 @@ impl<'a> Raster<'a> {
             shown: (0..frame.pixels()).map(shown).collect(),
             reflectance: frame.get(Layer::DiffuseReflectance).filter(|_| sharp),
             partly_there: sight.partly_there,
+            places: sight.places,
         })
     }
 
@@ -237,7 +242,7 @@ impl<'a> Raster<'a> {
             let distance = self.distance.get(pixel);
             let ray = self.view.centre_ray(x, y).filter(|_| self.ids.get(pixel) != -1.0 && distance.is_finite())?;
             let p = ray.origin + ray.direction * distance;
-            other.see(p)
+            other.see(self.places.carry(&other.places, self.ids.get(pixel) as i64, p))
         };
         (0..self.width * self.height).map(image).collect()
     }
@@ -359,7 +364,11 @@ impl<'a> Raster<'a> {
     /// Whether the surface of a pixel turns its back to the other camera; not known without normals.
     fn faces_away(&self, other: &Raster<'_>, pixel: usize, image: &Image) -> bool {
         let to_other = other.view.row_placement(image.at.y).0 - image.point;
-        self.normals.as_ref().is_some_and(|normals| normals[pixel].dot(to_other) < 0.0)
+        let turned = |normal: DVec3| {
+            let [here, there] = [&self.places, &other.places].map(|places| places.world_from_rest(self.ids.get(pixel) as i64));
+            here.zip(there).map_or(normal, |(here, there)| there.transform_vector3(here.inverse().transform_vector3(normal)))
+        };
+        self.normals.as_ref().is_some_and(|normals| turned(normals[pixel]).dot(to_other) < 0.0)
     }
 
     /// The least and greatest reflectance around a pixel and around its image, by channel. Each of the two regions contains a whole pixel
@@ -421,7 +430,13 @@ mod tests {
 
         fn sight(&self, i: usize) -> Sight<'_> {
             let view = CameraView::still(&self.camera, &self.poses[i]);
-            Sight { frame: &self.frames[i], view, rounding: Rounding::default(), partly_there: &self.partly_there }
+            Sight {
+                frame: &self.frames[i],
+                view,
+                rounding: Rounding::default(),
+                partly_there: &self.partly_there,
+                places: BodyPlaces::default(),
+            }
         }
     }
 
@@ -577,7 +592,13 @@ mod tests {
             });
             let views = [0, 1].map(|index| CameraView::of_frame(&camera, &poses, index));
             let frames = [room(&views[0]), room(&views[1])];
-            let sight = |i: usize| Sight { frame: &frames[i], view: views[i], rounding: Rounding::default(), partly_there: &[] };
+            let sight = |i: usize| Sight {
+                frame: &frames[i],
+                view: views[i],
+                rounding: Rounding::default(),
+                partly_there: &[],
+                places: BodyPlaces::default(),
+            };
             let mut card = Card::default();
             let values = compare("room", [("cam_00", 0), ("cam_00", 1)], [&sight(0), &sight(1)], &mut card).unwrap();
             assert_eq!(card.failures(), [], "{pitch_deg}: {values:?}");

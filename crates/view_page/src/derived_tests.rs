@@ -258,6 +258,7 @@ fn relate(dataset: &Dataset) {
     let row = PairRow { pair, first_seen_by_second: 0.75, second_seen_by_first: 0.25, baseline_m: 2.0, angle_deg: 0.0 };
     write_pairs(&dataset.layout().pairs(), &[row]).unwrap();
     let tracks = Tracks {
+        node_ids: Vec::new(),
         frames: vec![0, 2],
         positions: vec![DVec3::ONE],
         seeds: vec![(0, [0.5, 0.5])],

@@ -6,9 +6,11 @@ use enfilade_frame::Layer;
 use enfilade_scene::{CameraView, Counted, Cx};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Writes what the frames of a camera show of each instance, and the amodal masks, which replace all older ones; returns the files. Frames
-/// in `made` already have their result of [`view_instances`], which is not computed again.
+/// in `made` already have their result of [`view_instances`], which is not computed again. `solids` gives what a frame shows: it is the same
+/// in all frames where nothing moves.
 ///
 /// # Errors
 /// When a file cannot be read or written.
@@ -17,14 +19,14 @@ pub fn write_instances(
     [scene, camera]: [&str; 2],
     frames: &BTreeSet<u32>,
     made: &BTreeMap<u32, Vec<InstanceView>>,
-    solids: &[Solid],
+    solids: &(dyn Fn(u32) -> Arc<Vec<Solid>> + Sync),
     cx: &dyn Cx,
 ) -> Result<Vec<PathBuf>, DatasetError> {
     let counted = Counted::new(cx, "frames", frames.len());
     let one = |&number: &u32| {
         counted.unit(|| match made.get(&number) {
             Some(views) => Ok(views.clone()),
-            None => view_instances(dataset, [scene, camera], number, solids),
+            None => view_instances(dataset, [scene, camera], number, &solids(number)),
         })
     };
     dataset.remove_amodal_masks(scene, camera, made.keys().copied())?;

@@ -5,7 +5,7 @@ use enfilade_dataset::{Dataset, FramePair};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::{DVec2, DVec3, Rgb, Vec3};
 use enfilade_multiview::{Filmed, ScenePackage, write_flow};
-use enfilade_render::{Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
+use enfilade_render::{FlowTo, Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
 use enfilade_scene::{Camera, CameraView, Environment, Fisheye, Pose, Projection, Quiet};
 
 fn write(dataset: &Dataset, pairs: impl FnOnce(&Filmed<'_>) -> Vec<[usize; 2]>) {
@@ -37,7 +37,7 @@ fn to_the_next_frame_it_has_the_bits_of_the_rendered_layers() {
     let guide = Guide::learn(&prepared, &views, &config);
     for i in 0..2 {
         let mut frame: Frame = render_frame(&prepared, &guide, &views[i], &config, &Quiet).unwrap();
-        add_extra_layers(&prepared, &views[i], Some(&views[i + 1]), &mut frame);
+        add_extra_layers(&prepared, &views[i], Some(FlowTo::still(&views[i + 1])), &mut frame);
         let pair = pair(("cam_00", i as u32), ("cam_00", i as u32 + 1));
         for layer in [Layer::OpticalFlow, Layer::SceneFlow, Layer::FlowVisibility] {
             assert!(read(&dataset, &pair, layer).as_bytes() == frame.get(layer).unwrap().as_bytes(), "{layer:?} of frame {i}");

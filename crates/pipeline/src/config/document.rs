@@ -75,6 +75,8 @@ keys! {
         pub labels: Option<Spanned<String>>,
         /// Models of yours that are placed in scenes: `[[object]]` tables, as below. Those of a scene replace those of the file.
         pub object: Option<Vec<Spanned<toml::Table>>>,
+        /// What moves in scenes, and how: `[[motion]]` tables, as below. Those of a scene replace those of the file.
+        pub motion: Option<Vec<Spanned<toml::Table>>>,
         /// What is made of finished frames as well: words such as `"pairs"` and `"words"`, and tables such as `{ sensors = "sensors.toml" }`.
         pub products: Option<Spanned<Vec<ProductKey>>>,
         pub render: RenderSection,

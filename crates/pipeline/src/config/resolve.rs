@@ -18,7 +18,7 @@ use super::settings::{Config, Gone, LabelSource, SceneConfig, Source, keep_rende
 use super::vary;
 use crate::error::ConfigError;
 use crate::request::{Product, Request};
-use enfilade_compose::ObjectGroup;
+use enfilade_compose::{MotionGroup, ObjectGroup};
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
@@ -38,6 +38,8 @@ const QUALITY: Quality = Quality::Normal;
 const COLOR: ColorKind = ColorKind::Denoised;
 /// Where the keys of `[[object]]` are explained.
 const OBJECTS: &str = "docs/compose.md explains the keys";
+/// Where the keys of motion are.
+const MOTIONS: &str = "docs/motion.md explains the keys";
 /// Homes of one table.
 const MAX_COUNT: u32 = 100_000;
 
@@ -187,6 +189,7 @@ impl Resolver<'_> {
             source: self.scene_source(entry, seed)?,
             varies: None,
             objects: self.objects(keys)?,
+            motions: self.motions(keys)?,
             labels: self.labels(keys, &name)?,
             scene_type: keys.scene_type.as_ref().map(|word| self.scene_type(word)).transpose()?,
             cameras: keys.cameras.chosen.clone(),
@@ -237,6 +240,20 @@ impl Resolver<'_> {
                 read.map_err(|e| self.refuse(table, format!("in [[object]]: {}", with_nearest(&in_words(e.message()).0)), OBJECTS))?;
             group.validate(number).map_err(|wrong| self.refuse(table, wrong.to_string(), OBJECTS))?;
             group.files.0.iter().try_for_each(|pattern| self.check_path(pattern, table))?;
+            groups.push(group);
+        }
+        Ok(groups)
+    }
+
+    /// What moves in a scene.
+    fn motions(&self, keys: &SceneKeys) -> Result<Vec<MotionGroup>, ConfigError> {
+        let Some(tables) = keys.level.motion.as_ref().or(self.document.level.motion.as_ref()) else { return Ok(Vec::new()) };
+        let mut groups = Vec::new();
+        for (number, table) in (1..).zip(tables) {
+            let read: Result<MotionGroup, toml::de::Error> = table.get_ref().clone().try_into();
+            let group =
+                read.map_err(|e| self.refuse(table, format!("in [[motion]]: {}", with_nearest(&in_words(e.message()).0)), MOTIONS))?;
+            group.validate(number).map_err(|wrong| self.refuse(table, wrong.to_string(), MOTIONS))?;
             groups.push(group);
         }
         Ok(groups)

@@ -10,7 +10,7 @@ use super::import::FileSource;
 use super::select::select;
 use crate::error::Error;
 use crate::request::Request;
-use enfilade_compose::ObjectGroup;
+use enfilade_compose::{MotionGroup, ObjectGroup};
 use enfilade_dataset::ColorKind;
 use enfilade_explore::{CarveConfig, PlanConfig, Preset};
 use enfilade_home::HomeConfig;
@@ -55,6 +55,9 @@ pub struct SceneConfig {
     /// Models that are placed in it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objects: Vec<ObjectGroup>,
+    /// What moves in it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motions: Vec<MotionGroup>,
     /// The scene of which it is a variation, and what varies; `None` for scenes by themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub varies: Option<Varies>,

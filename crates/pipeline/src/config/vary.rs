@@ -53,6 +53,7 @@ pub(super) fn variations(first: &SceneConfig, config: &VaryConfig) -> Vec<SceneC
         // Both come with the first scene, however it has got them.
         labels: None,
         objects: Vec::new(),
+        motions: Vec::new(),
         ..first.clone()
     };
     (1..=count).map(variation).collect()

@@ -64,8 +64,7 @@ fn without(mesh: &Mesh, dropped: &BTreeSet<u32>) -> Mesh {
 
 /// Takes parts out, with their labels; the numbers of those behind them move up.
 fn remove_parts(imported: &mut Imported, emptied: &BTreeSet<PartId>) {
-    let mut number = 0..;
-    imported.scene.parts.retain(|_| !emptied.contains(&number.next().unwrap_or_default()));
+    imported.scene.remove_parts(emptied);
     if let Some(labels) = &mut imported.labels {
         labels.retain(|label| !emptied.contains(&label.part));
         labels.iter_mut().for_each(|label| label.part -= emptied.range(..label.part).count() as PartId);

@@ -21,13 +21,12 @@ pub(super) fn parts(subject: &Subject, request: &Request) -> Result<Vec<Part>, E
 pub(super) fn make(subject: &Subject, asked: &[Asked], cx: &dyn Cx) -> Result<Vec<String>, Error> {
     let filmed = Filmed::read(subject.dataset, subject.scene, None, cx).map_err(Error::stage)?;
     let package = package(subject, &filmed, cx)?;
-    let lookout = package.lookout().map_err(Error::stage)?;
     let mut lines = Vec::new();
     for Asked { part, request } in asked {
         let Request::Tracks { points, seed, .. } = request else { continue };
         let frames: Vec<usize> = part.frames.iter().filter_map(|(camera, number)| filmed.find(camera, *number)).collect();
         let config = TracksConfig { points: *points, seed: *seed };
-        let found = follow(&filmed, &lookout, &frames, config, cx).map_err(Error::stage)?;
+        let found = follow(&filmed, &package, &frames, config, cx).map_err(Error::stage)?;
         subject.dataset.write_tracks(subject.scene, &part.name, &found).map_err(Error::stage)?;
         let (points, frames) = (counted(found.positions.len(), "point"), counted(found.frames.len(), "frame"));
         lines.push(format!("{}/{}: {points} through {frames}", subject.scene, part.name));

@@ -1,13 +1,13 @@
 //! `boxes`: bounding boxes of every instance, and what each frame shows of it. Nothing is rendered again.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, made};
+use super::made::{self, Furniture};
+use super::{Input, Inputs, Job, Outcome, Record, Stage};
 use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{BoxKind, counted, mesh_names};
 use enfilade_label::boxes::write_boxes;
-use enfilade_label::instances::{solids, write_instances};
-use enfilade_scene::WorldMesh;
+use enfilade_label::instances::write_instances;
 use std::collections::BTreeMap;
 
 pub(super) fn settings(_job: &Job) -> Hash {
@@ -44,8 +44,10 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     // Building solids takes long, and other machines may have noted what every frame shows.
     let needed = seen.iter().any(|(_, rendered, made)| made.len() < rendered.len());
-    let solids = if needed { solids(&WorldMesh::new(&scene), &labels) } else { Vec::new() };
+    let furniture = Furniture::known(job, scene, labels, needed)?;
     for (camera, rendered, made) in &seen {
+        let moments = furniture.moments(job, camera)?;
+        let solids = |frame: u32| furniture.solids(&moments, frame);
         outputs.extend(write_instances(job.dataset, [name, camera], rendered, made, &solids, cx).map_err(Error::stage)?);
     }
     let summary = format!("{} of 3 kinds, seen in {}", counted(boxed, "instance"), counted(frames, "frame"));

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::intake::{self, labels_by_part};
 use crate::report::StageCx;
 use crate::workdir::Hash;
+use enfilade_compose::with_motion;
 use enfilade_dataset::remove_if_there;
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
@@ -21,7 +22,8 @@ pub(super) fn settings(job: &Job) -> Hash {
         return variation::settings(job, varies);
     }
     let source = source_settings(job);
-    if job.scene.objects.is_empty() { source } else { Hash::of(&(source, objects::settings(job))) }
+    let still = if job.scene.objects.is_empty() { source } else { Hash::of(&(source, objects::settings(job))) };
+    if job.scene.motions.is_empty() { still } else { Hash::of(&(still, "motion", &job.scene.motions)) }
 }
 
 fn source_settings(job: &Job) -> Hash {
@@ -105,6 +107,9 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         };
         inputs = Some([of_source, composed.inputs].concat());
         (scene, labels, placed) = (composed.scene.scene, Some(composed.scene.labels), Some(composed.placed));
+    }
+    if !job.scene.motions.is_empty() {
+        scene = with_motion(&scene, &job.scene.motions).map_err(|error| Error::scene(error.to_string(), "docs/motion.md has the keys"))?;
     }
     let outputs = imported::write(job, &scene, labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
     let summary = imported::describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);

@@ -11,9 +11,10 @@ use enfilade_dataset::{BoxKind, InstanceView, write_json};
 use enfilade_label::Pieces;
 use enfilade_label::boxes::write_boxes;
 use enfilade_label::instances::{Solid, solids, view_instances};
-use enfilade_scene::{Quiet, Scene, WorldMesh};
+use enfilade_scene::{Labels, Quiet, Scene, WorldMesh};
 use enfilade_show::drivers::{preview_boxes, preview_frame_alone};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -46,7 +47,10 @@ impl Made {
 
 /// The solid instances of a scene; its boxes are written.
 pub(super) struct Furniture {
-    solids: Vec<Solid>,
+    scene: Arc<Scene>,
+    labels: Labels,
+    /// Those of all frames, if nothing moves.
+    still: Option<Arc<Vec<Solid>>>,
     boxes: Hash,
 }
 
@@ -56,7 +60,32 @@ impl Furniture {
         let scene = scene_of_pieces(job)?;
         let labels = job.dataset.read_label_tables(&job.scene.name).map_err(Error::stage)?;
         write_boxes(job.dataset, &job.scene.name, &scene, &labels).map_err(Error::stage)?;
-        Ok(Self { solids: solids(&WorldMesh::new(&scene), &labels), boxes: boxes(job)? })
+        Self::known(job, scene, labels, true)
+    }
+
+    /// Furniture of a scene of pieces. Unless it is `needed`, there is none.
+    pub fn known(job: &Job, scene: Arc<Scene>, labels: Labels, needed: bool) -> Result<Self, Error> {
+        let all = || if needed { solids(&WorldMesh::new(&scene), &labels) } else { Vec::new() };
+        let still = scene.is_still().then(|| Arc::new(all()));
+        Ok(Self { still, scene, labels, boxes: boxes(job)? })
+    }
+
+    /// The moment that each frame of a camera shows, seconds; none where nothing moves.
+    pub fn moments(&self, job: &Job, camera: &str) -> Result<BTreeMap<u32, f64>, Error> {
+        if self.still.is_some() {
+            return Ok(BTreeMap::new());
+        }
+        let filmed = job.dataset.read_filmed_bodies(&job.scene.name, camera).map_err(Error::stage)?;
+        Ok(filmed.iter().flat_map(|filmed| filmed.frames()).map(|frame| (frame.frame, frame.time_s)).collect())
+    }
+
+    /// The solid instances as a frame finds them.
+    pub fn solids(&self, moments: &BTreeMap<u32, f64>, frame: u32) -> Arc<Vec<Solid>> {
+        let moved = || {
+            let time_s = moments.get(&frame).copied().unwrap_or_default();
+            Arc::new(solids(&WorldMesh::new(&self.scene.at(time_s)), &self.labels))
+        };
+        self.still.clone().unwrap_or_else(moved)
     }
 }
 
@@ -71,7 +100,8 @@ pub(super) fn scene_of_pieces(job: &Job) -> Result<Arc<Scene>, Error> {
 /// the note.
 pub(super) fn make(job: &Job, camera: &str, frame: u32, furniture: &Furniture) -> Result<Vec<PathBuf>, Error> {
     let shot = [job.scene.name.as_str(), camera];
-    let views = view_instances(job.dataset, shot, frame, &furniture.solids).map_err(Error::stage)?;
+    let solids = furniture.solids(&furniture.moments(job, camera)?, frame);
+    let views = view_instances(job.dataset, shot, frame, &solids).map_err(Error::stage)?;
     let mut pictures = preview_frame_alone(job.dataset, shot, frame).map_err(Error::stage)?;
     pictures.extend(preview_boxes(job.dataset, shot[0], camera, &[frame], &Quiet).map_err(Error::stage)?);
     let masks = vec![job.dataset.layout().amodal_masks(shot[0], camera, frame)];

@@ -10,7 +10,7 @@ use enfilade_dataset::{ColorKind, Dataset, FrameInfo, remove_folder};
 use enfilade_frame::Frame;
 use enfilade_label::boxes::scene_boxes;
 use enfilade_label::instances::solids;
-use enfilade_render::{FrameRender, Guide, Probe, RenderConfig, RenderScene, add_extra_layers, samples_wanted};
+use enfilade_render::{FlowTo, FrameRender, Guide, Probe, RenderConfig, RenderScene, add_extra_layers, samples_wanted};
 use enfilade_scene::{Camera, CameraView, Cx, Quiet, Trajectory, WorldMesh};
 use std::path::Path;
 
@@ -161,7 +161,7 @@ fn try_frame_in(
     let time = Stopwatch::start();
     let mut frame = rendering.frame();
     if config.extra {
-        add_extra_layers(prepared, &views[index], views.get(index + 1), &mut frame);
+        add_extra_layers(prepared, &views[index], views.get(index + 1).map(FlowTo::still), &mut frame);
     }
     let info = FrameInfo {
         seed: 0,

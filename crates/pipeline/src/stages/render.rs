@@ -1,14 +1,14 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is not rendered again if its record has the current hash of everything
 //! that its values depend on; for resuming within a frame, see `progressive`.
 
-use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, progressive};
+use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, moments, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, FrameRecord, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{Frame, Pass};
-use enfilade_render::{FixtureKind, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
-use enfilade_scene::{Camera, CameraView, Cx, Pose, Trajectory, Warning};
+use enfilade_render::{FixtureKind, FlowTo, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, Quiet, Scene, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
@@ -20,6 +20,11 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     inputs.extend(camera_files::inputs(job)?);
     inputs.extend(gate::verdicts(job)?);
+    if moments::moves(&job.package()?) {
+        for (_, trajectory) in job.filmed()?.iter() {
+            inputs.push(Input::of(&job.dataset.layout().metadata_camera(&job.scene.name, &trajectory.name))?);
+        }
+    }
     Ok(Some(inputs))
 }
 
@@ -47,20 +52,46 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     // List what lights the scene, and render them. Where several machines render, each lists it with its frames.
     let lists_fixtures = job.scene.render.fixtures && (rendered > 0 || job.shift.is_none());
     let mut timed_out = 0;
-    if rendered > 0 || lists_fixtures {
-        job.forget_world();
+    if moments::moves(&job.package()?) {
         let scene = job.load_scene()?;
-        let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?.settled(&job.scene.render);
-        if lists_fixtures {
-            list_fixtures(job, scene.fixtures())?;
+        refuse_unfit(job, &filmed, cx)?;
+        if rendered > 0 || job.shift.is_none() {
+            moments::write_tables(job, Some(&scene))?;
         }
-        timed_out = render(job, &scene, &missing, [total - rendered, total], cx)?;
+        timed_out = render(job, &Rendered::Moving(&scene), &missing, [total - rendered, total], cx)?;
+    } else {
+        moments::write_tables(job, None)?;
+        if rendered > 0 || lists_fixtures {
+            job.forget_world();
+            let scene = job.load_scene()?;
+            let scene = RenderScene::new(&scene, cx).map_err(Error::stage)?.settled(&job.scene.render);
+            if lists_fixtures {
+                list_fixtures(job, scene.fixtures())?;
+            }
+            timed_out = render(job, &Rendered::Still(scene), &missing, [total - rendered, total], cx)?;
+        }
     }
     let [width, height] = job.scene.size;
     let kept = if rendered < total { format!(", {} kept", total - rendered) } else { String::new() };
     let ended = if timed_out > 0 { format!(", {timed_out} ended by the time limit") } else { String::new() };
     let summary = format!("{} of {width}x{height} at {} samples{kept}{ended}", counted(rendered, "frame"), job.scene.render.samples);
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
+}
+
+/// Refuses what cannot be made of scenes that move, and says what their frames lack.
+fn refuse_unfit(job: &Job, filmed: &[(Camera, Trajectory)], cx: &StageCx) -> Result<(), Error> {
+    if job.scene.render.fixtures {
+        let message = "the scene moves, and light is kept apart by lamp and window only of still scenes".to_string();
+        return Err(Error::scene(message, "take fixtures = true out of [render], or still = true into [scene.import]"));
+    }
+    if let Some((_, trajectory)) = filmed.iter().find(|(camera, _)| camera.shutter.is_some()) {
+        let message =
+            "the camera has a shutter, but what moves by itself is not blurred or sheared: each frame shows it at the frame's own \
+                       moment"
+                .into();
+        cx.warn(Warning { place: format!("{}/{}", job.scene.name, trajectory.name), message });
+    }
+    Ok(())
 }
 
 /// Renders the missing frames of `job`, regardless of the stage's record.
@@ -94,10 +125,11 @@ fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet
             time_limit_s: job.scene.time_limit_s,
         };
         let poses = trajectory.poses.iter().filter(|pose| wanted.contains(&pose.frame));
+        let timing = Timing { limit_s: job.scene.time_limit_s, frame_s: frame_time_of(job, trajectory)? };
         let infos = poses.map(|pose| FrameInfo {
             seed: config.seed,
             samples: config.samples,
-            config_hash: config_hash(&package, &config, job.scene.time_limit_s, camera, trajectory, pose),
+            config_hash: config_hash(&package, &config, timing, camera, trajectory, pose),
             pose: *pose,
             camera: camera.clone(),
             sampling: None,
@@ -111,6 +143,11 @@ fn missing<'a>(job: &Job, filmed: &'a [(Camera, Trajectory)], wanted: &[BTreeSet
     Ok(missing)
 }
 
+/// Seconds between the frames of a trajectory, if the scene moves.
+fn frame_time_of(job: &Job, trajectory: &Trajectory) -> Result<Option<f64>, Error> {
+    moments::frame_time(job.dataset, &job.package()?, &job.scene.name, &trajectory.name)
+}
+
 /// The settings that a trajectory is rendered with.
 fn settings_of(job: &Job, trajectory: &Trajectory) -> RenderConfig {
     RenderConfig { seed: job.scene.seed_for(&format!("render/{}", trajectory.name)), ..job.scene.render.clone() }
@@ -120,7 +157,8 @@ fn settings_of(job: &Job, trajectory: &Trajectory) -> RenderConfig {
 pub(super) fn config_hashes(job: &Job, camera: &Camera, trajectory: &Trajectory) -> Result<BTreeMap<u32, String>, Error> {
     let package = Input::of(&job.package()?)?.content;
     let config = settings_of(job, trajectory);
-    let hash = |pose: &Pose| (pose.frame, config_hash(&package, &config, job.scene.time_limit_s, camera, trajectory, pose));
+    let timing = Timing { limit_s: job.scene.time_limit_s, frame_s: frame_time_of(job, trajectory)? };
+    let hash = |pose: &Pose| (pose.frame, config_hash(&package, &config, timing, camera, trajectory, pose));
     Ok(trajectory.poses.iter().map(hash).collect())
 }
 
@@ -160,23 +198,48 @@ fn frames_are_taken(job: &Job) -> Result<bool, Error> {
     Ok(true)
 }
 
+/// What is rendered.
+enum Rendered<'s> {
+    /// A scene that is the same in every frame.
+    Still(RenderScene<'s>),
+    /// A scene that each frame finds in another state.
+    Moving(&'s Scene),
+}
+
 /// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.
-fn render(job: &Job, scene: &RenderScene, missing: &[Missing], [kept, total]: [usize; 2], cx: &StageCx) -> Result<usize, Error> {
+fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usize; 2], cx: &StageCx) -> Result<usize, Error> {
     let (mut done, mut timed_out) = (kept, 0);
     for Missing { camera, trajectory, config, frames } in missing {
-        // One guide per trajectory: it learns from all views where light comes from.
+        // One guide per trajectory: it learns from all views where light comes from. Of a scene that moves each frame has its own.
         let views = views(camera, trajectory);
-        cx.progress("learning where light comes from", done as u64, total as u64);
-        let guide = Guide::learn(scene, &views, config);
+        let learnt = match scene {
+            Rendered::Still(scene) => {
+                cx.progress("learning where light comes from", done as u64, total as u64);
+                Some((scene, Guide::learn(scene, &views, config)))
+            }
+            Rendered::Moving(_) => None,
+        };
+        let frame_time_s = job.dataset.read_frame_time(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
 
             // Render a frame; it continues where a killed run ended.
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
-            let rendering = FrameRender::new(scene, &guide, &views[index], config).map_err(Error::stage)?;
-            let (mut frame, sampling) = progressive::render(job, &trajectory.name, info, rendering, &frame_cx)?;
-            add_extra(scene, &views, index, config, &mut frame);
+            let take = |rendering: FrameRender<'_, '_>| progressive::render(job, &trajectory.name, info, rendering, &frame_cx);
+            let (frame, sampling) = match (scene, &learnt) {
+                (Rendered::Moving(scene), _) => {
+                    let moment = moments::Moment::new(scene, &trajectory.poses, index, frame_time_s);
+                    take_at(&moment, &views, index, config, take)?
+                }
+                (_, Some((scene, guide))) => {
+                    let rendering = FrameRender::new(scene, guide, &views[index], config).map_err(Error::stage)?;
+                    let (mut frame, sampling) = take(rendering)?;
+                    add_extra(scene, &views, index, config, &mut frame);
+                    (frame, sampling)
+                }
+                (Rendered::Still(_), None) => unreachable!("a still scene has a guide"),
+            };
 
             // Write it with its record, announce it, and only then remove its saved state.
             let time = time.of_frame();
@@ -191,6 +254,27 @@ fn render(job: &Job, scene: &RenderScene, missing: &[Missing], [kept, total]: [u
         }
     }
     Ok(timed_out)
+}
+
+/// Prepares a scene as a frame finds it, has `take` take its samples, and adds the further layers.
+pub(crate) fn take_at<T>(
+    moment: &moments::Moment,
+    views: &[CameraView],
+    index: usize,
+    config: &RenderConfig,
+    take: impl FnOnce(FrameRender<'_, '_>) -> Result<(Frame, T), Error>,
+) -> Result<(Frame, T), Error> {
+    let scene = RenderScene::new(&moment.scene, &Quiet).map_err(Error::stage)?.settled(config);
+    let guide = Guide::learn(&scene, &views[index..=index], config);
+    let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?;
+    let (mut frame, taken) = take(rendering)?;
+    if config.extra {
+        let moved = moment.moved()?;
+        let next = views.get(index + 1).map(|view| FlowTo { view, moved: moved.as_ref() });
+        add_extra_layers(&scene, &views[index], next, &mut frame);
+        moment.mark(&mut frame);
+    }
+    Ok((frame, taken))
 }
 
 /// Lists what lights the scene, where the light of each is kept apart.
@@ -216,25 +300,35 @@ pub(crate) fn views<'a>(camera: &'a Camera, trajectory: &'a Trajectory) -> Vec<C
 /// Adds the further layers of a view, if requested; flow leads to the next one.
 pub(crate) fn add_extra(scene: &RenderScene, views: &[CameraView], index: usize, config: &RenderConfig, frame: &mut Frame) {
     if config.extra {
-        add_extra_layers(scene, &views[index], views.get(index + 1), frame);
+        add_extra_layers(scene, &views[index], views.get(index + 1).map(FlowTo::still), frame);
     }
 }
 
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
+/// The times that a frame's values depend on.
+#[derive(Clone, Copy)]
+pub(crate) struct Timing {
+    /// Wall-clock seconds after which the frame was to end.
+    pub limit_s: Option<f64>,
+    /// Seconds between frames, if the scene moves.
+    pub frame_s: Option<f64>,
+}
+
 /// Names everything that a frame's values depend on. It depends on its whole trajectory, because the guide is learned from all of it,
 /// and the camera moves on while it is exposed. Views that a gate rejects are learned from too, so that other limits change no frame.
 pub(crate) fn config_hash(
     package: &Hash,
     config: &RenderConfig,
-    time_limit_s: Option<f64>,
+    timing: Timing,
     camera: &Camera,
     trajectory: &Trajectory,
     pose: &Pose,
 ) -> String {
     let version = (HASHED_AS, Stage::Render.version());
-    Hash::of(&(version, package, config, time_limit_s, CameraRecord::from(camera), &trajectory.poses, pose)).0
+    let still = (version, package, config, timing.limit_s, CameraRecord::from(camera), &trajectory.poses, pose);
+    timing.frame_s.map_or_else(|| Hash::of(&still), |frame_s| Hash::of(&(&still, frame_s))).0
 }
 
 /// The program as records name it.
@@ -245,7 +339,12 @@ pub(crate) fn program() -> String {
 /// Every file that rendering writes for the scene as a whole; records vouch for the files of frames.
 fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let has_fixtures = !job.dataset.read_fixtures(&job.scene.name).map_err(Error::stage)?.is_empty();
-    Ok(has_fixtures.then(|| job.dataset.layout().metadata_fixtures(&job.scene.name)).into_iter().collect())
+    let mut outputs: Vec<PathBuf> = has_fixtures.then(|| job.dataset.layout().metadata_fixtures(&job.scene.name)).into_iter().collect();
+    if moments::moves(&job.package()?) {
+        outputs.push(job.dataset.layout().metadata_bodies(&job.scene.name));
+        outputs.extend(job.filmed()?.iter().map(|(_, filmed)| job.dataset.layout().metadata_body_poses(&job.scene.name, &filmed.name)));
+    }
+    Ok(outputs)
 }
 
 /// Removes frames of an earlier, longer trajectory and of views that gates reject now.

@@ -1,11 +1,42 @@
-//! Position of a surface point in another frame: the next one, or any. Scenes do not move; cameras do.
+//! Position of a surface point in another frame: the next one, or any.
 
+use crate::look::Lookout;
 use crate::prepared::{AlphaTest, RenderScene};
-use enfilade_math::{DVec3, Ray};
-use enfilade_scene::{CameraRay, CameraView};
+use enfilade_math::{DAffine3, DVec3, Ray};
+use enfilade_scene::{CameraRay, CameraView, PartId};
 
 /// A point is seen when the ray to it is free up to this fraction of its length.
 const REACH: f64 = 0.999;
+
+/// A view that flow leads to.
+#[derive(Clone, Copy)]
+pub struct FlowTo<'a> {
+    /// Camera and pose.
+    pub view: &'a CameraView<'a>,
+    /// The scene as that view finds it, if it moves.
+    pub moved: Option<&'a Moved<'a>>,
+}
+
+/// A scene at another moment.
+pub struct Moved<'s> {
+    /// The scene at that moment.
+    pub lookout: Lookout<'s>,
+    /// By part: the map of the world to itself from its place at the first moment to that at the other one; `None` of parts that stay.
+    pub carried: Vec<Option<DAffine3>>,
+}
+
+impl<'a> FlowTo<'a> {
+    /// A view of a scene that does not move.
+    pub fn still(view: &'a CameraView<'a>) -> Self {
+        Self { view, moved: None }
+    }
+
+    /// Where a point of a part is then.
+    fn place(&self, part: PartId, p_world: DVec3) -> DVec3 {
+        let carried = self.moved.and_then(|moved| moved.carried.get(part as usize)?.as_ref());
+        carried.map_or(p_world, |carried| carried.transform_point3(p_world))
+    }
+}
 
 /// The motion of one surface point as the camera sees it.
 #[derive(Clone, Copy, Debug)]
@@ -18,27 +49,30 @@ pub(crate) struct Flow {
     pub visible: bool,
 }
 
-/// From the image point of `view` that shows `p_world` to the image point of `next`. `None` for points that are not finite.
+/// From the image point of `view` that shows `p_world` of a part to the image point of `to`. `None` for points that are not finite.
 pub(super) fn flow(
     scene: &RenderScene<'_>,
     view: &CameraView<'_>,
-    next: &CameraView<'_>,
+    to: FlowTo<'_>,
     (x, y): (f64, f64),
-    p_world: DVec3,
+    (part, p_world): (PartId, DVec3),
 ) -> Option<Flow> {
     if !p_world.is_finite() {
         return None;
     }
-    let there = next.project(p_world);
+    let next = to.view;
+    let p_then = to.place(part, p_world);
+    let there = next.project(p_then);
     let row = there.map_or(y, |(_, row)| row.clamp(0.0, f64::from(next.camera().size()[1])));
-    let in_camera = |view: &CameraView, row: f64| {
+    let in_camera = |view: &CameraView, p: DVec3, row: f64| {
         let (position, world_from_camera) = view.row_placement(row);
-        world_from_camera.transpose() * (p_world - position)
+        world_from_camera.transpose() * (p - position)
     };
+    let scene = to.moved.map_or(scene, |moved| moved.lookout.scene());
     Some(Flow {
         image: there.map(|(next_x, next_y)| [(next_x - x) as f32, (next_y - y) as f32]),
-        camera: (in_camera(next, row) - in_camera(view, y)).as_vec3().to_array(),
-        visible: there.is_some_and(|there| shows(scene, next, there, p_world)),
+        camera: (in_camera(next, p_then, row) - in_camera(view, p_world, y)).as_vec3().to_array(),
+        visible: there.is_some_and(|there| shows(scene, next, there, p_then)),
     })
 }
 

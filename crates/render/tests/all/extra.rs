@@ -3,7 +3,7 @@
 use enfilade_frame::{Frame, Layer, traits};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
-use enfilade_render::{Guide, Lookout, RenderConfig, RenderScene, add_extra_layers, render_frame};
+use enfilade_render::{FlowTo, Guide, Lookout, RenderConfig, RenderScene, add_extra_layers, render_frame};
 use enfilade_scene::{Alpha, Bsdf, Camera, CameraView, Environment, Intrinsics, Material, Part, Pose, Principled, Quiet, Scene, Shutter};
 
 const CAMERA: Intrinsics = Intrinsics { width: 48, height: 36, fx: 40.0, fy: 42.0, cx: 23.0, cy: 18.5, skew: 0.0 };
@@ -57,7 +57,7 @@ fn frame_of(s: &Scene, views: &[CameraView<'_>]) -> Frame {
     let prepared = RenderScene::new(s, &Quiet).unwrap();
     let guide = Guide::learn(&prepared, views, &config);
     let mut frame = render_frame(&prepared, &guide, &views[0], &config, &Quiet).unwrap();
-    add_extra_layers(&prepared, &views[0], views.get(1), &mut frame);
+    add_extra_layers(&prepared, &views[0], views.get(1).map(FlowTo::still), &mut frame);
     frame
 }
 

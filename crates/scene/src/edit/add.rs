@@ -2,9 +2,9 @@
 
 use super::materials::MaterialChoice;
 use super::names::unique_thing;
-use super::place::{check_placement, index_of, mirrors, wound};
+use super::place::{check_placement, index_of, mirrors, not_rigid, wound};
 use super::{EditError, LabelledScene};
-use crate::{Material, Object, Part, PartId, PartLabel, SceneError, is_stuff};
+use crate::{Body, Material, Object, Part, PartId, PartLabel, Scene, SceneError, is_stuff};
 use enfilade_geometry::Mesh;
 use enfilade_math::DAffine3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -71,7 +71,7 @@ impl LabelledScene {
     /// The scene with all parts and lights of another one.
     ///
     /// # Errors
-    /// As [`LabelledScene::with_part`].
+    /// As [`LabelledScene::with_part`], and when a body that moves would be distorted or mirrored.
     pub fn with_thing(&self, new: &NewThing<'_>) -> Result<Self, EditError> {
         let name = unique_thing(&self.scene, &new.name);
         let mut edited = self.clone();
@@ -105,6 +105,7 @@ impl LabelledScene {
             let own_name = if light.name().is_empty() { "light" } else { light.name() };
             edited.scene.lights.push(light.moved(&new.world_from_thing).renamed(format!("{name}/{own_name}")));
         }
+        edited.take_bodies(&self.scene, new, &name)?;
         self.checked(edited)
     }
 
@@ -134,6 +135,22 @@ impl LabelledScene {
             return Err(EditError::value("labels", format!("{} more instances than numbers are left", last - i16::MAX as usize - 1)));
         }
         Ok(own.into_iter().zip(first..).collect())
+    }
+
+    /// Adds the bodies of a thing, whose parts and lights come after those of the scene `before`.
+    fn take_bodies(&mut self, before: &Scene, new: &NewThing<'_>, name: &str) -> Result<(), EditError> {
+        let [parts, lights, bodies] = [before.parts.len(), before.lights.len(), before.bodies.len()].map(|count| count as u32);
+        for body in &new.of.scene.bodies {
+            let carried = body.carried(&new.world_from_thing).ok_or_else(|| not_rigid(&body.name))?;
+            self.scene.bodies.push(Body {
+                name: format!("{name}/{}", body.name),
+                parent: body.parent.map(|parent| bodies + parent),
+                parts: body.parts.iter().map(|part| parts + part).collect(),
+                lights: body.lights.iter().map(|light| lights + light).collect(),
+                motion: carried.motion,
+            });
+        }
+        Ok(())
     }
 
     /// Adds the materials and pictures that the parts of a thing use; gives their new indices.

@@ -62,7 +62,7 @@ impl Light {
     }
 
     /// The light moved by a map of the world to itself; its strength stays, whatever the map's scale.
-    pub(super) fn moved(&self, world_from_before: &DAffine3) -> Self {
+    pub(crate) fn moved(&self, world_from_before: &DAffine3) -> Self {
         let mut light = self.clone();
         let turned = |d: Vec3| world_from_before.transform_vector3(d.as_dvec3()).normalize_or(d.as_dvec3()).as_vec3();
         match &mut light {

@@ -6,6 +6,7 @@ use super::{EditError, LabelledScene};
 use crate::{PartId, Scene};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Below this ratio of a placement's determinant to the product of its axes' lengths, it flattens what it places.
@@ -25,25 +26,26 @@ impl LabelledScene {
         }
         let stays = |part: &PartId| !parts.contains(part);
         let mut index = 0..;
-        edited.scene.parts.retain(|_| index.next().is_none_or(|part| stays(&part)));
-        let mut index = 0..;
         edited.labels.parts.retain(|_| index.next().is_none_or(|part| stays(&part)));
-        let mut index = 0..;
-        edited.scene.lights.retain(|_| index.next().is_none_or(|light| !lights.contains(&light)));
+        edited.scene.remove_parts(&parts);
+        edited.scene.remove_lights(&lights.into_iter().map(|light| light as u32).collect());
         edited.drop_unused(gone);
         self.checked(edited)
     }
 
     /// The scene with these parts, and the lights that belong to them, moved by a map of the world to itself.
     ///
-    /// A map that mirrors turns the triangles of meshes round, so that fronts stay fronts. The intensity of lights stays.
+    /// A map that mirrors turns the triangles of meshes round, so that fronts stay fronts. The intensity of lights stays. Motion goes along
+    /// where all that a body carries is moved; else what is moved keeps the body's motion as it was.
     ///
     /// # Errors
-    /// When there is no part or object of a name, or several objects of one; when a part would be flattened or is nowhere afterwards.
+    /// When there is no part or object of a name, or several objects of one; when a part would be flattened or is nowhere afterwards; when
+    /// a body that moves would be distorted or mirrored.
     pub fn moved(&self, names: &[impl AsRef<str>], world_from_before: DAffine3) -> Result<Self, EditError> {
         let Selection { parts, lights } = Selection::of(&self.scene, names)?;
         let mut edited = self.clone();
         let mut gone = LetGo::default();
+        edited.scene.carry_bodies(&parts, &world_from_before)?;
         for part in parts {
             gone.mesh(&edited.scene.parts[part as usize]);
             let world_from_mesh = world_from_before * edited.scene.parts[part as usize].world_from_mesh;
@@ -92,6 +94,12 @@ impl LabelledScene {
     }
 }
 
+/// The error for a body that would be distorted.
+pub(super) fn not_rigid(body: &str) -> EditError {
+    let problem = "it moves, so it can be moved, turned and scaled evenly, but not stretched or mirrored";
+    EditError::value(format!("body {body:?}"), problem)
+}
+
 /// The middle of the bottom of a box.
 fn foot([min, max]: [DVec3; 2]) -> DVec3 {
     (0.5 * (min + max)).with_z(min.z)
@@ -108,6 +116,22 @@ pub(super) fn check_placement(name: &str, world_from_mesh: DAffine3) -> Result<(
 }
 
 impl Scene {
+    /// Carries the motion of bodies away, where these parts are all that they and the bodies on them have.
+    fn carry_bodies(&mut self, parts: &BTreeSet<PartId>, map: &DAffine3) -> Result<(), EditError> {
+        let mut whole: Vec<bool> = self.bodies.iter().map(|body| body.parts.iter().all(|part| parts.contains(part))).collect();
+        let mut moves: Vec<bool> = self.bodies.iter().map(|body| body.parts.iter().any(|part| parts.contains(part))).collect();
+        for body in (0..self.bodies.len()).rev() {
+            if let Some(parent) = self.bodies[body].parent.map(|parent| parent as usize) {
+                whole[parent] &= whole[body];
+                moves[parent] |= moves[body];
+            }
+        }
+        for (body, _) in self.bodies.iter_mut().zip(whole.iter().zip(&moves)).filter(|(_, (whole, moves))| **whole && **moves) {
+            *body = body.carried(map).ok_or_else(|| not_rigid(&body.name))?;
+        }
+        Ok(())
+    }
+
     /// Places a part; where the placement mirrors and the earlier one did not, or the other way round, with its mesh turned inside out.
     pub(super) fn place(&mut self, part: PartId, world_from_mesh: DAffine3) -> Result<(), EditError> {
         let placed = &mut self.parts[part as usize];

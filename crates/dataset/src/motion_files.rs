@@ -1,0 +1,261 @@
+//! What moves in a scene: `_detail/metadata_bodies.csv` lists the bodies, and `metadata_body_poses.csv` of each camera has their places in
+//! its frames. Still scenes have neither.
+
+use crate::atomic::remove_if_there;
+use crate::tables::Table;
+use crate::{Dataset, DatasetError, check_name};
+use enfilade_math::{DAffine3, DVec3};
+use std::collections::BTreeMap;
+
+/// The columns of a map of the world to itself: three rows of the rotation, each with the translation at its end.
+const MATRIX: [&str; 12] = ["r00", "r01", "r02", "t0", "r10", "r11", "r12", "t1", "r20", "r21", "r22", "t2"];
+
+/// Parts that move as one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BodyRow {
+    /// From 1 on, without gaps; a body comes after the one that bears it.
+    pub id: u32,
+    /// Unique name.
+    pub name: String,
+    /// Id of the body that bears it.
+    pub parent: Option<u32>,
+    /// `free`, `hinge` or `slide`.
+    pub joint: String,
+    /// Parts of the body, as `render_entity_id` numbers them.
+    pub node_ids: Vec<u32>,
+}
+
+/// The places of all bodies in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameBodies {
+    /// Frame number.
+    pub frame: u32,
+    /// The moment of the scene that the frame shows.
+    pub time_s: f64,
+    /// By body: the map of the world to itself that takes it from rest to its place.
+    pub world_from_rest: Vec<DAffine3>,
+}
+
+/// The bodies of a scene in the frames of a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmedBodies {
+    /// All bodies.
+    pub bodies: Vec<BodyRow>,
+    frames: BTreeMap<u32, FrameBodies>,
+    /// By node: index of its body.
+    body_of_node: Vec<Option<u32>>,
+}
+
+/// Where the parts of a scene are in a frame.
+///
+/// ```
+/// use enfilade_dataset::BodyPlaces;
+/// use enfilade_math::DVec3;
+/// // In scenes where nothing moves every point stays.
+/// assert_eq!(BodyPlaces::default().carry(&BodyPlaces::default(), 7, DVec3::X), DVec3::X);
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BodyPlaces<'a> {
+    body_of_node: &'a [Option<u32>],
+    world_from_rest: &'a [DAffine3],
+}
+
+impl BodyPlaces<'_> {
+    /// The map that takes a part, by its `render_entity_id`, from rest to its place; `None` of parts that never move.
+    pub fn world_from_rest(&self, entity: i64) -> Option<&DAffine3> {
+        let body = self.body_of_node.get(usize::try_from(entity - 1).ok()?).copied().flatten()?;
+        self.world_from_rest.get(body as usize)
+    }
+
+    /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`.
+    pub fn carry(&self, to: &BodyPlaces<'_>, entity: i64, p_world: DVec3) -> DVec3 {
+        match (self.world_from_rest(entity), to.world_from_rest(entity)) {
+            (Some(here), Some(there)) if here != there => there.transform_point3(here.inverse().transform_point3(p_world)),
+            _ => p_world,
+        }
+    }
+
+    /// The place at rest of a point on a part.
+    pub fn at_rest(&self, entity: i64, p_world: DVec3) -> DVec3 {
+        self.world_from_rest(entity).map_or(p_world, |here| here.inverse().transform_point3(p_world))
+    }
+}
+
+impl FilmedBodies {
+    fn new(bodies: Vec<BodyRow>, frames: BTreeMap<u32, FrameBodies>) -> Self {
+        let last = bodies.iter().flat_map(|body| &body.node_ids).max().map_or(0, |&id| id as usize);
+        let mut body_of_node = vec![None; last];
+        for (body, index) in bodies.iter().zip(0..) {
+            body.node_ids.iter().for_each(|&id| body_of_node[id as usize - 1] = Some(index));
+        }
+        Self { bodies, frames, body_of_node }
+    }
+
+    /// Where the parts are in a frame; at rest in one that is not listed.
+    pub fn at(&self, frame: u32) -> BodyPlaces<'_> {
+        let world_from_rest = self.frames.get(&frame).map_or(&[][..], |frame| &frame.world_from_rest);
+        BodyPlaces { body_of_node: &self.body_of_node, world_from_rest }
+    }
+
+    /// The frames that are listed, in their order.
+    pub fn frames(&self) -> impl Iterator<Item = &FrameBodies> {
+        self.frames.values()
+    }
+}
+
+impl Dataset {
+    /// Writes the bodies of a scene; none remove the table.
+    ///
+    /// # Errors
+    /// When the name cannot be part of a path, or the file cannot be written.
+    pub fn write_bodies(&self, scene: &str, bodies: &[BodyRow]) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        let path = self.layout().metadata_bodies(scene);
+        if bodies.is_empty() {
+            return remove_if_there(&path);
+        }
+        let mut table = Table::new(&path, &["body_id", "name", "parent_id", "joint", "node_ids"]);
+        let row = |body: &BodyRow| {
+            let ids: Vec<String> = body.node_ids.iter().map(ToString::to_string).collect();
+            let parent = body.parent.map_or_else(String::new, |parent| parent.to_string());
+            vec![body.id.to_string(), body.name.clone(), parent, body.joint.clone(), ids.join(" ")]
+        };
+        table.rows = bodies.iter().map(row).collect();
+        table.write()
+    }
+
+    /// Writes the places of a scene's bodies in the frames of a camera; none remove the table.
+    ///
+    /// # Errors
+    /// When a name cannot be part of a path, or the file cannot be written.
+    pub fn write_body_poses(&self, scene: &str, camera: &str, frames: &[FrameBodies]) -> Result<(), DatasetError> {
+        check_name("scene name", scene)?;
+        check_name("camera name", camera)?;
+        let path = self.layout().metadata_body_poses(scene, camera);
+        if frames.is_empty() {
+            return remove_if_there(&path);
+        }
+        let header: Vec<&str> = ["frame_id", "time_seconds", "body_id"].into_iter().chain(MATRIX).collect();
+        let mut table = Table::new(&path, &header);
+        for frame in frames {
+            for (map, id) in frame.world_from_rest.iter().zip(1..) {
+                let [x, y, z] = map.matrix3.transpose().to_cols_array_2d();
+                let rows = [x, y, z].into_iter().zip(map.translation.to_array()).flat_map(|([a, b, c], t)| [a, b, c, t]);
+                let begin = [frame.frame.to_string(), frame.time_s.to_string(), i32::to_string(&id)];
+                table.rows.push(begin.into_iter().chain(rows.map(|value| value.to_string())).collect());
+            }
+        }
+        table.write()
+    }
+
+    /// The bodies of a scene; none where nothing moves.
+    ///
+    /// # Errors
+    /// When the table cannot be read.
+    pub fn read_bodies(&self, scene: &str) -> Result<Vec<BodyRow>, DatasetError> {
+        let path = self.layout().metadata_bodies(scene);
+        if !path.is_file() {
+            return Ok(Vec::new());
+        }
+        let table = Table::read(&path)?;
+        let [id, name, parent, joint, ids] = table.columns(["body_id", "name", "parent_id", "joint", "node_ids"])?;
+        let wrong = |row: usize, what: &str, found: &str| {
+            DatasetError::text(&path, format!("line {}: expected {what}, found {found:?}; render the scene again", row + 2))
+        };
+        let body = |row: usize| {
+            let [found, parent, nodes] = [id, parent, ids].map(|column| table.rows[row][column].as_str());
+            let number = row as u32 + 1;
+            if found != number.to_string() {
+                return Err(wrong(row, &format!("body_id {number}"), found));
+            }
+            let parent = match parent {
+                "" => None,
+                text => {
+                    Some(text.parse().ok().filter(|id| (1..number).contains(id)).ok_or_else(|| wrong(row, "an earlier body_id", text))?)
+                }
+            };
+            let node_ids: Option<Vec<u32>> = nodes.split_whitespace().map(|id| id.parse().ok().filter(|&id| id > 0)).collect();
+            let node_ids = node_ids.ok_or_else(|| wrong(row, "node_ids from 1", nodes))?;
+            Ok(BodyRow { id: number, name: table.rows[row][name].clone(), parent, joint: table.rows[row][joint].clone(), node_ids })
+        };
+        (0..table.rows.len()).map(body).collect()
+    }
+
+    /// The bodies of a scene in the frames of a camera; `None` where nothing moves.
+    ///
+    /// # Errors
+    /// When a table cannot be read, or the poses are not of these bodies.
+    pub fn read_filmed_bodies(&self, scene: &str, camera: &str) -> Result<Option<FilmedBodies>, DatasetError> {
+        let bodies = self.read_bodies(scene)?;
+        if bodies.is_empty() {
+            return Ok(None);
+        }
+        let path = self.layout().metadata_body_poses(scene, camera);
+        let table = Table::read(&path)?;
+        let [frame, time, id] = table.columns(["frame_id", "time_seconds", "body_id"])?;
+        let matrix = table.columns(MATRIX)?;
+        let mut frames = BTreeMap::new();
+        for row in 0..table.rows.len() {
+            let number = table.parse(row, frame)?;
+            let listed = frames.entry(number).or_insert(FrameBodies { frame: number, time_s: 0.0, world_from_rest: Vec::new() });
+            listed.time_s = table.parse(row, time)?;
+            if table.parse::<usize>(row, id)? != listed.world_from_rest.len() + 1 {
+                let problem = format!("line {}: expected body_id {}; render the scene again", row + 2, listed.world_from_rest.len() + 1);
+                return Err(DatasetError::text(&path, problem));
+            }
+            let mut cells = [0.0; 12];
+            for (cell, &column) in cells.iter_mut().zip(&matrix) {
+                *cell = table.parse(row, column)?;
+            }
+            let column = |at: usize| DVec3::new(cells[at], cells[at + 4], cells[at + 8]);
+            listed.world_from_rest.push(DAffine3::from_cols(column(0), column(1), column(2), column(3)));
+        }
+        if let Some(short) = frames.values().find(|listed| listed.world_from_rest.len() != bodies.len()) {
+            let (found, count) = (short.world_from_rest.len(), bodies.len());
+            let problem = format!("frame {} has {found} of {count} bodies; render the scene again", short.frame);
+            return Err(DatasetError::text(&path, problem));
+        }
+        Ok(Some(FilmedBodies::new(bodies, frames)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::DQuat;
+
+    fn row(id: u32, parent: Option<u32>, node_ids: &[u32]) -> BodyRow {
+        BodyRow { id, name: format!("body, {id}"), parent, joint: "hinge".into(), node_ids: node_ids.into() }
+    }
+
+    #[test]
+    fn bodies_come_back_and_carry_the_points_of_their_parts() {
+        let folder = tempfile::tempdir().unwrap();
+        let dataset = Dataset::create(folder.path()).unwrap();
+        assert_eq!(dataset.read_filmed_bodies("room", "cam_00").unwrap(), None);
+        let bodies = [row(1, None, &[2, 5]), row(2, Some(1), &[])];
+        dataset.write_bodies("room", &bodies).unwrap();
+        let turn = DAffine3::from_rotation_translation(DQuat::from_rotation_z(0.3), DVec3::new(0.1, 0.2, -0.7));
+        let frame = |frame, maps: [DAffine3; 2]| FrameBodies { frame, time_s: f64::from(frame) / 30.0, world_from_rest: maps.into() };
+        let frames = [frame(0, [DAffine3::IDENTITY; 2]), frame(7, [turn, turn.inverse()])];
+        dataset.write_body_poses("room", "cam_00", &frames).unwrap();
+
+        let filmed = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+        assert_eq!((filmed.bodies.as_slice(), filmed.frames().cloned().collect::<Vec<_>>().as_slice()), (&bodies[..], &frames[..]));
+        let p = DVec3::new(1.0, 2.0, 3.0);
+        let (first, later) = (filmed.at(0), filmed.at(7));
+        assert_eq!(first.carry(&later, 5, p), turn.transform_point3(p));
+        assert!(later.carry(&first, 2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
+        assert!(later.at_rest(2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
+        assert_eq!([1, 3, 6, -1, 0].map(|still| first.carry(&later, still, p)), [p; 5]);
+
+        dataset.write_body_poses("room", "cam_00", &[frame(0, [turn; 2])]).unwrap();
+        dataset.write_bodies("room", &bodies[..1]).unwrap();
+        assert!(dataset.read_filmed_bodies("room", "cam_00").unwrap_err().to_string().contains("frame 0 has 2 of 1 bodies"));
+        dataset.write_bodies("room", &[row(1, Some(1), &[1])]).unwrap();
+        assert!(dataset.read_bodies("room").unwrap_err().to_string().contains("line 2: expected an earlier body_id, found \"1\""));
+        dataset.write_bodies("room", &[]).unwrap();
+        dataset.write_body_poses("room", "cam_00", &[]).unwrap();
+        assert_eq!(dataset.read_bodies("room").unwrap(), []);
+    }
+}

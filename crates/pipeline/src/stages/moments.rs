@@ -1,0 +1,103 @@
+//! Scenes that move: the moment that a frame shows, and the scene as that frame finds it. Frame n of a camera shows the scene n times the
+//! camera's time between frames after its beginning.
+
+use super::Job;
+use crate::error::Error;
+use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
+use enfilade_frame::{Frame, Layer, Values, traits};
+use enfilade_math::DAffine3;
+use enfilade_render::{Lookout, Moved};
+use enfilade_scene::{PACKAGE_HEAD_BYTES, Pose, Scene, is_moving_package};
+use std::io::Read;
+use std::path::Path;
+
+/// True if the package is of a scene that moves; what cannot be read does not.
+pub(crate) fn moves(package: &Path) -> bool {
+    let mut head = Vec::new();
+    let file = std::fs::File::open(package);
+    file.is_ok_and(|file| file.take(PACKAGE_HEAD_BYTES).read_to_end(&mut head).is_ok() && is_moving_package(&head))
+}
+
+/// Seconds between the frames of a camera, if the scene of the package moves.
+///
+/// # Errors
+/// When the camera's file cannot be read.
+pub(crate) fn frame_time(dataset: &Dataset, package: &Path, scene: &str, camera: &str) -> Result<Option<f64>, Error> {
+    moves(package).then(|| dataset.read_frame_time(scene, camera).map_err(Error::stage)).transpose()
+}
+
+/// The moment that a frame shows, seconds.
+fn moment_s(pose: &Pose, frame_time_s: f64) -> f64 {
+    f64::from(pose.frame) * frame_time_s
+}
+
+/// A scene that moves, at the moment of a frame, and where everything goes.
+pub(crate) struct Moment {
+    /// The scene as the frame finds it.
+    pub scene: Scene,
+    /// The scene as the next frame finds it, and the way of each part to there.
+    next: Option<(Scene, Vec<Option<DAffine3>>)>,
+    /// By part: whether it moves on the way to the next frame, or from the one before.
+    moving: Vec<bool>,
+}
+
+impl Moment {
+    /// The moment of the pose `index` of a trajectory whose frames are `frame_time_s` apart.
+    pub fn new(scene: &Scene, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
+        let at = |index: usize| poses.get(index).map(|pose| moment_s(pose, frame_time_s));
+        let now = moment_s(&poses[index], frame_time_s);
+        let next = at(index + 1).map(|then| (scene.at(then), scene.carried(now, then)));
+        let before = index.checked_sub(1).and_then(at).map(|then| scene.carried(now, then));
+        let mut moving = vec![false; scene.parts.len()];
+        for carried in [next.as_ref().map(|(_, carried)| carried), before.as_ref()].into_iter().flatten() {
+            for (moves, carried) in moving.iter_mut().zip(carried) {
+                *moves |= carried.is_some_and(|carried| carried != DAffine3::IDENTITY);
+            }
+        }
+        Self { scene: scene.at(now), next, moving }
+    }
+
+    /// The next frame's moment, ready for flow; `None` of the last frame.
+    ///
+    /// # Errors
+    /// When the scene has more parts than ids.
+    pub fn moved(&self) -> Result<Option<Moved<'_>>, Error> {
+        let moved = |(scene, carried)| Ok(Moved { lookout: Lookout::new(scene).map_err(Error::stage)?, carried: Vec::clone(carried) });
+        self.next.as_ref().map(|(scene, carried)| moved((scene, carried))).transpose()
+    }
+
+    /// Marks what moves in `surface_traits`, where the frame has it.
+    pub fn mark(&self, frame: &mut Frame) {
+        let Some(Values::I16(entities)) = frame.get(Layer::RenderEntityId) else { return };
+        let moves = |&entity: &i16| usize::try_from(entity - 1).ok().and_then(|part| self.moving.get(part)).copied().unwrap_or(false);
+        let moving: Vec<bool> = entities.iter().map(moves).collect();
+        let Some(Values::U8(bits)) = frame.get(Layer::SurfaceTraits) else { return };
+        let marked = bits.iter().zip(moving).map(|(bits, moves)| bits | if moves { traits::MOVES } else { 0 }).collect();
+        frame.insert(Layer::SurfaceTraits, Values::U8(marked));
+    }
+}
+
+/// Writes the tables of what moves; removes those of a scene that no longer does.
+pub(super) fn write_tables(job: &Job, scene: Option<&Scene>) -> Result<(), Error> {
+    let name = &job.scene.name;
+    let bodies = scene.map_or(&[][..], |scene| &scene.bodies);
+    let row = |(body, id): (&enfilade_scene::Body, u32)| BodyRow {
+        id,
+        name: body.name.clone(),
+        parent: body.parent.map(|parent| parent + 1),
+        joint: body.motion.states.joint().into(),
+        node_ids: body.parts.iter().map(|part| part + 1).collect(),
+    };
+    job.dataset.write_bodies(name, &bodies.iter().zip(1..).map(row).collect::<Vec<_>>()).map_err(Error::stage)?;
+    for (_, trajectory) in job.filmed()?.iter() {
+        let frame_time_s = job.dataset.read_frame_time(name, &trajectory.name).map_err(Error::stage)?;
+        let frame = |pose: &Pose| {
+            let time_s = moment_s(pose, frame_time_s);
+            let world_from_rest = scene?.world_from_rest(time_s);
+            Some(FrameBodies { frame: pose.frame, time_s, world_from_rest })
+        };
+        let frames: Vec<FrameBodies> = trajectory.poses.iter().filter_map(frame).collect();
+        job.dataset.write_body_poses(name, &trajectory.name, &frames).map_err(Error::stage)?;
+    }
+    Ok(())
+}
