@@ -5,6 +5,7 @@ use crate::atomic::remove_if_there;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_math::{DAffine3, DVec3};
+use enfilade_scene::PartLabel;
 use std::collections::BTreeMap;
 
 /// The columns of a map of the world to itself: three rows of the rotation, each with the translation at its end.
@@ -65,6 +66,21 @@ impl BodyPlaces<'_> {
     pub fn world_from_rest(&self, entity: i64) -> Option<&DAffine3> {
         let body = self.body_of_node.get(usize::try_from(entity - 1).ok()?).copied().flatten()?;
         self.world_from_rest.get(body as usize)
+    }
+
+    /// The maps that take instances from rest to their places, by their numbers: of those that move. `None` of instances whose parts go
+    /// different ways, so that no single pose is theirs. `labels` has a row per part, in the order of `render_entity_id`.
+    pub fn instances(&self, labels: &[PartLabel]) -> BTreeMap<i16, Option<DAffine3>> {
+        let mut maps: BTreeMap<i16, Option<DAffine3>> = BTreeMap::new();
+        for (label, entity) in labels.iter().zip(1..).filter(|(label, _)| label.instance > 0) {
+            let own = self.world_from_rest(entity).copied().unwrap_or(DAffine3::IDENTITY);
+            let map = maps.entry(label.instance).or_insert(Some(own));
+            if *map != Some(own) {
+                *map = None;
+            }
+        }
+        maps.retain(|_, map| *map != Some(DAffine3::IDENTITY));
+        maps
     }
 
     /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`.
@@ -248,6 +264,10 @@ mod tests {
         assert!(later.carry(&first, 2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
         assert!(later.at_rest(2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
         assert_eq!([1, 3, 6, -1, 0].map(|still| first.carry(&later, still, p)), [p; 5]);
+
+        // Parts 2 and 5 move, part 1 does not: instance 7 goes apart, 8 moves, 9 stays.
+        let labels = [9, 7, 7, -1, 8].map(|instance| PartLabel { semantic: 5, instance });
+        assert_eq!(later.instances(&labels), BTreeMap::from([(7, None), (8, Some(turn))]));
 
         dataset.write_body_poses("room", "cam_00", &[frame(0, [turn; 2])]).unwrap();
         dataset.write_bodies("room", &bodies[..1]).unwrap();

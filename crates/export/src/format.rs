@@ -53,6 +53,8 @@ pub struct FormatSpec {
     pub needs: &'static [&'static [Layer]],
     /// Layers that are written where they are there; `None`: any layer of the table can be.
     pub takes: Option<&'static [Layer]>,
+    /// It has a mesh, points or models of the world, or poses of things in it, that hold for all frames: scenes that move have none.
+    pub needs_still: bool,
     /// The page for people that goes with the files: contents and conventions.
     pub readme: &'static str,
 }
@@ -75,6 +77,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "COCO instances: images, annotations with compressed RLE masks and boxes, the 40 classes of NYU40 or of the scenes' own list",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
+        needs_still: false,
         readme: include_str!("readmes/coco.md"),
     },
     FormatSpec {
@@ -83,6 +86,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "BOP: colour, depth, masks, object poses, camera matrices, models of the objects",
         needs: &[COLOR, DEPTH, INSTANCE],
         takes: Some(LABELLED),
+        needs_still: false,
         readme: include_str!("readmes/bop.md"),
     },
     FormatSpec {
@@ -91,6 +95,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "nerfstudio: transforms.json, images, depth, a coloured point cloud",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
+        needs_still: true,
         readme: include_str!("readmes/nerfstudio.md"),
     },
     FormatSpec {
@@ -99,6 +104,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "COLMAP: a sparse model in binary files, and its images",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
+        needs_still: true,
         readme: include_str!("readmes/colmap.md"),
     },
     FormatSpec {
@@ -107,6 +113,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "COLMAP: a sparse model in text files, and its images",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
+        needs_still: true,
         readme: include_str!("readmes/colmap.md"),
     },
     FormatSpec {
@@ -115,6 +122,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "ScanNet: colour, depth, poses, intrinsics, label and instance images, and the mesh with labels",
         needs: &[DEPTH],
         takes: Some(LABELLED),
+        needs_still: true,
         readme: include_str!("readmes/scannet.md"),
     },
     FormatSpec {
@@ -123,6 +131,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "multi-layer OpenEXR with every layer of a frame, and Cryptomatte layers of instances and classes",
         needs: &[],
         takes: None,
+        needs_still: false,
         readme: include_str!("readmes/openexr.md"),
     },
     FormatSpec {
@@ -131,6 +140,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "16-bit PNG depth in millimetres, with cameras in JSON",
         needs: &[DEPTH],
         takes: Some(&[Layer::DepthMeters, Layer::DepthZMeters]),
+        needs_still: false,
         readme: include_str!("readmes/depth_png.md"),
     },
     FormatSpec {
@@ -139,6 +149,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "WebDataset: tar shards with a PNG of the colour, a numpy array per layer, and JSON",
         needs: &[],
         takes: None,
+        needs_still: false,
         readme: include_str!("readmes/webdataset.md"),
     },
     FormatSpec {
@@ -147,6 +158,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Croissant: a card of the dataset in JSON-LD, with tables of its frames, layers and classes",
         needs: &[],
         takes: None,
+        needs_still: false,
         readme: include_str!("readmes/croissant.md"),
     },
     FormatSpec {
@@ -155,6 +167,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "cameras alone, in OpenCV's conventions: K and poses as JSON, and a table of K",
         needs: &[],
         takes: None,
+        needs_still: false,
         readme: include_str!("readmes/opencv.md"),
     },
     FormatSpec {
@@ -163,6 +176,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Pix3D as Mesh R-CNN reads it: images, masks, a model and voxels per instance, poses in camera space",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(SHAPED),
+        needs_still: true,
         readme: include_str!("readmes/pix3d.md"),
     },
     FormatSpec {
@@ -171,6 +185,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Hugging Face: Parquet files for `datasets.load_dataset`, with pictures of colour, depth and labels, cameras, and a card",
         needs: &[],
         takes: Some(LABELLED),
+        needs_still: false,
         readme: include_str!("readmes/huggingface.md"),
     },
     FormatSpec {
@@ -179,6 +194,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "SpatialLM: walls, doors, windows and boxes of objects in its layout language, and the point cloud that it reads",
         needs: &[COLOR, DISTANCE],
         takes: Some(POSED),
+        needs_still: true,
         readme: include_str!("readmes/spatiallm.md"),
     },
     FormatSpec {
@@ -187,6 +203,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Structured3D: rooms, walls and openings as junctions, lines and planes, boxes of things, and points",
         needs: &[],
         takes: None,
+        needs_still: true,
         readme: include_str!("readmes/structured3d.md"),
     },
     FormatSpec {
@@ -195,6 +212,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "TUM RGB-D: colour and depth by time, and the trajectory",
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/tum.md"),
     },
     FormatSpec {
@@ -203,6 +221,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "EuRoC: grey pictures of a video, inertial measurements and the true motion",
         needs: &[COLOR],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/euroc.md"),
     },
     FormatSpec {
@@ -211,6 +230,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Replica as NICE-SLAM has it: colour, depth, traj.txt and cam_params.json",
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/replica.md"),
     },
     FormatSpec {
@@ -219,6 +239,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "COCO panoptic: images, PNG files of segments, panoptic.json",
         needs: &[COLOR, INSTANCE, SEMANTIC],
         takes: Some(LABELLED),
+        needs_still: false,
         readme: include_str!("readmes/panoptic.md"),
     },
     FormatSpec {
@@ -227,6 +248,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "WAI, the layout of MapAnything's data: images, depth, poses and covisibility of each scene",
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/wai.md"),
     },
     FormatSpec {
@@ -242,6 +264,7 @@ pub const FORMATS: [FormatSpec; 24] = [
             Layer::Semantic,
             Layer::SemanticInstance,
         ]),
+        needs_still: true,
         readme: include_str!("readmes/points.md"),
     },
     FormatSpec {
@@ -250,6 +273,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "pairs for DUSt3R and MASt3R: images, 16-bit depth, K, poses, and pairs.csv as a list",
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/dust3r.md"),
     },
     FormatSpec {
@@ -258,6 +282,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "Hypersim as Marigold prepares it: colour, planar depth in millimetres, normals, and lists of them by side of the partition",
         needs: &[COLOR, DEPTH],
         takes: Some(&[Layer::Color, Layer::RenderEntityId, Layer::DepthMeters, Layer::DepthZMeters, Layer::NormalCam]),
+        needs_still: false,
         readme: include_str!("readmes/marigold.md"),
     },
     FormatSpec {
@@ -266,6 +291,7 @@ pub const FORMATS: [FormatSpec; 24] = [
         about: "MoGe: a folder per frame with its image, depth by logarithm and K over the image's size",
         needs: &[COLOR, DEPTH],
         takes: Some(POSED),
+        needs_still: false,
         readme: include_str!("readmes/moge.md"),
     },
 ];

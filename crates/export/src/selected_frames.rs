@@ -103,6 +103,15 @@ impl<'d> SelectedFrames<'d> {
             }
         }
         selected.check(spec, selection)?;
+        if spec.needs_still {
+            for scene in &selection.scenes {
+                if !dataset.read_bodies(scene)?.is_empty() {
+                    let problem = "things move in it, and the format has a world that stays as it is; take a format of single frames, or import \
+                                   it without motion";
+                    return Err(selected.unsuitable(scene.clone(), problem));
+                }
+            }
+        }
         selected.leave_out_incomplete(spec)?;
         Ok(selected)
     }

@@ -125,6 +125,7 @@ pub fn traits_color(bits: u8) -> [u8; 3] {
         b if b & traits::GLASS != 0 => [60, 170, 180],
         b if b & traits::MIRROR != 0 => [60, 90, 190],
         b if b & traits::BACK != 0 => [190, 60, 160],
+        b if b & traits::MOVES != 0 => [230, 120, 50],
         _ => [90, 90, 90],
     };
     if bits & traits::PARTIAL == 0 { base } else { base.map(|v| v / 2 + 127) }

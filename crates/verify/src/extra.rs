@@ -46,7 +46,7 @@ pub(super) fn check(scan: &mut Scan<'_>) {
         (false, false) if opaque(i) => entity_behind.get(i) == entity.get(i) && behind.get(i) == depth.get(i),
         (false, false) => behind.get(i) >= depth.get(i) * (1.0 - ROUNDING) && entity_behind.get(i) >= 1.0,
     };
-    let codes = |i: usize| boundary.get(i) <= 2.0 && visible.get(i) <= 1.0 && kind.get(i) <= 31.0;
+    let codes = |i: usize| boundary.get(i) <= 2.0 && visible.get(i) <= 1.0 && kind.get(i) <= 63.0;
     let flows = |i: usize| {
         let moved = vector(camera, i).is_finite();
         let shown = image.get(2 * i).is_finite() && image.get(2 * i + 1).is_finite();

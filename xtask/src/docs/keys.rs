@@ -33,7 +33,7 @@ const NOTHING: Group = Group { heading: "", about: "", of: "", with: &[], withou
 const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 
 /// Sections, and the keys that have a table of their own.
-const SECTIONS: [&str; 10] = ["import", "object", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
+const SECTIONS: [&str; 11] = ["import", "object", "motion", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
 
 /// All keys.
 const GROUPS: [Group; 28] = [
@@ -84,6 +84,14 @@ const GROUPS: [Group; 28] = [
         of: "ObjectGroup",
         file: "[[object]]\nfiles = \"a.glb\"\non = \"floor\"\n§\n",
         at: &["scenes/0/objects/0/§"],
+        ..NOTHING
+    },
+    Group {
+        heading: "`[[motion]]`",
+        about: "Things that move in every scene; `[[scene.motion]]` in one: [scenes that move](motion.md).",
+        of: "MotionGroup",
+        file: "[[motion]]\nof = \"a\"\ntimes_s = [0.0]\nangles_deg = [0.0]\n§\n",
+        at: &["scenes/0/motions/0/§"],
         ..NOTHING
     },
     Group {

@@ -27,6 +27,7 @@ const FILES: [&str; 21] = [
     "crates/home/src/light/outside/mod.rs",
     "crates/vary/src/config.rs",
     "crates/compose/src/group.rs",
+    "crates/compose/src/motion.rs",
     "crates/import/src/environment.rs",
     "crates/import/src/options.rs",
 ];

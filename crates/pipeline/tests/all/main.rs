@@ -8,6 +8,7 @@ mod demo;
 mod fitted_rooms;
 mod gates;
 mod intake;
+mod motion;
 mod objects;
 mod places;
 mod presets;

@@ -10,8 +10,9 @@ use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer, Pass, Values};
 use enfilade_label::class_name;
 use enfilade_label::instances::visible_areas;
-use enfilade_math::OrientedBox;
+use enfilade_math::{DAffine3, OrientedBox};
 use enfilade_scene::{CameraView, Counted, Cx, Labels};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Instances that show fewer pixels than this share of the image are drawn without text.
@@ -34,6 +35,7 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         return Ok(Vec::new());
     };
     let labels = optional(dataset.read_label_tables(scene))?.unwrap_or_default();
+    let bodies = dataset.read_filmed_bodies(scene, camera)?;
     let counted = Counted::new(cx, "overlays", frames.len());
     let one = |&number: &u32| -> Result<Vec<PathBuf>, DatasetError> {
         let Some(index) = trajectory.poses.iter().position(|pose| pose.frame == number) else { return Ok(Vec::new()) };
@@ -43,7 +45,8 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
         let mut files = Vec::new();
         let Some(backdrop) = Backdrop::new(&frame, &labels) else { return Ok(files) };
         for (kind, boxes) in &boxes {
-            let picture = backdrop.overlay(&view, boxes);
+            let moved = bodies.as_ref().map(|bodies| moved(boxes, &bodies.at(number).instances(&labels.parts)));
+            let picture = backdrop.overlay(&view, moved.as_ref().unwrap_or(boxes));
             let path = dataset.layout().preview(scene, camera, number, Pass::Final, &format!("bb_{}.jpg", kind.name()));
             write_bytes(&path, picture)?;
             files.push(path);
@@ -52,6 +55,20 @@ pub fn preview_boxes(dataset: &Dataset, scene: &str, camera: &str, frames: &[u32
     };
     let files: Vec<Vec<PathBuf>> = enfilade_parallel::try_map(frames, |number| counted.unit(|| one(number)))?;
     Ok(files.into_iter().flatten().collect())
+}
+
+/// The boxes of a moment: what moves takes its box along, and things whose parts go different ways have none.
+fn moved(boxes: &[Option<OrientedBox>], maps: &BTreeMap<i16, Option<DAffine3>>) -> Vec<Option<OrientedBox>> {
+    let carry = |shape: OrientedBox, map: &DAffine3| OrientedBox {
+        center: map.transform_point3(shape.center),
+        world_from_box: map.matrix3 * shape.world_from_box,
+        ..shape
+    };
+    let at = |(instance, shape): (i16, &Option<OrientedBox>)| match maps.get(&instance) {
+        Some(map) => map.as_ref().zip(*shape).map(|(map, shape)| carry(shape, map)),
+        None => *shape,
+    };
+    (0..).zip(boxes).map(at).collect()
 }
 
 /// `None` if the file does not exist.

@@ -65,6 +65,7 @@ export const TRAITS = [
     { bit: 2, name: "glass", color: [60, 170, 180] },
     { bit: 1, name: "mirror", color: [60, 90, 190] },
     { bit: 16, name: "back of a one-sided surface", color: [190, 60, 160] },
+    { bit: 32, name: "moves by itself", color: [230, 120, 50] },
     { bit: 8, name: "shows more than one part", color: [172, 172, 172] },
 ];
 

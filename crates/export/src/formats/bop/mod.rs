@@ -24,12 +24,14 @@ use crate::options::SymmetryRule;
 use crate::picture::{SHOWN, color_jpeg, color_png, grey8_png, grey16_png};
 use crate::selected_frames::{SelectedFrames, Track, View};
 use coco::{SceneCoco, Silhouette, counted};
-use enfilade_dataset::{PixelArea, Side};
+use enfilade_dataset::{FilmedBodies, PixelArea, Side};
 use enfilade_frame::Layer;
+use enfilade_math::DAffine3;
+use enfilade_scene::Labels;
 use model::in_millimetres;
 use records::{DatasetCamera, EvaluationTarget, ImageCamera, SceneEntry, Truth, TruthInfo};
 use std::collections::BTreeMap;
-use targets::Targets;
+use targets::{Pose, Targets};
 use whole::{Known, Whole, known_instances, visible_area, whole};
 
 /// The page of exports of placed objects.
@@ -48,6 +50,8 @@ struct Folder<'a> {
     /// `<split>/NNNNNN`
     name: String,
     targets: &'a Targets,
+    /// What moves in the scene, and the labels of its parts.
+    moving: Option<(FilmedBodies, Labels)>,
     calibration: Calibration,
     known: Known,
     /// Objects were placed: bop_toolkit's further files are written.
@@ -71,6 +75,10 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, rule: Sym
         let folder = Folder {
             name: format!("{name}/{scene_id:06}"),
             targets: targets.get(&track.scene).unwrap_or(&none),
+            moving: match selected.dataset.read_filmed_bodies(&track.scene, &track.name)? {
+                Some(bodies) => Some((bodies, selected.labels(&track.scene)?)),
+                None => None,
+            },
             calibration: Calibration::of_pinhole(selected, track)?,
             known: known_instances(selected, track)?,
             is_placed: placed.is_some(),
@@ -192,9 +200,13 @@ fn write_frame(
         translation_mm: in_millimetres(translation),
     };
     let masks = selected.dataset.read_amodal_masks(&view.track.scene, &view.track.name, view.frame())?.unwrap_or_default();
+    let moved = folder.moving.as_ref().map(|(bodies, labels)| bodies.at(view.frame()).instances(&labels.parts)).unwrap_or_default();
     let mut seen: Vec<Seen> = Vec::new();
     for instance in instances(&frame) {
-        let Some((obj_id, pose)) = folder.targets.get(&instance.number) else { continue };
+        let Some((obj_id, rest)) = folder.targets.get(&instance.number) else { continue };
+        // Of things whose parts go different ways there is no pose.
+        let Some(map) = moved.get(&instance.number).copied().unwrap_or(Some(DAffine3::IDENTITY)) else { continue };
+        let pose = Pose { rotation: map.matrix3 * rest.rotation, translation: map.transform_point3(rest.translation) };
         let whole = whole(selected, view, &frame, &instance, &folder.known, &masks)?;
         let visible = instance.mask(&frame);
         for (kind, mask) in [("mask", &whole.mask), ("mask_visib", &visible)] {

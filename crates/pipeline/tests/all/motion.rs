@@ -1,0 +1,157 @@
+//! Scenes that move, against formulas: a door that turns, a box that falls, a chain that swings, a wheel that rolls.
+
+use crate::common::{LAMP, WALL, block, write_blocks};
+use enfilade_dataset::{Dataset, FilmedBodies};
+use enfilade_frame::{Layer, traits, vector};
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, Overrides, PairsRequest, Request, Silent, make, replay, run};
+use enfilade_scene::{CameraView, Quiet};
+use enfilade_verify::verify_scene;
+use std::fmt::Write;
+use std::path::Path;
+
+const FRAMES: u32 = 4;
+/// Part of each body, as `render_entity_id` numbers it.
+const PARTS: [(&str, i64); 5] = [("door", 3), ("box", 4), ("upper", 5), ("lower", 6), ("wheel", 7)];
+const WHEEL_RADIUS_M: f64 = 0.25;
+
+/// The way of a body from rest at a moment, by formula.
+fn expected(body: &str, t: f64) -> DAffine3 {
+    let about = |point: DVec3, axis: DVec3, angle: f64| {
+        DAffine3::from_translation(point) * DAffine3::from_axis_angle(axis, angle) * DAffine3::from_translation(-point)
+    };
+    let swing = |t: f64| 0.5 * (1.1 * t).sin();
+    let upper = about(DVec3::new(0.0, 1.2, 2.2), DVec3::Y, swing(t));
+    match body {
+        "door" => about(DVec3::new(-1.9, 1.0, 0.0), DVec3::Z, t * 0.25),
+        "box" => DAffine3::from_translation(DVec3::NEG_Z * (0.5 * 0.2 * t * t)),
+        "upper" => upper,
+        "lower" => upper * about(DVec3::new(0.0, 1.2, 1.7), DVec3::Y, 2.0 * swing(t)),
+        "wheel" => {
+            let way = 0.3 * t;
+            let roll = about(DVec3::new(0.9, 0.4, WHEEL_RADIUS_M), DVec3::Y, way / WHEEL_RADIUS_M);
+            DAffine3::from_translation(DVec3::X * way) * roll
+        }
+        _ => unreachable!("{body}"),
+    }
+}
+
+fn config(folder: &Path) -> Config {
+    let thing = |name, min, max| block(name, min, max, [0.6, 0.4, 0.3]);
+    let blocks = [
+        WALL,
+        LAMP,
+        thing("door", [-1.9, 1.0, 0.1], [-1.2, 1.05, 2.0]),
+        thing("box", [-0.9, 0.2, 1.2], [-0.6, 0.5, 1.5]),
+        thing("upper", [-0.05, 1.15, 1.7], [0.05, 1.25, 2.2]),
+        thing("lower", [-0.05, 1.15, 1.2], [0.05, 1.25, 1.7]),
+        thing("wheel", [0.65, 0.35, 0.0], [1.15, 0.45, 0.5]),
+    ];
+    write_blocks(folder, &blocks);
+    let path = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n\
+                0,-0.2,-1.3,1.4,0.0,1.0,1.0,0\n3,0.2,-1.2,1.3,-0.1,1.0,1.0,0\n";
+    std::fs::write(folder.join("path.csv"), path).unwrap();
+    let mut text = String::from(
+        "seed = 3\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\nextra = true\n[carve]\nrays = 8192\niterations = 2\n[gate]\naction = \"report\"\n\
+         [[scene]]\nname = \"room\"\nfile = \"room.obj\"\nup_axis = \"z\"\n[scene.plan]\nmode = { kind = \"keyframes\", files = [\"path.csv\"] }\n",
+    );
+    let list = |state: &dyn Fn(f64) -> String| (0..FRAMES).map(|t| state(f64::from(t))).collect::<Vec<_>>().join(", ");
+    let swing = |t: f64| (0.5 * (1.1 * t).sin()).to_degrees();
+    let times = list(&|t| t.to_string());
+    let mut motion = |keys: String| writeln!(text, "[[scene.motion]]\ntimes_s = [{times}]\n{keys}").unwrap();
+    // Two states are enough for what moves evenly.
+    motion(format!("of = \"door\"\npoint_m = [-1.9, 1.0, 0.0]\nangles_deg = [{}]", list(&|t| (t * 0.25f64).to_degrees().to_string())));
+    motion(format!("of = \"box\"\nmoved_m = [{}]", list(&|t| format!("[0.0, 0.0, {:?}]", -0.1 * t * t))));
+    motion(format!("of = \"upper\"\naxis = [0, 1, 0]\npoint_m = [0.0, 1.2, 2.2]\nangles_deg = [{}]", list(&|t| swing(t).to_string())));
+    motion(format!(
+        "of = \"lower\"\non = \"upper\"\naxis = [0, 1, 0]\npoint_m = [0.0, 1.2, 1.7]\nangles_deg = [{}]",
+        list(&|t| (2.0 * swing(t)).to_string())
+    ));
+    motion(format!(
+        "of = \"wheel\"\npoint_m = [0.9, 0.4, 0.25]\nmoved_m = [{}]\nturned_deg = [{}]",
+        list(&|t| format!("[{:?}, 0.0, 0.0]", 0.3 * t)),
+        list(&|t| format!("[0.0, {:?}, 0.0]", (0.3 * t / WHEEL_RADIUS_M).to_degrees()))
+    ));
+    std::fs::write(folder.join("dataset.toml"), text).unwrap();
+    Config::read(&folder.join("dataset.toml"), &Overrides::default()).unwrap()
+}
+
+#[test]
+fn what_moves_is_where_formulas_say_and_every_law_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let (config, out) = (config(folder.path()), folder.path().join("out"));
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
+    assert!(summary.ok(), "{failures:?}");
+    assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
+
+    let dataset = Dataset::open(&out).unwrap();
+    let bodies = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+    poses_are_as_expected(&bodies);
+    let mut compared = 0;
+    for frame in 0..FRAMES {
+        compared += flow_is_as_expected(&dataset, frame);
+    }
+    assert!(compared > 1000, "{compared} pixels show something that moves");
+
+    // Every relation between frames agrees with stored distances, parts and poses.
+    let requests = [
+        Request::Flow { pairs: FlowPairs::Step(1), cameras: None },
+        Request::Flow { pairs: FlowPairs::Step(-1), cameras: None },
+        Request::Tracks { points: 64, seed: 0, of: FrameChoice::default() },
+        Request::Pairs(PairsRequest::default()),
+        Request::Surfaces { layers: 3, of: FrameChoice::default() },
+    ];
+    make(&dataset, &["room".into()], &requests, MakeOptions::default(), &Quiet).unwrap();
+    let report = verify_scene(&dataset, "room", &Quiet).unwrap();
+    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+
+    // A frame comes to the same bytes when it is rendered once more.
+    let again = replay(&dataset.layout().frame_record("room", "cam_00", 2), None, &Quiet).unwrap();
+    assert!(again.is_same(), "{:?}", again.files);
+}
+
+fn poses_are_as_expected(bodies: &FilmedBodies) {
+    assert_eq!(bodies.bodies[3].parent, Some(3));
+    for listed in bodies.frames() {
+        for (body, map) in bodies.bodies.iter().zip(&listed.world_from_rest) {
+            let expected = expected(&body.name, f64::from(listed.frame));
+            assert!(map.abs_diff_eq(expected, 1e-12), "{} in frame {}: {map:?}, expected {expected:?}", body.name, listed.frame);
+        }
+    }
+}
+
+/// Compares flow, scene flow and the mark of what moves with the formulas; returns the number of pixels that show something that moves.
+fn flow_is_as_expected(dataset: &Dataset, number: u32) -> usize {
+    let layers = [Layer::Position, Layer::RenderEntityId, Layer::OpticalFlow, Layer::SceneFlow, Layer::SurfaceTraits, Layer::DepthMeters];
+    let frame = dataset.read_frame("room", "cam_00", number, &layers).unwrap();
+    let [entities, flows, scene_flows, kinds, distances] =
+        [Layer::RenderEntityId, Layer::OpticalFlow, Layer::SceneFlow, Layer::SurfaceTraits, Layer::DepthMeters]
+            .map(|l| frame.get(l).unwrap());
+    let camera = dataset.read_camera("room", "cam_00").unwrap();
+    let poses = dataset.read_trajectory("room", "cam_00").unwrap().poses;
+    let view = |index: usize| CameraView::of_frame(&camera, &poses, index);
+    let mut compared = 0;
+    for pixel in 0..frame.pixels() {
+        let body = PARTS.iter().find(|(_, part)| *part == entities.get(pixel) as i64);
+        assert_eq!(kinds.get(pixel) as u8 & traits::MOVES != 0, body.is_some());
+        let Some((body, _)) = body else { continue };
+        if number + 1 == FRAMES {
+            assert!(flows.get(2 * pixel).is_nan());
+            continue;
+        }
+        let (x, y) = ((pixel % 64) as f64 + 0.5, (pixel / 64) as f64 + 0.5);
+        let [from, to] = [view(number as usize), view(number as usize + 1)];
+        let ray = from.centre_ray(x, y).unwrap();
+        let p = ray.origin + ray.direction * distances.get(pixel);
+        let [here, there] = [number, number + 1].map(|frame| expected(body, f64::from(frame)));
+        let then = there.transform_point3(here.inverse().transform_point3(p));
+        let (to_x, to_y) = to.project(then).unwrap();
+        assert!((flows.get(2 * pixel) - (to_x - x)).hypot(flows.get(2 * pixel + 1) - (to_y - y)) < 1e-3, "{body}");
+        let in_camera = |view: &CameraView<'_>, p: DVec3| DMat3::transpose(&view.pose().world_from_camera) * (p - view.pose().position);
+        let moved: DVec3 = vector(scene_flows, pixel);
+        assert!(moved.distance(in_camera(&to, then) - in_camera(&from, p)) < 1e-5, "{body}: {moved}");
+        compared += 1;
+    }
+    compared
+}
