@@ -55,9 +55,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     if moments::moves(&job.package()?) {
         let scene = job.load_scene()?;
         refuse_unfit(job, &filmed, cx)?;
-        if rendered > 0 || job.shift.is_none() {
-            moments::write_tables(job, Some(&scene))?;
-        }
+        moments::write_tables(job, Some(&scene))?;
         timed_out = render(job, &Rendered::Moving(&scene), &missing, [total - rendered, total], cx)?;
     } else {
         moments::write_tables(job, None)?;
@@ -82,7 +80,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 fn refuse_unfit(job: &Job, filmed: &[(Camera, Trajectory)], cx: &StageCx) -> Result<(), Error> {
     if job.scene.render.fixtures {
         let message = "the scene moves, and light is kept apart by lamp and window only of still scenes".to_string();
-        return Err(Error::scene(message, "take fixtures = true out of [render], or still = true into [scene.import]"));
+        return Err(Error::scene(message, "take out fixtures = true, or the [[motion]] tables"));
     }
     if let Some((_, trajectory)) = filmed.iter().find(|(camera, _)| camera.shutter.is_some()) {
         let message =

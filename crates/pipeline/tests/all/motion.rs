@@ -1,12 +1,12 @@
 //! Scenes that move, against formulas: a door that turns, a box that falls, a chain that swings, a wheel that rolls.
 
 use crate::common::{LAMP, WALL, block, write_blocks};
-use enfilade_dataset::{Dataset, FilmedBodies};
+use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies};
 use enfilade_frame::{Layer, traits, vector};
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, Overrides, PairsRequest, Request, Silent, make, replay, run};
 use enfilade_scene::{CameraView, Quiet};
-use enfilade_verify::verify_scene;
+use enfilade_verify::{Law, verify_scene};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -105,6 +105,16 @@ fn what_moves_is_where_formulas_say_and_every_law_holds() {
     make(&dataset, &["room".into()], &requests, MakeOptions::default(), &Quiet).unwrap();
     let report = verify_scene(&dataset, "room", &Quiet).unwrap();
     assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+
+    // Poses that are not those of the frames break laws.
+    let stored: Vec<FrameBodies> = bodies.frames().cloned().collect();
+    let still = |frame: &FrameBodies| FrameBodies { world_from_rest: vec![DAffine3::IDENTITY; PARTS.len()], ..frame.clone() };
+    dataset.write_body_poses("room", "cam_00", &stored.iter().map(still).collect::<Vec<_>>()).unwrap();
+    let broken: Vec<Law> = verify_scene(&dataset, "room", &Quiet).unwrap().failures().map(|law| law.law).collect();
+    for law in [Law::TwoViewDistance, Law::PairFlow, Law::TrackPoints] {
+        assert!(broken.contains(&law), "{law:?}: {broken:?}");
+    }
+    dataset.write_body_poses("room", "cam_00", &stored).unwrap();
 
     // A frame comes to the same bytes when it is rendered once more.
     let again = replay(&dataset.layout().frame_record("room", "cam_00", 2), None, &Quiet).unwrap();
