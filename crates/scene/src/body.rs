@@ -217,7 +217,7 @@ impl Similarity {
 
 impl Body {
     /// The body after the world was carried away by `map`; `None` if the map distorts or mirrors, so that the motion would not be rigid.
-    pub(crate) fn carried(&self, map: &DAffine3) -> Option<Self> {
+    pub fn carried(&self, map: &DAffine3) -> Option<Self> {
         Some(Self { motion: self.motion.carried(&Similarity::of(map)?), ..self.clone() })
     }
 }

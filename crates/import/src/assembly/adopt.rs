@@ -59,6 +59,9 @@ impl Assembly<'_> {
             let parent = object.parent.map(|parent| objects[parent as usize]);
             objects.push(self.push_object(&object.name, parent));
         }
+        if !scene.bodies.is_empty() {
+            self.warn(file.display().to_string(), "what moves in it stays as it is at rest: motion is read of scene files themselves");
+        }
         // A model far from its origin was moved to the origin; within this scene it has the position of its file.
         let moved = imported.report.offset_m.map_or(DAffine3::IDENTITY, |offset| DAffine3::from_translation(offset.into()));
         let mut labels = vec![PartLabel::NONE; scene.parts.len()];

@@ -3,6 +3,7 @@
 //! An importer speaks in the file's own units and axes; [`Assembly`] turns them into the world's (metres, z up).
 
 mod adopt;
+mod bodies;
 mod contents;
 mod elsewhere;
 mod files;

@@ -55,6 +55,11 @@ impl Assembly<'_> {
         }
         self.scene.parts.iter_mut().for_each(|part| part.world_from_mesh.translation -= offset);
         self.scene.cameras.iter_mut().for_each(|camera| camera.position -= offset);
+        for body in &mut self.scene.bodies {
+            if let Some(moved) = body.carried(&DAffine3::from_translation(-offset)) {
+                *body = moved;
+            }
+        }
         for (light, exact) in self.scene.lights.iter_mut().zip(&self.light_positions) {
             match light {
                 Light::Point { position, .. } | Light::Spot { position, .. } | Light::Profile { position, .. } => {

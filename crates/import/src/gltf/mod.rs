@@ -17,7 +17,8 @@
 //! | skins | in the pose of the nodes; the transform of the node that bears the mesh does not count |
 //! | morph targets | by the weights of the node, else of the mesh |
 //! | reported once, not rendered | `KHR_materials_anisotropy`, `_diffuse_transmission`, `_dispersion`, `_iridescence`, `_volume_scatter` (see `unrendered.rs`) |
-//! | dropped with a warning | further vertex colours, animations, light ranges, other extensions |
+//! | animations | translations and rotations of nodes move what is below them; scales, morph targets and skins stay at rest, with a warning |
+//! | dropped with a warning | further vertex colours, light ranges, other extensions |
 //!
 //! A file that requires an extension outside this list is an error, unless it is one of looks, metadata, sound, behaviour or animation: that
 //! is reported and left out. Text may have a byte order mark, whole numbers a point (`3.0`), bounds `NaN`, values `null`, and paddings that are counted
@@ -37,6 +38,7 @@
 //! as guessed.
 
 mod accessor;
+mod animation;
 mod budget;
 mod buffers;
 mod color;
@@ -86,10 +88,6 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
 /// Warns of whole features that the file uses and that have no counterpart here.
 fn report_dropped(document: &Document, assembly: &mut Assembly) {
     let root = &document.root;
-    if !root.animations.is_empty() {
-        let message = format!("{} animations dropped; parts stay in the pose of their nodes", root.animations.len());
-        assembly.warn("animations", message);
-    }
     if root.extensions_used.iter().any(|e| e == "KHR_materials_variants") {
         assembly.warn("extensions.KHR_materials_variants", "variants of materials dropped; every part has its default material");
     }

@@ -1,13 +1,15 @@
 //! The node tree: parts, cameras and lights with their placements.
 
+use super::animation::Animations;
 use super::container::Document;
 use super::objects::{self, Objects};
 use super::parts::{Parts, Stand};
+use super::transform::placement;
 use super::{instancing, label, light, profile};
 use crate::ImportError;
 use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::DAffine3;
-use enfilade_scene::ObjectId;
+use enfilade_scene::{BodyId, ObjectId, RigidPose};
 use gltf::json::scene::Node;
 
 /// Aspect of a camera that does not state one: the default aspect of this workspace's pictures.
@@ -44,6 +46,8 @@ struct Visit {
     file_from_parent: DAffine3,
     label: FileLabel,
     parent: Option<ObjectId>,
+    /// The body that it belongs to.
+    body: Option<BodyId>,
 }
 
 /// Walks the tree from `roots`, depth first in the order of the file, and adds all that the nodes carry.
@@ -54,11 +58,12 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
     let nodes = &document.root.nodes;
     let mut placer = Placer { document, parts: Parts::new(document) };
     let objects = Objects::new(document, assembly);
-    let visit = |file_from_parent, label, parent| move |&node: &usize| Visit { node, file_from_parent, label, parent };
-    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, FileLabel::NONE, None)).collect();
+    let animations = Animations::new(document, assembly);
+    let visit = |file_from_parent, label, parent, body| move |&node: &usize| Visit { node, file_from_parent, label, parent, body };
+    let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, FileLabel::NONE, None, None)).collect();
     let mut seen = vec![false; nodes.len()];
     let mut done = 0;
-    while let Some(Visit { node: index, file_from_parent, label, parent }) = stack.pop() {
+    while let Some(Visit { node: index, file_from_parent, label, parent, body }) = stack.pop() {
         let Some(node) = nodes.get(index) else {
             return Err(assembly.malformed("nodes", format!("there is a reference to node {index}, but there are only {}", nodes.len())));
         };
@@ -75,12 +80,58 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         let file_from_node = file_from_parent * document.local_transform(index);
         let object = objects.of(document, node, index, parent, assembly);
         let label = label::of(node, index, object, label, assembly);
+        let body = moving(document, &animations, index, file_from_parent, assembly)
+            .and_then(|(name, frame, states)| assembly.push_body(&name, body, frame, states))
+            .or(body);
+        let before = assembly.contents();
         placer.node(node, index, file_from_node, (object, parent), label, assembly)?;
+        if let Some(body) = body.filter(|_| node.skin.is_none()) {
+            assembly.carry(body, before);
+        }
         let children: Vec<usize> = node.children.iter().flatten().map(|c| c.value()).collect();
-        stack.extend(children.iter().rev().map(visit(file_from_node, label, object)));
+        stack.extend(children.iter().rev().map(visit(file_from_node, label, object, body)));
     }
     placer.parts.finish(assembly);
+    report_motion(document, assembly);
     Ok(())
+}
+
+/// The name of a node that moves, the frame of its motion in the file, and its states there.
+fn moving(
+    document: &Document,
+    animations: &Animations,
+    index: usize,
+    file_from_parent: DAffine3,
+    a: &mut Assembly,
+) -> Option<(String, DAffine3, (Vec<f64>, Vec<RigidPose>))> {
+    let node = &document.root.nodes[index];
+    let states = match animations.states(document, index) {
+        Ok(states) => states?,
+        Err(problem) => {
+            a.warn(format!("nodes[{index}]"), format!("its animation has {problem}; it stays"));
+            return None;
+        }
+    };
+    if node.matrix.is_some() {
+        a.warn(format!("nodes[{index}]"), "it is animated but placed by a matrix, which glTF does not allow; it stays");
+        return None;
+    }
+    let rotation = node.rotation.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |q| q.0);
+    let parent_from_frame = placement(node.translation.unwrap_or([0.0; 3]), rotation, [1.0; 3]);
+    Some((objects::name(document, node, index), file_from_parent * parent_from_frame, states))
+}
+
+/// Says what became of the animations of the file.
+fn report_motion(document: &Document, a: &mut Assembly) {
+    let count = document.root.animations.len();
+    if count == 0 {
+        return;
+    }
+    let message = match a.drop_unused_bodies() {
+        0 => format!("{count} animations dropped; parts stay in the pose of their nodes"),
+        bodies => format!("{bodies} things move by {count} animations (still = true leaves motion out)"),
+    };
+    a.warn("animations", message);
 }
 
 struct Placer<'d> {

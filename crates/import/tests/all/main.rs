@@ -9,6 +9,7 @@ mod extensions;
 mod fbx;
 mod front3d;
 mod gltf;
+mod gltf_animations;
 mod gltf_colors;
 mod gltf_compressed;
 mod gltf_gloss;

@@ -25,6 +25,9 @@ options! {
         /// Keep only the first of faces with the same corners.
         #[serde(default)]
         pub drop_doubled_faces: bool = false,
+        /// Leave motion out: everything stays where the file has it at rest.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        pub still: bool = false,
         /// Names of parts or materials to make clear panes of ("glass*,window pane"), where glass lost its transparency; `*` is any run of
         /// characters.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -48,7 +48,11 @@ pub(crate) fn load_file(
     if let Some(written) = options.environment.as_mut().and_then(|e| e.file_mut()) {
         *written = locate(&written.to_string_lossy())?;
     }
-    enfilade_import::load(file, &options, cx).map_err(Error::stage)
+    let mut imported = enfilade_import::load(file, &options, cx).map_err(Error::stage)?;
+    if source.still {
+        imported.scene.bodies.clear();
+    }
+    Ok(imported)
 }
 
 /// Makes the repairs that `source` requests, and reports the findings of the inspection to `cx` and in the import's report.

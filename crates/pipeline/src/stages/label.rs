@@ -5,8 +5,10 @@ use crate::error::Error;
 use crate::intake::read_table;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
-use enfilade_dataset::{ANNOTATION_LOG, CLASS_LIST, Classes, DatasetError, LabelColors, MeshFiles, counted, mesh_names, quoted};
-use enfilade_frame::{Frame, Layer, Pass, Values};
+use enfilade_dataset::{
+    ANNOTATION_LOG, BodyPlaces, CLASS_LIST, Classes, DatasetError, LabelColors, MeshFiles, counted, mesh_names, quoted,
+};
+use enfilade_frame::{Frame, Layer, Pass, Values, vector};
 use enfilade_label::annotation::{Annotation, AnnotationError};
 use enfilade_label::{LabelReport, Pieces, doubts, join};
 use enfilade_scene::{Cx, Labels, PartLabel, Quiet, Scene, Warning};
@@ -200,7 +202,11 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
         return Err(Error::scene(message, format!("render it again: enfilade run {} --only render --force", quoted(job.out().display()))));
     };
     let joined = match (&known.split, rendered.get(Layer::Position)) {
-        (Some(split), Some(positions)) => split.join(ids, positions, &known.labels),
+        (Some(split), Some(positions)) => {
+            let bodies = job.dataset.read_filmed_bodies(name, camera).map_err(Error::stage)?;
+            let rest = bodies.map(|bodies| at_rest(ids, positions, bodies.at(frame)));
+            split.join(ids, rest.as_ref().unwrap_or(positions), &known.labels)
+        }
         _ => join(ids, &known.labels),
     };
     let (semantic, instance) = joined.map_err(Error::stage)?;
@@ -208,6 +214,12 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
     layers.insert(Layer::Semantic, Values::I16(semantic));
     layers.insert(Layer::SemanticInstance, Values::I16(instance));
     job.dataset.write_label_layers(name, camera, frame, &layers, hash).map_err(Error::stage).map(drop)
+}
+
+/// The places at rest of what the pixels of a frame show: people cut parts at rest.
+fn at_rest(ids: &[i16], positions: &Values, places: BodyPlaces<'_>) -> Values {
+    let point = |(pixel, &id): (usize, &i16)| places.at_rest(i64::from(id), vector(positions, pixel)).as_vec3().to_array();
+    Values::F32(ids.iter().enumerate().flat_map(point).collect())
 }
 
 /// The tables; records vouch for the layers of frames.

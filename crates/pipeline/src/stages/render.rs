@@ -80,7 +80,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 fn refuse_unfit(job: &Job, filmed: &[(Camera, Trajectory)], cx: &StageCx) -> Result<(), Error> {
     if job.scene.render.fixtures {
         let message = "the scene moves, and light is kept apart by lamp and window only of still scenes".to_string();
-        return Err(Error::scene(message, "take out fixtures = true, or the [[motion]] tables"));
+        return Err(Error::scene(message, "take out fixtures = true, or give the scene still = true and no [[motion]]"));
     }
     if let Some((_, trajectory)) = filmed.iter().find(|(camera, _)| camera.shutter.is_some()) {
         let message =
