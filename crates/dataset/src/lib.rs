@@ -41,6 +41,7 @@ pub mod mesh_names;
 mod npz;
 mod number_ranges;
 mod object_files;
+mod package_files;
 mod pair_files;
 mod pair_layers;
 mod partition;
@@ -91,6 +92,7 @@ pub use manifest::{CameraEntry, Conventions, FrameEntry, FrameStatus, LayerEntry
 pub use npz::{NpyArray, npy_head, npz};
 pub use number_ranges::{number_runs, parse_number_ranges, print_number_ranges};
 pub use object_files::{MeshFiles, MeshGeometry};
+pub use package_files::read_package;
 pub use pair_files::{FramePair, PairRow, read_pairs, write_pairs};
 pub use partition::{ImageAsset, MeshAsset, PartitionConfig, PartitionRow, SceneAssets, SharedAsset, Side, shared_assets};
 pub use placed_files::{MissingObject, PlacedObject, PlacedObjects};

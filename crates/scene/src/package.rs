@@ -3,6 +3,9 @@
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene and, where the package has
 //! them, the labels of its parts. Reading checks the hash, so a truncated or altered package is distinguished from a scene that is wrong.
 //!
+//! The package of a variation has only the meshes and pictures that the package it varies does not have; that one lies beside it, as
+//! [`FIRST_PACKAGE`]. `changes` has its layout.
+//!
 //! ```
 //! # use enfilade_geometry::Mesh;
 //! # use enfilade_math::{DAffine3, Rgb, Vec3};
@@ -20,12 +23,21 @@
 //! assert!(enfilade_scene::from_bytes(&bytes).unwrap_err().to_string().starts_with("the package is damaged"));
 //! ```
 
+mod changes;
+
+pub use changes::to_bytes_beside;
+
 use crate::{Labels, Scene, SceneError};
+use changes::Changes;
 
 /// First bytes of packages, before their number.
 const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
 const VERSION: u32 = 4;
+/// Behind the number in the first line of packages that lack what another one has.
+const CHANGES: &str = " changes";
+/// Name of the package beside one that lacks what this has.
+pub const FIRST_PACKAGE: &str = "first.scene";
 /// More than the first line of any package has: as much as [`is_current_package`] looks at.
 pub const PACKAGE_HEAD_BYTES: u64 = 32;
 
@@ -47,6 +59,12 @@ pub enum PackageError {
     /// The encoding does not fit this version's types.
     #[error("the package cannot be decoded ({0}); import the scene again with this version")]
     Decode(String),
+    /// The package beside it cannot be used.
+    #[error("it has only what differs from {FIRST_PACKAGE} beside it, {problem}; keep both files in one folder, or import the scene again")]
+    First {
+        /// What is wrong with that file, as a clause.
+        problem: String,
+    },
     /// The labels do not fit the scene.
     #[error("the package has {labels} labels for {parts} parts; expected one per part: make it again")]
     Labels {
@@ -75,7 +93,11 @@ fn encoded(data: &impl serde::Serialize) -> Vec<u8> {
 }
 
 fn package(body: Vec<u8>) -> Vec<u8> {
-    [format!("{NAME}{VERSION}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
+    headed("", &body)
+}
+
+fn headed(kind: &str, body: &[u8]) -> Vec<u8> {
+    [format!("{NAME}{VERSION}{kind}\n").as_bytes(), blake3::hash(body).as_bytes(), body].concat()
 }
 
 /// True if the bytes begin like the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
@@ -83,16 +105,24 @@ pub fn is_current_package(head: &[u8]) -> bool {
     split_head(head).is_ok()
 }
 
-/// The bytes after the first line.
-fn split_head(bytes: &[u8]) -> Result<&[u8], PackageError> {
+/// Whether a package lacks what another one has, and the bytes after its first line.
+fn split_head(bytes: &[u8]) -> Result<(bool, &[u8]), PackageError> {
     let head = &bytes[..bytes.len().min(PACKAGE_HEAD_BYTES as usize)];
     let line = head.split_inclusive(|&b| b == b'\n').next().unwrap_or_default();
-    let number = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok()?.parse().ok());
-    match number {
-        Some(VERSION) => Ok(&bytes[line.len()..]),
-        Some(found) => Err(PackageError::Version { found }),
+    let text = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok());
+    let number = text.map(|text| text.strip_suffix(CHANGES).map_or((false, text), |number| (true, number)));
+    match number.and_then(|(lacks, number)| Some((lacks, number.parse().ok()?))) {
+        Some((lacks, VERSION)) => Ok((lacks, &bytes[line.len()..])),
+        Some((_, found)) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
     }
+}
+
+/// Whether a package lacks what another one has, its hash, and its body, which has that hash.
+fn split(bytes: &[u8]) -> Result<(bool, [u8; 32], &[u8]), PackageError> {
+    let (lacks, rest) = split_head(bytes)?;
+    let (hash, body) = rest.split_first_chunk::<32>().ok_or(PackageError::Checksum)?;
+    if blake3::hash(body).as_bytes() == hash { Ok((lacks, *hash, body)) } else { Err(PackageError::Checksum) }
 }
 
 fn age(found: u32) -> &'static str {
@@ -112,19 +142,39 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Scene, PackageError> {
 /// # Errors
 /// As [`from_bytes`], and when there are not as many labels as parts.
 pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
-    let rest = split_head(bytes)?;
-    let (hash, body) = rest.split_at_checked(32).ok_or(PackageError::Checksum)?;
-    if blake3::hash(body).as_bytes() != hash {
-        return Err(PackageError::Checksum);
-    }
-    let decode = |e: postcard::Error| PackageError::Decode(e.to_string());
-    let (scene, rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
-    let labels: Option<Labels> = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(decode)?) };
+    from_bytes_beside(bytes, |_| Err("which is not at hand here"))
+}
+
+/// The scene in a package and its labels; `read` reads a file of the package's folder by its name, where the package needs that.
+///
+/// # Errors
+/// As [`from_bytes_with_labels`], and when the other file cannot be read or is not the one that this package was made with. `read` says as
+/// a clause why it cannot, such as "which cannot be read".
+pub fn from_bytes_beside<E: ToString>(
+    bytes: &[u8],
+    read: impl FnOnce(&str) -> Result<Vec<u8>, E>,
+) -> Result<(Scene, Option<Labels>), PackageError> {
+    let (lacks, _, body) = split(bytes)?;
+    let (scene, labels) = if lacks {
+        let changes: Changes = postcard::from_bytes(body).map_err(|e| PackageError::Decode(e.to_string()))?;
+        let first = read(FIRST_PACKAGE).map_err(|problem| PackageError::First { problem: problem.to_string() })?;
+        (changes.applied(&first)?, None)
+    } else {
+        decoded(body)?
+    };
     scene.validate()?;
     match labels.as_ref().map(|labels| labels.parts.len()).filter(|&labels| labels != scene.parts.len()) {
         Some(labels) => Err(PackageError::Labels { labels, parts: scene.parts.len() }),
         None => Ok((scene, labels)),
     }
+}
+
+/// The scene and the labels in the body of a package that lacks nothing.
+fn decoded(body: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
+    let decode = |e: postcard::Error| PackageError::Decode(e.to_string());
+    let (scene, rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
+    let labels = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(decode)?) };
+    Ok((scene, labels))
 }
 
 #[cfg(test)]

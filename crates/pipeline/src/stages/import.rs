@@ -10,7 +10,7 @@ use crate::workdir::Hash;
 use enfilade_dataset::remove_if_there;
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
-use enfilade_scene::{PACKAGE_HEAD_BYTES, is_current_package};
+use enfilade_scene::{FIRST_PACKAGE, PACKAGE_HEAD_BYTES, is_current_package};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -76,6 +76,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         return variation::run(job, varies, &first, cx);
     }
     remove_if_there(&job.dataset.layout().variation(&job.scene.name))?;
+    remove_if_there(&job.work_file(FIRST_PACKAGE)?)?;
     let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
@@ -106,7 +107,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         inputs = Some([of_source, composed.inputs].concat());
         (scene, labels, placed) = (composed.scene.scene, Some(composed.scene.labels), Some(composed.placed));
     }
-    let outputs = imported::write(job, &scene, labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
+    let package = enfilade_scene::to_bytes(&scene);
+    let outputs = imported::write(job, (&scene, &package), labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
     let summary = imported::describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
     Ok(Outcome { summary, outputs, inputs, report })
 }
