@@ -71,7 +71,8 @@ fn package(job: &Job, first: &Job, scene: &Scene) -> Result<Vec<u8>, Error> {
     let bytes = std::fs::read(&of_first).map_err(Error::io("read", &of_first))?;
     take_file(&of_first, &job.work_file(FIRST_PACKAGE)?)?;
     let told = |error: PackageError| Error::scene(format!("{}: {error}", of_first.display()), first.again(Stage::Import));
-    to_bytes_beside(scene, &first.load_scene()?, &bytes).map_err(told)
+    let loaded = first.load_scene()?;
+    to_bytes_beside(scene, &loaded, &bytes).map_err(told)
 }
 
 /// The first scene with its labels: what people annotated, else the table's, else its own.

@@ -6,7 +6,7 @@
 use super::palette::{Made, made};
 use crate::config::ColorRange;
 use crate::sources::{area_m2, glows};
-use enfilade_scene::{LabelledScene, NYU40, PartId};
+use enfilade_scene::{LabelledScene, NYU40, Part, PartId, Scene};
 use std::collections::BTreeMap;
 
 /// The classes that vary, with what they are made of and the ranges of their colours.
@@ -23,6 +23,8 @@ pub enum Wooden {
     Named,
 }
 
+/// Least share of the area of walls that is overhead where the ceiling is a part of them.
+const CEILING_SHARE: f32 = 0.2;
 /// Classes of cloth whose things may be of wood.
 const CARVED: [&str; 2] = ["chair", "bed"];
 
@@ -37,6 +39,8 @@ pub struct Group {
     pub area_m2: f32,
     /// Their numbers.
     pub parts: Vec<PartId>,
+    /// Whether walls and ceiling are one part of them.
+    pub has_ceiling: bool,
 }
 
 /// A material's parts by what becomes of them.
@@ -90,6 +94,11 @@ fn of_parts(scene: &LabelledScene, ranges: &Ranges, by_class: bool, wooden: Wood
         of_class.push(id);
     }
     let mut groups: Vec<Group> = areas.into_iter().filter_map(|((made, _), classes)| group(made, wooden, classes)).collect();
+    for group in groups.iter_mut().filter(|group| group.made == Made::Wall) {
+        if overhead_m2(&scene.scene, &group.parts) >= CEILING_SHARE * group.area_m2 {
+            (group.made, group.has_ceiling) = (Made::Ceiling, true);
+        }
+    }
     groups.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
     match groups.first_mut() {
         Some(largest) => largest.parts.extend(unknown),
@@ -107,7 +116,25 @@ fn group(made: Made, wooden: Wooden, classes: BTreeMap<&'static str, (f32, Vec<P
     let made = if is_boards { Made::Wood } else { made };
     let mut parts: Vec<PartId> = classes.into_values().flat_map(|(_, parts)| parts).collect();
     parts.sort_unstable();
-    Some(Group { made, class, area_m2, parts })
+    Some(Group { made, class, area_m2, parts, has_ceiling: false })
+}
+
+/// Area of the level surfaces in the upper quarter of some parts, square metres.
+fn overhead_m2(scene: &Scene, parts: &[PartId]) -> f32 {
+    let parts: Vec<&Part> = parts.iter().map(|part| &scene.parts[*part as usize]).collect();
+    let heights = parts.iter().flat_map(|part| scene.world_positions(part)).map(|p| p.z);
+    let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+    let overhead = low + 0.75 * (high - low);
+    let corners = parts.iter().flat_map(|part| {
+        let triangles = 0..scene.meshes[part.mesh as usize].triangles.len();
+        triangles.map(|triangle| scene.world_corners(part, triangle))
+    });
+    let areas = corners.map(|[a, b, c]| {
+        let n = 0.5 * (b - a).cross(c - a);
+        let is_level = n.z.abs() > 0.9 * n.length() && a.z.min(b.z).min(c.z) > overhead;
+        if is_level { n.length() } else { 0.0 }
+    });
+    areas.sum()
 }
 
 /// What parts of a class are made of; walls, ceilings, floors and doors of wood are not yet told from others.

@@ -23,7 +23,7 @@ use groups::{Group, Ranges, Users, Wooden, classes_there, users};
 use mapping::Mapped;
 use oklab::Oklch;
 use palette::{CLASSES, draw, made};
-use recolor::{Albedo, Recolored, base_colors, recolor};
+use recolor::{Albedo, Recolored, base_colors, is_cut, recolor};
 use std::collections::BTreeSet;
 use textures::{Look, choose};
 
@@ -121,7 +121,7 @@ impl Work<'_> {
         let rng = self.rng.fork(hash_text(&format!("{}/{}", before.name, group.class)));
         let name = before.name.to_lowercase();
         let mut material = before.clone();
-        let from = Albedo::of(base_colors(&mut material.bsdf).first()?, &scene.images).mean;
+        let from = Albedo::of(base_colors(&mut material.bsdf).first()?, &scene.images, is_cut(before)).mean;
         if !chance(&mut rng.fork(0), self.config.share) || KEPT.iter().any(|word| name.contains(word)) {
             return None;
         }
@@ -135,7 +135,9 @@ impl Work<'_> {
             let other = look.material(scene, &mut self.materials, group.made, target, &rng.fork(4));
             (material.bsdf, material.normal_map) = (other.bsdf, other.normal_map);
         }
-        let done: Vec<Rgb> = base_colors(&mut material.bsdf).into_iter().map(|param| recolor(param, &scene.images, target).to).collect();
+        let is_cut = is_cut(&material);
+        let done: Vec<Rgb> =
+            base_colors(&mut material.bsdf).into_iter().map(|param| recolor(param, &scene.images, is_cut, target).to).collect();
         Some(Change { material, look, colors: Recolored { from, to: *done.first()? } })
     }
 }
@@ -147,7 +149,9 @@ fn wooden(material: &Material, scene: &Scene) -> Wooden {
         return Wooden::Named;
     }
     let mut bsdf = material.bsdf.clone();
-    let is_brown = base_colors(&mut bsdf).iter().any(|param| param.texture.is_some() && is_brown(Albedo::of(param, &scene.images).mean));
+    let is_brown = base_colors(&mut bsdf)
+        .iter()
+        .any(|param| param.texture.is_some() && is_brown(Albedo::of(param, &scene.images, is_cut(material)).mean));
     if is_brown { Wooden::Brown } else { Wooden::No }
 }
 

@@ -87,7 +87,7 @@ const JOINERY: [Row; 3] =
 const DOOR: [Row; 3] =
     [Row(0.75, [0.84, 0.94], [0.0, 0.015], WARM), Row(0.1, [0.3, 0.6], [0.0, 0.015], ANY), Row(0.15, [0.4, 0.75], [0.02, 0.06], ANY)];
 const CLOTH: [Row; 3] =
-    [Row(0.35, [0.65, 0.9], [0.005, 0.035], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.025], ANY), Row(0.45, [0.35, 0.75], [0.04, 0.125], ANY)];
+    [Row(0.4, [0.65, 0.9], [0.005, 0.035], WARM), Row(0.2, [0.28, 0.6], [0.0, 0.025], ANY), Row(0.4, [0.35, 0.75], [0.03, 0.095], ANY)];
 /// Undyed wool, greys, madder to rust, indigo, ochre, and green in one of thirty.
 const RUG: [Row; 6] = [
     Row(0.34, [0.62, 0.88], [0.01, 0.04], WARM),
@@ -110,7 +110,7 @@ const LEATHER: [Row; 4] = [
     Row(0.25, [0.48, 0.62], [0.07, 0.11], [50.0, 70.0]),
     Row(0.2, [0.72, 0.86], [0.01, 0.035], WARM),
 ];
-const BRICK: [Row; 2] = [Row(0.7, [0.46, 0.56], [0.06, 0.09], [38.0, 52.0]), Row(0.3, [0.82, 0.92], [0.0, 0.015], WARM)];
+const BRICK: [Row; 1] = [Row(1.0, [0.46, 0.58], [0.05, 0.09], [38.0, 55.0])];
 
 impl Made {
     fn rows(self) -> &'static [Row] {

@@ -6,10 +6,11 @@ use super::groups::{Group, Wooden};
 use super::mapping::Mapping;
 use super::oklab::Oklch;
 use super::palette::{Made, draw};
+use super::recolor::is_cut;
 use crate::config::ColorRange;
 use enfilade_furniture::{DecorConfig, Finish, Materials, Palette};
 use enfilade_math::{Rgb, Rng};
-use enfilade_scene::{Alpha, Bsdf, Material, Scene};
+use enfilade_scene::{Bsdf, Material, Scene};
 use enfilade_textures::{Pattern, WoodTone};
 
 /// Least area of a group that gets another texture, square metres: handles, feet and buttons keep their own.
@@ -109,11 +110,7 @@ fn may_change(material: &Material) -> bool {
         material.bsdf,
         Bsdf::Diffuse { .. } | Bsdf::RoughDiffuse { .. } | Bsdf::Plastic { .. } | Bsdf::Principled(_) | Bsdf::Disney(_)
     );
-    let is_cut = match &material.alpha {
-        Alpha::Opaque => false,
-        Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } => opacity.texture.is_some(),
-    };
-    is_body && !is_cut
+    is_body && !is_cut(material)
 }
 
 /// A texture for a group, drawn from those of its class; `None` where its class or its material has none.
