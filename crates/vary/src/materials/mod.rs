@@ -52,6 +52,7 @@ pub fn vary(
     let materials = Materials::new(DecorConfig::default().palette(), LampLight::default(), rng.fork(hash_text("pictures")));
     let mut work = Work { config, ranges: &ranges, rng, wooden: &wooden, materials, mapped: Mapped::default(), varied: Vec::new() };
     for (index, users) in users(scene, &ranges, !config.classes.0.is_empty(), &|index| wooden[index as usize]) {
+        users.groups.iter().filter(|group| group.has_ceiling).for_each(|group| tell_of_ceiling(&scene.scene, first, group, cx));
         work.vary(&mut scene.scene, index, &users);
     }
     let varied = work.varied;
@@ -140,6 +141,16 @@ impl Work<'_> {
             base_colors(&mut material.bsdf).into_iter().map(|param| recolor(param, &scene.images, is_cut, target).to).collect();
         Some(Change { material, look, colors: Recolored { from, to: *done.first()? } })
     }
+}
+
+/// Says that walls have the colours of ceilings because both are one part.
+fn tell_of_ceiling(scene: &Scene, first: &First, group: &Group, cx: &dyn Cx) {
+    let part = group.parts.first().map_or("", |part| scene.parts[*part as usize].name.as_str());
+    let message = format!(
+        "walls and ceiling are one part of it, such as {part:?}, so both get the colours of ceilings; make the ceiling a part of its own \
+         in the file, and the walls vary as walls do"
+    );
+    cx.warn(Warning { place: first.name.into(), message });
 }
 
 /// What says that a material is wood.

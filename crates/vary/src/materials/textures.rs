@@ -88,7 +88,7 @@ fn looks(group: &Group, wooden: Wooden) -> &'static [Look] {
     match (group.class, group.made) {
         ("floor", _) => &FLOORS,
         ("wall", Made::Wall) => &WALLS,
-        ("ceiling", Made::Ceiling) => &CEILINGS,
+        (_, Made::Ceiling) => &CEILINGS,
         // A brown chair may be of leather.
         ("chair" | "bed", Made::Wood) if wooden == Wooden::Brown => &[],
         (_, Made::Wood) => &VENEERS,

@@ -1,10 +1,10 @@
 //! Materials that are divided by class, and their textures.
 
-use crate::{room, varied};
-use enfilade_dataset::VariedMaterial;
+use crate::{first, room, seeds, varied};
+use enfilade_dataset::{Variation, VariedMaterial};
 use enfilade_math::Rgb;
-use enfilade_scene::{Bsdf, ColorParam, LabelledScene};
-use enfilade_vary::{MaterialVary, VaryConfig};
+use enfilade_scene::{Bsdf, ColorParam, Heard, LabelledScene};
+use enfilade_vary::{MaterialVary, VaryConfig, vary};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn config(textures: f64) -> VaryConfig {
@@ -100,4 +100,21 @@ fn a_share_of_zero_changes_colours_alone() {
         assert!(record.materials.iter().all(|material| material.texture.is_none()));
         assert_eq!((varied.scene.meshes, varied.scene.images.len()), (scene.scene.meshes.clone(), 0));
     }
+}
+
+#[test]
+fn walls_and_ceiling_in_one_part_stay_white_and_that_is_said() {
+    let mut scene = room::room();
+    // The class of the ceiling is that of the walls, as where both are one mesh.
+    let ceiling = scene.scene.parts.iter().position(|part| part.name == "ceiling").unwrap();
+    scene.labels.parts[ceiling].semantic = 1;
+    for number in 1..30 {
+        let (varied, _) = varied(&scene, &config(0.0), number);
+        let wall = color(&room::material(&varied, "wall_west").bsdf).factor;
+        assert!(wall.r.min(wall.g).min(wall.b) > 0.66, "{wall:?}");
+    }
+    let heard = Heard::default();
+    let mut record = Variation::new("room", 1, [0; 3]);
+    vary(&first(&scene), &config(0.0), &seeds(1), &mut record, &heard).unwrap();
+    assert!(heard.lines().iter().any(|line| line.contains("walls and ceiling are one part of it")), "{:?}", heard.lines());
 }
