@@ -30,7 +30,7 @@ pub struct Variation {
     pub sky: Option<VariedSky>,
     /// Every lamp, where they vary.
     pub lamps: Vec<VariedLamp>,
-    /// The materials of another colour.
+    /// The materials of another colour or texture.
     pub materials: Vec<VariedMaterial>,
     /// The things in another pose.
     pub moved: Vec<MovedThing>,
@@ -77,12 +77,18 @@ pub struct VariedLamp {
 pub struct VariedMaterial {
     /// Name of the material.
     pub name: String,
+    /// Name of the first scene's material that it is made from, where parts of several classes share that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
     /// Class of most of its surfaces.
     pub class: String,
     /// Mean reflectance before, linear RGB.
     pub from: [f32; 3],
     /// Mean reflectance, linear RGB.
     pub to: [f32; 3],
+    /// What it is now, such as "tiles", where it has another texture than before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture: Option<String>,
 }
 
 /// A thing of a variation that is elsewhere.

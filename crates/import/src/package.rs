@@ -1,6 +1,7 @@
 //! The scene package (`.scene`) that `enfilade import` writes: read, checked and passed on.
 //!
-//! It is in metres with z up, so that other units and axes are refused. Its labels come along.
+//! It is in metres with z up, so that other units and axes are refused. Its labels come along. The package of a variation needs the one
+//! beside it.
 
 use crate::assembly::Assembly;
 use crate::{ImportError, ImportOptions, Imported, UpAxis};
@@ -11,7 +12,11 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let file = assembly.file().to_path_buf();
     check_space(&file, assembly.options())?;
     let bytes = assembly.read_scene_file()?;
-    let (scene, labels) = enfilade_scene::from_bytes_with_labels(&bytes).map_err(|source| ImportError::Package { file, source })?;
+    let beside = |name: &str| match assembly.read(name) {
+        Ok((_, bytes)) => Ok(bytes),
+        Err(error) => Err(format!("which cannot be read ({error})")),
+    };
+    let (scene, labels) = enfilade_scene::from_bytes_beside(&bytes, beside).map_err(|source| ImportError::Package { file, source })?;
     assembly.set_labels(labels);
     assembly.finish_scene(scene)
 }
@@ -36,7 +41,28 @@ fn check_space(file: &Path, options: &ImportOptions) -> Result<(), ImportError> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::Quiet;
+    use enfilade_geometry::Mesh;
+    use enfilade_math::{DAffine3, Rgb, Vec3};
+    use enfilade_scene::{FIRST_PACKAGE, Material, Part, Quiet, Scene, to_bytes, to_bytes_beside};
+
+    #[test]
+    fn the_package_of_a_variation_is_read_with_the_one_beside_it() {
+        let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let part = Part { name: "sail".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY };
+        let of = |color: f32| Material::diffuse("cloth", Rgb::splat(color));
+        let first = Scene { meshes: vec![mesh.into()], parts: vec![part], materials: vec![of(0.5)], ..Scene::default() };
+        let varied = Scene { materials: vec![of(0.2)], ..first.clone() };
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("room.scene");
+        std::fs::write(&file, to_bytes_beside(&varied, &first, &to_bytes(&first)).unwrap()).unwrap();
+        let load = || crate::load(&file, &ImportOptions::default(), &Quiet);
+        let message = load().unwrap_err().to_string();
+        assert!(message.contains("only what differs from first.scene beside it, which cannot be read"), "{message}");
+        std::fs::write(folder.path().join(FIRST_PACKAGE), to_bytes(&first)).unwrap();
+        let imported = load().unwrap();
+        assert_eq!(imported.scene, varied);
+        assert_eq!(imported.inputs.len(), 2, "both are watched for changes");
+    }
 
     #[test]
     fn units_and_axes_that_a_package_does_not_have_are_refused() {

@@ -1,8 +1,9 @@
 //! The scene package that frames were rendered from, if the dataset still has it: with it, rays decide what hides what.
 
 use crate::{Filmed, MultiviewError};
+use enfilade_dataset::read_package;
 use enfilade_render::{Lookout, RenderError};
-use enfilade_scene::{Cx, Scene, Warning, from_bytes};
+use enfilade_scene::{Cx, Scene, Warning};
 use std::path::PathBuf;
 
 /// A scene as it was rendered.
@@ -33,7 +34,7 @@ impl ScenePackage {
             cx.warn(Warning { place: filmed.scene.clone(), message });
             return Ok(None);
         }
-        let scene = from_bytes(&bytes).map_err(|error| wrong(error.to_string()))?;
+        let scene = read_package(&path, &bytes).map_err(|error| wrong(error.to_string()))?;
         Ok(Some(Self { path, scene }))
     }
 

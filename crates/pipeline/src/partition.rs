@@ -3,7 +3,8 @@
 use crate::error::Error;
 use crate::workdir::{CHOICE, Hash, PACKAGE, Workdir, read_json};
 use enfilade_dataset::{
-    Dataset, Manifest, PartitionConfig, PartitionRow, SceneAssets, SharedAsset, Side, ViewFault, remove_if_there, shared_assets, write_json,
+    Dataset, Manifest, PartitionConfig, PartitionRow, SceneAssets, SharedAsset, Side, ViewFault, read_package, remove_if_there,
+    shared_assets, write_json,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -178,7 +179,7 @@ fn scene_assets(workdir: &Workdir, scene: &str) -> Result<Option<SceneAssets>, E
     }
     let bytes = std::fs::read(&package).map_err(Error::io("read", &package))?;
     // A package of another version is made again by the next import.
-    let Ok(decoded) = enfilade_scene::from_bytes(&bytes) else { return Ok(None) };
+    let Ok(decoded) = read_package(&package, &bytes) else { return Ok(None) };
     let kept = KeptAssets { package: hash, assets: SceneAssets::of(&decoded) };
     write_json(&kept_at, &kept)?;
     Ok(Some(kept.assets))

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::stages::{Moment, Stage, Timing, add_extra, config_hash, frame_time, program, take_at, views};
 use crate::workdir::{Hash, PACKAGE};
-use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, WORKDIR, quoted};
+use enfilade_dataset::{Dataset, FileRecord, FrameInfo, FrameRecord, FrameTime, Layout, Recipe, StoppedBy, WORKDIR, quoted, read_package};
 use enfilade_frame::{Frame, LAYERS};
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{Camera, Cx, Scene, Trajectory, Warning};
@@ -139,7 +139,7 @@ fn read(file: &Path) -> Result<Source, Error> {
     let trajectory = dataset.read_trajectory(&record.scene, &record.camera).map_err(Error::stage)?;
     let at = trajectory.poses.iter().position(|pose| pose.frame == record.frame);
     let index = at.ok_or_else(|| changed(format!("the trajectory of {} has no frame {} any more", record.camera, record.frame)))?;
-    let (scene, package) = read_package(&root, &record, &recipe, &changed)?;
+    let (scene, package) = package_of(&root, &record, &recipe, &changed)?;
     let package_file = root.join(WORKDIR).join(&record.scene).join(PACKAGE);
     let frame_time_s = frame_time(&dataset, &package_file, &record.scene, &record.camera)?;
     let timing = Timing { limit_s: recipe.time_limit_s, frame_s: frame_time_s };
@@ -158,14 +158,14 @@ fn root_of(file: &Path, record: &FrameRecord) -> Option<PathBuf> {
 }
 
 /// The scene package of the work folder, if it is the one that the frame was rendered from.
-fn read_package(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dyn Fn(String) -> Error) -> Result<(Scene, Hash), Error> {
+fn package_of(root: &Path, record: &FrameRecord, recipe: &Recipe, changed: &dyn Fn(String) -> Error) -> Result<(Scene, Hash), Error> {
     let path = root.join(WORKDIR).join(&record.scene).join(PACKAGE);
     let Ok(bytes) = std::fs::read(&path) else { return Err(changed(format!("the scene package {} is not there", path.display()))) };
     let package = Hash::of_bytes(&bytes);
     if package.0 != recipe.scene_blake3 {
         return Err(changed(format!("the scene package {} has changed since (its checksum is another)", path.display())));
     }
-    let scene = enfilade_scene::from_bytes(&bytes).map_err(|e| changed(format!("{}: {e}", path.display())))?;
+    let scene = read_package(&path, &bytes).map_err(|e| changed(format!("{}: {e}", path.display())))?;
     Ok((scene, package))
 }
 

@@ -8,6 +8,7 @@
 //! OUT/.enfilade/.products/NAME.json  requests and inputs of a product of the dataset as a whole
 //! OUT/.enfilade/.estimate/           trials of a forecast that must not change the folder
 //! OUT/.enfilade/SCENE/scene.scene    the scene package
+//! OUT/.enfilade/SCENE/first.scene    of a variation: the package of its first scene, which has what this one's lacks
 //! OUT/.enfilade/SCENE/partial/       unfinished frames, to continue where a run was killed
 //! OUT/.enfilade/SCENE/products/NAME.json  the same for a product of the scene
 //! OUT/.enfilade/SCENE/STAGE.json     what the stage read and wrote, its warnings and times: written last, after all outputs

@@ -1,7 +1,11 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene; in packages of scenes that
-//! move, which have a version of their own, the bodies; and, where the package has them, the labels of its parts. Reading checks the hash, so a truncated or altered package is distinguished from a scene that is wrong.
+//! move, which have a number of their own, the bodies; and, where the package has them, the labels of its parts. Reading checks the hash, so
+//! a truncated or altered package is distinguished from a scene that is wrong.
+//!
+//! The package of a variation has only the meshes and pictures that the package it varies does not have; that one lies beside it, as
+//! [`FIRST_PACKAGE`]. `changes` has its layout.
 //!
 //! ```
 //! # use enfilade_geometry::Mesh;
@@ -20,7 +24,12 @@
 //! assert!(enfilade_scene::from_bytes(&bytes).unwrap_err().to_string().starts_with("the package is damaged"));
 //! ```
 
+mod changes;
+
+pub use changes::to_bytes_beside;
+
 use crate::{Labels, Scene, SceneError};
+use changes::Changes;
 
 /// First bytes of packages, before their number.
 const NAME: &str = "enfilade scene ";
@@ -28,6 +37,10 @@ const NAME: &str = "enfilade scene ";
 const VERSION: u32 = 4;
 /// The same for scenes that move: their bodies follow the scene.
 const MOVING: u32 = 5;
+/// Behind the number in the first line of packages that lack what another one has.
+const CHANGES: &str = " changes";
+/// Name of the package beside one that lacks what this has.
+pub const FIRST_PACKAGE: &str = "first.scene";
 /// More than the first line of any package has: as much as [`is_current_package`] looks at.
 pub const PACKAGE_HEAD_BYTES: u64 = 32;
 
@@ -49,6 +62,12 @@ pub enum PackageError {
     /// The encoding does not fit this version's types.
     #[error("the package cannot be decoded ({0}); import the scene again with this version")]
     Decode(String),
+    /// The package beside it cannot be used.
+    #[error("it has only what differs from {FIRST_PACKAGE} beside it, {problem}; keep both files in one folder, or import the scene again")]
+    First {
+        /// What is wrong with that file, as a clause.
+        problem: String,
+    },
     /// The labels do not fit the scene.
     #[error("the package has {labels} labels for {parts} parts; expected one per part: make it again")]
     Labels {
@@ -64,26 +83,31 @@ pub enum PackageError {
 
 /// The package of `scene`, without labels. The same scene always gives the same bytes.
 pub fn to_bytes(scene: &Scene) -> Vec<u8> {
-    package(scene, None)
+    whole(scene, None)
 }
 
 /// The package of `scene` with the labels of its parts.
 pub fn to_bytes_with_labels(scene: &Scene, labels: &Labels) -> Vec<u8> {
-    package(scene, Some(labels))
-}
-
-fn package(scene: &Scene, labels: Option<&Labels>) -> Vec<u8> {
-    let mut body = encoded(scene);
-    if !scene.is_still() {
-        body.extend(encoded(&scene.bodies));
-    }
-    body.extend(labels.map(encoded).unwrap_or_default());
-    let version = if scene.is_still() { VERSION } else { MOVING };
-    [format!("{NAME}{version}\n").as_bytes(), blake3::hash(&body).as_bytes(), &body].concat()
+    whole(scene, Some(labels))
 }
 
 fn encoded<T: serde::Serialize>(data: &T) -> Vec<u8> {
     postcard::to_stdvec(data).expect("plain data encodes")
+}
+
+fn whole(scene: &Scene, labels: Option<&Labels>) -> Vec<u8> {
+    let labels = labels.map(encoded).unwrap_or_default();
+    headed("", scene, &[encoded(scene), bodies(scene), labels].concat())
+}
+
+/// The bodies of a scene that moves; nothing of one that does not.
+fn bodies(scene: &Scene) -> Vec<u8> {
+    if scene.is_still() { Vec::new() } else { encoded(&scene.bodies) }
+}
+
+fn headed(kind: &str, scene: &Scene, body: &[u8]) -> Vec<u8> {
+    let version = if scene.is_still() { VERSION } else { MOVING };
+    [format!("{NAME}{version}{kind}\n").as_bytes(), blake3::hash(body).as_bytes(), body].concat()
 }
 
 /// True if the bytes begin like the packages that this program writes and reads; the first [`PACKAGE_HEAD_BYTES`] are enough.
@@ -93,19 +117,36 @@ pub fn is_current_package(head: &[u8]) -> bool {
 
 /// True if the bytes begin like the package of a scene that moves.
 pub fn is_moving_package(head: &[u8]) -> bool {
-    split_head(head).is_ok_and(|(_, moves)| moves)
+    split_head(head).is_ok_and(|(kind, _)| kind.moves)
 }
 
-/// The bytes after the first line, and whether they are of a scene that moves.
-fn split_head(bytes: &[u8]) -> Result<(&[u8], bool), PackageError> {
+/// What the first line of a package says.
+#[derive(Clone, Copy)]
+struct Kind {
+    /// It lacks what another one has.
+    lacks: bool,
+    /// The scene moves.
+    moves: bool,
+}
+
+/// The kind of a package, and the bytes after its first line.
+fn split_head(bytes: &[u8]) -> Result<(Kind, &[u8]), PackageError> {
     let head = &bytes[..bytes.len().min(PACKAGE_HEAD_BYTES as usize)];
     let line = head.split_inclusive(|&b| b == b'\n').next().unwrap_or_default();
-    let number = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok()?.parse().ok());
-    match number {
-        Some(version @ (VERSION | MOVING)) => Ok((&bytes[line.len()..], version == MOVING)),
-        Some(found) => Err(PackageError::Version { found }),
+    let text = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok());
+    let number = text.map(|text| text.strip_suffix(CHANGES).map_or((false, text), |number| (true, number)));
+    match number.and_then(|(lacks, number)| Some((lacks, number.parse().ok()?))) {
+        Some((lacks, version @ (VERSION | MOVING))) => Ok((Kind { lacks, moves: version == MOVING }, &bytes[line.len()..])),
+        Some((_, found)) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
     }
+}
+
+/// The kind of a package, its hash, and its body, which has that hash.
+fn split(bytes: &[u8]) -> Result<(Kind, [u8; 32], &[u8]), PackageError> {
+    let (kind, rest) = split_head(bytes)?;
+    let (hash, body) = rest.split_first_chunk::<32>().ok_or(PackageError::Checksum)?;
+    if blake3::hash(body).as_bytes() == hash { Ok((kind, *hash, body)) } else { Err(PackageError::Checksum) }
 }
 
 fn age(found: u32) -> &'static str {
@@ -125,22 +166,46 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Scene, PackageError> {
 /// # Errors
 /// As [`from_bytes`], and when there are not as many labels as parts.
 pub fn from_bytes_with_labels(bytes: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
-    let (rest, moves) = split_head(bytes)?;
-    let (hash, body) = rest.split_at_checked(32).ok_or(PackageError::Checksum)?;
-    if blake3::hash(body).as_bytes() != hash {
-        return Err(PackageError::Checksum);
-    }
-    let decode = |e: postcard::Error| PackageError::Decode(e.to_string());
-    let (mut scene, mut rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(decode)?;
-    if moves {
-        (scene.bodies, rest) = postcard::take_from_bytes(rest).map_err(decode)?;
-    }
-    let labels: Option<Labels> = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(decode)?) };
+    from_bytes_beside(bytes, |_| Err("which is not at hand here"))
+}
+
+/// The scene in a package and its labels; `read` reads a file of the package's folder by its name, where the package needs that.
+///
+/// # Errors
+/// As [`from_bytes_with_labels`], and when the other file cannot be read or is not the one that this package was made with. `read` says as
+/// a clause why it cannot, such as "which cannot be read".
+pub fn from_bytes_beside<E: ToString>(
+    bytes: &[u8],
+    read: impl FnOnce(&str) -> Result<Vec<u8>, E>,
+) -> Result<(Scene, Option<Labels>), PackageError> {
+    let (kind, _, body) = split(bytes)?;
+    let (scene, labels) = if kind.lacks {
+        let (mut changes, rest): (Changes, &[u8]) = postcard::take_from_bytes(body).map_err(undecoded)?;
+        changes.take_bodies(kind, rest)?;
+        let first = read(FIRST_PACKAGE).map_err(|problem| PackageError::First { problem: problem.to_string() })?;
+        (changes.applied(&first)?, None)
+    } else {
+        decoded(kind, body)?
+    };
     scene.validate()?;
     match labels.as_ref().map(|labels| labels.parts.len()).filter(|&labels| labels != scene.parts.len()) {
         Some(labels) => Err(PackageError::Labels { labels, parts: scene.parts.len() }),
         None => Ok((scene, labels)),
     }
+}
+
+/// The scene and the labels in the body of a package that lacks nothing.
+fn decoded(kind: Kind, body: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
+    let (mut scene, mut rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(undecoded)?;
+    if kind.moves {
+        (scene.bodies, rest) = postcard::take_from_bytes(rest).map_err(undecoded)?;
+    }
+    let labels = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(undecoded)?) };
+    Ok((scene, labels))
+}
+
+fn undecoded(error: postcard::Error) -> PackageError {
+    PackageError::Decode(error.to_string())
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ options! {
         /// Least and greatest offset of the exposure of displayed pictures, in stops from -4 to 4, such as `[-0.7, 0.7]`.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub exposure: Option<[f64; 2]> = None,
-        /// Colours of surfaces, by class: a table; `{}` takes its defaults.
+        /// Colours and textures of surfaces, by class: a table; `{}` takes its defaults.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub materials: Option<MaterialVary> = None,
         /// Poses of furniture: a table; `{}` takes its defaults.
@@ -87,12 +87,14 @@ options! {
 }
 
 options! {
-    /// The colours of a variation.
+    /// The colours and textures of a variation.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MaterialVary {
         /// Share of the materials of these classes that get another colour, 0 to 1.
         pub share: f64 = 0.8,
+        /// Share of those that get another texture of their class too, such as tiles in place of planks, 0 to 1.
+        pub textures: f64 = 0.5,
         /// Classes of NYU40 whose materials vary, each with ranges of its own or `{}`; the classes of the documentation unless given.
         pub classes: Classes = Classes::default(),
     }
@@ -223,6 +225,7 @@ impl VaryConfig {
         }
         if let Some(materials) = &self.materials {
             number("materials", "share", materials.share, [0.0, 1.0])?;
+            number("materials", "textures", materials.textures, [0.0, 1.0])?;
             for (name, colors) in &materials.classes.0 {
                 class("materials", name)?;
                 colors.lightness.map_or(Ok(()), |given| range("materials", "lightness", given, [0.0, 1.0]))?;

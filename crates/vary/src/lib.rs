@@ -1,7 +1,7 @@
 //! Variations of a scene: the same room at another time, in other colours, with its furniture a little elsewhere.
 //!
 //! [`vary`] is a function of a labelled scene, a configuration and seeds alone. Each kind of variation has a file and random numbers of its
-//! own: `light` (which lamps are lit, their colour and power, sun and sky), `materials` (colours by class), `arrange` (poses
+//! own: `light` (which lamps are lit, their colour and power, sun and sky), `materials` (colours and textures by class), `arrange` (poses
 //! of furniture, and what lies about). What differs is returned as a record, by name.
 
 mod arrange;
@@ -10,6 +10,7 @@ mod draw;
 mod first;
 mod light;
 mod materials;
+mod names;
 mod planck;
 mod repaint;
 mod sources;

@@ -1,5 +1,6 @@
 //! Other emission for some parts, which may share their materials with others.
 
+use crate::names::free_name;
 use enfilade_math::Rgb;
 use enfilade_scene::{Material, PartId, Scene};
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,7 +33,9 @@ pub fn repaint(scene: &mut Scene, paints: &BTreeMap<PartId, Paint>) {
             let known = made.iter().find(|(material, _)| *material == painted).map(|(_, at)| *at);
             let at = known.unwrap_or_else(|| {
                 let at = if made.is_empty() { index } else { scene.materials.len() as u32 };
-                let named = Material { name: free_name(&painted.name, &before.name, &taken, made.is_empty()), ..painted.clone() };
+                // The first of a material's successors may have its name.
+                let is_taken = |name: &str| taken.contains(name) && !(made.is_empty() && name == before.name);
+                let named = Material { name: free_name(&painted.name, is_taken), ..painted.clone() };
                 taken.insert(named.name.clone());
                 if made.is_empty() {
                     scene.materials[index as usize] = named;
@@ -54,13 +57,6 @@ fn painted(before: &Material, paint: &Paint) -> Material {
         material.name.clone_from(name);
     }
     material
-}
-
-/// The name, with a number where another material has it; the first of a material's successors may have its own.
-fn free_name(name: &str, before: &str, taken: &BTreeSet<String>, is_first: bool) -> String {
-    let is_free = |candidate: &String| !taken.contains(candidate) || is_first && candidate == before;
-    let candidates = std::iter::once(name.to_string()).chain((2..).map(|number| format!("{name} {number}")));
-    candidates.into_iter().find(is_free).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use enfilade_compose::with_motion;
 use enfilade_dataset::remove_if_there;
 use enfilade_home::HomeConfig;
 use enfilade_import::{EnvironmentOverride, scene_in_folder};
-use enfilade_scene::{PACKAGE_HEAD_BYTES, is_current_package};
+use enfilade_scene::{FIRST_PACKAGE, PACKAGE_HEAD_BYTES, is_current_package};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -78,6 +78,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         return variation::run(job, varies, &first, cx);
     }
     remove_if_there(&job.dataset.layout().variation(&job.scene.name))?;
+    remove_if_there(&job.work_file(FIRST_PACKAGE)?)?;
     let (mut scene, mut labels, rooms, mut inputs, report, offset_m) = match &job.scene.source {
         Source::Home(config) => {
             let home = assets::home(config, &|path| job.config.path(path), cx)?;
@@ -111,7 +112,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     if !job.scene.motions.is_empty() {
         scene = with_motion(&scene, &job.scene.motions).map_err(|error| Error::scene(error.to_string(), "docs/motion.md has the keys"))?;
     }
-    let outputs = imported::write(job, &scene, labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
+    let package = enfilade_scene::to_bytes(&scene);
+    let outputs = imported::write(job, (&scene, &package), labels.as_ref(), (rooms.as_ref(), placed.as_ref()), offset_m)?;
     let summary = imported::describe(&scene) + &placed.as_ref().map_or_else(String::new, objects::summary);
     Ok(Outcome { summary, outputs, inputs, report })
 }

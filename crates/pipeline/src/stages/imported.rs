@@ -26,20 +26,20 @@ const GEOMETRY: [&str; 10] = [
     mesh_names::MATERIALS,
 ];
 
-/// Writes the package, the labels and the dataset's files of a scene; returns them.
+/// Writes the package, the labels and the dataset's files of a scene; returns them. `bytes` are those of the package.
 pub(super) fn write(
     job: &Job,
-    scene: &Scene,
+    (scene, bytes): (&Scene, &[u8]),
     labels: Option<&Labels>,
     (rooms, placed): (Option<&Rooms>, Option<&PlacedObjects>),
     offset_m: Option<[f64; 3]>,
 ) -> Result<Vec<PathBuf>, Error> {
     let name = &job.scene.name;
-    let (package, bytes) = (job.package()?, enfilade_scene::to_bytes(scene));
-    remove_frames_of_other_scenes(job, &package, &bytes)?;
+    let package = job.package()?;
+    remove_frames_of_other_scenes(job, &package, bytes)?;
     job.dataset.write_scene(name, scene).map_err(Error::stage)?;
     offset_m.map_or(Ok(()), |offset_m| job.dataset.write_offset(name, offset_m)).map_err(Error::stage)?;
-    write_bytes(&package, &bytes)?;
+    write_bytes(&package, bytes)?;
     let labels_file = job.work_file(LABELS)?;
     write_json(&labels_file, &labels)?;
     job.forget_scene();

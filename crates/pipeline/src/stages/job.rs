@@ -5,7 +5,7 @@ use crate::config::{Config, SceneConfig};
 use crate::error::Error;
 use crate::workdir::{Hash, PACKAGE, Workdir};
 use crate::world::World;
-use enfilade_dataset::{Dataset, DatasetError, quoted};
+use enfilade_dataset::{Dataset, DatasetError, quoted, read_package};
 use enfilade_frame::Pass;
 use enfilade_geometry::Bvh;
 use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
@@ -101,8 +101,7 @@ impl<'a> Job<'a> {
         }
         let path = self.package()?;
         let bytes = std::fs::read(&path).map_err(Error::io("read", &path))?;
-        let scene =
-            enfilade_scene::from_bytes(&bytes).map_err(|e| Error::scene(format!("{}: {e}", path.display()), self.again(Stage::Import)))?;
+        let scene = read_package(&path, &bytes).map_err(|e| Error::scene(format!("{}: {e}", path.display()), self.again(Stage::Import)))?;
         Ok(loaded.scene.insert(Arc::new(scene)).clone())
     }
 

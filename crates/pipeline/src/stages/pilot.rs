@@ -11,7 +11,7 @@ use enfilade_frame::Frame;
 use enfilade_label::boxes::scene_boxes;
 use enfilade_label::instances::solids;
 use enfilade_render::{FlowTo, FrameRender, Guide, Probe, RenderConfig, RenderScene, add_extra_layers, samples_wanted};
-use enfilade_scene::{Camera, CameraView, Cx, Quiet, Trajectory, WorldMesh};
+use enfilade_scene::{Camera, CameraView, Cx, FIRST_PACKAGE, Quiet, Trajectory, WorldMesh};
 use std::path::Path;
 
 /// Folder within the work folder of a scene.
@@ -203,8 +203,12 @@ fn try_frame_in(
 /// Runs the stages after rendering on the frame, makes its products, and notes the time. That a frame of two samples breaks a law does not matter here.
 fn later_stages(job: &Job, dataset: &Dataset, scratch: &Workdir, products: Products, found: &mut ScenePilot) -> Result<(), Error> {
     let name = &job.scene.name;
-    for file in [PACKAGE, "labels.json"] {
+    for file in [PACKAGE, FIRST_PACKAGE, "labels.json"] {
         let (from, to) = (job.work_file(file)?, scratch.scene_file(name, file)?);
+        // Only variations have the package of their first scene.
+        if file == FIRST_PACKAGE && !from.is_file() {
+            continue;
+        }
         std::fs::hard_link(&from, &to).or_else(|_| std::fs::copy(&from, &to).map(drop)).map_err(Error::io("copy", &from))?;
     }
     let once = Job::new(job.config, job.scene, dataset, scratch, true);

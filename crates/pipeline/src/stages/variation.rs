@@ -12,7 +12,7 @@ use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{ANNOTATION_LOG, CLASS_LIST, Variation, counted, share_file, take_file};
 use enfilade_explore::PlanReport;
 use enfilade_home::light_of;
-use enfilade_scene::{Cx, LabelledScene, PictureFiles, Rooms, Warning};
+use enfilade_scene::{Cx, FIRST_PACKAGE, LabelledScene, PackageError, PictureFiles, Rooms, Scene, Warning, to_bytes_beside};
 use enfilade_vary::{First, HomeLight, vary};
 use std::path::{Path, PathBuf};
 
@@ -53,15 +53,26 @@ pub(super) fn run(job: &Job, varies: &Varies, first: &Job, cx: &StageCx) -> Resu
     let varied = vary(&known, &varies.config, &job.scene.variation_seeds(varies), &mut record, cx)
         .map_err(|error| Error::scene(error.to_string(), "docs/vary.md says what varies, and by which labels"))?;
     let scene = varied.scene;
-    let mut outputs = imported::write(job, &scene.scene, Some(&scene.labels), (varied.rooms.as_ref(), placed.as_ref()), None)?;
+    let package = package(job, first, &scene.scene)?;
+    let mut outputs = imported::write(job, (&scene.scene, &package), Some(&scene.labels), (varied.rooms.as_ref(), placed.as_ref()), None)?;
     // The units and the offset are the file's.
     take_file(&layout.metadata_scene(&first.scene.name), &layout.metadata_scene(name))?;
     job.dataset.write_variation(name, &record).map_err(Error::stage)?;
-    outputs.push(layout.variation(name));
+    outputs.extend([layout.variation(name), job.work_file(FIRST_PACKAGE)?]);
     let shared = share(job, first, &outputs)?;
     let summary = format!("{}, {}; {shared}", imported::describe(&scene.scene), described(&record));
     let report = serde_json::to_value(&record).unwrap_or_default();
     Ok(Outcome { summary, outputs, inputs, report })
+}
+
+/// The package of a variation, without what the package of the first scene has, which gets a second name beside it.
+fn package(job: &Job, first: &Job, scene: &Scene) -> Result<Vec<u8>, Error> {
+    let of_first = first.package()?;
+    let bytes = std::fs::read(&of_first).map_err(Error::io("read", &of_first))?;
+    take_file(&of_first, &job.work_file(FIRST_PACKAGE)?)?;
+    let told = |error: PackageError| Error::scene(format!("{}: {error}", of_first.display()), first.again(Stage::Import));
+    let loaded = first.load_scene()?;
+    to_bytes_beside(scene, &loaded, &bytes).map_err(told)
 }
 
 /// The first scene with its labels: what people annotated, else the table's, else its own.
@@ -93,6 +104,8 @@ fn described(record: &Variation) -> String {
     }
     let count = |number: usize, what: &str, done: &str| (number > 0).then(|| format!("{} {done}", counted(number, what)));
     words.extend(count(record.materials.len(), "material", "recoloured"));
+    let textured = record.materials.iter().filter(|material| material.texture.is_some()).count();
+    words.extend((textured > 0).then(|| format!("{textured} of them with another texture")));
     words.extend(count(record.moved.len(), "thing", "moved"));
     words.extend(count(record.removed.len(), "thing", "removed"));
     if words.is_empty() { "nothing differs".into() } else { words.join(", ") }
@@ -114,6 +127,9 @@ pub(super) fn share(job: &Job, first: &Job, files: &[PathBuf]) -> Result<String,
 
 /// The file of the first scene that has the place of a variation's.
 fn counterpart(job: &Job, first: &Job, path: &Path) -> Option<PathBuf> {
+    if path.file_name().is_some_and(|name| name == FIRST_PACKAGE) {
+        return first.package().ok();
+    }
     let layout = job.dataset.layout();
     let folders = [
         (layout.scene_dir(&job.scene.name), layout.scene_dir(&first.scene.name)),

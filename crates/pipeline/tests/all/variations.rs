@@ -48,7 +48,7 @@ fn is_link(a: &Path, b: &Path) -> bool {
 #[test]
 #[cfg(unix)]
 fn variations_of_light_and_colour_share_geometry_free_space_and_poses_with_their_scene() {
-    let (_place, out, config) = made("count = 2\nlamps = {}\nmaterials = { share = 1 }\nexposure = [1, 1]\n");
+    let (_place, out, config) = made("count = 2\nlamps = {}\nmaterials = { share = 1, textures = 0 }\nexposure = [1, 1]\n");
     assert_eq!(config.scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>(), ["room", "room_v01", "room_v02"]);
     let dataset = Dataset::open(&out).unwrap();
     let layout = dataset.layout();
@@ -66,6 +66,10 @@ fn variations_of_light_and_colour_share_geometry_free_space_and_poses_with_their
         let linked =
             mesh("room").iter().filter(|path| is_link(path, &layout.mesh_file(name, path.file_name().unwrap().to_str().unwrap()))).count();
         assert!(linked >= 10, "{linked} of {:?}", mesh("room"));
+        // The package lacks what the first scene's has, which is there under a second name.
+        let package = layout.scene_package(name);
+        assert!(is_link(&layout.scene_package("room"), &package.with_file_name("first.scene")));
+        assert!(fs::read(&package).unwrap().starts_with(b"enfilade scene 4 changes\n"));
         let record = dataset.read_variation(name).unwrap().unwrap();
         assert!(record.keeps_geometry && record.lamps.len() == 1 && !record.materials.is_empty());
         // The same surfaces in other light.
@@ -87,6 +91,27 @@ fn variations_of_light_and_colour_share_geometry_free_space_and_poses_with_their
     // The offset of the exposure is in the table of tone maps.
     let scale = |scene: &str| dataset.read_tone_maps(scene, "cam_00").unwrap()[0].display_scale;
     assert!(scale("room_v01") > 0.0 && scale("room") > 0.0);
+}
+
+#[test]
+fn textures_leave_every_surface_where_it_is_and_the_first_package_is_needed() {
+    let (_place, out, config) = made("count = 1\nmaterials = { share = 1, textures = 1 }\n");
+    let dataset = Dataset::open(&out).unwrap();
+    let record = dataset.read_variation("room_v01").unwrap().unwrap();
+    assert!(record.keeps_geometry && record.materials.iter().any(|material| material.texture.is_some()), "{record:?}");
+    let layers = |scene: &str| dataset.read_frame(scene, "cam_00", 1, &[Layer::RenderEntityId, Layer::DepthMeters, Layer::Color]).unwrap();
+    let (first, own) = (layers("room"), layers("room_v01"));
+    for layer in [Layer::RenderEntityId, Layer::DepthMeters] {
+        assert_eq!(first.get(layer), own.get(layer));
+    }
+    assert_ne!(first.get(Layer::Color), own.get(Layer::Color));
+    // Without it, the scene is imported again.
+    let beside = dataset.layout().scene_package("room_v01").with_file_name("first.scene");
+    let before = files(&out);
+    fs::remove_file(&beside).unwrap();
+    assert_whole(&run(&config, &out, None, &Silent).unwrap());
+    assert!(beside.is_file());
+    assert_eq!(files(&out).keys().collect::<Vec<_>>(), before.keys().collect::<Vec<_>>());
 }
 
 #[test]

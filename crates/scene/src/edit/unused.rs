@@ -56,6 +56,11 @@ impl LabelledScene {
         self.drop_images(images);
     }
 
+    /// Drops the pictures that `earlier` materials read and nothing reads now.
+    pub fn drop_pictures_of(&mut self, earlier: &[Material]) {
+        self.drop_images(images_of(earlier.iter()));
+    }
+
     fn drop_images(&mut self, mut images: BTreeSet<u32>) {
         let scene = &mut self.scene;
         images_of(scene.materials.iter()).iter().for_each(|image| _ = images.remove(image));

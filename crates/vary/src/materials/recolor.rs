@@ -5,7 +5,7 @@
 //! would become colour.
 
 use enfilade_math::Rgb;
-use enfilade_scene::{Bsdf, ColorParam, Image, Pixels};
+use enfilade_scene::{Alpha, Bsdf, ColorParam, Image, Material};
 use std::sync::Arc;
 
 /// Reflectance of soot, which no surface stays below.
@@ -16,6 +16,9 @@ pub const MOST: f32 = 0.9;
 const SPREAD: f32 = 12.0;
 /// Texels of a picture that are looked at, at most.
 const TEXELS: usize = 4096;
+/// Steps of a sequence that is spread evenly over the square, so that no pattern of rows, columns or tiles is missed: powers of the
+/// reciprocal of 1.3247 (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+const PLACES: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Share of the texels that may be brighter than [`MOST`].
 const BRIGHTEST: f64 = 0.99;
 
@@ -27,28 +30,23 @@ pub struct Albedo {
 }
 
 impl Albedo {
-    /// Of a parameter.
-    pub fn of(param: &ColorParam, images: &[Arc<Image>]) -> Self {
-        let texture = param.texture.map_or(Self { mean: Rgb::WHITE, bright: Rgb::WHITE }, |t| Self::of_image(&images[t.image as usize]));
+    /// Of a parameter. `is_cut` says that the alpha of its picture is opacity; elsewhere it may be anything, such as roughness.
+    pub fn of(param: &ColorParam, images: &[Arc<Image>], is_cut: bool) -> Self {
+        let texture =
+            param.texture.map_or(Self { mean: Rgb::WHITE, bright: Rgb::WHITE }, |t| Self::of_image(&images[t.image as usize], is_cut));
         Self { mean: texture.mean * param.factor, bright: texture.bright * param.factor }
     }
 
-    fn of_image(image: &Image) -> Self {
-        let len = match &image.pixels {
-            Pixels::Rgba8 { texels, .. } => texels.len(),
-            Pixels::RgbF32(texels) => texels.len(),
+    fn of_image(image: &Image, is_cut: bool) -> Self {
+        let [width, height] = [image.width, image.height].map(|side| side as usize);
+        let at = |k: usize, step: f64, side: usize| (((k as f64 * step).fract() * side as f64) as usize).min(side - 1);
+        let texels: Vec<(Rgb, f32)> = if width * height <= TEXELS {
+            (0..width * height).map(|k| image.texel(k % width, k / width)).collect()
+        } else {
+            (0..TEXELS).map(|k| image.texel(at(k, PLACES[0], width), at(k, PLACES[1], height))).collect()
         };
-        let count = len.min(TEXELS);
-        // Spread over the image by the golden ratio, so that no pattern of rows or columns is missed.
-        let at = |k: usize| ((k as f64 * 0.618_033_988_749_894_9).fract() * len as f64) as usize;
-        let texels: Vec<(Rgb, f32)> = (0..count)
-            .map(|k| {
-                let index = at(k).min(len - 1);
-                image.texel(index % image.width as usize, index / image.width as usize)
-            })
-            .collect();
         // What is cut out does not count.
-        let there: Vec<Rgb> = texels.iter().filter(|(_, alpha)| *alpha > 0.5).map(|(rgb, _)| *rgb).collect();
+        let there: Vec<Rgb> = texels.iter().filter(|(_, alpha)| !is_cut || *alpha > 0.5).map(|(rgb, _)| *rgb).collect();
         let seen = if there.is_empty() { texels.iter().map(|(rgb, _)| *rgb).collect() } else { there };
         let mean = seen.iter().copied().sum::<Rgb>() / seen.len() as f32;
         let bright = |channel: usize| {
@@ -83,9 +81,18 @@ pub fn base_colors(bsdf: &mut Bsdf) -> Vec<&mut ColorParam> {
     }
 }
 
-/// Gives a colour parameter the mean `target`, as nearly as reflectances and its texture allow; returns the means.
-pub fn recolor(param: &mut ColorParam, images: &[Arc<Image>], target: Rgb) -> Recolored {
-    let before = Albedo::of(param, images);
+/// Whether a picture decides where a material is there.
+pub fn is_cut(material: &Material) -> bool {
+    match &material.alpha {
+        Alpha::Opaque => false,
+        Alpha::Mask { opacity, .. } | Alpha::Blend { opacity } => opacity.texture.is_some(),
+    }
+}
+
+/// Gives a colour parameter the mean `target`, as nearly as reflectances and its texture allow; returns the means. `is_cut` as in
+/// [`Albedo::of`].
+pub fn recolor(param: &mut ColorParam, images: &[Arc<Image>], is_cut: bool, target: Rgb) -> Recolored {
+    let before = Albedo::of(param, images, is_cut);
     let target = target.map(|channel| channel.clamp(LEAST, MOST));
     let channel = |c: usize| target[c] / before.mean[c].max(1e-3);
     let mut gain = Rgb::new(channel(0), channel(1), channel(2));
@@ -104,7 +111,7 @@ pub fn recolor(param: &mut ColorParam, images: &[Arc<Image>], target: Rgb) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use enfilade_scene::TextureRef;
+    use enfilade_scene::{Pixels, TextureRef};
 
     fn picture(texels: Vec<[f32; 3]>) -> Arc<Image> {
         Image { name: "t".into(), width: texels.len() as u32, height: 1, pixels: Pixels::RgbF32(texels) }.into()
@@ -114,12 +121,32 @@ mod tests {
     fn the_mean_becomes_the_colour_and_the_texture_keeps_its_contrast() {
         let images = [picture(vec![[0.2, 0.1, 0.05], [0.4, 0.2, 0.1]])];
         let mut param = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
-        let Recolored { from, to } = recolor(&mut param, &images, Rgb::new(0.15, 0.12, 0.1));
+        let Recolored { from, to } = recolor(&mut param, &images, false, Rgb::new(0.15, 0.12, 0.1));
         assert!((from.r - 0.3).abs() < 1e-5 && (to.r - 0.15).abs() < 1e-5 && (to.b - 0.1).abs() < 1e-5, "{from:?} {to:?}");
-        assert!((Albedo::of(&param, &images).mean.g - 0.12).abs() < 1e-5);
+        assert!((Albedo::of(&param, &images, false).mean.g - 0.12).abs() < 1e-5);
         let mut plain = ColorParam::from(Rgb::splat(0.5));
-        recolor(&mut plain, &[], Rgb::new(0.7, 0.001, 2.0));
+        recolor(&mut plain, &[], false, Rgb::new(0.7, 0.001, 2.0));
         assert!((0..3).all(|c| (plain.factor[c] - [0.7, 0.02, 0.9][c]).abs() < 1e-4), "{:?}", plain.factor);
+    }
+
+    #[test]
+    fn the_mean_of_checkers_is_that_of_both_colours() {
+        for cells in [2, 4, 6, 8, 64] {
+            let side = 1024;
+            let texel = |k: usize| if (k % side * cells / side + k / side * cells / side).is_multiple_of(2) { [0.8; 3] } else { [0.2; 3] };
+            let pixels = Pixels::RgbF32((0..side * side).map(texel).collect());
+            let image = Image { name: "checkers".into(), width: side as u32, height: side as u32, pixels };
+            let mean = Albedo::of_image(&image, false).mean;
+            assert!((mean.g - 0.5).abs() < 0.01, "{cells}: {mean:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_cut_out_does_not_count_but_roughness_in_the_same_place_does_not_matter() {
+        let pixels = Pixels::Rgba8 { srgb: false, texels: vec![[51, 51, 51, 255], [255, 255, 255, 60]] };
+        let image = Image { name: "leaf".into(), width: 2, height: 1, pixels };
+        let mean = |is_cut| Albedo::of_image(&image, is_cut).mean.g;
+        assert!((mean(true) - 0.2).abs() < 1e-5 && (mean(false) - 0.6).abs() < 1e-5, "{} {}", mean(true), mean(false));
     }
 
     #[test]
@@ -127,8 +154,8 @@ mod tests {
         let images = [picture(vec![[0.05, 0.05, 0.05], [0.8, 0.8, 0.8]])];
         for target in [Rgb::splat(0.9), Rgb::new(0.9, 0.3, 0.1), Rgb::splat(5.0)] {
             let mut param = ColorParam { factor: Rgb::WHITE, texture: Some(TextureRef::new(0)) };
-            recolor(&mut param, &images, target);
-            assert!(Albedo::of(&param, &images).bright.max_component() <= MOST + 1e-4, "{:?}", param.factor);
+            recolor(&mut param, &images, false, target);
+            assert!(Albedo::of(&param, &images, false).bright.max_component() <= MOST + 1e-4, "{:?}", param.factor);
         }
     }
 }

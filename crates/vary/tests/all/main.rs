@@ -1,5 +1,6 @@
 //! Variations of a small room whose lamps, colours and things are known.
 
+mod materials;
 mod room;
 
 use enfilade_dataset::Variation;
@@ -52,7 +53,8 @@ fn a_seed_gives_the_same_bytes_and_seeds_differ() {
 #[test]
 fn no_surface_reflects_more_than_snow_or_less_than_soot() {
     let scene = room::room();
-    let config = VaryConfig { materials: Some(MaterialVary { share: 1.0, ..MaterialVary::default() }), ..VaryConfig::default() };
+    let materials = MaterialVary { share: 1.0, textures: 0.0, ..MaterialVary::default() };
+    let config = VaryConfig { materials: Some(materials), ..VaryConfig::default() };
     let mut colors = BTreeSet::new();
     for number in 1..60 {
         let (varied, record) = varied(&scene, &config, number);
@@ -60,10 +62,12 @@ fn no_surface_reflects_more_than_snow_or_less_than_soot() {
         for material in &record.materials {
             assert!(material.to.iter().all(|v| (LEAST_REFLECTANCE - 1e-4..=MOST_REFLECTANCE + 1e-4).contains(v)), "{material:?}");
         }
-        colors.insert(format!("{:?}", record.materials.iter().find(|m| m.name == "paint").unwrap().to));
-        // Names and numbers stay, so that tables of materials are the first scene's.
+        let paint = record.materials.iter().find(|m| m.of.as_deref() == Some("paint") && m.class == "wall").unwrap();
+        assert_eq!(paint.name, "paint wall");
+        colors.insert(format!("{:?}", paint.to));
+        // Names and numbers stay; materials of classes that shared one come at the end.
         let names = |scene: &LabelledScene| scene.scene.materials.iter().map(|m| m.name.clone()).collect::<Vec<_>>();
-        assert_eq!(names(&varied), names(&scene));
+        assert_eq!(names(&varied)[..6], names(&scene));
         // Metal stays as it is.
         assert_eq!(varied.scene.materials[room::STEEL], scene.scene.materials[room::STEEL]);
     }
@@ -75,11 +79,13 @@ fn given_ranges_and_classes_count_alone() {
     let scene = room::room();
     let red = ColorRange { lightness: Some([0.6, 0.6]), chroma: Some([0.15, 0.15]), hue_deg: Some([30.0, 30.0]) };
     let classes = Classes([("sofa".to_string(), red)].into());
-    let config = VaryConfig { materials: Some(MaterialVary { share: 1.0, classes }), ..VaryConfig::default() };
+    let config = VaryConfig { materials: Some(MaterialVary { share: 1.0, textures: 0.0, classes }), ..VaryConfig::default() };
     let (varied, record) = varied(&scene, &config, 1);
-    assert_eq!(record.materials.iter().map(|m| (m.name.as_str(), m.class.as_str())).collect::<Vec<_>>(), [("cloth", "sofa")]);
-    let Bsdf::Diffuse { reflectance } = &varied.scene.materials[room::CLOTH].bsdf else { panic!("a diffuse cloth") };
+    assert_eq!(record.materials.iter().map(|m| (m.name.as_str(), m.class.as_str())).collect::<Vec<_>>(), [("cloth sofa", "sofa")]);
+    let Bsdf::Diffuse { reflectance } = &room::material(&varied, "sofa_1/body").bsdf else { panic!("a diffuse cloth") };
     assert!(reflectance.factor.r > 3.0 * reflectance.factor.b, "{reflectance:?}");
+    // The book that is bound in it stays as it is.
+    assert_eq!(room::material(&varied, "book_1/body"), room::material(&scene, "book_1/body"));
 }
 
 #[test]
@@ -87,13 +93,13 @@ fn classes_that_nobody_has_are_told_with_the_nearest_and_refused_where_no_other_
     let scene = room::room();
     let config = |names: &[&str]| {
         let classes = Classes(names.iter().map(|name| (name.to_string(), ColorRange::default())).collect());
-        VaryConfig { materials: Some(MaterialVary { share: 1.0, classes }), ..VaryConfig::default() }
+        VaryConfig { materials: Some(MaterialVary { share: 1.0, classes, ..MaterialVary::default() }), ..VaryConfig::default() }
     };
     let heard = Heard::default();
     let mut record = Variation::new("room", 1, [0; 3]);
     vary(&first(&scene), &config(&["table", "sofa", "towel"]), &seeds(1), &mut record, &heard).unwrap();
     let line = &heard.lines()[0];
-    assert!(line.contains("the class \"towel\"") && line.contains("its classes: ceiling, floor"), "{line}");
+    assert!(line.contains("the class \"towel\"") && line.contains("its classes: books, ceiling, chair"), "{line}");
     let error = vary(&first(&scene), &config(&["towel"]), &seeds(1), &mut record, &Quiet).err().unwrap().to_string();
     assert!(error.starts_with("scene \"room\" cannot vary: nothing in it has a material of the class \"towel\""), "{error}");
 }

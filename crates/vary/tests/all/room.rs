@@ -81,6 +81,12 @@ pub fn room() -> LabelledScene {
     LabelledScene { scene, labels, ..LabelledScene::default() }
 }
 
+/// Material of a part.
+pub fn material<'a>(scene: &'a LabelledScene, part: &str) -> &'a Material {
+    let part = scene.scene.parts.iter().find(|known| known.name == part).unwrap();
+    &scene.scene.materials[part.material as usize]
+}
+
 /// Instance of a part.
 pub fn instance(scene: &LabelledScene, part: &str) -> i16 {
     let index = scene.scene.parts.iter().position(|known| known.name == part).unwrap();
