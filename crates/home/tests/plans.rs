@@ -19,7 +19,7 @@ fn plan(rooms: &[(&str, &[[f64; 2]])], openings: &[(OpeningKind, [f64; 2])]) -> 
         height_m: None,
     };
     let openings = openings.iter().map(|&(kind, at)| DrawnOpening::new(kind, at.into())).collect();
-    DrawnPlan { rooms: rooms.iter().map(room).collect(), openings, strict: true, notes: Vec::new() }
+    DrawnPlan { rooms: rooms.iter().map(room).collect(), openings, strict: true, ..DrawnPlan::default() }
 }
 
 /// A living room around the corner of a hall, and a bathroom.

@@ -30,8 +30,12 @@ fn plans_by_hand_are_read_and_their_errors_name_the_place() {
         {"kind": "living", "polygon": [[0, 0], [5, 0], [5, 3], [3, 3], [3, 4], [0, 4]]},
         {"kind": "hall", "name": "entry", "height": 2.4, "polygon": [[5.1, 0], [7, 0], [7, 3], [5.1, 3]]}],
         "doors": [{"at": [5.05, 1], "into": "entry", "hinge": "right", "open": 30}, {"at": [7, 1.5], "width": 1.01}],
-        "windows": [{"at": [2, 0], "width": 1.5, "sill": 0.8, "head": 2.1}]}"#;
+        "windows": [{"at": [2, 0], "width": 1.5, "sill": 0.8, "head": 2.1}],
+        "roof": [{"from": [0, 4], "to": [5, 4], "knee": 1.2, "pitch": 40, "rooms": ["living_1"]}]}"#;
     let plan = read(text);
+    // Towards the room, which is south of the line.
+    let slope = enfilade_scene::Slope { from: [5.0, 4.0], to: [0.0, 4.0], low_z_m: 1.2, pitch_deg: 40.0 };
+    assert_eq!(plan.slopes, [enfilade_scene::CeilingSlope { room: 0, slope }]);
     assert_eq!(rooms(&plan), [("living", 18.0), ("hall", 5.7)]);
     assert_eq!(
         plan.rooms.iter().map(|room| (room.name.as_str(), room.height_m)).collect::<Vec<_>>(),
@@ -42,6 +46,7 @@ fn plans_by_hand_are_read_and_their_errors_name_the_place() {
     for (from, to, expected) in [
         ("\"kind\": \"hall\"", "\"kid\": \"hall\"", "unknown field `kid`"),
         ("\"into\": \"entry\"", "\"into\": \"entri\"", "doors[0]: there is no room \"entri\"; did you mean `entry`?"),
+        ("\"living_1\"]", "\"livin_1\"]", "roof[0]: there is no room \"livin_1\"; did you mean `living_1`?"),
         (", \"head\": 2.1", "", "windows[0]: a window has both `sill` and `head`, or neither"),
         ("plan 1", "plan 2", "found \"enfilade plan 2\", expected \"enfilade plan 1\""),
         ("]}],", "]},],", "expected JSON with a floor plan"),

@@ -10,6 +10,7 @@ mod measures;
 mod openings;
 mod outlines;
 mod repair;
+mod slopes;
 #[cfg(test)]
 mod tests;
 
@@ -51,8 +52,9 @@ impl FloorPlan {
         let heights: Vec<f32> = plan.rooms.iter().map(height).collect::<Result<_, _>>()?;
         let thickness = [INNER_WALL, OUTER_WALL];
         let room = |i: usize| Room::polygon(kinds[i], outlines[i].clone(), heights[i], thickness, |wall| backs::backs(&outlines, i, wall));
-        let rooms: Vec<Room> = (0..outlines.len()).map(room).collect();
+        let mut rooms: Vec<Room> = (0..outlines.len()).map(room).collect();
         let names: Vec<String> = plan.rooms.iter().map(|room| room.name.clone()).collect();
+        slopes::put_under(&mut rooms, &names, &plan)?;
         let mut site = Site { rooms, names, doorways: Vec::new(), notes, strict: plan.strict, rng: rng.fork(2) };
         plan.openings.iter().try_for_each(|opening| site.open(opening))?;
         let has_windows = plan.openings.iter().any(|opening| opening.kind == enfilade_scene::OpeningKind::Window);
@@ -90,6 +92,7 @@ fn near_origin(plan: &DrawnPlan, notes: &mut Vec<String>) -> DrawnPlan {
     if middle.is_finite() && middle.length() > FAR {
         moved.rooms.iter_mut().flat_map(|room| &mut room.polygon).for_each(|p| *p -= middle);
         moved.openings.iter_mut().for_each(|opening| opening.at -= middle);
+        moved.slopes.iter_mut().for_each(|of| of.slope = of.slope.moved((-middle).extend(0.0)));
         notes.push(format!("the plan is far from the origin of its coordinates: it was moved by [{}, {}] m", -middle.x, -middle.y));
     }
     moved

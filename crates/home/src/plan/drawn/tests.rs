@@ -29,7 +29,7 @@ fn l_shape() -> DrawnPlan {
             opening(OpeningKind::Window, [2.0, 0.0], Some(2.0)),
         ],
         strict: true,
-        notes: Vec::new(),
+        ..DrawnPlan::default()
     }
 }
 
