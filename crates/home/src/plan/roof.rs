@@ -86,7 +86,7 @@ fn slopes(whole: &Cell, rng: &mut Rng) -> Vec<Slope> {
     let (first, both) = (rng.below(4), rng.below(2) == 0);
     let (low_z_m, pitch_deg) = (f64::from(rng.range(KNEE[0], KNEE[1])), f64::from(rng.range(PITCH[0], PITCH[1])));
     let [low, high] = [whole.min, whole.max].map(|p| p.as_dvec2());
-    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(DVec2::to_array);
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|p| p.to_array());
     let side = |k: usize| Slope { from: corners[k % 4], to: corners[(k + 1) % 4], low_z_m, pitch_deg };
     std::iter::once(side(first)).chain(both.then(|| side(first + 2))).collect()
 }

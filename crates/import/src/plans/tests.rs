@@ -75,6 +75,67 @@ fn svg_shapes_are_rooms_and_openings() {
 }
 
 #[test]
+fn curves_of_svg_are_flattened_in_the_size_that_they_have() {
+    let plan = read(
+        "<svg xmlns='http://www.w3.org/2000/svg' data-meters-per-unit='0.01'><g transform='scale(2)'>
+           <circle id='study' cx='100' cy='100' r='100'/>
+           <path class='hall' d='M300 0h100a100 100 0 01100 100v100h-200z'/></g>
+           <path d='M0 0 C1 2'/></svg>",
+    );
+    let areas = [std::f64::consts::PI * 4.0, 12.0 + std::f64::consts::PI];
+    for (room, expected) in plan.rooms.iter().zip(areas) {
+        let found = super::loops::area(&room.polygon).abs();
+        assert!((found - expected).abs() < 1e-3 * expected, "{}: {found} of {expected}", room.name);
+    }
+    assert!(plan.notes.iter().any(|note| note.starts_with("1 shapes have no id")), "{:?}", plan.notes);
+    assert!(refused("<svg><path id='hall' d='M0 0 C1 2'/></svg>").contains("line 1: found \"\", expected a number"));
+}
+
+#[test]
+fn drawings_of_cubicasa_are_read_by_the_classes_of_groups() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg'><g id='Floor-1' class='Floorplan Floor-1'>
+        <g id='Wall' class='Wall External'><polygon points='0,0 620,0 610,10 10,10 '/>
+          <g id='Door' class='Door Swing Beside'><polygon points='100,0 190,0 190,10 100,10'/>
+            <g id='Threshold'><polygon points='100,0 190,0 190,10 100,10'/></g>
+            <g class='Panel Left Positive'><path d='M190,10 q-90,0 -90,-90 l90,0 Z'/></g></g></g>
+        <g id='Wall' class='Wall'><polygon points='300,10 312,10 312,410 300,410'/>
+          <g class='Door None'><polygon points='300,50 312,50 312,170 300,170'/></g></g>
+        <g class='Window Regular'><polygon points='400,0 520,0 520,10 400,10'/><g class='Glass'><polygon points='0,0 1,0 1,1'/></g></g>
+        <g class='Space LivingRoom'><polygon points='10,10 300,10 300,410 10,410'/><g class='NameLabel'><text>OH</text></g></g>
+        <g class='Space Sauna'><polygon points='312,10 610,10 610,410 312,410'/></g>
+        <g class='Space Outdoor Balcony'><polygon points='0,420 610,420 610,600 0,600'/></g>
+        <g class='FixedFurniture Sink'><g class='BoundaryPolygon'><polygon points='0,0 9,0 9,9'/></g></g></g></svg>";
+    let plan = read(text);
+    assert_eq!(rooms(&plan), [("LivingRoom", 11.6), ("bathroom", 11.92)]);
+    let expected = [
+        (OpeningKind::Door, [145, -5], Some(90)),
+        (OpeningKind::Passage, [306, -110], Some(120)),
+        (OpeningKind::Window, [460, -5], Some(120)),
+    ];
+    assert_eq!(openings(&plan), expected);
+    assert!(plan.notes[0].contains("taken as 0.0100 m") && plan.notes[1].starts_with("1 spaces are outdoors"), "{:?}", plan.notes);
+    // A scan of half the size: its only door, 45 units wide, is 0.85 m.
+    let half = read(&text.replace("points='100,0 190,0 190,10 100,10'/>\n            <g id='Threshold'", "points='100,0 145,0 145,10 100,10'/><g id='Threshold'"));
+    assert!(half.notes[0].contains("taken as 0.0189 m"), "{:?}", half.notes);
+}
+
+#[test]
+fn bulges_and_circles_of_dxf_are_arcs() {
+    // A square of 4 m whose east side is half a circle outwards, and a circle.
+    let text = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nliving\n70\n1\n10\n0\n20\n0\n\
+                10\n4\n20\n0\n42\n1\n10\n4\n20\n4\n10\n0\n20\n4\n0\nCIRCLE\n8\nstudy\n10\n10\n20\n2\n40\n2\n0\nENDSEC\n0\nEOF\n";
+    let plan = read(text);
+    let round = std::f64::consts::PI * 4.0;
+    for (room, expected) in plan.rooms.iter().zip([16.0 + 0.5 * round, round]) {
+        let found = super::loops::area(&room.polygon).abs();
+        assert!((found - expected).abs() < 1e-3 * expected, "{}: {found} of {expected}", room.name);
+    }
+    assert_eq!((plan.rooms.len(), plan.notes.len()), (2, 0));
+    let east = plan.rooms[0].polygon.iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!((east - 6.0).abs() < 0.006, "{east}");
+}
+
+#[test]
 fn dxf_polylines_are_rooms_named_by_the_texts_in_them() {
     let outline = |points: &[[f64; 2]], layer: &str| {
         let corners: String = points.iter().map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).collect();
