@@ -162,7 +162,15 @@ pub enum Hinge {
 
 impl Default for Rooms {
     fn default() -> Self {
-        Self { format: FORMAT.into(), outlines: Vec::new(), walls: Vec::new(), openings: Vec::new(), slopes: Vec::new(), things: Vec::new(), fit: None }
+        Self {
+            format: FORMAT.into(),
+            outlines: Vec::new(),
+            walls: Vec::new(),
+            openings: Vec::new(),
+            slopes: Vec::new(),
+            things: Vec::new(),
+            fit: None,
+        }
     }
 }
 

@@ -172,7 +172,9 @@ mod tests {
     fn the_pieces_of_a_ceiling_cover_the_room_once() {
         let pieces = attic().ceiling_pieces(0);
         assert_eq!(pieces.iter().map(|(normal, _)| (10.0 * normal.z).round()).collect::<Vec<_>>(), [-10.0, -7.0, -7.0]);
-        let area = |corners: &[DVec3]| 0.5 * (0..corners.len()).map(|i| corners[i].truncate().perp_dot(corners[(i + 1) % corners.len()].truncate())).sum::<f64>();
+        let area = |corners: &[DVec3]| {
+            0.5 * (0..corners.len()).map(|i| corners[i].truncate().perp_dot(corners[(i + 1) % corners.len()].truncate())).sum::<f64>()
+        };
         let areas: Vec<f64> = pieces.iter().map(|(_, corners)| area(corners)).collect();
         assert!(areas.iter().zip([12.0, 4.0, 4.0]).all(|(found, expected)| (found - expected).abs() < 1e-9), "{areas:?}");
     }

@@ -7,9 +7,9 @@ pub mod kind;
 pub mod outline;
 mod side;
 
+pub use ceiling::Incline;
 use enfilade_furniture::{Leaf, RoomKind, WallOpening, pose};
 use enfilade_math::{DAffine3, DVec2, Vec2, Vec3};
-pub use ceiling::Incline;
 pub use face::{Back, Face, Wall};
 pub use footprint::Footprint;
 use outline::Outline;

@@ -5,8 +5,8 @@
 
 use super::boards::planks;
 use super::finish::ShellFinish;
-use super::slopes;
 use super::measures::{AIR, OVERLAP, SKIRTING, THIN_OVERLAP, UNDER_WALLS, depth, holes};
+use super::slopes;
 use crate::room::outline::triangles;
 use crate::room::{Room, Wall};
 use enfilade_furniture::shape::{Reshape, slab_below, slab_with_openings};

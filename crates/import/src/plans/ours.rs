@@ -9,7 +9,7 @@
 //!     { "kind": "hall", "name": "entrance hall", "polygon": [[3.6, 3.1], [6, 3.1], [6, 5], [3.6, 5]] }
 //!   ],
 //!   "doors": [{ "at": [4.5, 3.05] }, { "at": [6, 4], "width": 1.01 }],
-//!   "windows": [{ "at": [2, 0], "width": 2.2, "sill": 0.6, "head": 2.2 }],
+//!   "windows": [{ "at": [4, 0], "width": 2.2, "sill": 0.6, "head": 2.2 }],
 //!   "roof": [{ "from": [0, 5], "to": [0, 0], "knee": 1.3, "pitch": 35 }]
 //! }
 //! ```

@@ -115,7 +115,10 @@ fn drawings_of_cubicasa_are_read_by_the_classes_of_groups() {
     assert_eq!(openings(&plan), expected);
     assert!(plan.notes[0].contains("taken as 0.0100 m") && plan.notes[1].starts_with("1 spaces are outdoors"), "{:?}", plan.notes);
     // A scan of half the size: its only door, 45 units wide, is 0.85 m.
-    let half = read(&text.replace("points='100,0 190,0 190,10 100,10'/>\n            <g id='Threshold'", "points='100,0 145,0 145,10 100,10'/><g id='Threshold'"));
+    let half = read(&text.replace(
+        "points='100,0 190,0 190,10 100,10'/>\n            <g id='Threshold'",
+        "points='100,0 145,0 145,10 100,10'/><g id='Threshold'",
+    ));
     assert!(half.notes[0].contains("taken as 0.0189 m"), "{:?}", half.notes);
 }
 

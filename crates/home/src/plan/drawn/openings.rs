@@ -182,14 +182,7 @@ impl Site {
         Ok([x - 0.5 * width, x + 0.5 * width])
     }
 
-    fn heights(
-        &self,
-        name: &str,
-        opening: &DrawnOpening,
-        place: Place,
-        beyond: Option<Place>,
-        x: [f32; 2],
-    ) -> Result<[f32; 2], String> {
+    fn heights(&self, name: &str, opening: &DrawnOpening, place: Place, beyond: Option<Place>, x: [f32; 2]) -> Result<[f32; 2], String> {
         let room = &self.rooms[place.room];
         let level = beyond.map_or(room.size.z, |beyond| room.size.z.min(self.rooms[beyond.room].size.z));
         let is_window = opening.kind == OpeningKind::Window;

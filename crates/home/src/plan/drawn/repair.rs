@@ -36,7 +36,9 @@ impl Site {
         let mut best: Option<((i32, f32), usize, Wall, f32)> = None;
         for (number, room) in self.rooms.iter().enumerate() {
             for wall in room.walls() {
-                let Some((low, high)) = free_run(room, wall, DOOR_TOP + 0.12, ENTRANCE).filter(|(low, high)| high - low >= ENTRANCE) else { continue };
+                let Some((low, high)) = free_run(room, wall, DOOR_TOP + 0.12, ENTRANCE).filter(|(low, high)| high - low >= ENTRANCE) else {
+                    continue;
+                };
                 let cost = (order(room), -(high - low));
                 if best.is_none_or(|(known, ..)| cost.0 < known.0 || (cost.0 == known.0 && cost.1 < known.1)) {
                     best = Some((cost, number, wall, 0.5 * (low + high)));
