@@ -59,7 +59,7 @@ impl Entity<'_> {
         for (i, &from) in points.iter().enumerate() {
             corners.push(from);
             let Some(&to) = points.get(i + 1).or(points.first().filter(|_| self.is_closed)) else { continue };
-            let bulge = self.bulges.iter().find(|(at, _)| *at == i).map_or(0.0, |(_, bulge)| *bulge);
+            let bulge = self.bulges.binary_search_by_key(&i, |(at, _)| *at).map_or(0.0, |found| self.bulges[found].1);
             if let Some(arc) = Arc::of_bulge([from, to], bulge) {
                 let pieces = flattened(&|t| arc.at(t), NEAR_M);
                 corners.extend(&pieces[..pieces.len() - 1]);
@@ -82,13 +82,13 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
         let kinds = [("door", OpeningKind::Door), ("window", OpeningKind::Window), ("passage", OpeningKind::Passage)];
         kinds.into_iter().find(|(part, _)| layer.contains(part)).map(|(_, kind)| kind)
     };
-    let mut open = 0;
+    let (mut open, mut lines) = (0, 0);
     for entity in &entities {
         let points = entity.corners(unit);
         match (opening(entity.layer), entity.kind) {
             (_, "TEXT" | "MTEXT") => {}
             (Some(kind), _) => plan.openings.extend(around(kind, &points, None)),
-            (None, "LINE") => {}
+            (None, "LINE") => lines += 1,
             (None, _) if entity.kind != "CIRCLE" && !entity.is_closed && points.first() != points.last() => open += 1,
             (None, _) => {
                 let texts = entities.iter().filter(|other| matches!(other.kind, "TEXT" | "MTEXT"));
@@ -99,6 +99,9 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
                 plan.rooms.push(DrawnRoom { name, kind: word.into(), polygon: points, height_m: None });
             }
         }
+    }
+    if lines > 0 && plan.rooms.is_empty() {
+        plan.notes.push(format!("{lines} single lines are no outlines: draw a closed polyline around each room (BOUNDARY)"));
     }
     if open > 0 {
         plan.notes.push(format!("{open} polylines are not closed and on no layer of doors or windows; they are left out"));

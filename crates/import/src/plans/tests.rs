@@ -68,9 +68,10 @@ fn svg_shapes_are_rooms_and_openings() {
     assert_eq!(rooms(&plan), [("LivingRoom", 15.5), ("bathroom", 4.8)]);
     assert_eq!(plan.rooms[0].polygon[2], DVec2::new(4.2, -3.0));
     assert_eq!(openings(&plan), [(OpeningKind::Window, [160, 0], Some(120)), (OpeningKind::Door, [420, -80], Some(80))]);
-    assert_eq!(plan.notes, ["1 shapes have no id, title or class that says what they are; they are left out"]);
-    let curved = refused("<svg><path id='hall' d='M0 0 C1 1 2 2 3 3'/></svg>");
-    assert!(curved.contains("line 1: the path has the command 'C', expected straight pieces"), "{curved}");
+    assert_eq!(plan.notes, ["2 shapes have no id, title or class that says what they are; they are left out"]);
+    let unnamed = refused("<svg><path id='path12' d='M0 0 h4 v4 z'/></svg>");
+    assert!(unnamed.contains("it was read as SVG, but no room was found; a unit of the drawing"), "{unnamed}");
+    assert!(unnamed.contains("1 shapes have no id"), "{unnamed}");
     assert!(refused("<svg data-meters-per-unit='2m'/>").contains("expected metres of a unit"));
 }
 
@@ -191,9 +192,22 @@ fn floors_of_3d_front_are_outlined() {
     let plan = read(
         r#"{"furniture": [], "mesh": [
           {"uid": "f", "type": "Floor", "xyz": [0,0,0, 4,0,0, 4,0,-3, 0,0,-3, 2,0,-3, 2,0,-5, 0,0,-5], "faces": [0,1,2, 0,2,4, 0,4,3, 3,4,5, 3,5,6]},
-          {"uid": "d", "type": "Door", "xyz": [4,0,-1, 4.2,0,-1, 4.2,2,-1.9, 4,2,-1.9], "faces": [0,1,2, 0,2,3]}],
-        "scene": {"room": [{"type": "MasterBedroom", "instanceid": "MasterBedroom-12", "children": [{"ref": "f"}, {"ref": "d"}]}]}}"#,
+          {"uid": "d", "type": "Door", "xyz": [4,0,-1, 4.2,0,-1, 4.2,2,-1.9, 4,2,-1.9], "faces": [0,1,2, 0,2,3]},
+          {"uid": "d2", "type": "Pocket", "xyz": [4,0,-1, 4.2,0,-1, 4.2,2,-1.9, 4,2,-1.9], "faces": [0,1,2, 0,2,3]},
+          {"uid": "p", "type": "Pocket", "xyz": [0,0,-1, -0.2,0,-1, -0.2,2.1,-1.8, 0,2.1,-1.8], "faces": [0,1,2, 0,2,3]},
+          {"uid": "s", "type": "BayWindow", "xyz": [1,0.2,0, 3,0.2,0, 3,0.25,0.2, 1,0.25,0.2], "faces": [0,1,2, 0,2,3]},
+          {"uid": "w", "type": "BayWindow", "xyz": [1,0.2,0.1, 3,0.2,0.1, 3,2.3,0.2, 1,2.3,0.2], "faces": [0,1,2, 0,2,3]}],
+        "scene": {"room": [{"type": "MasterBedroom", "instanceid": "MasterBedroom-12",
+          "children": [{"ref": "f"}, {"ref": "d"}, {"ref": "d2"}, {"ref": "p"}, {"ref": "s"}, {"ref": "w"}]}]}}"#,
     );
     assert_eq!(rooms(&plan), [("MasterBedroom", 16.0)]);
-    assert_eq!(openings(&plan), [(OpeningKind::Door, [410, 145], Some(90))]);
+    let (door, window) = ((OpeningKind::Door, [410, 145], Some(90)), (OpeningKind::Window, [200, -15], Some(200)));
+    assert_eq!(openings(&plan), [door, window, (OpeningKind::Door, [-10, 140], Some(80))]);
+    assert!(plan.notes[0].starts_with("1 openings have only linings"), "{:?}", plan.notes);
+}
+
+#[test]
+fn drawings_of_lines_alone_say_what_is_missing() {
+    let text = "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nwalls\n10\n0\n20\n0\n11\n4\n21\n0\n0\nENDSEC\n0\nEOF\n";
+    assert!(refused(text).contains("1 single lines are no outlines: draw a closed polyline around each room"));
 }

@@ -2,7 +2,7 @@
 
 use crate::plan::FloorPlan;
 use enfilade_math::{DVec2, Rng};
-use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, Rooms};
+use enfilade_scene::{CeilingSlope, DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, Rooms, Slope};
 
 fn room(kind: &str, polygon: &[[f64; 2]]) -> DrawnRoom {
     DrawnRoom { name: format!("the {kind}"), kind: kind.into(), polygon: polygon.iter().map(|&p| DVec2::from(p)).collect(), height_m: None }
@@ -122,6 +122,25 @@ fn what_is_wrong_with_a_plan_is_told() {
     ];
     for (change, part) in cases {
         let message = with(change);
+        assert!(message.contains(part), "{message}");
+    }
+    // Slopes over the living room, from its south wall or from a place of their own.
+    let under = |low_z_m: f64, pitch_deg: f64, y: f64| {
+        let mut plan = l.clone();
+        plan.slopes = vec![CeilingSlope { room: 0, slope: Slope { from: [0.0, y], to: [6.0, y], low_z_m, pitch_deg } }];
+        built(&plan)
+    };
+    for (slope, part) in [
+        (
+            (1.2, 40.0, 0.0),
+            "the window at [2.00, 0.00] reaches from 0.60 m to 0.57 m, expected at least 0.3 m between the floor and 0.85 m",
+        ),
+        ((0.3, 40.0, 0.0), "the ceiling of room \"the living\" is 0.30 m high at [0.00, 0.00], expected at least 0.5 m"),
+        ((1.2, 80.0, 0.0), "has 80 degrees, expected 5 to 75"),
+        ((2.9, 40.0, 0.0), "is above the ceilings of all its rooms"),
+        ((0.6, 10.0, 0.0), "is at least 1.9 m high over 0 % of its floor, expected 30 %"),
+    ] {
+        let message = under(slope.0, slope.1, slope.2).unwrap_err();
         assert!(message.contains(part), "{message}");
     }
     let apart = DrawnPlan {

@@ -95,9 +95,11 @@ fn word(node: &Node) -> Option<String> {
     let title =
         node.children().find(|child| child.has_tag_name("title") || child.tag_name().name() == "title").and_then(|title| title.text());
     let found = own("data-kind").or_else(|| own("label")).or(title).or_else(|| own("id")).or_else(|| own("class")?.split(' ').next());
+    // Names that drawing programs give, such as path1024, say nothing.
+    let is_given = |word: &String| SHAPES.contains(&word.as_str()) || word.is_empty();
     found
         .map(|word| word.trim().trim_end_matches(|c: char| c.is_ascii_digit() || "_- ".contains(c)).to_string())
-        .filter(|word| !word.is_empty())
+        .filter(|word| !is_given(word))
 }
 
 /// The corners of a shape in its own units, those of curves within `near` of them, and whether it has more outlines.
