@@ -42,7 +42,11 @@ impl FloorPlan {
             return Err(format!("the plan has {} rooms, expected 1 to {MOST}", plan.rooms.len()));
         }
         let mut notes = plan.notes.clone();
-        let plan = near_origin(plan, &mut notes);
+        let mut plan = near_origin(plan, &mut notes);
+        // In our own words it is an error.
+        if !plan.strict && plan.rooms.len() > 1 {
+            outlines::without_slivers(&mut plan.rooms, &mut notes);
+        }
         let kinds = kinds_of(&plan, &mut notes)?;
         let mut outlines = outlines::cleaned(&plan.rooms)?;
         outlines::check_apart(&outlines, &plan.rooms)?;

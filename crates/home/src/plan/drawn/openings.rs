@@ -15,6 +15,8 @@ const REACH: f32 = 0.3;
 const MARGIN: f32 = 0.06;
 /// An opening may be moved along its wall by this without being mentioned, metres.
 const UNSEEN: f32 = 0.02;
+/// Openings of other programs' files that are too wide for their walls may be narrowed to this share.
+const NARROWER: f32 = 0.8;
 /// Widest door between rooms, metres.
 const WIDEST_DOOR: f64 = 1.4;
 /// Usual widths of passages and windows, metres.
@@ -168,6 +170,11 @@ impl Site {
             free = [free[0].max(ends[0]), free[1].min(ends[1])];
         }
         let free = [free[0] + MARGIN, free[1] - MARGIN];
+        let mut width = width;
+        if !self.strict && width > free[1] - free[0] && free[1] - free[0] > NARROWER * width {
+            self.notes.push(format!("{name} is {width:.2} m wide: it was made {:.2} m wide, so that it fits in", free[1] - free[0]));
+            width = free[1] - free[0];
+        }
         if width > free[1] - free[0] + 1e-3 {
             return Err(format!(
                 "{name} is {width:.2} m wide, but the wall of {:?} has {:.2} m for it there",
