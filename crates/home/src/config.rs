@@ -15,7 +15,7 @@ words! {
         /// Rectangles.
         #[default]
         Rectangular = "rectangular",
-        /// Some rooms go around a corner, or have a bay, a niche, a column or a slanted wall.
+        /// Some rooms go around a corner, or have a bay, a niche, a column, a slanted wall or a ceiling that slopes under a roof.
         Varied = "varied",
     }
 }

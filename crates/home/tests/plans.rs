@@ -6,7 +6,7 @@ use enfilade_home::check::{Fault, faults};
 use enfilade_home::room::Room;
 use enfilade_home::{Home, HomeConfig, RoomShape, home, home_on};
 use enfilade_math::{DVec2, Ray, Vec2, warp};
-use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, WorldMesh, to_bytes};
+use enfilade_scene::{CeilingSlope, DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, Part, Slope, WorldMesh, to_bytes};
 
 /// Seeds of each plan, and with `cargo xtask test --all`.
 const SEEDS: [u64; 2] = [2, 20];
@@ -19,7 +19,7 @@ fn plan(rooms: &[(&str, &[[f64; 2]])], openings: &[(OpeningKind, [f64; 2])]) -> 
         height_m: None,
     };
     let openings = openings.iter().map(|&(kind, at)| DrawnOpening::new(kind, at.into())).collect();
-    DrawnPlan { rooms: rooms.iter().map(room).collect(), openings, strict: true, notes: Vec::new() }
+    DrawnPlan { rooms: rooms.iter().map(room).collect(), openings, strict: true, ..DrawnPlan::default() }
 }
 
 /// A living room around the corner of a hall, and a bathroom.
@@ -56,6 +56,24 @@ fn trapezoid() -> DrawnPlan {
     )
 }
 
+/// A bedroom and a bathroom under two slopes that meet in a ridge, and a hall under one of them.
+fn attic() -> DrawnPlan {
+    use OpeningKind::{Door, Window};
+    let mut attic = plan(
+        &[
+            ("bedroom", &[[0.0, 0.0], [4.2, 0.0], [4.2, 5.0], [0.0, 5.0]]),
+            ("bathroom", &[[4.32, 0.0], [7.0, 0.0], [7.0, 2.7], [4.32, 2.7]]),
+            ("hall", &[[4.32, 2.82], [7.0, 2.82], [7.0, 5.0], [4.32, 5.0]]),
+        ],
+        &[(Door, [4.26, 3.4]), (Door, [6.0, 2.76]), (Door, [7.1, 3.4]), (Window, [0.0, 2.5])],
+    );
+    for (from, to) in [([0.0, 0.0], [7.0, 0.0]), ([7.0, 5.0], [0.0, 5.0])] {
+        let slope = Slope { from, to, low_z_m: 1.3, pitch_deg: 30.0 };
+        attic.slopes.extend((0..3).map(|room| CeilingSlope { room, slope }));
+    }
+    attic
+}
+
 fn check(plan: &DrawnPlan) {
     check_all(&|config| home_on(config, &Library::default(), plan).unwrap());
 }
@@ -71,6 +89,7 @@ fn check_all(make: &(dyn Fn(&HomeConfig) -> Home + Sync)) {
         assert_eq!(faults(&home), [], "{name}");
         every_thing_stands_within_a_room(&home, &name);
         no_ray_leaves(&home, &name);
+        nothing_reaches_into_a_slope(&home, &name);
         home.removed
     });
     let in_walls = removed.iter().flatten().filter(|removal| matches!(&removal.fault, Fault::Meets(a, b) if is_wall(a) || is_wall(b)));
@@ -103,6 +122,25 @@ fn homes_with_slanted_walls_have_no_faults() {
 }
 
 #[test]
+fn homes_under_a_roof_have_no_faults() {
+    check(&attic());
+}
+
+#[test]
+fn the_layout_of_a_home_under_a_roof_has_its_slopes() {
+    let home = home_on(&HomeConfig { clutter: 0.0, ..HomeConfig::of_seed(3) }, &Library::default(), &attic()).unwrap();
+    let rooms = home.rooms();
+    assert_eq!(rooms.check(), Ok(()));
+    // The bathroom and the hall are under one slope each.
+    assert_eq!(rooms.slopes.iter().map(|of| of.room).collect::<Vec<_>>(), [0, 0, 1, 2]);
+    let south = rooms.walls.iter().filter(|wall| wall.inward == [0.0, 1.0] && wall.from[1] == 0.0);
+    assert!(south.clone().count() == 2 && south.clone().all(|wall| (wall.ceiling_z_m - 1.3).abs() < 1e-6));
+    let again = DrawnPlan::from(&rooms);
+    assert_eq!(again.slopes, rooms.slopes);
+    assert_eq!(home_on(&HomeConfig::of_seed(3), &Library::default(), &again).unwrap().rooms().slopes, rooms.slopes);
+}
+
+#[test]
 fn the_same_plan_and_seed_give_the_same_bytes() {
     let made =
         || to_bytes(&home_on(&HomeConfig { clutter: 0.1, ..HomeConfig::of_seed(3) }, &Library::default(), &trapezoid()).unwrap().scene);
@@ -123,6 +161,24 @@ fn every_thing_stands_within_a_room(home: &Home, name: &str) {
     for room in &home.plan.rooms {
         let camera = |room: &Room| home.scene.cameras.iter().any(|camera| room.contains(camera.position.as_vec3().truncate(), -0.2));
         assert!(camera(room), "{name}: no camera in {:?}", room.kind);
+    }
+}
+
+/// Every thing ends below the ceiling of its room, also where that slopes.
+fn nothing_reaches_into_a_slope(home: &Home, name: &str) {
+    let shell = ["wall_", "floor_", "ceiling_", "window_", "door_", "passage_"];
+    let is_thing = |part: &&Part| {
+        let object = part.name.split('/').next().unwrap_or_default();
+        !shell.iter().any(|family| object.starts_with(family)) || object.starts_with("ceiling_lamp") || object.starts_with("wall_shelf")
+    };
+    for part in home.scene.parts.iter().filter(is_thing) {
+        for p in home.scene.world_positions(part) {
+            if let Some(room) = home.plan.rooms.iter().find(|room| !room.slopes.is_empty() && room.contains(p.truncate(), 0.0)) {
+                let ceiling = room.ceiling_at(p.truncate());
+                // Lamps are let into the ceiling by a millimetre.
+                assert!(p.z < ceiling + 0.004, "{name}: {} reaches {:.3} m, the ceiling is at {ceiling:.3} m", part.name, p.z);
+            }
+        }
     }
 }
 

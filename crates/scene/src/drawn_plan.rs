@@ -1,6 +1,7 @@
 //! A floor plan as people draw it: outlines of rooms, and where doors and windows are. Readers of files make it, and homes are built on it.
 
 use crate::rooms::{Hinge, OpeningKind, Rooms};
+use crate::slope::CeilingSlope;
 use enfilade_math::{DVec2, DVec3};
 
 /// Rooms and openings of one storey, metres, seen from above.
@@ -10,6 +11,8 @@ pub struct DrawnPlan {
     pub rooms: Vec<DrawnRoom>,
     /// Doors, passages and windows.
     pub openings: Vec<DrawnOpening>,
+    /// Sloping parts of ceilings; their heights are above the floor.
+    pub slopes: Vec<CeilingSlope>,
     /// The file uses our own names of kinds: others are errors. Where it does not, kinds that nobody knows are guessed.
     pub strict: bool,
     /// What the reader left out or guessed, for people.
@@ -79,6 +82,10 @@ impl From<&Rooms> for DrawnPlan {
                 open_deg: opening.leaf.map(|leaf| leaf.open_deg),
             }
         });
-        Self { rooms: rooms.collect(), openings: openings.collect(), strict: true, notes: Vec::new() }
+        let slopes = layout.slopes.iter().map(|of| {
+            let floor = layout.outlines[of.room].floor_z_m;
+            CeilingSlope { slope: of.slope.moved(-floor * DVec3::Z), ..*of }
+        });
+        Self { rooms: rooms.collect(), openings: openings.collect(), slopes: slopes.collect(), strict: true, notes: Vec::new() }
     }
 }

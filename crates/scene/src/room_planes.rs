@@ -1,6 +1,6 @@
 //! The planes of rooms: floors, ceilings and faces of walls, numbered, and the plane that a point is on.
 
-use crate::{CEILING, FLOOR, Rooms, WALL, WallFace};
+use crate::{CEILING, CeilingSlope, FLOOR, Rooms, WALL, WallFace};
 use enfilade_math::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -53,7 +53,7 @@ pub struct RoomPlane {
 }
 
 impl Rooms {
-    /// All planes: floor and ceiling of each room, then the faces of walls.
+    /// All planes: floor and ceiling of each room, then the faces of walls, then the slopes of ceilings.
     pub fn planes(&self) -> Vec<RoomPlane> {
         let level = |(room, of): (usize, &crate::RoomOutline)| {
             let plane = |kind, normal: DVec3, z: f64| RoomPlane { kind, room, wall: None, normal, offset_m: normal.z * z };
@@ -64,7 +64,13 @@ impl Rooms {
             let offset_m = inward.dot(wall.from.into());
             RoomPlane { kind: PlaneKind::Wall, room: wall.room, wall: Some(i), normal: inward.extend(0.0), offset_m }
         };
-        self.outlines.iter().enumerate().flat_map(level).chain(self.walls.iter().enumerate().map(upright)).collect()
+        let sloping = |of: &CeilingSlope| {
+            let normal = of.slope.normal();
+            let offset_m = normal.dot(DVec2::from(of.slope.from).extend(of.slope.low_z_m));
+            RoomPlane { kind: PlaneKind::Ceiling, room: of.room, wall: None, normal, offset_m }
+        };
+        let (levels, walls) = (self.outlines.iter().enumerate().flat_map(level), self.walls.iter().enumerate().map(upright));
+        levels.chain(walls).chain(self.slopes.iter().map(sloping)).collect()
     }
 
     /// The plane, by its place among [`Rooms::planes`], that a point of a surface of this class is on: within 2 cm of it and of its
@@ -78,13 +84,20 @@ impl Rooms {
             let rooms = self.outlines.iter().enumerate().filter(|(_, room)| room.reaches(p.truncate(), PLANE_NEAR_M));
             nearest(&mut rooms.map(|(i, room)| (2 * i + second, (p.z - z(room)).abs())))
         };
+        let ceiling = || {
+            let first = 2 * self.outlines.len() + self.walls.len();
+            let within = |of: &CeilingSlope| self.outlines[of.room].reaches(p.truncate(), PLANE_NEAR_M);
+            let slopes = self.slopes.iter().enumerate().filter(|(_, of)| within(of));
+            let sloping = nearest(&mut slopes.map(|(i, of)| (first + i, of.slope.distance_m(p).abs())));
+            sloping.or_else(|| level(|room| room.ceiling_z_m, 1))
+        };
         match class {
             FLOOR => level(|room| room.floor_z_m, 0),
-            CEILING => level(|room| room.ceiling_z_m, 1),
+            CEILING => ceiling(),
             WALL => {
                 let first = 2 * self.outlines.len();
                 let faces = self.walls.iter().enumerate().map(|(i, wall)| (first + i, wall.off_m(p)));
-                nearest(&mut faces.into_iter()).or_else(|| level(|room| room.ceiling_z_m, 1))
+                nearest(&mut faces.into_iter()).or_else(ceiling)
             }
             _ => None,
         }
@@ -95,13 +108,12 @@ impl Rooms {
     /// `None` for other classes, and where there is no plane.
     pub fn off_m(&self, class: i16, p: DVec3) -> Option<f64> {
         let least = |found: &mut dyn Iterator<Item = f64>| found.min_by(f64::total_cmp);
+        let slopes = self.slopes.iter().map(|of| of.slope.distance_m(p).abs());
+        let mut ceilings = self.outlines.iter().map(|room| (p.z - room.ceiling_z_m).abs()).chain(slopes);
         match class {
             FLOOR => least(&mut self.outlines.iter().map(|room| (p.z - room.floor_z_m).abs())),
-            CEILING => least(&mut self.outlines.iter().map(|room| (p.z - room.ceiling_z_m).abs())),
-            WALL => {
-                let ceilings = self.outlines.iter().map(|room| (p.z - room.ceiling_z_m).abs());
-                least(&mut self.walls.iter().map(|wall| wall.off_m(p)).chain(ceilings))
-            }
+            CEILING => least(&mut ceilings),
+            WALL => least(&mut self.walls.iter().map(|wall| wall.off_m(p)).chain(ceilings)),
             _ => None,
         }
     }
@@ -155,6 +167,23 @@ mod tests {
         for (class, p) in [(FLOOR, [4.1, 1.0, 0.0]), (WALL, [4.1, 1.0, 1.0]), (CEILING, [1.0, 1.0, 0.0]), (5, [4.0, 1.0, 1.0])] {
             assert_eq!(rooms.plane_at(class, p.into()), None, "{class} {p:?}");
         }
+    }
+
+    #[test]
+    fn slopes_are_the_last_planes() {
+        let mut rooms = two_rooms();
+        // Over the first room, from 1.5 m at x = 0.
+        let slope = crate::Slope { from: [0.0, 3.0], to: [0.0, 0.0], low_z_m: 1.5, pitch_deg: 45.0 };
+        rooms.slopes.push(CeilingSlope { room: 0, slope });
+        let planes = rooms.planes();
+        let on = DVec3::new(0.5, 1.0, 2.0);
+        assert_eq!(rooms.plane_at(CEILING, on), Some(12));
+        assert_eq!((planes[12].kind, planes[12].room), (PlaneKind::Ceiling, 0));
+        assert!((planes[12].normal.dot(on) - planes[12].offset_m).abs() < 1e-12);
+        assert!(planes[12].normal.dot(DVec3::new(2.0, 1.5, 1.2)) > planes[12].offset_m, "into the room");
+        assert!(rooms.off_m(CEILING, on).unwrap() < 1e-12);
+        // The level ceiling of the same room, and a point above the slope of the other.
+        assert_eq!((rooms.plane_at(CEILING, DVec3::new(3.0, 1.0, 2.5)), rooms.plane_at(CEILING, on + 4.2 * DVec3::X)), (Some(1), None));
     }
 
     #[test]

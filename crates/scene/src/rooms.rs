@@ -1,8 +1,9 @@
 //! The rooms of a building: their outlines, the faces of their walls, the doors and windows in them, and the names of its things.
 //!
-//! World coordinates in metres, z up. Every wall face is a vertical rectangle that bounds one room; a wall between two rooms has two faces,
-//! `thickness_m` apart. It is stored as `_detail/layout.json`.
+//! World coordinates in metres, z up. Every wall face is a vertical rectangle that bounds one room, and ends below a sloping ceiling; a wall
+//! between two rooms has two faces, `thickness_m` apart. It is stored as `_detail/layout.json`.
 
+use crate::slope::CeilingSlope;
 use enfilade_math::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +37,9 @@ pub struct Rooms {
     pub walls: Vec<WallFace>,
     /// Doors, passages and windows.
     pub openings: Vec<WallOpening>,
+    /// Sloping parts of ceilings, under a roof.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub slopes: Vec<CeilingSlope>,
     /// The labelled instances, in ascending order.
     #[serde(default)]
     pub things: Vec<RoomThing>,
@@ -68,7 +72,7 @@ pub struct RoomThing {
     pub front: Option<[f64; 2]>,
 }
 
-/// A room between floor and ceiling, both level.
+/// A room between floor and ceiling, both level; where [`Rooms::slopes`] are lower, they are the ceiling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RoomOutline {
     /// Kind and number: `bedroom_2`.
@@ -79,7 +83,7 @@ pub struct RoomOutline {
     pub polygon: Vec<[f64; 2]>,
     /// Height of the floor.
     pub floor_z_m: f64,
-    /// Height of the ceiling.
+    /// Height of the ceiling, where it is level.
     pub ceiling_z_m: f64,
 }
 
@@ -94,7 +98,7 @@ pub struct WallFace {
     pub to: [f64; 2],
     /// Height of its lower edge.
     pub floor_z_m: f64,
-    /// Height of its upper edge.
+    /// Height of its upper edge, or of that edge's highest point under a slope.
     pub ceiling_z_m: f64,
     /// Unit normal of its plane, into the room.
     pub inward: [f64; 2],
@@ -158,7 +162,15 @@ pub enum Hinge {
 
 impl Default for Rooms {
     fn default() -> Self {
-        Self { format: FORMAT.into(), outlines: Vec::new(), walls: Vec::new(), openings: Vec::new(), things: Vec::new(), fit: None }
+        Self {
+            format: FORMAT.into(),
+            outlines: Vec::new(),
+            walls: Vec::new(),
+            openings: Vec::new(),
+            slopes: Vec::new(),
+            things: Vec::new(),
+            fit: None,
+        }
     }
 }
 
@@ -177,6 +189,9 @@ impl Rooms {
         }
         if let Some(wall) = self.walls.iter().find(|wall| wall.room >= self.outlines.len()) {
             return Err(format!("a wall is of room {}, but there are {}", wall.room, self.outlines.len()));
+        }
+        if let Some(slope) = self.slopes.iter().find(|slope| slope.room >= self.outlines.len()) {
+            return Err(format!("a sloping ceiling is of room {}, but there are {}", slope.room, self.outlines.len()));
         }
         let is_wrong = |o: &&WallOpening| o.walls.is_empty() || o.walls.iter().any(|&wall| wall >= self.walls.len());
         if let Some(opening) = self.openings.iter().find(is_wrong) {

@@ -5,7 +5,7 @@ use super::card::Card;
 use super::law::Law;
 use enfilade_frame::{Frame, Layer, vector};
 use enfilade_math::DVec3;
-use enfilade_scene::{CEILING, FLOOR, PLANE_NEAR_M as NEAR_M, Rooms, WALL, WallFace, WallOpening};
+use enfilade_scene::{CEILING, CeilingSlope, FLOOR, PLANE_NEAR_M as NEAR_M, Rooms, WALL, WallFace, WallOpening};
 
 /// Checks a frame.
 pub(super) fn check(rooms: &Rooms, frame: &Frame, place: &str, card: &mut Card) {
@@ -35,7 +35,10 @@ fn is_elsewhere(rooms: &Rooms, class: i16, p: DVec3) -> Option<bool> {
     let is_there = match class {
         WALL => rooms.walls.iter().any(|wall| is_on(wall, p)) || rooms.openings.iter().any(|o| is_reveal(rooms, o, p)),
         FLOOR => rooms.outlines.iter().any(|room| near(room.floor_z_m)),
-        CEILING => rooms.outlines.iter().any(|room| near(room.ceiling_z_m)),
+        CEILING => {
+            let is_under = |of: &CeilingSlope| of.slope.distance_m(p).abs() <= NEAR_M;
+            rooms.outlines.iter().any(|room| near(room.ceiling_z_m)) || rooms.slopes.iter().any(is_under)
+        }
         _ => return None,
     };
     Some(!is_there)
@@ -85,5 +88,16 @@ mod tests {
         assert_eq!(elsewhere(FLOOR, [1.0, 1.0, 0.05]), Some(true));
         assert_eq!(elsewhere(CEILING, [1.0, 1.0, 2.5]), Some(false));
         assert_eq!(elsewhere(5, [1.0, 1.0, 1.0]), None);
+    }
+
+    #[test]
+    fn sloping_ceilings_are_ceilings() {
+        let mut rooms = room();
+        rooms.slopes.push(CeilingSlope {
+            room: 0,
+            slope: enfilade_scene::Slope { from: [0.0, 0.0], to: [4.0, 0.0], low_z_m: 1.5, pitch_deg: 45.0 },
+        });
+        assert_eq!(is_elsewhere(&rooms, CEILING, [1.0, 0.5, 2.0].into()), Some(false));
+        assert_eq!(is_elsewhere(&rooms, CEILING, [1.0, 0.5, 2.1].into()), Some(true));
     }
 }

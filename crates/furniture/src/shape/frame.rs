@@ -35,8 +35,22 @@ pub fn picture_frame(width: f32, height: f32, section: &[[f32; 2]]) -> Mesh {
 /// A wall in its own space: x along it from −`length`/2 to `length`/2, its inner face at y = 0, its outer at −`thickness`, z over
 /// `height`; with openings [x0, x1, z0, z1] that go through. Openings must not overlap; one that reaches `height[0]` is a door.
 pub fn slab_with_openings(length: f32, height: [f32; 2], thickness: f32, openings: &[[f32; 4]]) -> Mesh {
+    slab_below(length, height, thickness, openings, &Top { height: |_| f32::INFINITY, bends: Vec::new() })
+}
+
+/// The upper end of a wall that is not level: under a roof.
+pub struct Top<F: Fn(Vec2) -> f32> {
+    /// Height over a point (x, y) of the wall's space; linear between the `bends`, and above all openings.
+    pub height: F,
+    /// Where it bends, along x.
+    pub bends: Vec<f32>,
+}
+
+/// A wall as [`slab_with_openings`] makes it, which ends below `top`.
+pub fn slab_below<F: Fn(Vec2) -> f32>(length: f32, height: [f32; 2], thickness: f32, openings: &[[f32; 4]], top: &Top<F>) -> Mesh {
     let cuts = |ends: [f32; 2], of: [usize; 2]| {
-        let inner = openings.iter().flat_map(|o| of.map(|k| o[k])).filter(|&c| c > ends[0] && c < ends[1]);
+        let bends: &[f32] = if of[0] == 0 { &top.bends } else { &[] };
+        let inner = openings.iter().flat_map(|o| of.map(|k| o[k])).chain(bends.iter().copied()).filter(|&c| c > ends[0] && c < ends[1]);
         let mut all: Vec<f32> = ends.into_iter().chain(inner).collect();
         all.sort_by(f32::total_cmp);
         all.dedup();
@@ -58,7 +72,10 @@ pub fn slab_with_openings(length: f32, height: [f32; 2], thickness: f32, opening
                 continue;
             }
             let (x0, x1, z0, z1) = (xs[i], xs[i + 1], zs[j], zs[j + 1]);
-            let p = |x: f32, back: bool, z: f32| Vec3::new(x, if back { -thickness } else { 0.0 }, z);
+            let p = |x: f32, back: bool, z: f32| {
+                let y = if back { -thickness } else { 0.0 };
+                Vec3::new(x, y, z.min((top.height)(Vec2::new(x, y))))
+            };
             let mut face = |quad: [Vec3; 4], uv: fn(Vec3) -> Vec2| push_quad(&mut mesh, quad, quad.map(uv), false);
             face([p(x0, false, z0), p(x0, false, z1), p(x1, false, z1), p(x1, false, z0)], |q| Vec2::new(q.x, q.z));
             face([p(x0, true, z0), p(x1, true, z0), p(x1, true, z1), p(x0, true, z1)], |q| Vec2::new(q.x, q.z));
@@ -76,6 +93,13 @@ pub fn slab_with_openings(length: f32, height: [f32; 2], thickness: f32, opening
             }
         }
     }
+    // What is above the top has no height left.
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| mesh.positions[i as usize]);
+        (b - a).cross(c - a).length()
+    };
+    let kept: Vec<[u32; 3]> = mesh.triangles.iter().copied().filter(|t| area(t) > 0.0).collect();
+    mesh.triangles = kept;
     mesh.smoothed(20.0)
 }
 

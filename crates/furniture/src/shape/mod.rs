@@ -14,7 +14,7 @@ mod tube;
 pub use boxes::{bevelled_box, padded_box, rounded_box};
 pub use cloth::{curtain, leaf, pillow};
 pub use edit::Reshape;
-pub use frame::{picture_frame, slab_with_openings};
+pub use frame::{Top, picture_frame, slab_below, slab_with_openings};
 pub use lathe::{disk, lathe, sphere, spline};
 pub use tube::{rounded_loop, tube};
 
@@ -69,6 +69,8 @@ mod tests {
     fn closed_shapes_face_outward() {
         let vase = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.3], [0.09, 0.3], [0.09, 0.01], [0.0, 0.01]].map(Vec2::from_array);
         let path = [Vec3::ZERO, Vec3::new(0.0, 0.1, 0.2), Vec3::new(0.3, 0.1, 0.4)];
+        // 1.5 m at one end, level at 2.5 m from 1 m on.
+        let gable = Top { height: |p: Vec2| (p.x + 3.5).min(2.5), bends: vec![-1.0] };
         let shapes = [
             ("bevelled box", bevelled_box(Vec3::new(0.4, 0.3, 0.2), 0.01), 0.4 * 0.3 * 0.2),
             ("rounded box", rounded_box(Vec3::new(0.4, 0.3, 0.2), 0.02, 3), 0.4 * 0.3 * 0.2),
@@ -77,6 +79,7 @@ mod tests {
             ("tube", tube(&path, 0.02, 24), 0.001_257 * (0.2236 + 0.3606)),
             ("picture frame", picture_frame(0.8, 0.6, &[[0.0, 0.0], [0.0, 0.02], [0.05, 0.02], [0.05, 0.0]]), 0.05 * 0.02 * 2.6),
             ("slab", slab_with_openings(4.0, [0.0, 2.5], 0.3, &[[-1.0, 1.0, 0.8, 2.2]]), 0.3 * (10.0 - 2.8)),
+            ("gable", slab_below(4.0, [0.0, 3.0], 0.3, &[[0.0, 1.0, 0.8, 2.2]], &gable), 0.3 * (10.0 - 0.5 - 1.4)),
         ];
         for (name, mesh, expected) in shapes {
             assert_eq!(mesh.validate(), Ok(()), "{name}");

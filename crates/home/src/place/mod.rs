@@ -33,6 +33,8 @@ const SILL_END: f32 = 0.06;
 const CASING: f32 = 0.08;
 /// Distance between candidates along walls, metres.
 const STEP: f32 = 0.05;
+/// Air between things and a sloping ceiling, metres.
+const BELOW_SLOPE: f32 = 0.03;
 /// Candidates whose ways around are checked before giving up.
 const TRIALS: usize = 80;
 
@@ -51,12 +53,14 @@ pub struct Piece {
     pub reach: f32,
     /// Lies flat on the floor: people walk over it, but other groups do not stand on it.
     pub flat: bool,
+    /// Free height over it under a sloping ceiling, metres, where people need more than it does itself.
+    pub headroom: f32,
 }
 
 impl Piece {
     /// Something that stands with its back to the wall.
     pub fn standing(size: Vec3, reach: f32) -> Self {
-        Self { size, at: Vec2::new(0.0, 0.5 * size.y), yaw: 0.0, z: 0.0, reach, flat: false }
+        Self { size, at: Vec2::new(0.0, 0.5 * size.y), yaw: 0.0, z: 0.0, reach, flat: false, headroom: 0.0 }
     }
 
     /// The thing at another place of the group.
@@ -238,7 +242,8 @@ impl Floor {
             let blocked =
                 |t: &Taken| t.solid && t.z[0] < HEADROOM && t.z[1] > UNDERFOOT && front.is_some_and(|f| t.footprint.meets(&f, -0.02));
             let within = front.is_none_or(|f| self.room.holds(&f, inset - 0.04));
-            inside && within && !self.taken.iter().any(|t| meets(t) || blocked(t))
+            let low = !self.room.slopes.is_empty() && self.room.lowest_over(&own) < (z[1] + BELOW_SLOPE).max(piece.headroom);
+            inside && within && !low && !self.taken.iter().any(|t| meets(t) || blocked(t))
         })
     }
 

@@ -7,6 +7,8 @@ use enfilade_math::Vec2;
 pub const BODY: f32 = 0.30;
 /// Edge of a grid cell, metres.
 const CELL: f32 = 0.05;
+/// Height of a body that walks upright under a sloping ceiling, metres.
+const UPRIGHT: f32 = 1.9;
 /// Reduction of half the width of a body, metres, because cells are tested at their centres.
 const TOLERANCE: f32 = 0.02;
 /// Largest area, of places for the middle of a body, that furniture may cut off, m².
@@ -31,7 +33,8 @@ impl Walk {
         let rows = (room.size.y / CELL).ceil() as usize;
         let mut walk = Self { min, columns, blocked: vec![false; columns * rows], starts: Vec::new() };
         for cell in 0..walk.blocked.len() {
-            walk.blocked[cell] = !room.contains(walk.place(cell), TOLERANCE - BODY);
+            let p = walk.place(cell);
+            walk.blocked[cell] = !room.contains(p, TOLERANCE - BODY) || !room.has_headroom(p, BODY - TOLERANCE, UPRIGHT);
         }
         walk.starts = room.ways().filter_map(|way| walk.cell(room.before(way.wall, way.center_x(), BODY + 0.06))).collect();
         walk

@@ -2,10 +2,11 @@
 //!
 //! A home is a rectangle cut into cells (`slicing`); a search looks for cuts whose rooms have the widths, proportions, daylight and
 //! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`). Plans that people draw
-//! are built as they are (`drawn`).
+//! are built as they are (`drawn`); homes of other shapes are such plans too (`varied`, `roof`).
 
 mod drawn;
 mod openings;
+mod roof;
 mod rooms;
 mod search;
 pub mod slicing;

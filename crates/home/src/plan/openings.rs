@@ -202,7 +202,7 @@ pub fn add_windows(room: &mut Room, mut walls: Vec<Wall>, rng: &mut Rng) {
         if rng.next_f32() > seldom || (k > 0 && wanted <= 0.0 && rng.below(2) == 0) {
             continue;
         }
-        let Some((low, high)) = free_run(room, wall) else { continue };
+        let Some((low, high)) = free_run(room, wall, head + 0.05, 0.0) else { continue };
         let free = high - low - 2.0 * WINDOW_MARGIN;
         let width = match room.kind {
             Bathroom | Toilet | Laundry | Hall => rng.range(0.55, 0.9),
@@ -221,17 +221,19 @@ pub fn add_windows(room: &mut Room, mut walls: Vec<Wall>, rng: &mut Rng) {
     }
 }
 
-/// The longest piece of a wall along its x axis that has the outside behind it and no openings.
-pub fn free_run(room: &Room, wall: Wall) -> Option<(f32, f32)> {
+/// The longest piece of a wall along its x axis that has the outside behind it and no openings, where the ceiling is at least `height` high
+/// in the wall and up to `depth` before it.
+pub fn free_run(room: &Room, wall: Wall, height: f32, depth: f32) -> Option<(f32, f32)> {
     let half = 0.5 * room.length(wall);
     let inner = room.face(wall).backs.iter().filter(|back| !back.outer).map(|back| back.x);
     let mut taken: Vec<[f32; 2]> = room.openings.iter().filter(|o| o.wall == wall).map(|o| o.x).chain(inner).collect();
+    taken.extend(room.low_spans(wall, [-room.outer_wall, depth], height));
     taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut from = -half;
     let mut runs = Vec::new();
     for [low, high] in taken {
         runs.push((from, low));
-        from = high;
+        from = if room.slopes.is_empty() { high } else { high.max(from) };
     }
     runs.push((from, half));
     runs.into_iter().filter(|(a, b)| b - a > 2.0 * WINDOW_MARGIN).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))

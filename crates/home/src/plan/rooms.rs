@@ -4,7 +4,7 @@ use super::FloorPlan;
 use crate::room::{Face, Filling, Opening, Room};
 use enfilade_furniture::Leaf;
 use enfilade_math::{DVec3, Vec2};
-use enfilade_scene::{DoorLeaf, Hinge, OpeningKind, RoomOutline, Rooms, WallOpening};
+use enfilade_scene::{CeilingSlope, DoorLeaf, Hinge, OpeningKind, RoomOutline, Rooms, WallOpening};
 use std::collections::BTreeMap;
 
 /// Two rooms state the same opening within this, metres: the rounding of single precision, and walls that are not quite parallel.
@@ -31,6 +31,13 @@ impl FloorPlan {
             let edges: Vec<(f64, bool)> =
                 room.faces.iter().flat_map(|face| &face.backs).map(|back| (f64::from(back.thickness), back.outer)).collect();
             rooms.push_room(outline(room, *number), &edges);
+        }
+        for (room, number) in self.rooms.iter().zip(0..) {
+            rooms.slopes.extend(room.slopes.iter().map(|incline| CeilingSlope { room: number, slope: incline.slope }));
+        }
+        for face in (0..rooms.walls.len()).filter(|_| !rooms.slopes.is_empty()) {
+            let highest = rooms.face_outline(face).iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+            rooms.walls[face].ceiling_z_m = highest;
         }
         let leading = self.rooms.iter().enumerate().flat_map(|(number, room)| room.openings.iter().map(move |o| (number, room, o)));
         let leading = leading.filter(|(_, _, opening)| !is_other_side(opening));

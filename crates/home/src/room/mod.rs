@@ -1,11 +1,13 @@
 //! A room: its place in the home, its walls and what opens in them.
 
+mod ceiling;
 mod face;
 mod footprint;
 pub mod kind;
 pub mod outline;
 mod side;
 
+pub use ceiling::Incline;
 use enfilade_furniture::{Leaf, RoomKind, WallOpening, pose};
 use enfilade_math::{DAffine3, DVec2, Vec2, Vec3};
 pub use face::{Back, Face, Wall};
@@ -62,7 +64,7 @@ impl Opening {
     }
 }
 
-/// A room between level floor and ceiling, whose outline is a simple polygon.
+/// A room between level floor and ceiling, whose outline is a simple polygon; under a roof parts of the ceiling slope.
 #[derive(Clone, Debug)]
 pub struct Room {
     /// The use of the room.
@@ -89,12 +91,14 @@ pub struct Room {
     pub outer_wall: f32,
     /// Doors, passages and windows.
     pub openings: Vec<Opening>,
+    /// Sloping parts of the ceiling, each lower than the level one somewhere in the room.
+    pub slopes: Vec<Incline>,
 }
 
 /// Width of a way's casing, and of the handle of an open leaf, metres.
 const BESIDE_WAY: f32 = 0.08;
 /// Free space that a way needs before it where no leaf swings.
-const WAY_DEPTH: f32 = 0.65;
+pub const WAY_DEPTH: f32 = 0.65;
 
 impl Room {
     /// A rectangular room around `center`, whose walls are outer walls of the home, or not, in the order of [`Side::ALL`].
@@ -130,6 +134,7 @@ impl Room {
             inner_wall,
             outer_wall,
             openings: Vec::new(),
+            slopes: Vec::new(),
         }
     }
 
@@ -150,6 +155,7 @@ impl Room {
             inner_wall: thickness[0],
             outer_wall: thickness[1],
             openings: Vec::new(),
+            slopes: Vec::new(),
         };
         room.grain = face::grain(&room.faces);
         room

@@ -7,6 +7,8 @@ use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Minimum height of a sill with a radiator below it, metres.
 const RADIATOR_SILL: f32 = 0.44;
+/// Height over a window that its curtains need under a sloping ceiling, metres.
+const ROD: f32 = 0.12;
 /// Greatest height of things on a sill, metres.
 const ON_SILL: f32 = 0.32;
 /// The stream of random numbers of blinds, so that they do not change what else is in a room.
@@ -76,8 +78,13 @@ impl Furnisher<'_> {
         }
         let width = self.rng.range(0.36, 0.44).min(beyond[0].min(beyond[1]) + 0.12);
         let curtains = Curtains { width, beyond };
-        curtains.build(self.b, &self.room.wall_opening(window), self.room.size.z, &mut self.rng);
-        let (low, high) = (window.x[0] - beyond[0] - 0.04, window.x[1] + beyond[1] + 0.04);
+        let around = [window.x[0] - beyond[0] - 0.04, window.x[1] + beyond[1] + 0.04];
+        let ceiling = self.room.lowest_before(window.wall, around, [0.0, Curtains::DEPTH]);
+        if !self.room.slopes.is_empty() && ceiling < window.z[1] + ROD {
+            return;
+        }
+        curtains.build(self.b, &self.room.wall_opening(window), ceiling, &mut self.rng);
+        let [low, high] = around;
         for x in [[low, low + width + 0.1], [high - width - 0.1, high]] {
             self.floor.take(self.floor.strip(window.wall, x, Curtains::DEPTH), [0.0, self.room.size.z]);
         }
@@ -105,7 +112,8 @@ impl Furnisher<'_> {
         let highest = self.room.size.z - HEADS;
         let model = self.borrow("ceiling_lamp", &own, |size| size.z < highest);
         let lamp: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
-        self.above(self.room.center, lamp);
+        let pose = self.room.mounting(self.room.center);
+        self.build(lamp, pose);
     }
 
     /// Hangs a lamp in the middle of the room, above people's heads, unless one hangs over a table there.
@@ -113,11 +121,16 @@ impl Furnisher<'_> {
         self.ceiling_lamps(&self.room.middles());
     }
 
-    /// Hangs equal lamps over points of the floor, above people's heads, but where others hang already.
+    /// Hangs equal lamps over points of the floor, above people's heads, but where others hang already. Under a slope they hang where the
+    /// ceiling is level; where it is nowhere, a flat lamp is on the slope.
     pub fn ceiling_lamps(&mut self, points: &[Vec2]) {
         let around = |&center: &Vec2| Footprint { center, half: Vec2::splat(0.3), yaw: 0.0 };
         let is_free = |p: &Vec2| self.floor.is_free(&around(p), [OVERHEAD, self.room.size.z]);
-        let points: Vec<Vec2> = points.iter().copied().filter(is_free).collect();
+        let level = self.room.level_places(points);
+        if level.is_empty() && !points.is_empty() {
+            return self.dome();
+        }
+        let points: Vec<Vec2> = level.into_iter().filter(is_free).collect();
         if points.is_empty() {
             return;
         }

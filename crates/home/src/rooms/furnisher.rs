@@ -2,7 +2,7 @@
 
 use crate::place::{Floor, Piece, Spot, scatter};
 use crate::plan::FloorPlan;
-use crate::room::{Room, Wall};
+use crate::room::{Footprint, Room, Wall};
 use enfilade_furniture::assets::{Borrowed, Library};
 use enfilade_furniture::{Builder, FAMILIES, Family, Furniture, Palette, PictureOnWall, Place, RoomKind, Rug, Surface, family_named, on};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -39,7 +39,7 @@ pub struct Furnisher<'a> {
 const EYE: f32 = 1.52;
 /// Small things on a square metre of a surface in a home that is lived in.
 const DENSITY: f32 = 9.0;
-/// Distance between things on high furniture and the ceiling, metres.
+/// Distance between things on furniture and the ceiling, metres.
 const CEILING_AIR: f32 = 0.05;
 /// Variants of a family that are tried before the room does without.
 const VARIANTS: usize = 4;
@@ -93,6 +93,12 @@ impl<'a> Furnisher<'a> {
         if self.clutter == 0.0 {
             self.b.take_back(before);
         }
+    }
+
+    /// Whether something of this size, in this pose, is below the ceiling, where that slopes.
+    pub fn is_below_slopes(&self, size: Vec3, pose: DAffine3) -> bool {
+        let top = pose.translation.z as f32 + size.z + CEILING_AIR;
+        self.room.slopes.is_empty() || self.room.lowest_over(&Footprint::of(pose, size)) >= top
     }
 
     /// One variant of a family, or a model of the library.
@@ -205,7 +211,13 @@ impl<'a> Furnisher<'a> {
     pub fn scatter(&mut self, surfaces: &[Surface], pose: DAffine3, things: &[Box<dyn Furniture>]) {
         // Under the open sky of the room is its ceiling.
         let sky = self.room.size.z - CEILING_AIR - pose.translation.z as f32;
-        let surfaces: Vec<Surface> = surfaces.iter().map(|s| Surface { headroom: s.headroom.min(sky - s.z), ..*s }).collect();
+        let slope = |s: &Surface| {
+            let corners = [s.min, Vec2::new(s.max.x, s.min.y), s.max, Vec2::new(s.min.x, s.max.y)];
+            let world = corners.map(|corner| pose.transform_point3(corner.extend(s.z).as_dvec3()).as_vec3());
+            world.iter().map(|p| self.room.ceiling_at(p.truncate()) - CEILING_AIR - p.z).fold(f32::INFINITY, f32::min)
+        };
+        let above = |s: &Surface| if self.room.slopes.is_empty() { sky - s.z } else { slope(s) };
+        let surfaces: Vec<Surface> = surfaces.iter().map(|s| Surface { headroom: s.headroom.min(above(s)), ..*s }).collect();
         for (index, pose) in scatter(&surfaces, pose, things, &mut self.rng) {
             self.build(things[index].as_ref(), pose);
         }
@@ -242,7 +254,7 @@ impl<'a> Furnisher<'a> {
         cost: impl Fn(&Floor, &Spot) -> f32,
     ) -> Option<(Wall, DAffine3)> {
         let z = height - 0.5 * size.z;
-        let piece = Piece { size, at: Vec2::new(0.0, 0.5 * size.y), yaw: 0.0, z, reach: 0.0, flat: false };
+        let piece = Piece { z, ..Piece::standing(size, 0.0) };
         let spots = walls.iter().flat_map(|&wall| self.floor.along(wall, size.x + 0.1)).collect();
         let (spot, _) = self.floor.place(&[piece], spots, cost)?;
         let wall = spot.wall?;

@@ -9,6 +9,8 @@ use std::f32::consts::PI;
 
 /// Distance of the chair's middle from the desk's front, metres.
 const CHAIR: f32 = 0.22;
+/// Free height over the chair under a sloping ceiling, metres.
+const SEATED: f32 = 1.5;
 /// Hanging plants keep to corners: this far from both walls, metres.
 const CORNER: f32 = 0.6;
 /// Families that rooms place themselves, and that are not placed at random.
@@ -25,7 +27,7 @@ impl Furnisher<'_> {
             let Some(desk) = self.any("desk") else { return false };
             let size = desk.size();
             let table = Piece::standing(size, 0.0);
-            let seat = Piece::standing(chair.size(), 0.0);
+            let seat = Piece { headroom: SEATED, ..Piece::standing(chair.size(), 0.0) };
             let turn = self.rng.range(-0.3, 0.3);
             let group = [table, seat.at(0.0, table.at.y + 0.5 * size.y + CHAIR + 0.1, PI + turn)];
             let spots = self.floor.along_walls(size.x);

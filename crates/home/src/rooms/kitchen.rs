@@ -16,6 +16,8 @@ const LONGEST: [f32; 2] = [4.0, 2.5];
 const BESIDE_DOOR: f32 = 0.22;
 /// A window's sill reaches this far beyond it.
 const SILL: f32 = 0.08;
+/// Air between units and a sloping ceiling, metres.
+const UNDER_SLOPE: f32 = 0.05;
 /// Cost of a kitchen without a refrigerator: it is taken where its length is this much nearer to the usual one, metres.
 const NO_REFRIGERATOR: f32 = 1.5;
 /// Shortest main run: sink, hob and a little worktop.
@@ -131,7 +133,10 @@ fn windows(f: &Furnisher, stretch: &Stretch, middle: f32) -> Vec<[f32; 2]> {
         let near = f.room.windows().filter(|o| o.wall == side).any(|o| gap(o) < kitchen::DEPTH + SILL);
         near.then_some(if k == 0 { [-half, SILL - half] } else { [half - SILL, half] })
     });
-    let mut all: Vec<[f32; 2]> = behind.chain(beside).collect();
+    // Nothing hangs where the ceiling slopes down either.
+    let low = f.room.low_spans(stretch.wall, [0.0, kitchen::DEPTH], kitchen::TALL + UNDER_SLOPE);
+    let low = low.into_iter().map(|x| x.map(|x| (x - middle).clamp(-half, half))).filter(|x| x[1] > x[0]);
+    let mut all: Vec<[f32; 2]> = behind.chain(beside).chain(low).collect();
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     all
 }
@@ -161,7 +166,7 @@ fn wing(f: &mut Furnisher, wall: Wall, end: usize) -> f32 {
 fn place(f: &mut Furnisher, kitchen: &FittedKitchen, stretch: &Stretch) -> bool {
     let size = kitchen.size();
     let middle = 0.5 * (stretch.x[0] + stretch.x[1]);
-    let run = |size: Vec3, at: Vec2, yaw: f32, reach: f32| Piece { size, at, yaw, z: 0.0, reach, flat: false };
+    let run = |size: Vec3, at: Vec2, yaw: f32, reach: f32| Piece::standing(size, reach).at(at.x, at.y, yaw);
     let base = Vec3::new(size.x, kitchen::DEPTH, kitchen::WORKTOP);
     let mut group = vec![run(base, Vec2::new(0.0, GAP + 0.5 * kitchen::DEPTH), 0.0, 0.9)];
     for (k, wing) in kitchen.wings.iter().enumerate() {

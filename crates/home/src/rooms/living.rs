@@ -127,7 +127,10 @@ fn on_bench(f: &mut Furnisher, bench: &TelevisionBench, pose: DAffine3) {
     let top = |x: f32, y: f32| on(pose, Vec3::new(x, y, TelevisionBench::TOP), 0.0);
     let beside = 0.25 * (bench.width + bench.screen);
     let side = if f.rng.below(2) == 0 { 1.0 } else { -1.0 };
-    f.build_small(&Vase { height: 0.24, belly: 0.075, branches: 5 }, top(side * beside, 0.0));
+    let vase = Vase { height: 0.24, belly: 0.075, branches: 5 };
+    if f.is_below_slopes(vase.size(), top(side * beside, 0.0)) {
+        f.build_small(&vase, top(side * beside, 0.0));
+    }
     let turn = f.rng.range(-0.15, 0.15);
     f.build_small(&BookStack { count: 2 }, on(top(-side * beside, -0.02), Vec3::ZERO, turn));
 }
@@ -152,7 +155,10 @@ fn beside_sofa(f: &mut Furnisher, sofa: &Standing) {
         if let Some(model) = &model {
             f.scatter(&model.surfaces(), found.pose, &[lamp]);
         } else {
-            f.build(lamp.as_ref(), on(found.pose, Vec3::new(0.0, -0.05, own.height), 0.0));
+            let top = on(found.pose, Vec3::new(0.0, -0.05, own.height), 0.0);
+            if f.is_below_slopes(lamp.size(), top) {
+                f.build(lamp.as_ref(), top);
+            }
             let turn = f.rng.range(0.0, 6.0);
             f.build_small(&Mug, on(found.pose, Vec3::new(0.09, 0.11, own.height), turn));
         }

@@ -12,6 +12,8 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 const LAMP: f32 = 1.5;
 /// From a table's edge to the middle of the chair before it, and how much that varies.
 const SEAT: [f32; 2] = [0.17, 0.08];
+/// Free height over chairs under a sloping ceiling: people rise from them.
+const RISING: f32 = 1.8;
 /// Floor behind a chair for getting up.
 const BEHIND: f32 = 0.30;
 
@@ -120,7 +122,7 @@ impl Furnisher<'_> {
             let out = drawn + if under { SEAT[0] } else { 0.5 * chair.size().y + APART };
             let at = *edge - *look * out;
             let yaw = look.y.atan2(look.x) - FRAC_PI_2 + self.rng.range(-0.1, 0.1);
-            group.push(Piece::standing(chair.size(), 0.0).at(at.x, at.y, yaw));
+            group.push(Piece { headroom: RISING, ..Piece::standing(chair.size(), 0.0).at(at.x, at.y, yaw) });
         }
         // What is behind the chairs is kept free by making room for a deeper one.
         let deep: Vec<Piece> = group
@@ -146,6 +148,10 @@ impl Furnisher<'_> {
         }
         let laid = matches!(table, Table::Long(LongTable { laid: Some(_), .. }));
         self.litter(&table.thing().surfaces(), poses[0], if laid { 0.3 } else { 0.7 });
+        // Under a slope there is nothing level from which a lamp could hang.
+        if self.room.level_places(&[spot.origin]).first().is_none_or(|at| *at != spot.origin) {
+            return true;
+        }
         let drop = self.room.size.z - LAMP;
         let pendant = Pendant { drop, ..Pendant::random(&mut self.rng) };
         let bar = CeilingLamp::Bar(0.6 * table.thing().size().x, drop);

@@ -7,6 +7,7 @@ mod boards;
 mod finish;
 mod measures;
 mod polygon;
+mod slopes;
 
 pub use finish::ShellFinish;
 

@@ -6,9 +6,10 @@
 use super::boards::planks;
 use super::finish::ShellFinish;
 use super::measures::{AIR, OVERLAP, SKIRTING, THIN_OVERLAP, UNDER_WALLS, depth, holes};
+use super::slopes;
 use crate::room::outline::triangles;
 use crate::room::{Room, Wall};
-use enfilade_furniture::shape::{Reshape, slab_with_openings};
+use enfilade_furniture::shape::{Reshape, slab_below, slab_with_openings};
 use enfilade_furniture::{Builder, Class, Finish, pose};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Rng, Vec2, Vec3};
@@ -18,6 +19,8 @@ use std::f32::consts::PI;
 const BACK_OFF: f32 = 0.0005;
 /// Longest overlap of slabs at an acute corner, metres.
 const LONGEST: f32 = 0.6;
+/// Thickness of ceilings, metres.
+pub(super) const THICKNESS: f32 = 0.2;
 /// Floors and ceilings end at this share of the depth of the thinnest wall.
 const WITHIN: f32 = 0.8;
 
@@ -34,7 +37,12 @@ pub fn slab(room: &Room, wall: Wall) -> Mesh {
         let middle = 0.5 * (low + high);
         let within = |hole: &[f32; 4]| hole[1] + middle > low && hole[0] + middle < high;
         let holes: Vec<[f32; 4]> = holes(room, wall, middle).into_iter().filter(within).collect();
-        let piece = slab_with_openings(high - low, [-OVERLAP, room.size.z + OVERLAP], depth, &holes);
+        let height = [-OVERLAP, room.size.z + OVERLAP];
+        let piece = if room.slopes.is_empty() {
+            slab_with_openings(high - low, height, depth, &holes)
+        } else {
+            slab_below(high - low, height, depth, &holes, &slopes::top(room, wall, depth, middle))
+        };
         append(&mut mesh, piece.moved(Vec3::new(middle, 0.0, 0.0)));
     }
     mesh
@@ -76,7 +84,11 @@ pub fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng
     };
     let wide = grown(OVERLAP);
     let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
-    b.part(&ceiling, "plaster", prism(&wide, [room.size.z, room.size.z + 0.2]), Finish::CeilingPaint);
+    if room.slopes.is_empty() {
+        b.part(&ceiling, "plaster", prism(&wide, [room.size.z, room.size.z + THICKNESS]), Finish::CeilingPaint);
+    } else {
+        slopes::ceiling(b, room, &ceiling, at, &wide);
+    }
     let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
     let under = grown(UNDER_WALLS);
     if finish.floor == Finish::PlankFloor {
@@ -134,9 +146,14 @@ fn cut(mesh: &Mesh, corners: &[Vec2]) -> Mesh {
     kept
 }
 
-/// What of a convex polygon is to the left of a line, seen from above (Sutherland & Hodgman 1974).
+/// What of a convex polygon is to the left of a line, seen from above.
 fn clipped(polygon: &[(Vec3, Vec2)], from: Vec2, to: Vec2) -> Vec<(Vec3, Vec2)> {
     let side = |p: &(Vec3, Vec2)| (to - from).perp_dot(p.0.truncate() - from);
+    kept_where(polygon, side, |p, q, t| (p.0.lerp(q.0, t), p.1.lerp(q.1, t)))
+}
+
+/// What of a convex polygon is where a linear function of its corners is not negative (Sutherland & Hodgman 1974).
+pub(super) fn kept_where<P: Copy>(polygon: &[P], side: impl Fn(&P) -> f32, between: impl Fn(&P, &P, f32) -> P) -> Vec<P> {
     let mut kept = Vec::new();
     for (i, here) in polygon.iter().enumerate() {
         let next = &polygon[(i + 1) % polygon.len()];
@@ -146,7 +163,7 @@ fn clipped(polygon: &[(Vec3, Vec2)], from: Vec2, to: Vec2) -> Vec<(Vec3, Vec2)> 
         }
         if (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0) {
             let t = a / (a - b);
-            kept.push((here.0.lerp(next.0, t), here.1.lerp(next.1, t)));
+            kept.push(between(here, next, t));
         }
     }
     kept

@@ -11,7 +11,7 @@
 //! | Replica, see `replica.rs` | `habitat/info_semantic.json`, or the scan's folder |
 //! | Matterport3D, see `matterport.rs` | `*.house` |
 //! | HM3D-Semantics, see `hm3d.rs` | `*.semantic.txt` |
-//! | Structured3D, see `structured3d.rs` | `annotation_3d.json`, or the scene's folder |
+//! | Structured3D, see `structured3d/mod.rs` | `annotation_3d.json`, or the scene's folder |
 //!
 //! # What all layouts have in common
 //!
@@ -40,7 +40,7 @@ mod objects;
 pub(crate) mod procthor;
 mod replica;
 mod scan;
-mod structured3d;
+pub(crate) mod structured3d;
 pub(crate) mod vectors;
 
 pub(crate) use detect::{no_scene_in_folder, scene_in_folder};

@@ -1,10 +1,11 @@
 //! DXF drawings, as text: closed polylines are rooms, texts within them say what they are for.
 //!
-//! Pairs of a group code and a value (Autodesk's DXF Reference). Read are `LWPOLYLINE` and `POLYLINE` with their `VERTEX` entities (bulges
-//! are taken as straight, and said), `LINE`, `TEXT` and `MTEXT` in the section `ENTITIES`, and the unit `$INSUNITS`. A polyline or line on a
-//! layer whose name contains "door", "window" or "passage" is an opening as long as it is; polylines that are open are left out. A room
-//! without a text is called as its layer.
+//! Pairs of a group code and a value (Autodesk's DXF Reference). Read are `LWPOLYLINE` and `POLYLINE` with their `VERTEX` entities, whose
+//! bulges are arcs, `CIRCLE`, `LINE`, `TEXT` and `MTEXT` in the section `ENTITIES`, and the unit `$INSUNITS`. A polyline or line on a layer
+//! whose name contains "door", "window" or "passage" is an opening as long as it is; polylines that are open are left out. A room without a
+//! text is called as its layer.
 
+use super::curves::{Arc, NEAR_M, flattened};
 use super::loops::{around, contains};
 use super::source::Source;
 use crate::ImportError;
@@ -31,11 +32,41 @@ struct Entity<'t> {
     kind: &'t str,
     layer: &'t str,
     points: Vec<DVec2>,
+    /// Bulges of the pieces that begin at points, by the points' numbers.
+    bulges: Vec<(usize, f64)>,
     /// The other end of a line.
     end: DVec2,
+    /// Of a circle.
+    radius: f64,
     is_closed: bool,
-    is_bent: bool,
     text: String,
+}
+
+impl Entity<'_> {
+    /// The corners in metres, those of arcs too.
+    fn corners(&self, unit: f64) -> Vec<DVec2> {
+        let points: Vec<DVec2> = self.points.iter().map(|p| *p * unit).collect();
+        match (self.kind, &points[..]) {
+            ("LINE", _) => points.into_iter().chain([self.end * unit]).collect(),
+            ("CIRCLE", &[center, ..]) => Arc::whole(center, DVec2::splat(self.radius * unit)).corners(NEAR_M),
+            ("LWPOLYLINE" | "POLYLINE", _) if !self.bulges.is_empty() => self.bent(&points),
+            _ => points,
+        }
+    }
+
+    fn bent(&self, points: &[DVec2]) -> Vec<DVec2> {
+        let mut corners = Vec::new();
+        for (i, &from) in points.iter().enumerate() {
+            corners.push(from);
+            let Some(&to) = points.get(i + 1).or(points.first().filter(|_| self.is_closed)) else { continue };
+            let bulge = self.bulges.binary_search_by_key(&i, |(at, _)| *at).map_or(0.0, |found| self.bulges[found].1);
+            if let Some(arc) = Arc::of_bulge([from, to], bulge) {
+                let pieces = flattened(&|t| arc.at(t), NEAR_M);
+                corners.extend(&pieces[..pieces.len() - 1]);
+            }
+        }
+        corners
+    }
 }
 
 pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
@@ -51,19 +82,15 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
         let kinds = [("door", OpeningKind::Door), ("window", OpeningKind::Window), ("passage", OpeningKind::Passage)];
         kinds.into_iter().find(|(part, _)| layer.contains(part)).map(|(_, kind)| kind)
     };
-    let (mut open, mut bent) = (0, 0);
+    let (mut open, mut lines) = (0, 0);
     for entity in &entities {
-        let mut points: Vec<DVec2> = entity.points.iter().map(|p| *p * unit).collect();
-        if entity.kind == "LINE" {
-            points.push(entity.end * unit);
-        }
+        let points = entity.corners(unit);
         match (opening(entity.layer), entity.kind) {
             (_, "TEXT" | "MTEXT") => {}
             (Some(kind), _) => plan.openings.extend(around(kind, &points, None)),
-            (None, "LINE") => {}
-            (None, _) if !entity.is_closed && points.first() != points.last() => open += 1,
+            (None, "LINE") => lines += 1,
+            (None, _) if entity.kind != "CIRCLE" && !entity.is_closed && points.first() != points.last() => open += 1,
             (None, _) => {
-                bent += usize::from(entity.is_bent);
                 let texts = entities.iter().filter(|other| matches!(other.kind, "TEXT" | "MTEXT"));
                 let text =
                     texts.filter(|text| text.points.first().is_some_and(|at| contains(&points, *at * unit))).map(|text| text.text.trim());
@@ -73,11 +100,11 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
             }
         }
     }
+    if lines > 0 && plan.rooms.is_empty() {
+        plan.notes.push(format!("{lines} single lines are no outlines: draw a closed polyline around each room (BOUNDARY)"));
+    }
     if open > 0 {
         plan.notes.push(format!("{open} polylines are not closed and on no layer of doors or windows; they are left out"));
-    }
-    if bent > 0 {
-        plan.notes.push(format!("{bent} outlines have arcs, which were taken as straight"));
     }
     Ok(plan)
 }
@@ -133,12 +160,13 @@ fn entities<'t>(source: &Source, pairs: &[Pair<'t>]) -> Result<Vec<Entity<'t>>, 
             }
             11 => entity.end.x = number()?,
             21 => entity.end.y = number()?,
-            42 => entity.is_bent |= number()? != 0.0,
+            40 if entity.kind == "CIRCLE" => entity.radius = number()?,
+            42 if number()? != 0.0 && !entity.points.is_empty() => entity.bulges.push((entity.points.len() - 1, number()?)),
             70 if !is_vertex => entity.is_closed = value.parse::<i64>().is_ok_and(|flags| flags & 1 == 1),
             1 | 3 => entity.text.push_str(value),
             _ => {}
         }
     }
-    all.retain(|entity| matches!(entity.kind, "LWPOLYLINE" | "POLYLINE" | "LINE" | "TEXT" | "MTEXT"));
+    all.retain(|entity| matches!(entity.kind, "LWPOLYLINE" | "POLYLINE" | "LINE" | "CIRCLE" | "TEXT" | "MTEXT"));
     Ok(all)
 }

@@ -1,6 +1,7 @@
 //! Houses of 3D-FRONT: the outlines of the floor meshes of each room, and where meshes of doors, windows and holes are.
 //!
-//! Metres, y up: (x, y, z) is (x, −z) from above. A room's kind is its `type`. Holes that reach the floor are passages.
+//! Metres, y up: (x, y, z) is (x, −z) from above. A room's kind is its `type`. Holes that reach the floor are passages. Some houses have
+//! only the linings of their openings, as `Pocket`: those that reach the floor are taken for doors, others for windows.
 
 use super::loops::{area, around, outlines};
 use super::source::Source;
@@ -11,13 +12,16 @@ use enfilade_math::{DAffine3, DQuat, DVec2, DVec3};
 use enfilade_scene::{DrawnPlan, DrawnRoom, OpeningKind};
 use std::collections::HashMap;
 
-/// Holes that begin below this height are passages, metres.
+/// Holes that begin below this height are passages, and lower ones are thresholds of others, metres.
 const STEP: f64 = 0.3;
+/// Meshes this near to each other are of one opening, metres.
+const SAME: f64 = 0.4;
 
 pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
     let house: House = json::parse(source.bytes, source.file, "a house of 3D-FRONT")?;
     let surfaces: HashMap<&str, &Surface> = house.mesh.iter().map(|mesh| (mesh.uid.as_str(), mesh)).collect();
     let mut plan = DrawnPlan::default();
+    let mut linings = Vec::new();
     for (number, room) in house.scene.room.iter().enumerate() {
         let meshes = || room.children.iter().filter_map(|child| Some((child, *surfaces.get(child.r#ref.as_str())?)));
         let name = if room.instanceid.is_empty() { format!("room {number}") } else { room.instanceid.clone() };
@@ -34,18 +38,34 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
         for (child, mesh) in meshes() {
             let kind = match mesh.r#type.as_str() {
                 "Door" => OpeningKind::Door,
-                "Window" => OpeningKind::Window,
+                "Window" | "BayWindow" => OpeningKind::Window,
                 "Hole" => OpeningKind::Passage,
+                "Pocket" => OpeningKind::Door,
                 _ => continue,
             };
             let points = points(child, mesh);
             let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
-            let kind = if kind == OpeningKind::Passage && low > STEP { OpeningKind::Window } else { kind };
+            let kind = if kind != OpeningKind::Window && low > STEP && mesh.r#type != "Door" { OpeningKind::Window } else { kind };
             let opening = around(kind, &points.iter().copied().map(flat).collect::<Vec<_>>(), Some([low.max(0.0), high]));
-            // A mesh may be among the children of both rooms.
-            let known = |at: DVec2| plan.openings.iter().any(|other| other.at.distance(at) < 0.4 && other.kind == kind);
+            let opening = opening.filter(|_| high - low > STEP);
+            if mesh.r#type == "Pocket" {
+                linings.extend(opening);
+                continue;
+            }
+            // A mesh may be among the children of both rooms, and an opening may have several.
+            let known = |at: DVec2| plan.openings.iter().any(|other| other.at.distance(at) < SAME && other.kind == kind);
             plan.openings.extend(opening.filter(|opening| !known(opening.at)));
         }
+    }
+    let before = plan.openings.len();
+    for lining in linings {
+        if !plan.openings.iter().any(|other| other.at.distance(lining.at) < SAME) {
+            plan.openings.push(lining);
+        }
+    }
+    if plan.openings.len() > before {
+        let count = plan.openings.len() - before;
+        plan.notes.push(format!("{count} openings have only linings: those that reach the floor were taken for doors, others for windows"));
     }
     Ok(plan)
 }

@@ -8,11 +8,12 @@
 //! | a layout of ours (`_detail/layout.json`) | `rooms` and `openings`; its walls follow from them |
 //! | Structured3D's `annotation_3d.json` | the floor planes of its rooms, heights, doors and windows; `outwall` is not needed |
 //! | SpatialLM's layout text | walls, whose loops are rooms; doors and windows; the kinds of rooms are guessed from its boxes |
-//! | a house of 3D-FRONT | the outlines of its floors; meshes of doors, windows and holes |
+//! | a house of 3D-FRONT | the outlines of its floors; meshes of doors, windows and holes, or linings of openings |
 //! | a house of ProcTHOR | `rooms`, `doors`, `windows` |
-//! | SVG | `polygon`, `polyline`, `rect` and straight `path`s; see `svg.rs` for names and units |
-//! | DXF as text | closed polylines, the texts in them, and lines on layers of doors and windows; see `dxf.rs` |
+//! | SVG | shapes with a name, and those of CubiCasa5k's `model.svg`; see [`svg`] for names and units |
+//! | DXF as text | closed polylines and circles, the texts in them, and lines on layers of doors and windows; see `dxf.rs` |
 
+mod curves;
 mod dxf;
 mod front3d;
 mod layout;
@@ -73,5 +74,10 @@ pub fn read_plan(bytes: &[u8], file: &Path) -> Result<DrawnPlan, ImportError> {
         let known: Vec<&str> = READERS.iter().map(|reader| reader.name).collect();
         return Err(source.error("its content", format!("it is no floor plan that is read; expected {}", known.join(", "))));
     };
-    (reader.read)(&source)
+    let plan = (reader.read)(&source)?;
+    if plan.rooms.is_empty() {
+        let notes: String = plan.notes.iter().map(|note| format!("; {note}")).collect();
+        return Err(source.error("its content", format!("it was read as {}, but no room was found{notes}", reader.name)));
+    }
+    Ok(plan)
 }

@@ -9,20 +9,23 @@
 //!     { "kind": "hall", "name": "entrance hall", "polygon": [[3.6, 3.1], [6, 3.1], [6, 5], [3.6, 5]] }
 //!   ],
 //!   "doors": [{ "at": [4.5, 3.05] }, { "at": [6, 4], "width": 1.01 }],
-//!   "windows": [{ "at": [2, 0], "width": 2.2, "sill": 0.6, "head": 2.2 }]
+//!   "windows": [{ "at": [4, 0], "width": 2.2, "sill": 0.6, "head": 2.2 }],
+//!   "roof": [{ "from": [0, 5], "to": [0, 0], "knee": 1.3, "pitch": 35 }]
 //! }
 //! ```
 //!
 //! Metres. A room's `kind` is one of ours, `polygon` its corners in either order, `height` its own; `name` is for messages. An opening is
 //! `at` a point in or near its wall, the middle of it; `width`, `sill` (of windows) and `head` are optional, and so are `open` (how far a
 //! door is open, degrees), `into` (the name of the room into which it swings) and `hinge` (`"left"` or `"right"` for someone in that room).
-//! `passages` are like doors, without a leaf.
+//! `passages` are like doors, without a leaf. A slope of the `roof` rises from the line through `from` and `to`, where it is `knee` metres
+//! high, towards the rooms, at `pitch` degrees; it is the ceiling wherever it is lower than the level one, of the `rooms` with these names
+//! or of all.
 
 use super::source::Source;
 use crate::ImportError;
 use enfilade_math::DVec2;
 use enfilade_options::{proposal, with_nearest};
-use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, Hinge, OpeningKind};
+use enfilade_scene::{CeilingSlope, DrawnOpening, DrawnPlan, DrawnRoom, Hinge, OpeningKind, Slope};
 use serde::Deserialize;
 
 /// First key of the file, and its version.
@@ -40,6 +43,18 @@ struct Plan {
     passages: Vec<Opening>,
     #[serde(default)]
     windows: Vec<Opening>,
+    #[serde(default)]
+    roof: Vec<RoofSlope>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RoofSlope {
+    from: [f64; 2],
+    to: [f64; 2],
+    knee: f64,
+    pitch: f64,
+    rooms: Option<Vec<String>>,
 }
 
 #[derive(Deserialize)]
@@ -96,7 +111,33 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
             openings.push(read_opening(source, kind, i, opening, &names)?);
         }
     }
-    Ok(DrawnPlan { rooms, openings, strict: true, notes: Vec::new() })
+    let mut slopes = Vec::new();
+    for (i, slope) in plan.roof.iter().enumerate() {
+        slopes.extend(read_slope(source, i, slope, &rooms)?);
+    }
+    Ok(DrawnPlan { rooms, openings, slopes, strict: true, notes: Vec::new() })
+}
+
+/// A slope over each of its rooms. It rises to the side of the line on which they are.
+fn read_slope(source: &Source, number: usize, slope: &RoofSlope, rooms: &[DrawnRoom]) -> Result<Vec<CeilingSlope>, ImportError> {
+    let place = format!("roof[{number}]");
+    let numbers: Vec<usize> = match &slope.rooms {
+        None => (0..rooms.len()).collect(),
+        Some(names) => {
+            let known: Vec<&str> = rooms.iter().map(|room| room.name.as_str()).collect();
+            let find = |name: &String| {
+                let found = known.iter().position(|known| known == name);
+                found.ok_or_else(|| source.error(&place, format!("there is no room {name:?}; {}", proposal(name, &known))))
+            };
+            names.iter().map(find).collect::<Result<_, _>>()?
+        }
+    };
+    let [from, to] = [slope.from, slope.to].map(DVec2::from);
+    let corners: Vec<DVec2> = numbers.iter().flat_map(|&room| &rooms[room].polygon).copied().collect();
+    let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
+    let (from, to) = if (to - from).perp_dot(middle - from) < 0.0 { (slope.to, slope.from) } else { (slope.from, slope.to) };
+    let slope = Slope { from, to, low_z_m: slope.knee, pitch_deg: slope.pitch };
+    Ok(numbers.into_iter().map(|room| CeilingSlope { room, slope }).collect())
 }
 
 fn read_opening(

@@ -8,58 +8,22 @@ use super::loops::{around, loops};
 use super::source::Source;
 use crate::ImportError;
 use crate::collections::json;
+use crate::collections::structured3d::annotation::{Annotation, Semantic};
 use enfilade_math::{DVec2, DVec3};
 use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind};
-use serde::Deserialize;
 
 /// Millimetres in a metre.
 const MILLIMETRES: f64 = 1000.0;
 /// Junctions within this are one, metres.
 const SAME: f64 = 0.005;
 
-#[derive(Deserialize)]
-struct Annotation {
-    junctions: Vec<Junction>,
-    planes: Vec<Plane>,
-    semantics: Vec<Semantic>,
-    #[serde(rename = "planeLineMatrix")]
-    lines_of_plane: Vec<Vec<u8>>,
-    #[serde(rename = "lineJunctionMatrix")]
-    junctions_of_line: Vec<Vec<u8>>,
+/// The ends of a plane's lines, metres.
+fn lines(annotation: &Annotation, plane: usize) -> Vec<[DVec3; 2]> {
+    annotation.lines(plane).map(|ends| ends.map(|end| annotation.junctions[end].coordinate / MILLIMETRES)).collect()
 }
 
-#[derive(Deserialize)]
-struct Junction {
-    coordinate: DVec3,
-}
-
-#[derive(Deserialize)]
-struct Plane {
-    r#type: String,
-}
-
-#[derive(Deserialize)]
-struct Semantic {
-    r#type: String,
-    #[serde(rename = "planeID")]
-    planes: Vec<usize>,
-}
-
-impl Annotation {
-    /// The ends of a plane's lines, metres.
-    fn lines(&self, plane: usize) -> Vec<[DVec3; 2]> {
-        let ones = |row: &[u8]| row.iter().enumerate().filter(|(_, one)| **one != 0).map(|(i, _)| i).collect::<Vec<_>>();
-        let lines = self.lines_of_plane.get(plane).map(|row| ones(row)).unwrap_or_default();
-        let ends = |line: usize| match ones(self.junctions_of_line.get(line)?)[..] {
-            [a, b] => Some([self.junctions.get(a)?.coordinate / MILLIMETRES, self.junctions.get(b)?.coordinate / MILLIMETRES]),
-            _ => None,
-        };
-        lines.into_iter().filter_map(ends).collect()
-    }
-
-    fn planes_of<'a>(&'a self, semantic: &'a Semantic, kind: &'a str) -> impl Iterator<Item = usize> + 'a {
-        semantic.planes.iter().copied().filter(move |&plane| self.planes.get(plane).is_some_and(|plane| plane.r#type == kind))
-    }
+fn planes_of<'a>(annotation: &'a Annotation, semantic: &'a Semantic, kind: &'a str) -> impl Iterator<Item = usize> + 'a {
+    semantic.planes.iter().copied().filter(move |&plane| annotation.planes.get(plane).is_some_and(|plane| plane.r#type == kind))
 }
 
 pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
@@ -81,12 +45,12 @@ pub(super) fn read(source: &Source) -> Result<DrawnPlan, ImportError> {
 
 fn room(annotation: &Annotation, semantic: &Semantic, number: usize, kind: &str) -> Option<DrawnRoom> {
     let flat = |lines: Vec<[DVec3; 2]>| lines.into_iter().map(|ends| ends.map(DVec3::truncate)).collect::<Vec<[DVec2; 2]>>();
-    let floors: Vec<usize> = annotation.planes_of(semantic, "floor").collect();
-    let found = floors.iter().flat_map(|&plane| loops(&flat(annotation.lines(plane)), SAME).0);
+    let floors: Vec<usize> = planes_of(annotation, semantic, "floor").collect();
+    let found = floors.iter().flat_map(|&plane| loops(&flat(lines(annotation, plane)), SAME).0);
     let polygon = found.max_by(|a, b| super::loops::area(a).abs().total_cmp(&super::loops::area(b).abs()))?;
     let height = |kind: &str| {
         let heights =
-            annotation.planes_of(semantic, kind).flat_map(|plane| annotation.lines(plane)).map(|[a, _]| a.z).collect::<Vec<f64>>();
+            planes_of(annotation, semantic, kind).flat_map(|plane| lines(annotation, plane)).map(|[a, _]| a.z).collect::<Vec<f64>>();
         heights.into_iter().reduce(f64::max)
     };
     let height_m = height("ceiling").zip(height("floor")).map(|(ceiling, floor)| ceiling - floor).filter(|height| *height > 0.5);
@@ -94,7 +58,7 @@ fn room(annotation: &Annotation, semantic: &Semantic, number: usize, kind: &str)
 }
 
 fn opening(annotation: &Annotation, semantic: &Semantic, kind: OpeningKind) -> Option<DrawnOpening> {
-    let points: Vec<DVec3> = semantic.planes.iter().flat_map(|&plane| annotation.lines(plane)).flatten().collect();
+    let points: Vec<DVec3> = semantic.planes.iter().flat_map(|&plane| lines(annotation, plane)).flatten().collect();
     let heights = points.iter().map(|p| p.z);
     let z_m = [heights.clone().fold(f64::INFINITY, f64::min), heights.fold(f64::NEG_INFINITY, f64::max)];
     let lowest = annotation.junctions.iter().map(|junction| junction.coordinate.z / MILLIMETRES).fold(f64::INFINITY, f64::min);

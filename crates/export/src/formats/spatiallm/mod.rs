@@ -43,6 +43,10 @@ pub(crate) fn write(selected: &SelectedFrames<'_>, out: &ExportFolder, cloud: Cl
 fn write_scene(selected: &SelectedFrames<'_>, out: &ExportFolder, tracks: &[Track], cloud: CloudSource) -> Result<bool, ExportError> {
     let scene = &tracks[0].scene;
     let rooms = selected.rooms(scene)?;
+    if !rooms.slopes.is_empty() {
+        let message = "SpatialLM has no sloping ceilings: walls under a roof have the height of their highest point";
+        selected.warn(Warning { place: scene.clone(), message: message.into() });
+    }
     let (mut points, are_shown) = match cloud {
         CloudSource::Frames => {
             let points = of_frames(selected, tracks)?;

@@ -128,13 +128,11 @@ fn boxes(selected: &SelectedFrames<'_>, scene: &str, raised: DVec3) -> Result<Ve
 fn annotation(rooms: &Rooms, raised: DVec3) -> Annotation {
     let mut net = Net { raised, ..Net::default() };
     for (number, room) in rooms.outlines.iter().enumerate() {
-        let at = |z: f64| room.polygon.iter().map(move |&corner| DVec2::from(corner).extend(z)).collect::<Vec<_>>();
-        let (floor, ceiling) = (at(room.floor_z_m), at(room.ceiling_z_m));
-        let mut planes = vec![net.plane("floor", DVec3::Z, &[floor]), net.plane("ceiling", DVec3::NEG_Z, &[ceiling])];
+        let floor: Vec<DVec3> = room.polygon.iter().map(|&corner| DVec2::from(corner).extend(room.floor_z_m)).collect();
+        let mut planes = vec![net.plane("floor", DVec3::Z, &[floor])];
+        planes.extend(rooms.ceiling_pieces(number).into_iter().map(|(normal, piece)| net.plane("ceiling", normal, &[piece])));
         for (face, wall) in rooms.walls.iter().enumerate().filter(|(_, wall)| wall.room == number) {
-            let [from, to] = [wall.from, wall.to].map(DVec2::from);
-            let (low, high) = (wall.floor_z_m, wall.ceiling_z_m);
-            let outline = vec![from.extend(low), to.extend(low), to.extend(high), from.extend(high)];
+            let outline = rooms.face_outline(face);
             let holes = rooms.openings.iter().filter_map(|opening| hole(rooms, opening, face));
             let loops: Vec<Vec<DVec3>> = std::iter::once(outline).chain(holes).collect();
             planes.push(net.plane("wall", DVec2::from(wall.inward).extend(0.0), &loops));

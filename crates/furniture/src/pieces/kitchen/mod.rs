@@ -36,4 +36,4 @@ const WALL_UNIT: [f32; 2] = [1.45, 2.17];
 /// Depth of wall units with their fronts, metres.
 const WALL_DEPTH: f32 = 0.36;
 /// Upper edge of tall units, metres: the same as for wall units.
-const TALL: f32 = 2.17;
+pub const TALL: f32 = 2.17;

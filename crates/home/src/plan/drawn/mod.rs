@@ -10,6 +10,7 @@ mod measures;
 mod openings;
 mod outlines;
 mod repair;
+mod slopes;
 #[cfg(test)]
 mod tests;
 
@@ -41,7 +42,11 @@ impl FloorPlan {
             return Err(format!("the plan has {} rooms, expected 1 to {MOST}", plan.rooms.len()));
         }
         let mut notes = plan.notes.clone();
-        let plan = near_origin(plan, &mut notes);
+        let mut plan = near_origin(plan, &mut notes);
+        // In our own words it is an error.
+        if !plan.strict && plan.rooms.len() > 1 {
+            outlines::without_slivers(&mut plan.rooms, &mut notes);
+        }
         let kinds = kinds_of(&plan, &mut notes)?;
         let mut outlines = outlines::cleaned(&plan.rooms)?;
         outlines::check_apart(&outlines, &plan.rooms)?;
@@ -51,8 +56,9 @@ impl FloorPlan {
         let heights: Vec<f32> = plan.rooms.iter().map(height).collect::<Result<_, _>>()?;
         let thickness = [INNER_WALL, OUTER_WALL];
         let room = |i: usize| Room::polygon(kinds[i], outlines[i].clone(), heights[i], thickness, |wall| backs::backs(&outlines, i, wall));
-        let rooms: Vec<Room> = (0..outlines.len()).map(room).collect();
+        let mut rooms: Vec<Room> = (0..outlines.len()).map(room).collect();
         let names: Vec<String> = plan.rooms.iter().map(|room| room.name.clone()).collect();
+        slopes::put_under(&mut rooms, &names, &plan)?;
         let mut site = Site { rooms, names, doorways: Vec::new(), notes, strict: plan.strict, rng: rng.fork(2) };
         plan.openings.iter().try_for_each(|opening| site.open(opening))?;
         let has_windows = plan.openings.iter().any(|opening| opening.kind == enfilade_scene::OpeningKind::Window);
@@ -90,6 +96,7 @@ fn near_origin(plan: &DrawnPlan, notes: &mut Vec<String>) -> DrawnPlan {
     if middle.is_finite() && middle.length() > FAR {
         moved.rooms.iter_mut().flat_map(|room| &mut room.polygon).for_each(|p| *p -= middle);
         moved.openings.iter_mut().for_each(|opening| opening.at -= middle);
+        moved.slopes.iter_mut().for_each(|of| of.slope = of.slope.moved((-middle).extend(0.0)));
         notes.push(format!("the plan is far from the origin of its coordinates: it was moved by [{}, {}] m", -middle.x, -middle.y));
     }
     moved

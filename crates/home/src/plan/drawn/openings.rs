@@ -4,7 +4,7 @@ use super::Site;
 use super::outlines::OPPOSITE;
 use crate::plan::Doorway;
 use crate::plan::openings::{DOOR_TOP, Shared};
-use crate::room::{Filling, Opening, Room, Wall};
+use crate::room::{Filling, Opening, Room, WAY_DEPTH, Wall};
 use enfilade_furniture::{Leaf, RoomKind};
 use enfilade_math::{DVec2, Vec2};
 use enfilade_scene::{DrawnOpening, Hinge, OpeningKind};
@@ -15,6 +15,8 @@ const REACH: f32 = 0.3;
 const MARGIN: f32 = 0.06;
 /// An opening may be moved along its wall by this without being mentioned, metres.
 const UNSEEN: f32 = 0.02;
+/// Openings of other programs' files that are too wide for their walls may be narrowed to this share.
+const NARROWER: f32 = 0.8;
 /// Widest door between rooms, metres.
 const WIDEST_DOOR: f64 = 1.4;
 /// Usual widths of passages and windows, metres.
@@ -81,7 +83,7 @@ impl Site {
             return Err(format!("{name} is {width:.2} m wide, expected at least {least} m"));
         }
         let x = self.within(&name, place, beyond, width)?;
-        let z = self.heights(&name, &DrawnOpening { kind, ..opening.clone() }, place, beyond)?;
+        let z = self.heights(&name, &DrawnOpening { kind, ..opening.clone() }, place, beyond, x)?;
         let places: Vec<(Place, [f32; 2])> = std::iter::once((place, x)).chain(beyond.map(|b| (b, self.opposite(place, b, x)))).collect();
         for (place, x) in &places {
             let meets = |o: &&Opening| o.wall == place.wall && o.x[0] < x[1] + 0.02 && x[0] < o.x[1] + 0.02;
@@ -168,6 +170,11 @@ impl Site {
             free = [free[0].max(ends[0]), free[1].min(ends[1])];
         }
         let free = [free[0] + MARGIN, free[1] - MARGIN];
+        let mut width = width;
+        if !self.strict && width > free[1] - free[0] && free[1] - free[0] > NARROWER * width {
+            self.notes.push(format!("{name} is {width:.2} m wide: it was made {:.2} m wide, so that it fits in", free[1] - free[0]));
+            width = free[1] - free[0];
+        }
         if width > free[1] - free[0] + 1e-3 {
             return Err(format!(
                 "{name} is {width:.2} m wide, but the wall of {:?} has {:.2} m for it there",
@@ -182,9 +189,11 @@ impl Site {
         Ok([x - 0.5 * width, x + 0.5 * width])
     }
 
-    fn heights(&self, name: &str, opening: &DrawnOpening, place: Place, beyond: Option<Place>) -> Result<[f32; 2], String> {
+    fn heights(&self, name: &str, opening: &DrawnOpening, place: Place, beyond: Option<Place>, x: [f32; 2]) -> Result<[f32; 2], String> {
         let room = &self.rooms[place.room];
-        let height = beyond.map_or(room.size.z, |beyond| room.size.z.min(self.rooms[beyond.room].size.z));
+        let level = beyond.map_or(room.size.z, |beyond| room.size.z.min(self.rooms[beyond.room].size.z));
+        let is_window = opening.kind == OpeningKind::Window;
+        let height = self.ceiling(place, beyond, x, is_window).min(level);
         let usual = match opening.kind {
             OpeningKind::Door => [0.0, DOOR_TOP.min(height - ABOVE)],
             OpeningKind::Passage => [0.0, height - LINTEL],
@@ -194,16 +203,30 @@ impl Site {
         if opening.kind != OpeningKind::Window {
             z[0] = 0.0;
         }
-        let least = if opening.kind == OpeningKind::Window { 0.3 } else { 1.9 };
+        let least = if is_window { 0.3 } else { 1.9 };
         if !(z[0] >= 0.0 && z[1] - z[0] >= least && z[1] <= height - ABOVE + 1e-3) {
+            let sloping = if height < level { ", where the ceiling slopes" } else { "" };
             return Err(format!(
-                "{name} reaches from {:.2} m to {:.2} m, expected at least {least} m between the floor and {:.2} m",
+                "{name} reaches from {:.2} m to {:.2} m, expected at least {least} m between the floor and {:.2} m{sloping}",
                 z[0],
                 z[1],
                 height - ABOVE
             ));
         }
         Ok(z)
+    }
+
+    /// The least height of the ceilings at an opening: of windows within the wall, of ways also where leaves swing and people step.
+    fn ceiling(&self, place: Place, beyond: Option<Place>, x: [f32; 2], is_window: bool) -> f32 {
+        let room = &self.rooms[place.room];
+        let within = room.lowest_before(place.wall, x, [-room.face(place.wall).back(place.x).thickness, 0.0]);
+        if is_window {
+            return within;
+        }
+        let depth = (x[1] - x[0]).max(WAY_DEPTH);
+        let there = |place: Place, x: [f32; 2]| self.rooms[place.room].lowest_before(place.wall, x, [0.0, depth]);
+        let other = beyond.map_or(f32::INFINITY, |beyond| there(beyond, self.opposite(place, beyond, x)));
+        within.min(there(place, x)).min(other)
     }
 
     fn window(&mut self, place: Place, x: [f32; 2], z: [f32; 2]) {
@@ -279,6 +302,9 @@ impl Site {
                 let half = 0.5 * self.rooms[into].length(beyond.wall);
                 let ends = self.opposite(beyond, place, [-half, half]);
                 let taken = room.openings.iter().filter(|o| o.wall == wall).map(|o| [o.x[0] - 0.15, o.x[1] + 0.15]);
+                let taken = taken.chain(room.low_spans(wall, [0.0, WAY_DEPTH], DOOR_TOP + ABOVE));
+                let low = self.rooms[into].low_spans(beyond.wall, [0.0, WAY_DEPTH], DOOR_TOP + ABOVE);
+                let taken = taken.chain(low.into_iter().map(|x| self.opposite(beyond, place, x)));
                 let Some(clear) = longest([back.x[0].max(ends[0]), back.x[1].min(ends[1])], taken) else { continue };
                 if best.as_ref().is_none_or(|(known, _)| clear[1] - clear[0] > *known) {
                     best = Some((clear[1] - clear[0], between(room, &self.rooms[into], [place, beyond], clear)));

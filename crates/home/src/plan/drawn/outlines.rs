@@ -39,6 +39,27 @@ pub fn cleaned(rooms: &[DrawnRoom]) -> Result<Vec<Outline>, String> {
     Ok(outlines)
 }
 
+/// Leaves out the rooms that are too small to be any, such as shafts and narrow balconies, and makes a note of each.
+pub fn without_slivers(rooms: &mut Vec<DrawnRoom>, notes: &mut Vec<String>) {
+    rooms.retain(|room| {
+        let corners = room.polygon.clone();
+        if corners.len() < 3 || !corners.iter().all(|p| p.is_finite()) {
+            return true;
+        }
+        let outline = Outline::new(corners);
+        let area = outline.area().abs();
+        if area < SMALLEST[0] {
+            notes.push(format!("room {:?} has {area:.2} m2; it is left out", room.name));
+            return false;
+        }
+        let width = 2.0 * outline.depth(outline.middle());
+        if width < SMALLEST[1] {
+            notes.push(format!("room {:?} is {width:.2} m wide; it is left out", room.name));
+        }
+        width >= SMALLEST[1]
+    });
+}
+
 fn one(room: &DrawnRoom) -> Result<Outline, String> {
     let name = &room.name;
     if let Some(corner) = room.polygon.iter().find(|p| !p.is_finite()) {

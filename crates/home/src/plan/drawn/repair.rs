@@ -2,7 +2,7 @@
 
 use super::Site;
 use crate::plan::Doorway;
-use crate::plan::openings::{Shared, add_windows, door, free_run, hang_entrance};
+use crate::plan::openings::{DOOR_TOP, Shared, add_windows, door, free_run, hang_entrance};
 use crate::room::kind::access;
 use crate::room::{Room, Wall};
 use enfilade_furniture::RoomKind;
@@ -36,7 +36,9 @@ impl Site {
         let mut best: Option<((i32, f32), usize, Wall, f32)> = None;
         for (number, room) in self.rooms.iter().enumerate() {
             for wall in room.walls() {
-                let Some((low, high)) = free_run(room, wall).filter(|(low, high)| high - low >= ENTRANCE) else { continue };
+                let Some((low, high)) = free_run(room, wall, DOOR_TOP + 0.12, ENTRANCE).filter(|(low, high)| high - low >= ENTRANCE) else {
+                    continue;
+                };
                 let cost = (order(room), -(high - low));
                 if best.is_none_or(|(known, ..)| cost.0 < known.0 || (cost.0 == known.0 && cost.1 < known.1)) {
                     best = Some((cost, number, wall, 0.5 * (low + high)));

@@ -2,7 +2,7 @@
 
 use crate::plan::FloorPlan;
 use enfilade_math::{DVec2, Rng};
-use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, Rooms};
+use enfilade_scene::{CeilingSlope, DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind, Rooms, Slope};
 
 fn room(kind: &str, polygon: &[[f64; 2]]) -> DrawnRoom {
     DrawnRoom { name: format!("the {kind}"), kind: kind.into(), polygon: polygon.iter().map(|&p| DVec2::from(p)).collect(), height_m: None }
@@ -29,7 +29,7 @@ fn l_shape() -> DrawnPlan {
             opening(OpeningKind::Window, [2.0, 0.0], Some(2.0)),
         ],
         strict: true,
-        notes: Vec::new(),
+        ..DrawnPlan::default()
     }
 }
 
@@ -95,6 +95,19 @@ fn the_layout_of_a_plan_gives_the_same_plan_again() {
     }
 }
 
+#[test]
+fn slivers_and_openings_that_are_a_little_too_wide_in_files_of_other_programs_are_mended_and_said() {
+    let mut plan = DrawnPlan { strict: false, ..l_shape() };
+    // A shaft in the corner outside, and a window of 6 m, of which the wall has 5.88 m.
+    plan.rooms.push(room("shaft", &[[8.0, 8.0], [8.3, 8.0], [8.3, 8.4], [8.0, 8.4]]));
+    plan.openings[2].width_m = Some(6.0);
+    let (found, notes) = built(&plan).unwrap();
+    assert_eq!(found.rooms.len(), 2);
+    assert!(notes[0].starts_with("room \"the shaft\" has 0.12 m2; it is left out"), "{notes:?}");
+    assert!(notes[1].contains("is 6.00 m wide: it was made 5.88 m wide"), "{notes:?}");
+    assert!(built(&DrawnPlan { strict: true, ..plan }).unwrap_err().contains("expected at least 0.8 m2"));
+}
+
 /// A change of a plan.
 type Change<'a> = &'a dyn Fn(&mut DrawnPlan);
 
@@ -122,6 +135,25 @@ fn what_is_wrong_with_a_plan_is_told() {
     ];
     for (change, part) in cases {
         let message = with(change);
+        assert!(message.contains(part), "{message}");
+    }
+    // Slopes over the living room, from its south wall or from a place of their own.
+    let under = |low_z_m: f64, pitch_deg: f64, y: f64| {
+        let mut plan = l.clone();
+        plan.slopes = vec![CeilingSlope { room: 0, slope: Slope { from: [0.0, y], to: [6.0, y], low_z_m, pitch_deg } }];
+        built(&plan)
+    };
+    for (slope, part) in [
+        (
+            (1.2, 40.0, 0.0),
+            "the window at [2.00, 0.00] reaches from 0.60 m to 0.57 m, expected at least 0.3 m between the floor and 0.85 m",
+        ),
+        ((0.3, 40.0, 0.0), "the ceiling of room \"the living\" is 0.30 m high at [0.00, 0.00], expected at least 0.5 m"),
+        ((1.2, 80.0, 0.0), "has 80 degrees, expected 5 to 75"),
+        ((2.9, 40.0, 0.0), "is above the ceilings of all its rooms"),
+        ((0.6, 10.0, 0.0), "is at least 1.9 m high over 0 % of its floor, expected 30 %"),
+    ] {
+        let message = under(slope.0, slope.1, slope.2).unwrap_err();
         assert!(message.contains(part), "{message}");
     }
     let apart = DrawnPlan {

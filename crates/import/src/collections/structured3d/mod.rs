@@ -10,51 +10,24 @@
 //! | furniture | Structured3D publishes boxes of it without classes (`bbox_3d.json`) and pictures, no models: left out |
 //! | materials, lights | none: plain colours, and no light |
 
+pub(crate) mod annotation;
+
 use super::json;
 use super::objects::{Object, Objects};
 use crate::assembly::Assembly;
 use crate::polygon::{newell_normal, triangulate};
 use crate::sweethome::subtract;
 use crate::{ImportError, Imported, UpAxis};
+use annotation::{Annotation, Semantic};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec2, DVec3, Rgb, Vec3};
 use enfilade_scene::Material;
-use serde::Deserialize;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Metres per millimetre.
 const MILLIMETRE: f64 = 0.001;
 /// Reflectances of walls, floors and ceilings.
 const PLAIN: [(&str, i16, f32); 3] = [("wall", 1, 0.75), ("floor", 2, 0.4), ("ceiling", 22, 0.8)];
-
-#[derive(Deserialize)]
-struct Annotation {
-    junctions: Vec<Junction>,
-    planes: Vec<Plane>,
-    semantics: Vec<Semantic>,
-    #[serde(rename = "planeLineMatrix")]
-    lines_of_plane: Vec<Vec<u8>>,
-    #[serde(rename = "lineJunctionMatrix")]
-    junctions_of_line: Vec<Vec<u8>>,
-}
-
-#[derive(Deserialize)]
-struct Junction {
-    coordinate: DVec3,
-}
-
-#[derive(Deserialize)]
-struct Plane {
-    r#type: String,
-    normal: DVec3,
-}
-
-#[derive(Deserialize)]
-struct Semantic {
-    r#type: String,
-    #[serde(rename = "planeID")]
-    planes: Vec<usize>,
-}
 
 /// A closed line on a plane: numbers of its junctions.
 type Loop = Vec<usize>;
@@ -103,16 +76,7 @@ impl<'s> Structure<'s> {
 
     /// The loops that the lines of a plane make. Chains that do not close are left out.
     fn loops(&self, plane: usize) -> Vec<Loop> {
-        let row = |rows: &'s [Vec<u8>], i: usize| {
-            let row = rows.get(i).map_or(&[][..], Vec::as_slice);
-            row.iter().enumerate().filter(|(_, on)| **on != 0).map(|(k, _)| k)
-        };
-        let lines = row(&self.annotation.lines_of_plane, plane);
-        let ends = lines.filter_map(|line| {
-            let mut ends = row(&self.annotation.junctions_of_line, line);
-            Some([ends.next()?, ends.next()?]).filter(|[p, q]| p.max(q) < &self.annotation.junctions.len())
-        });
-        let mut left: Vec<[usize; 2]> = ends.collect();
+        let mut left: Vec<[usize; 2]> = self.annotation.lines(plane).collect();
         let mut loops = Vec::new();
         while let Some([first, mut at]) = left.pop() {
             let mut chain = vec![first];
