@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Files that declare the contents of `dataset.toml`.
-const FILES: [&str; 21] = [
+const FILES: [&str; 22] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
