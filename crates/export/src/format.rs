@@ -53,7 +53,7 @@ pub struct FormatSpec {
     pub needs: &'static [&'static [Layer]],
     /// Layers that are written where they are there; `None`: any layer of the table can be.
     pub takes: Option<&'static [Layer]>,
-    /// It has a mesh, points or models of the world, or poses of things in it, that hold for all frames: scenes that move have none.
+    /// True if it has a mesh, points or models of the world, or poses of things in it, that hold for all frames: scenes that move have none.
     pub needs_still: bool,
     /// The page for people that goes with the files: contents and conventions.
     pub readme: &'static str,

@@ -21,7 +21,7 @@ pub struct Filmed<'d> {
 pub(crate) struct SurfacePoint {
     /// World, metres, in the frame that shows it.
     pub p_world: DVec3,
-    /// Its part, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
+    /// The part that it is on, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
     pub part: i16,
 }
 

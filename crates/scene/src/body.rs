@@ -21,7 +21,7 @@ pub struct Body {
     pub name: String,
     /// The body that bears it, which comes before it.
     pub parent: Option<BodyId>,
-    /// Its parts, in ascending order; no part has two bodies.
+    /// Parts of the body, in ascending order; no part has two bodies.
     pub parts: Vec<PartId>,
     /// Indices of its lights, in ascending order.
     pub lights: Vec<u32>,
@@ -145,7 +145,7 @@ impl BodyMotion {
         }
     }
 
-    /// The same motion after the world was carried away by a similarity.
+    /// The motion after the world was carried away by a similarity.
     fn carried(&self, by: &Similarity) -> Self {
         let states = match &self.states {
             BodyStates::Slide { axis, distances_m } => BodyStates::Slide {

@@ -35,7 +35,7 @@ use changes::Changes;
 const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
 const VERSION: u32 = 4;
-/// The same for scenes that move: their bodies follow the scene.
+/// The number of packages of scenes that move: their bodies follow the scene.
 const MOVING: u32 = 5;
 /// Behind the number in the first line of packages that lack what another one has.
 const CHANGES: &str = " changes";
@@ -123,9 +123,9 @@ pub fn is_moving_package(head: &[u8]) -> bool {
 /// What the first line of a package says.
 #[derive(Clone, Copy)]
 struct Kind {
-    /// It lacks what another one has.
+    /// True if it lacks what another one has.
     lacks: bool,
-    /// The scene moves.
+    /// True if the scene moves.
     moves: bool,
 }
 

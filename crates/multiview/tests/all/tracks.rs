@@ -19,7 +19,7 @@ fn followed(dataset: &Dataset, config: TracksConfig) -> Tracks {
     let filmed = Filmed::read(dataset, "room", None, &Quiet).unwrap();
     let package = ScenePackage::read(&filmed, &Quiet).unwrap().unwrap();
     let frames: Vec<usize> = (0..filmed.len()).collect();
-    tracks(&filmed, &package.lookout().unwrap(), &frames, config, &Quiet).unwrap()
+    tracks(&filmed, &package, &frames, config, &Quiet).unwrap()
 }
 
 #[test]

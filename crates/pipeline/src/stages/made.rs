@@ -49,7 +49,7 @@ impl Made {
 pub(super) struct Furniture {
     scene: Arc<Scene>,
     labels: Labels,
-    /// Those of all frames, if nothing moves.
+    /// Solid instances of all frames, if nothing moves.
     still: Option<Arc<Vec<Solid>>>,
     boxes: Hash,
 }
