@@ -261,7 +261,8 @@ mod tests {
         refused(&|group| group.distances_m = vec![1.0, 2.0], "times_s: expected states of one kind");
         refused(&|group| group.axis = [0.0; 3], "axis: found [0.0, 0.0, 0.0]");
         refused(&|group| group.on = Some("door_d".into()), "on: no body \"door_d\" comes before; did you mean \"door_b\"?");
-        refused(&|group| group.of = Many(vec!["door_b".into()]), "part 2 belongs to a body already");
+        refused(&|group| group.name = Some("door_b".into()), "two bodies have this name");
+        refused(&|group| (group.of, group.name) = (Many(vec!["door_b".into()]), Some("again".into())), "part 2 belongs to a body already");
         refused(&|group| group.times_s = vec![1.0, 0.0], "moment 1 (0 s) comes before");
     }
 }
