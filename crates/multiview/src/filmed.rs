@@ -54,7 +54,7 @@ impl<'d> Filmed<'d> {
             frames.extend(there.map(|i| (tracks.len(), i)));
             let (camera, frame_time_s) = (dataset.read_camera(scene, &name)?, dataset.read_frame_time(scene, &name)?);
             let bodies = dataset.read_filmed_bodies(scene, &name)?;
-            tracks.push(Track { camera, name, poses, frame_time_s, bodies });
+            tracks.push(Track { name, camera, poses, frame_time_s, bodies });
         }
         Ok(Self { dataset, scene: scene.into(), tracks, frames })
     }

@@ -4,6 +4,9 @@ use super::Assembly;
 use enfilade_math::{DAffine3, DQuat, DVec3};
 use enfilade_scene::{Body, BodyId, BodyMotion, BodyStates, RigidPose};
 
+/// Moments, seconds, and the pose at each.
+pub(crate) type TimedPoses = (Vec<f64>, Vec<RigidPose>);
+
 /// Numbers of parts and lights that were there at a moment of the import.
 #[derive(Clone, Copy)]
 pub(crate) struct Contents {
@@ -24,7 +27,7 @@ impl Assembly<'_> {
         name: &str,
         parent: Option<BodyId>,
         file_from_frame: DAffine3,
-        (times_s, poses): (Vec<f64>, Vec<RigidPose>),
+        (times_s, poses): TimedPoses,
     ) -> Option<BodyId> {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses };
         let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);

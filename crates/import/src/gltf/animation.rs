@@ -4,7 +4,7 @@
 //! cubic splines are cut into straight pieces of a sixtieth of a second. Scales, weights of morph targets and skins stay as they are.
 
 use super::container::Document;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, TimedPoses};
 use enfilade_math::{DQuat, DVec3};
 use enfilade_scene::RigidPose;
 use gltf::json::Index;
@@ -103,7 +103,7 @@ impl Animations {
     ///
     /// # Errors
     /// When there are more states than a scene may have.
-    pub(super) fn states(&self, document: &Document, node: usize) -> Result<Option<(Vec<f64>, Vec<RigidPose>)>, String> {
+    pub(super) fn states(&self, document: &Document, node: usize) -> Result<Option<TimedPoses>, String> {
         let Some(motion) = self.nodes.get(&node) else { return Ok(None) };
         let json = &document.root.nodes[node];
         let vector = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));

@@ -7,9 +7,9 @@ use super::parts::{Parts, Stand};
 use super::transform::placement;
 use super::{instancing, label, light, profile};
 use crate::ImportError;
-use crate::assembly::{Assembly, FileLabel};
+use crate::assembly::{Assembly, FileLabel, TimedPoses};
 use enfilade_math::DAffine3;
-use enfilade_scene::{BodyId, ObjectId, RigidPose};
+use enfilade_scene::{BodyId, ObjectId};
 use gltf::json::scene::Node;
 
 /// Aspect of a camera that does not state one: the default aspect of this workspace's pictures.
@@ -103,7 +103,7 @@ fn moving(
     index: usize,
     file_from_parent: DAffine3,
     a: &mut Assembly,
-) -> Option<(String, DAffine3, (Vec<f64>, Vec<RigidPose>))> {
+) -> Option<(String, DAffine3, TimedPoses)> {
     let node = &document.root.nodes[index];
     let states = match animations.states(document, index) {
         Ok(states) => states?,

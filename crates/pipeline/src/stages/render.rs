@@ -66,7 +66,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             if lists_fixtures {
                 list_fixtures(job, scene.fixtures())?;
             }
-            timed_out = render(job, &Rendered::Still(scene), &missing, [total - rendered, total], cx)?;
+            timed_out = render(job, &Rendered::Still(&scene), &missing, [total - rendered, total], cx)?;
         }
     }
     let [width, height] = job.scene.size;
@@ -197,11 +197,11 @@ fn frames_are_taken(job: &Job) -> Result<bool, Error> {
 }
 
 /// What is rendered.
-enum Rendered<'s> {
+enum Rendered<'a> {
     /// A scene that is the same in every frame.
-    Still(RenderScene<'s>),
+    Still(&'a RenderScene<'a>),
     /// A scene that each frame finds in another state.
-    Moving(&'s Scene),
+    Moving(&'a Scene),
 }
 
 /// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.
@@ -213,7 +213,7 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
         let learnt = match scene {
             Rendered::Still(scene) => {
                 cx.progress("learning where light comes from", done as u64, total as u64);
-                Some((scene, Guide::learn(scene, &views, config)))
+                Some((*scene, Guide::learn(scene, &views, config)))
             }
             Rendered::Moving(_) => None,
         };
