@@ -3,7 +3,7 @@
 
 use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::FramePair;
-use enfilade_render::{FlowTo, Moved};
+use enfilade_render::FlowTo;
 use enfilade_scene::Cx;
 
 impl Filmed<'_> {
@@ -47,7 +47,7 @@ pub fn write_flow(filmed: &Filmed<'_>, package: &ScenePackage, pairs: &[[usize; 
             None => {
                 let [here, there] = [first, second].map(|frame| filmed.moment_s(frame));
                 let (scene, then) = (package.scene.at(here), package.scene.at(there));
-                let moved = Moved { lookout: package.ready(&then)?, carried: package.scene.carried(here, there) };
+                let moved = package.ready(&then)?.moved(package.scene.carried(here, there));
                 package.ready(&scene)?.flow(&from, FlowTo { view: &to, moved: Some(&moved) })
             }
         };

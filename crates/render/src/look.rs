@@ -3,7 +3,7 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{FlowTo, add_flow, flow};
+use crate::extra::{FlowTo, Moved, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
@@ -11,7 +11,7 @@ use crate::prepared::RenderScene;
 use crate::texture::Textures;
 use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
-use enfilade_math::DVec3;
+use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{Alpha, CameraView, Scene};
 use std::sync::OnceLock;
 
@@ -152,9 +152,10 @@ impl<'s> Lookout<'s> {
         surfaces(&self.scene, view, count)
     }
 
-    /// The scene, without its light.
-    pub(crate) fn scene(&self) -> &RenderScene<'s> {
-        &self.scene
+    /// The scene as another moment has it, for flow that leads there. `carried` has by part the map of the world to itself from its place at
+    /// the first moment to that at this one; `None` of parts that stay.
+    pub fn moved(self, carried: Vec<Option<DAffine3>>) -> Moved<'s> {
+        Moved { scene: self.scene, carried }
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

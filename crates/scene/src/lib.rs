@@ -4,6 +4,7 @@
 //! number is finite. Labels are kept apart from the scene ([`Labels`]), because they never enter the renderer.
 
 mod atmosphere;
+mod bodies;
 mod body;
 mod camera;
 mod contrast;
@@ -24,6 +25,7 @@ mod photometry;
 mod picture_files;
 mod pictures;
 mod repictured;
+mod room_ceilings;
 mod room_planes;
 mod rooms;
 mod scene;

@@ -2,8 +2,8 @@
 //!
 //! The height is the least of linear functions, so over a rectangle it is least at a corner.
 
-use super::{Footprint, Room, Wall};
-use enfilade_math::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec2};
+use super::{Footprint, Incline, Room, Wall};
+use enfilade_math::{DAffine3, DQuat, DVec3, Vec2};
 use enfilade_scene::Slope;
 
 /// Slopes that are nowhere lower than the level ceiling by more than this do not count, metres.
@@ -14,41 +14,6 @@ const GRID: f32 = 0.1;
 const LAMP: [f32; 2] = [0.3, 0.35];
 /// Lamps that would hang closer to each other than this are one, metres.
 const APART: f32 = 1.2;
-
-/// A sloping part of a ceiling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Incline {
-    /// The plane, as files state it.
-    pub slope: Slope,
-    at: Vec2,
-    low: f32,
-    gradient: Vec2,
-}
-
-impl Incline {
-    fn new(slope: Slope) -> Self {
-        let gradient = (slope.uphill() * slope.rise()).as_vec2();
-        Self { slope, at: DVec2::from(slope.from).as_vec2(), low: slope.low_z_m as f32, gradient }
-    }
-
-    /// Height over a point, metres.
-    pub fn z(&self, p: Vec2) -> f32 {
-        self.low + (p - self.at).dot(self.gradient)
-    }
-
-    /// Metres that it rises on a level metre.
-    pub fn rise(&self) -> f32 {
-        self.gradient.length()
-    }
-
-    /// The space of the plane: x along its lower edge, y uphill within it, z upwards from it.
-    pub fn pose(&self) -> DAffine3 {
-        let (up, uphill) = (-self.slope.normal(), self.slope.uphill());
-        let along = -uphill.perp();
-        let turn = DMat3::from_cols(along.extend(0.0), up.cross(along.extend(0.0)), up);
-        DAffine3::from_mat3_translation(turn, DVec2::from(self.slope.from).extend(self.slope.low_z_m))
-    }
-}
 
 impl Room {
     /// Puts the room under these planes; those that are above its ceiling everywhere do not count.

@@ -3,15 +3,16 @@
 mod ceiling;
 mod face;
 mod footprint;
+mod incline;
 pub mod kind;
 pub mod outline;
 mod side;
 
-pub use ceiling::Incline;
 use enfilade_furniture::{Leaf, RoomKind, WallOpening, pose};
 use enfilade_math::{DAffine3, DVec2, Vec2, Vec3};
 pub use face::{Back, Face, Wall};
 pub use footprint::Footprint;
+pub use incline::Incline;
 use outline::Outline;
 pub use side::Side;
 

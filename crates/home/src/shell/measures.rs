@@ -7,6 +7,8 @@ use enfilade_math::Vec2;
 pub(super) const OVERLAP: f32 = 0.1;
 /// The overlap at walls between rooms, which are thin.
 pub(super) const THIN_OVERLAP: f32 = 0.03;
+/// Thickness of ceilings, metres.
+pub(super) const THICKNESS: f32 = 0.2;
 /// Half the air between the two halves of a wall.
 pub(super) const AIR: f32 = 0.0005;
 /// Overlap of floor coverings and walls, metres.

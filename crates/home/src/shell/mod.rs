@@ -4,6 +4,7 @@
 //! to the room whole. The halves keep a hair's breadth apart; linings of doors and passages cover it.
 
 mod boards;
+mod clip;
 mod finish;
 mod measures;
 mod polygon;

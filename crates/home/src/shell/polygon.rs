@@ -4,8 +4,9 @@
 //! the outline, a little wider, so that they end within the walls.
 
 use super::boards::planks;
+use super::clip::kept_where;
 use super::finish::ShellFinish;
-use super::measures::{AIR, OVERLAP, SKIRTING, THIN_OVERLAP, UNDER_WALLS, depth, holes};
+use super::measures::{AIR, OVERLAP, SKIRTING, THICKNESS, THIN_OVERLAP, UNDER_WALLS, depth, holes};
 use super::slopes;
 use crate::room::outline::triangles;
 use crate::room::{Room, Wall};
@@ -19,8 +20,6 @@ use std::f32::consts::PI;
 const BACK_OFF: f32 = 0.0005;
 /// Longest overlap of slabs at an acute corner, metres.
 const LONGEST: f32 = 0.6;
-/// Thickness of ceilings, metres.
-pub(super) const THICKNESS: f32 = 0.2;
 /// Floors and ceilings end at this share of the depth of the thinnest wall.
 const WITHIN: f32 = 0.8;
 
@@ -150,23 +149,6 @@ fn cut(mesh: &Mesh, corners: &[Vec2]) -> Mesh {
 fn clipped(polygon: &[(Vec3, Vec2)], from: Vec2, to: Vec2) -> Vec<(Vec3, Vec2)> {
     let side = |p: &(Vec3, Vec2)| (to - from).perp_dot(p.0.truncate() - from);
     kept_where(polygon, side, |p, q, t| (p.0.lerp(q.0, t), p.1.lerp(q.1, t)))
-}
-
-/// What of a convex polygon is where a linear function of its corners is not negative (Sutherland & Hodgman 1974).
-pub(super) fn kept_where<P: Copy>(polygon: &[P], side: impl Fn(&P) -> f32, between: impl Fn(&P, &P, f32) -> P) -> Vec<P> {
-    let mut kept = Vec::new();
-    for (i, here) in polygon.iter().enumerate() {
-        let next = &polygon[(i + 1) % polygon.len()];
-        let (a, b) = (side(here), side(next));
-        if a >= 0.0 {
-            kept.push(*here);
-        }
-        if (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0) {
-            let t = a / (a - b);
-            kept.push(between(here, next, t));
-        }
-    }
-    kept
 }
 
 fn append(mesh: &mut Mesh, other: Mesh) {

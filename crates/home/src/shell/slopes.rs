@@ -2,8 +2,8 @@
 //!
 //! Each panel reaches a little beyond its neighbour, above that one's lower side, so that no light comes through the joint.
 
-use super::measures::OVERLAP;
-use super::polygon::{THICKNESS, kept_where};
+use super::clip::kept_where;
+use super::measures::{OVERLAP, THICKNESS};
 use crate::room::outline::triangles;
 use crate::room::{Incline, Room, Wall};
 use enfilade_furniture::shape::{Reshape, Top};

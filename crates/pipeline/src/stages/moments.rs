@@ -62,7 +62,7 @@ impl Moment {
     /// # Errors
     /// When the scene has more parts than ids.
     pub fn moved(&self) -> Result<Option<Moved<'_>>, Error> {
-        let moved = |(scene, carried)| Ok(Moved { lookout: Lookout::new(scene).map_err(Error::stage)?, carried: Vec::clone(carried) });
+        let moved = |(scene, carried)| Ok(Lookout::new(scene).map_err(Error::stage)?.moved(Vec::clone(carried)));
         self.next.as_ref().map(|(scene, carried)| moved((scene, carried))).transpose()
     }
 

@@ -1,6 +1,5 @@
 //! Position of a surface point in another frame: the next one, or any.
 
-use crate::look::Lookout;
 use crate::prepared::{AlphaTest, RenderScene};
 use enfilade_math::{DAffine3, DVec3, Ray};
 use enfilade_scene::{CameraRay, CameraView, PartId};
@@ -17,12 +16,12 @@ pub struct FlowTo<'a> {
     pub moved: Option<&'a Moved<'a>>,
 }
 
-/// A scene at another moment.
+/// A scene at another moment: [`Lookout::moved`](crate::Lookout::moved).
 pub struct Moved<'s> {
-    /// The scene at that moment.
-    pub lookout: Lookout<'s>,
+    /// The scene at that moment, without its light.
+    pub(crate) scene: RenderScene<'s>,
     /// By part: the map of the world to itself from its place at the first moment to that at the other one; `None` of parts that stay.
-    pub carried: Vec<Option<DAffine3>>,
+    pub(crate) carried: Vec<Option<DAffine3>>,
 }
 
 impl<'a> FlowTo<'a> {
@@ -68,7 +67,7 @@ pub(super) fn flow(
         let (position, world_from_camera) = view.row_placement(row);
         world_from_camera.transpose() * (p - position)
     };
-    let scene = to.moved.map_or(scene, |moved| moved.lookout.scene());
+    let scene = to.moved.map_or(scene, |moved| &moved.scene);
     Some(Flow {
         image: there.map(|(next_x, next_y)| [(next_x - x) as f32, (next_y - y) as f32]),
         camera: (in_camera(next, p_then, row) - in_camera(view, p_world, y)).as_vec3().to_array(),

@@ -4,7 +4,7 @@
 //! picture its number among those of the other package followed by its own, and the scene with its own meshes and pictures alone; in packages
 //! of scenes that move the bodies follow.
 
-use super::{CHANGES, Kind, PackageError, bodies, decoded, encoded, headed, split, undecoded, whole};
+use super::encoding::{CHANGES, Kind, PackageError, bodies, decoded, encoded, headed, split, split_head, undecoded, whole};
 use crate::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub(super) struct Changes {
 /// # Errors
 /// When `first_package` is not a package by itself.
 pub fn to_bytes_beside(scene: &Scene, first: &Scene, first_package: &[u8]) -> Result<Vec<u8>, PackageError> {
-    let (kind, rest) = super::split_head(first_package)?;
+    let (kind, rest) = split_head(first_package)?;
     let hash = rest.first_chunk::<32>().filter(|_| !kind.lacks).ok_or(PackageError::Checksum)?;
     let (meshes, own_meshes) = divided(&scene.meshes, &first.meshes);
     let (images, own_images) = divided(&scene.images, &first.images);

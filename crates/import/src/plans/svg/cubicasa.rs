@@ -8,7 +8,8 @@
 //!
 //! Other groups (walls, railings, fixed furniture, the leaves of doors) are not needed. Units are pixels of a scan, about a centimetre each.
 
-use super::{UNIT, numbers, placement};
+use super::path::numbers;
+use super::placement::{UNIT, placement};
 use enfilade_math::DVec2;
 use roxmltree::Node;
 

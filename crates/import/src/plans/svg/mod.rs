@@ -11,18 +11,18 @@
 
 mod cubicasa;
 mod path;
+mod placement;
 
 use super::curves::{Arc, NEAR_M};
 use super::loops::around;
 use super::source::Source;
 use crate::ImportError;
-use enfilade_math::{DMat3, DVec2, DVec3};
+use enfilade_math::DVec2;
 use enfilade_scene::{DrawnPlan, DrawnRoom, OpeningKind};
 use path::numbers;
+use placement::{UNIT, placement};
 use roxmltree::{Document, Node};
 
-/// Metres of a unit where the file does not say.
-const UNIT: f64 = 0.01;
 /// Elements that are shapes.
 const SHAPES: [&str; 7] = ["polygon", "polyline", "line", "rect", "circle", "ellipse", "path"];
 /// The key of the root that says it.
@@ -126,37 +126,4 @@ fn corners(node: &Node, near: f64) -> Result<(Vec<DVec2>, bool), String> {
 
 fn not_a_number(name: &str, text: &str) -> String {
     format!("{name} is {text:?}, expected a number without a unit")
-}
-
-/// From an element's units to the root's.
-fn placement(node: &Node) -> Result<DMat3, String> {
-    let mut placed = DMat3::IDENTITY;
-    for ancestor in node.ancestors().filter(Node::is_element) {
-        if let Some(text) = ancestor.attribute("transform") {
-            placed = transform(text)? * placed;
-        }
-    }
-    Ok(placed)
-}
-
-fn transform(text: &str) -> Result<DMat3, String> {
-    let mut whole = DMat3::IDENTITY;
-    for call in text.split(')').map(|call| call.trim().trim_start_matches(',').trim()).filter(|call| !call.is_empty()) {
-        let (name, arguments) =
-            call.split_once('(').ok_or_else(|| format!("found the transform {text:?}, expected such as translate(2 3)"))?;
-        whole *= match (name.trim(), &numbers(arguments)?[..]) {
-            ("translate", &[x]) => DMat3::from_translation(DVec2::new(x, 0.0)),
-            ("translate", &[x, y]) => DMat3::from_translation(DVec2::new(x, y)),
-            ("scale", &[s]) => DMat3::from_scale(DVec2::splat(s)),
-            ("scale", &[x, y]) => DMat3::from_scale(DVec2::new(x, y)),
-            ("rotate", &[degrees]) => DMat3::from_angle(degrees.to_radians()),
-            ("rotate", &[degrees, x, y]) => {
-                let middle = DMat3::from_translation(DVec2::new(x, y));
-                middle * DMat3::from_angle(degrees.to_radians()) * middle.inverse()
-            }
-            ("matrix", &[a, b, c, d, e, f]) => DMat3::from_cols(DVec3::new(a, b, 0.0), DVec3::new(c, d, 0.0), DVec3::new(e, f, 1.0)),
-            _ => return Err(format!("found the transform {call:?}), expected translate, scale, rotate or matrix")),
-        };
-    }
-    Ok(whole)
 }

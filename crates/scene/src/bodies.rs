@@ -1,0 +1,286 @@
+//! Scenes that move: their state at a moment, and edits that keep bodies right.
+
+use crate::{BodyId, PartId, Scene, SceneError};
+use enfilade_math::DAffine3;
+use std::collections::BTreeSet;
+
+impl Scene {
+    /// True when nothing in the scene moves.
+    pub fn is_still(&self) -> bool {
+        self.bodies.is_empty()
+    }
+
+    /// The maps of the world to itself that take each body from rest to its place at a moment.
+    pub fn world_from_rest(&self, time_s: f64) -> Vec<DAffine3> {
+        let mut maps: Vec<DAffine3> = Vec::with_capacity(self.bodies.len());
+        for body in &self.bodies {
+            let own = body.motion.world_from_rest(time_s);
+            maps.push(body.parent.map_or(own, |parent| maps[parent as usize] * own));
+        }
+        maps
+    }
+
+    /// By part: the map of the world to itself from its place at one moment to that at another; `None` of parts that have no body.
+    pub fn carried(&self, from_s: f64, to_s: f64) -> Vec<Option<DAffine3>> {
+        let [from, to] = [from_s, to_s].map(|time_s| self.world_from_rest(time_s));
+        let carried: Vec<DAffine3> =
+            from.iter().zip(&to).map(|(from, to)| if from == to { DAffine3::IDENTITY } else { *to * from.inverse() }).collect();
+        self.body_of_parts().into_iter().map(|body| body.map(|body| carried[body as usize])).collect()
+    }
+
+    /// The body of each part.
+    pub fn body_of_parts(&self) -> Vec<Option<BodyId>> {
+        let mut bodies = vec![None; self.parts.len()];
+        for (body, id) in self.bodies.iter().zip(0..) {
+            body.parts.iter().for_each(|&part| bodies[part as usize] = Some(id));
+        }
+        bodies
+    }
+
+    /// The scene as it is at a moment. It shares meshes and pictures, has the same bodies, and is the scene itself where nothing moves.
+    ///
+    /// ```
+    /// use enfilade_geometry::Mesh;
+    /// use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+    /// use enfilade_scene::{Body, BodyMotion, BodyStates, Material, Part, Scene};
+    ///
+    /// // A door of one metre that turns about the z axis, a quarter in two seconds.
+    /// let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Z], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+    /// let states = BodyStates::Hinge { point: DVec3::ZERO, axis: DVec3::Z, angles_rad: vec![0.0, std::f64::consts::FRAC_PI_2] };
+    /// let scene = Scene {
+    ///     meshes: vec![mesh.into()],
+    ///     materials: vec![Material::diffuse("oak", Rgb::splat(0.4))],
+    ///     parts: vec![Part { name: "door".into(), object: None, mesh: 0, material: 0, world_from_mesh: DAffine3::IDENTITY }],
+    ///     bodies: vec![Body {
+    ///         name: "door".into(),
+    ///         parent: None,
+    ///         parts: vec![0],
+    ///         lights: Vec::new(),
+    ///         motion: BodyMotion { times_s: vec![0.0, 2.0], states },
+    ///     }],
+    ///     ..Scene::default()
+    /// };
+    /// assert_eq!(scene.validate(), Ok(()));
+    ///
+    /// let half_way = scene.at(1.0);
+    /// let corner = half_way.world_corners(&half_way.parts[0], 0)[1];
+    /// assert!(corner.distance(Vec3::new(0.5f32.sqrt(), 0.5f32.sqrt(), 0.0)) < 1e-6);
+    /// ```
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> Self {
+        let mut scene = self.clone();
+        for (body, map) in self.bodies.iter().zip(self.world_from_rest(time_s)) {
+            if map == DAffine3::IDENTITY {
+                continue;
+            }
+            for &part in &body.parts {
+                let placed = &mut scene.parts[part as usize].world_from_mesh;
+                *placed = map * *placed;
+            }
+            for &light in &body.lights {
+                scene.lights[light as usize] = self.lights[light as usize].moved(&map);
+            }
+        }
+        scene
+    }
+
+    /// Takes parts out; those behind them move up. Bodies without parts and lights stay if they bear others.
+    pub fn remove_parts(&mut self, gone: &BTreeSet<PartId>) {
+        let mut index = 0..;
+        self.parts.retain(|_| index.next().is_none_or(|part| !gone.contains(&part)));
+        self.bodies.iter_mut().for_each(|body| drop_numbers(&mut body.parts, gone));
+        self.remove_unused_bodies();
+    }
+
+    /// Takes lights out; those behind them move up.
+    pub(crate) fn remove_lights(&mut self, gone: &BTreeSet<u32>) {
+        let mut index = 0..;
+        self.lights.retain(|_| index.next().is_none_or(|light| !gone.contains(&light)));
+        self.bodies.iter_mut().for_each(|body| drop_numbers(&mut body.lights, gone));
+        self.remove_unused_bodies();
+    }
+
+    /// Takes out the bodies that neither have nor bear anything.
+    pub fn remove_unused_bodies(&mut self) {
+        let mut used: Vec<bool> = self.bodies.iter().map(|body| !body.parts.is_empty() || !body.lights.is_empty()).collect();
+        for body in (0..self.bodies.len()).rev() {
+            if let Some(parent) = self.bodies[body].parent.filter(|_| used[body]) {
+                used[parent as usize] = true;
+            }
+        }
+        let mut next = 0;
+        let new: Vec<BodyId> = used.iter().map(|&used| (next, next += u32::from(used)).0).collect();
+        self.bodies.iter_mut().for_each(|body| body.parent = body.parent.map(|parent| new[parent as usize]));
+        let mut keep = used.into_iter();
+        self.bodies.retain(|_| keep.next().unwrap_or(false));
+    }
+
+    /// Checks the bodies.
+    pub(crate) fn validate_bodies(&self) -> Result<(), SceneError> {
+        let mut names = BTreeSet::new();
+        let [mut parts, mut lights] = [BTreeSet::new(), BTreeSet::new()];
+        for (body, id) in self.bodies.iter().zip(0..) {
+            let wrong = |problem: String| Err(SceneError::Value { what: format!("body {:?}", body.name), problem });
+            let dangling = |kind: &'static str, index: u32, count: usize| {
+                Err(SceneError::Dangling { what: format!("body {:?}", body.name), kind, index, count })
+            };
+            if !names.insert(body.name.as_str()) {
+                return wrong("two bodies have this name".into());
+            }
+            if let Some(parent) = body.parent.filter(|&parent| parent >= id) {
+                return dangling("the body", parent, id as usize);
+            }
+            for (numbers, taken, kind, count) in
+                [(&body.parts, &mut parts, "part", self.parts.len()), (&body.lights, &mut lights, "light", self.lights.len())]
+            {
+                if let Some(&index) = numbers.iter().find(|&&index| index as usize >= count) {
+                    return dangling(kind, index, count);
+                }
+                if let Some(twice) = numbers.iter().find(|&&index| !taken.insert(index)) {
+                    return wrong(format!("{kind} {twice} belongs to a body already"));
+                }
+                if !numbers.is_sorted() {
+                    return wrong(format!("its {kind}s are not in ascending order"));
+                }
+            }
+            if let Some(problem) = body.motion.problem() {
+                return wrong(problem);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Takes numbers out of an ascending list; those behind them become smaller.
+fn drop_numbers(list: &mut Vec<u32>, gone: &BTreeSet<u32>) {
+    list.retain(|number| !gone.contains(number));
+    list.iter_mut().for_each(|number| *number -= gone.range(..*number).count() as u32);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Body, BodyMotion, BodyStates, Light, Material, Part, RigidPose};
+    use enfilade_geometry::Mesh;
+    use enfilade_math::{DQuat, DVec3, Rgb, Vec3};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn body(name: &str, parent: Option<BodyId>, parts: Vec<PartId>, states: BodyStates) -> Body {
+        let times_s = (0..count_of(&states)).map(|at| at as f64).collect();
+        Body { name: name.into(), parent, parts, lights: Vec::new(), motion: BodyMotion { times_s, states } }
+    }
+
+    fn count_of(states: &BodyStates) -> usize {
+        BodyMotion { times_s: Vec::new(), states: states.clone() }.count()
+    }
+
+    fn hinge(angle: f64) -> BodyStates {
+        BodyStates::Hinge { point: DVec3::new(1.0, 0.0, 0.0), axis: DVec3::Z, angles_rad: vec![0.0, angle] }
+    }
+
+    /// Three triangles at x = 2, 3 and 4; the second and the third are a door and the handle on it.
+    fn scene() -> Scene {
+        let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let part = |name: &str, x: f64| Part {
+            name: name.into(),
+            object: None,
+            mesh: 0,
+            material: 0,
+            world_from_mesh: DAffine3::from_translation(DVec3::X * x),
+        };
+        Scene {
+            meshes: vec![mesh.into()],
+            materials: vec![Material::diffuse("m", Rgb::WHITE)],
+            parts: vec![part("wall", 2.0), part("door", 3.0), part("handle", 4.0)],
+            lights: vec![Light::Point { name: "bulb".into(), position: Vec3::X, intensity: Rgb::WHITE }],
+            bodies: vec![
+                body("door", None, vec![1], hinge(FRAC_PI_2)),
+                body("handle", Some(0), vec![2], BodyStates::Slide { axis: DVec3::X, distances_m: vec![0.0, 0.5] }),
+            ],
+            ..Scene::default()
+        }
+    }
+
+    fn at(scene: &Scene, part: usize, time_s: f64) -> DVec3 {
+        scene.at(time_s).parts[part].world_from_mesh.translation
+    }
+
+    #[test]
+    fn what_a_body_bears_moves_with_it() {
+        let scene = scene();
+        assert_eq!(scene.validate(), Ok(()));
+        for (time_s, door, handle) in [
+            (-1.0, DVec3::X * 3.0, DVec3::X * 4.0),
+            (0.5, DVec3::new(1.0 + 2f64.sqrt(), 2f64.sqrt(), 0.0), DVec3::new(1.0 + 3.25 * 0.5f64.sqrt(), 3.25 * 0.5f64.sqrt(), 0.0)),
+            (7.0, DVec3::new(1.0, 2.0, 0.0), DVec3::new(1.0, 3.5, 0.0)),
+        ] {
+            assert!(at(&scene, 1, time_s).abs_diff_eq(door, 1e-12), "{}", at(&scene, 1, time_s));
+            assert!(at(&scene, 2, time_s).abs_diff_eq(handle, 1e-12), "{}", at(&scene, 2, time_s));
+            assert_eq!(at(&scene, 0, time_s), DVec3::X * 2.0);
+        }
+        assert_eq!(scene.at(0.0), scene);
+    }
+
+    #[test]
+    fn free_bodies_turn_about_their_frame_the_shortest_way_and_jump_where_moments_meet() {
+        let mut scene = scene();
+        let pose = |angle: f64, x: f64| RigidPose { rotation: DQuat::from_rotation_z(angle), translation: DVec3::X * x };
+        let poses = vec![pose(0.0, 0.0), pose(PI / 2.0, 2.0), pose(0.0, 8.0)];
+        scene.bodies = vec![body("door", None, vec![1], BodyStates::Free { position: DVec3::X * 3.0, rotation: DQuat::IDENTITY, poses })];
+        scene.bodies[0].motion.times_s = vec![0.0, 1.0, 1.0];
+        assert!(at(&scene, 1, 0.5).abs_diff_eq(DVec3::X * 4.0, 1e-12));
+        assert!(
+            (scene.at(0.5).parts[1].world_from_mesh.matrix3 * DVec3::X).abs_diff_eq(DVec3::new(0.5f64.sqrt(), 0.5f64.sqrt(), 0.0), 1e-12)
+        );
+        assert!(at(&scene, 1, 1.0).abs_diff_eq(DVec3::X * 11.0, 1e-12));
+    }
+
+    #[test]
+    fn lights_move_with_their_body_and_removals_keep_the_rest_right() {
+        let mut scene = scene();
+        scene.bodies[1].lights = vec![0];
+        let Light::Point { position, .. } = scene.at(1.0).lights[0] else { panic!() };
+        assert!(position.abs_diff_eq(Vec3::new(1.0, 0.5, 0.0), 1e-6), "{position}");
+        scene.remove_parts(&BTreeSet::from([0]));
+        assert_eq!((scene.bodies[0].parts.as_slice(), scene.bodies[1].parts.as_slice()), (&[0][..], &[1][..]));
+        scene.remove_parts(&BTreeSet::from([1]));
+        assert_eq!(scene.bodies.len(), 2, "the light is still there");
+        scene.remove_lights(&BTreeSet::from([0]));
+        assert_eq!((scene.bodies.len(), scene.validate()), (1, Ok(())));
+    }
+
+    #[test]
+    fn bad_bodies_are_refused_by_name_and_moment() {
+        let refused = |change: &dyn Fn(&mut Body), told: &str| {
+            let mut scene = scene();
+            change(&mut scene.bodies[1]);
+            let message = scene.validate().unwrap_err().to_string();
+            assert!(message.starts_with("body \"") && message.contains(told), "{message}");
+        };
+        let slide = |distances_m| BodyStates::Slide { axis: DVec3::X, distances_m };
+        refused(&|body| body.motion.times_s.truncate(1), "1 moments for 2 states");
+        refused(&|body| body.motion.times_s = vec![1.0, 0.5], "moment 1 (0.5 s) comes before the one ahead of it (1 s)");
+        refused(&|body| body.motion.states = slide(vec![0.0, f64::NAN]), "state 1 (at 1 s) is not finite");
+        refused(&|body| body.parts = vec![1], "part 1 belongs to a body already");
+        refused(&|body| body.parts = vec![9], "refers to part 9, but there are only 3");
+        refused(&|body| body.parent = Some(1), "refers to the body 1");
+        refused(&|body| body.name = "door".into(), "two bodies have this name");
+        refused(&|body| body.motion.states = BodyStates::Slide { axis: DVec3::ZERO, distances_m: vec![0.0; 2] }, "no axis");
+    }
+
+    #[test]
+    fn motion_is_carried_by_similarities_alone() {
+        let scene = scene();
+        let map = DAffine3::from_scale_rotation_translation(DVec3::splat(2.0), DQuat::from_rotation_y(0.7), DVec3::new(0.3, -1.0, 2.0));
+        for (id, point) in [(0, DVec3::new(3.0, 1.0, 0.5)), (1, DVec3::new(4.0, 0.2, 0.1))] {
+            let body = &scene.bodies[id];
+            let carried = body.carried(&map).unwrap();
+            let expected = map.transform_point3(body.motion.world_from_rest(0.4).transform_point3(point));
+            let found = carried.motion.world_from_rest(0.4).transform_point3(map.transform_point3(point));
+            assert!(found.abs_diff_eq(expected, 1e-12));
+        }
+        for distorts in [DVec3::new(1.0, 2.0, 1.0), DVec3::new(-1.0, 1.0, 1.0)] {
+            assert_eq!(scene.bodies[0].carried(&DAffine3::from_scale(distorts)), None);
+        }
+    }
+}
