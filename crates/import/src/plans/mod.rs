@@ -10,7 +10,7 @@
 //! | SpatialLM's layout text | walls, whose loops are rooms; doors and windows; the kinds of rooms are guessed from its boxes |
 //! | a house of 3D-FRONT | the outlines of its floors; meshes of doors, windows and holes, or linings of openings |
 //! | a house of ProcTHOR | `rooms`, `doors`, `windows` |
-//! | SVG | shapes with a name, and those of CubiCasa5k's `model.svg`; see [`svg`] for names and units |
+//! | SVG | shapes with a name, and those of CubiCasa5k's `model.svg`; `svg` has names and units |
 //! | DXF as text | closed polylines and circles, the texts in them, and lines on layers of doors and windows; see `dxf.rs` |
 
 mod curves;
