@@ -1,12 +1,12 @@
 //! `[[motion]]`: what moves in a scene, and how.
 
+use crate::surfaces::fits;
 use crate::{ComposeError, Many};
-use enfilade_math::{DMat3, DQuat, DVec3};
+use enfilade_math::{DQuat, DVec3};
 use enfilade_options::{closest, options};
 use enfilade_scene::{Body, BodyMotion, BodyStates, PartId, RigidPose, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use wildmatch::WildMatch;
 
 /// Least length of a direction.
 const SHORTEST: f64 = 1e-9;
@@ -126,17 +126,15 @@ impl MotionGroup {
             let translation = self.moved_m.get(at).map_or(DVec3::ZERO, |moved| DVec3::from_array(*moved));
             RigidPose { rotation: DQuat::from_scaled_axis(turned), translation }
         };
-        let rotation = DQuat::from_mat3(&DMat3::IDENTITY);
-        BodyStates::Free { position: point, rotation, poses: (0..self.times_s.len()).map(pose).collect() }
+        BodyStates::Free { position: point, rotation: DQuat::IDENTITY, poses: (0..self.times_s.len()).map(pose).collect() }
     }
 
     /// The parts that the names stand for.
     fn parts(&self, scene: &Scene, group: usize) -> Result<Vec<PartId>, ComposeError> {
         let mut parts = BTreeSet::new();
         for pattern in &self.of.0 {
-            let named = |name: &str| if pattern.contains(['*', '?']) { WildMatch::new(pattern).matches(name) } else { pattern == name };
-            let of_object = |part| scene.objects_around(part).any(|object| named(&scene.objects[object as usize].name));
-            let found = scene.parts.iter().zip(0..).filter(|(part, _)| named(&part.name) || of_object(part));
+            let of_object = |part| scene.objects_around(part).any(|object| fits(pattern, &scene.objects[object as usize].name));
+            let found = scene.parts.iter().zip(0..).filter(|(part, _)| fits(pattern, &part.name) || of_object(part));
             let before = parts.len();
             parts.extend(found.map(|(_, part)| part));
             if parts.len() == before {

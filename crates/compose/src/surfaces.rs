@@ -170,7 +170,7 @@ fn unknown(word: &str, is_class: bool, scene: &LabelledScene, classes: &[i16]) -
 }
 
 /// Whether a name is this one, or of this form with `*` and `?`.
-fn fits(pattern: &str, name: &str) -> bool {
+pub(crate) fn fits(pattern: &str, name: &str) -> bool {
     if pattern.contains(['*', '?']) { WildMatch::new(pattern).matches(name) } else { pattern == name }
 }
 

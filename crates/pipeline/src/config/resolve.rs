@@ -18,13 +18,14 @@ use super::settings::{Config, Gone, LabelSource, SceneConfig, Source, keep_rende
 use super::vary;
 use crate::error::ConfigError;
 use crate::request::{Product, Request};
-use enfilade_compose::{MotionGroup, ObjectGroup};
+use enfilade_compose::{ComposeError, MotionGroup, ObjectGroup};
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
 use enfilade_home::HomeConfig;
 use enfilade_import::EnvironmentOverride;
 use enfilade_label::LabelTable;
 use enfilade_options::with_nearest;
+use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::HashSet;
 use std::ops::Range;
@@ -232,31 +233,34 @@ impl Resolver<'_> {
 
     /// The models that are placed in a scene.
     fn objects(&self, keys: &SceneKeys) -> Result<Vec<ObjectGroup>, ConfigError> {
-        let Some(tables) = keys.level.object.as_ref().or(self.document.level.object.as_ref()) else { return Ok(Vec::new()) };
-        let mut groups = Vec::new();
-        for (number, table) in (1..).zip(tables) {
-            let read: Result<ObjectGroup, toml::de::Error> = table.get_ref().clone().try_into();
-            let group =
-                read.map_err(|e| self.refuse(table, format!("in [[object]]: {}", with_nearest(&in_words(e.message()).0)), OBJECTS))?;
-            group.validate(number).map_err(|wrong| self.refuse(table, wrong.to_string(), OBJECTS))?;
+        let tables = keys.level.object.as_ref().or(self.document.level.object.as_ref());
+        let groups = self.groups(tables, ("[[object]]", OBJECTS), ObjectGroup::validate)?;
+        for (group, table) in groups.iter().zip(tables.into_iter().flatten()) {
             group.files.0.iter().try_for_each(|pattern| self.check_path(pattern, table))?;
-            groups.push(group);
         }
         Ok(groups)
     }
 
     /// What moves in a scene.
     fn motions(&self, keys: &SceneKeys) -> Result<Vec<MotionGroup>, ConfigError> {
-        let Some(tables) = keys.level.motion.as_ref().or(self.document.level.motion.as_ref()) else { return Ok(Vec::new()) };
-        let mut groups = Vec::new();
-        for (number, table) in (1..).zip(tables) {
-            let read: Result<MotionGroup, toml::de::Error> = table.get_ref().clone().try_into();
-            let group =
-                read.map_err(|e| self.refuse(table, format!("in [[motion]]: {}", with_nearest(&in_words(e.message()).0)), MOTIONS))?;
-            group.validate(number).map_err(|wrong| self.refuse(table, wrong.to_string(), MOTIONS))?;
-            groups.push(group);
-        }
-        Ok(groups)
+        let tables = keys.level.motion.as_ref().or(self.document.level.motion.as_ref());
+        self.groups(tables, ("[[motion]]", MOTIONS), MotionGroup::validate)
+    }
+
+    /// Reads and checks tables of one kind, which count from 1; `about` names the kind and where its keys are explained.
+    fn groups<T: DeserializeOwned>(
+        &self,
+        tables: Option<&Vec<Spanned<toml::Table>>>,
+        (kind, about): (&str, &str),
+        validate: impl Fn(&T, usize) -> Result<(), ComposeError>,
+    ) -> Result<Vec<T>, ConfigError> {
+        let group = |(number, table): (usize, &Spanned<toml::Table>)| {
+            let read: Result<T, toml::de::Error> = table.get_ref().clone().try_into();
+            let group = read.map_err(|e| self.refuse(table, format!("in {kind}: {}", with_nearest(&in_words(e.message()).0)), about))?;
+            validate(&group, number).map_err(|wrong| self.refuse(table, wrong.to_string(), about))?;
+            Ok(group)
+        };
+        (1..).zip(tables.into_iter().flatten()).map(group).collect()
     }
 
     /// What is asked for of a scene; its own key replaces that of the file.

@@ -53,6 +53,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     let lists_fixtures = job.scene.render.fixtures && (rendered > 0 || job.shift.is_none());
     let mut timed_out = 0;
     if moments::moves(&job.package()?) {
+        job.forget_world();
         let scene = job.load_scene()?;
         refuse_unfit(job, &filmed, cx)?;
         moments::write_tables(job, Some(&scene))?;
@@ -210,14 +211,8 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
     for Missing { camera, trajectory, config, frames } in missing {
         // One guide per trajectory: it learns from all views where light comes from. Of a scene that moves each frame has its own.
         let views = views(camera, trajectory);
-        let learnt = match scene {
-            Rendered::Still(scene) => {
-                cx.progress("learning where light comes from", done as u64, total as u64);
-                Some((*scene, Guide::learn(scene, &views, config)))
-            }
-            Rendered::Moving(_) => None,
-        };
-        let frame_time_s = job.dataset.read_frame_time(&job.scene.name, &trajectory.name).map_err(Error::stage)?;
+        let mut learnt = None;
+        let frame_time_s = frame_time_of(job, trajectory)?.unwrap_or_default();
         for info in frames {
             let Some(index) = views.iter().position(|view| view.pose().frame == info.pose.frame) else { continue };
 
@@ -225,18 +220,21 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
             let time = Stopwatch::start();
             let frame_cx = FrameCx { outer: cx, done, total };
             let take = |rendering: FrameRender<'_, '_>| progressive::render(job, &trajectory.name, info, rendering, &frame_cx);
-            let (frame, sampling) = match (scene, &learnt) {
-                (Rendered::Moving(scene), _) => {
+            let (frame, sampling) = match scene {
+                Rendered::Moving(scene) => {
                     let moment = moments::Moment::new(scene, &trajectory.poses, index, frame_time_s);
                     take_at(&moment, &views, index, config, take)?
                 }
-                (_, Some((scene, guide))) => {
+                Rendered::Still(scene) => {
+                    let guide = learnt.get_or_insert_with(|| {
+                        cx.progress("learning where light comes from", done as u64, total as u64);
+                        Guide::learn(scene, &views, config)
+                    });
                     let rendering = FrameRender::new(scene, guide, &views[index], config).map_err(Error::stage)?;
                     let (mut frame, sampling) = take(rendering)?;
                     add_extra(scene, &views, index, config, &mut frame);
                     (frame, sampling)
                 }
-                (Rendered::Still(_), None) => unreachable!("a still scene has a guide"),
             };
 
             // Write it with its record, announce it, and only then remove its saved state.

@@ -14,9 +14,9 @@ use std::f64::consts::FRAC_PI_2;
 /// How a picture lies on a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mapping {
-    /// Its upper edge upward where the surface is upright.
+    /// The upper edge points upward where the surface is upright.
     Upright,
-    /// Its u axis along the longest side of each piece, as grain runs along boards.
+    /// The u axis runs along the longest side of each piece, as grain does along boards.
     Grain,
     /// Once over the whole part, seen from above.
     Whole,
