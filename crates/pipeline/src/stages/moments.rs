@@ -1,13 +1,13 @@
 //! Scenes that move: the moment that a frame shows, and the scene as that frame finds it. Frame n of a camera shows the scene n times the
 //! camera's time between frames after its beginning.
 
-use super::Job;
+use super::{Job, exposure};
 use crate::error::Error;
 use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
 use enfilade_frame::{Frame, Layer, Values, traits};
 use enfilade_math::DAffine3;
 use enfilade_render::{Lookout, Moved};
-use enfilade_scene::{Body, BodyStates, PACKAGE_HEAD_BYTES, Pose, Scene, is_jointed_package, is_moving_package};
+use enfilade_scene::{Body, BodyStates, CameraView, PACKAGE_HEAD_BYTES, Pose, Scene, is_jointed_package, is_moving_package};
 use std::io::Read;
 use std::path::Path;
 
@@ -49,11 +49,13 @@ pub(crate) struct Moment {
     next: Option<(Scene, Vec<Option<DAffine3>>)>,
     /// By part: whether it moves on the way to the next frame, or from the one before.
     moving: Vec<bool>,
+    /// The scene in the middle of equal stretches of the exposure, in the order of time; none if nothing moves in it.
+    pub exposed: Vec<Scene>,
 }
 
 impl Moment {
     /// The moment of the pose `index` of a trajectory whose frames are `frame_time_s` apart.
-    pub fn new(scene: &Scene, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
+    pub fn new(scene: &Scene, view: &CameraView<'_>, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
         let at = |index: usize| poses.get(index).map(|pose| moment_s(pose, frame_time_s));
         let now = moment_s(&poses[index], frame_time_s);
         let next = at(index + 1).map(|then| (scene.at(then), scene.carried(now, then)));
@@ -64,7 +66,7 @@ impl Moment {
                 *moves |= carried.is_some_and(|carried| carried != DAffine3::IDENTITY);
             }
         }
-        Self { scene: scene.at(now), next, moving }
+        Self { scene: scene.at(now), next, moving, exposed: exposure::stretches(scene, view, now) }
     }
 
     /// The next frame's moment, ready for flow; `None` of the last frame.
