@@ -20,11 +20,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     inputs.extend(camera_files::inputs(job)?);
     inputs.extend(gate::verdicts(job)?);
-    if moments::moves(&job.package()?) {
-        for (_, trajectory) in job.filmed()?.iter() {
-            inputs.push(Input::of(&job.dataset.layout().metadata_camera(&job.scene.name, &trajectory.name))?);
-        }
-    }
+    inputs.extend(moments::inputs(job)?);
     Ok(Some(inputs))
 }
 

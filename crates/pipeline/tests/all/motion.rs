@@ -1,7 +1,7 @@
 //! Scenes that move, against formulas: a door that turns, a box that falls, a chain that swings, a wheel that rolls.
 
 use crate::common::{LAMP, WALL, block, write_blocks};
-use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies};
+use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies, ViewVerdict};
 use enfilade_frame::{Layer, traits, vector};
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, Overrides, PairsRequest, Request, Silent, make, replay, run};
@@ -215,4 +215,23 @@ fn what_moves_while_the_shutter_is_open_is_blurred() {
     let bodies = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
     assert!((bodies.frames().nth(1).unwrap().world_from_rest[0].translation.x - speed).abs() < 1e-12);
     assert!(replay(&dataset.layout().frame_record("room", "cam_00", 1), None, &Quiet).unwrap().is_same());
+}
+
+/// A board that comes to stand before the camera hides everything in the second frame; the first one and the third see the room.
+#[test]
+fn views_are_judged_at_their_own_moment() {
+    let folder = tempfile::tempdir().unwrap();
+    let board = block("board", [-1.9, -1.25, 0.0], [-1.0, -1.24, 2.0], [0.1, 0.1, 0.1]);
+    write_blocks(folder.path(), &[WALL, LAMP, board]);
+    let path =
+        "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0.5,-1.3,1,0.5,1,1,0\n2,0.5,-1.3,1,0.5,1,1,0\n";
+    std::fs::write(folder.path().join("path.csv"), path).unwrap();
+    let text = "[render]\nsize = [64, 48]\nsamples = 1\n[carve]\nrays = 8192\niterations = 2\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\n\
+                up_axis = \"z\"\n[scene.plan]\nmode = { kind = \"keyframes\", files = [\"path.csv\"] }\n\
+                [[scene.motion]]\nof = \"board\"\ntimes_s = [0, 1, 2]\nmoved_m = [[0, 0, 0], [1.9, 0, 0], [0, 0, 0]]\n";
+    std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
+    let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
+    assert!(run(&config, &out, None, &Silent).unwrap().ok());
+    let judged = Dataset::open(&out).unwrap().read_view_gates("room", "cam_00").unwrap().unwrap();
+    assert_eq!(judged.iter().map(|view| view.verdict == ViewVerdict::Passed).collect::<Vec<_>>(), [true, false, true], "{judged:?}");
 }
