@@ -223,15 +223,15 @@ fn views_are_judged_at_their_own_moment() {
     let folder = tempfile::tempdir().unwrap();
     let board = block("board", [-1.9, -1.25, 0.0], [-1.0, -1.24, 2.0], [0.1, 0.1, 0.1]);
     write_blocks(folder.path(), &[WALL, LAMP, board]);
-    let path =
-        "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0.5,-1.3,1,0.5,1,1,0\n2,0.5,-1.3,1,0.5,1,1,0\n";
+    let path = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0.5,-1.3,1,-1.5,1.0,0.4,0\n2,0.5,-1.3,1,-1.5,1.0,0.4,0\n";
     std::fs::write(folder.path().join("path.csv"), path).unwrap();
     let text = "[render]\nsize = [64, 48]\nsamples = 1\n[carve]\nrays = 8192\niterations = 2\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\n\
                 up_axis = \"z\"\n[scene.plan]\nmode = { kind = \"keyframes\", files = [\"path.csv\"] }\n\
                 [[scene.motion]]\nof = \"board\"\ntimes_s = [0, 1, 2]\nmoved_m = [[0, 0, 0], [1.9, 0, 0], [0, 0, 0]]\n";
     std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
     let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
-    assert!(run(&config, &out, None, &Silent).unwrap().ok());
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", summary.scenes);
     let judged = Dataset::open(&out).unwrap().read_view_gates("room", "cam_00").unwrap().unwrap();
     assert_eq!(judged.iter().map(|view| view.verdict == ViewVerdict::Passed).collect::<Vec<_>>(), [true, false, true], "{judged:?}");
 }
