@@ -1,6 +1,7 @@
 //! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
 use crate::fault::Fault;
+use crate::joints::HomeJoint;
 use crate::plan::FloorPlan;
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{DVec3, Vec3};
@@ -29,6 +30,10 @@ pub struct Home {
     pub credits: Vec<String>,
     /// What of a drawn plan was left out, guessed or added, and what its rooms lack; empty for other homes.
     pub notes: Vec<String>,
+    /// What can be opened, and how far; empty unless [`HomeConfig::states`](crate::HomeConfig::states) is given.
+    pub joints: Vec<HomeJoint>,
+    /// What is not as the states ask for, and names in them of nothing.
+    pub state_notes: Vec<String>,
 }
 
 impl Home {

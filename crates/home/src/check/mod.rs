@@ -1,4 +1,5 @@
-//! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, and people can go everywhere.
+//! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, people can go everywhere, and what has
+//! joints can go as far as its range says.
 //!
 //! The finished triangles are judged, not what placed them.
 
@@ -9,12 +10,13 @@ pub use crate::fault::Fault;
 
 use crate::Home;
 use crate::cameras::{CLEARANCES, Obstacle};
+use crate::joints;
 use contact::Contacts;
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::object_of;
 use enfilade_geometry::Mesh;
 use enfilade_math::Vec3;
-use enfilade_scene::{NYU40, is_stuff};
+use enfilade_scene::{NYU40, Scene, is_stuff};
 use std::collections::BTreeMap;
 
 /// Slack for rounding, metres: cameras keep their distance from boxes that are computed in another way than those here.
@@ -27,6 +29,7 @@ pub fn faults(home: &Home) -> Vec<Fault> {
     faults.extend(of_bodies(&bodies));
     faults.extend(walk::unreachable(home).into_iter().map(Fault::Unreachable));
     faults.extend(blocked_cameras(home));
+    faults.extend(joints::blocked(home).into_iter().map(|(joint, by)| Fault::Blocked(joint, by)));
     faults
 }
 
@@ -41,7 +44,11 @@ fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
 
 /// The objects of a home, by name.
 pub(crate) fn bodies(home: &Home) -> Vec<Body> {
-    let scene = &home.scene;
+    bodies_of(&home.scene)
+}
+
+/// The objects of a scene, by name.
+pub(crate) fn bodies_of(scene: &Scene) -> Vec<Body> {
     let mut bodies: BTreeMap<&str, Body> = BTreeMap::new();
     for part in &scene.parts {
         let mesh: &Mesh = &scene.meshes[part.mesh as usize];
