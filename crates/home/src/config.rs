@@ -1,8 +1,8 @@
 //! The configuration of a home: a seed for everything, seeds for one domain alone, and what a user chooses.
 
-use crate::joints::States;
 use crate::light::Moment;
 use crate::room::kind::usual_programme;
+use crate::states::States;
 use enfilade_furniture::RoomKind;
 use enfilade_math::Rng;
 use enfilade_options::{named, options, words};

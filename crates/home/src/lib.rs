@@ -22,21 +22,24 @@ mod config;
 mod fault;
 mod gravity;
 mod home;
-mod joints;
+mod joint;
 mod lacks;
 pub mod light;
+mod open;
 mod place;
 mod plan;
 pub mod room;
 mod rooms;
 mod settle;
 mod shell;
+mod states;
 
 pub use config::{HomeConfig, RoomShape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
-pub use joints::{HomeJoint, State, StateWord, States};
+pub use joint::HomeJoint;
 pub use plan::FloorPlan;
+pub use states::{State, StateWord, States};
 
 use enfilade_furniture::assets::Library;
 use enfilade_furniture::models::Model;
@@ -122,7 +125,7 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
     if let Some(states) = &config.states {
-        joints::open(&mut home, states, &config.stream(None, 8));
+        open::open(&mut home, states, &config.stream(None, 8));
     }
     home.credits = self::credits(&home.scene, &models);
     // Light and cameras are for the home as it is in the end.

@@ -229,7 +229,7 @@ pub fn pull(b: &mut Builder, object: &Object, name: &str, from: usize, rect: [f3
 
 /// Adds the box of a drawer where things have joints: `rect` is that of its front, whose back is at y = `front`; the box is `depth` deep.
 /// Returns the drawer's joint.
-fn boxed(b: &mut Builder, object: &Object, name: &str, rect: [f32; 4], front: f32, depth: f32, finish: Finish) -> Joint {
+pub fn boxed(b: &mut Builder, object: &Object, name: &str, rect: [f32; 4], front: f32, depth: f32, finish: Finish) -> Joint {
     /// Share of its depth by which a drawer can be pulled out.
     const OUT: f32 = 0.8;
     if b.has_joints() {

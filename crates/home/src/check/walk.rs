@@ -1,7 +1,7 @@
 //! Walkability of a finished home: where a person can go, and which objects are in the way.
 
+use super::moving::as_made;
 use crate::Home;
-use crate::joints::as_made;
 use crate::place::BODY;
 use crate::plan::FloorPlan;
 use crate::shell::is_shell;

@@ -64,7 +64,7 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
     let body_mesh = body_box(b, [x0 + 0.02, 0.04, z0 + 0.01], [x1 - 0.02, y, z1 - 0.01], 0.002);
     b.part(&oven, "body", body_mesh, Finish::Steel);
     if b.has_joints() {
-        rack(b, &oven, [x0 + 0.04, x1 - 0.04], [0.07, y - 0.03], z0 + if low { 0.03 } else { 0.2 });
+        rack(b, &oven, "rack", [x0 + 0.04, x1 - 0.04], [0.07, y - 0.03], z0 + if low { 0.03 } else { 0.2 });
     }
     let fascia = if low { 0.0 } else { 0.095 };
     if !low {
@@ -106,10 +106,10 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
 }
 
 /// A rack of wire at the height `z`, in an appliance that can be opened.
-fn rack(b: &mut Builder, object: &Object, [x0, x1]: [f32; 2], [y0, y1]: [f32; 2], z: f32) {
+fn rack(b: &mut Builder, object: &Object, name: &str, [x0, x1]: [f32; 2], [y0, y1]: [f32; 2], z: f32) {
     let bars = (0..=12).map(|k| x0 + (x1 - x0) * k as f32 / 12.0).map(|x| rod([x, y0, z], [x, y1, z], 0.0015, 6));
     let rails = [y0, y1].map(|y| rod([x0 - 0.004, y, z - 0.003], [x1 + 0.004, y, z - 0.003], 0.002, 6));
-    b.part(object, "rack", all(bars.chain(rails)), Finish::Steel);
+    b.part(object, name, all(bars.chain(rails)), Finish::Steel);
 }
 
 /// Adds a dishwasher with a front of its own, over `[x0, x1]`.
@@ -121,7 +121,8 @@ pub fn dishwasher(b: &mut Builder, pose: DAffine3, x: [f32; 2], z: [f32; 2], sty
     let body = body_box(b, [x0, 0.03, z0], [x1, y, z[1] - 0.001], 0.002);
     b.part(&machine, "body", body, Finish::Steel);
     if b.has_joints() {
-        [0.16, 0.44].iter().for_each(|z| rack(b, &machine, [x0 + 0.03, x1 - 0.03], [0.06, y - 0.03], z0 + z));
+        rack(b, &machine, "rack_1", [x0 + 0.021, x1 - 0.021], [0.06, y - 0.03], z0 + 0.16);
+        rack(b, &machine, "rack_2", [x0 + 0.021, x1 - 0.021], [0.06, y - 0.03], z0 + 0.44);
     }
     let from = b.part_count();
     b.part(&machine, "door", board([x0, y + CONTACT, z0], [x1, y + 0.022, z1 - 0.105], 0.003), finish);

@@ -4,7 +4,7 @@
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, rod};
-use crate::pieces::joinery::{body_box, pull};
+use crate::pieces::joinery::{body_box, boxed};
 use crate::pieces::{Furniture, Surface, board};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -65,6 +65,7 @@ impl Furniture for FilingCabinet {
             );
         }
         let h = (top - low - 0.02) / self.drawers as f32;
+        let mut pulled = Vec::new();
         for k in 0..self.drawers {
             let z = [low + 0.01 + h * k as f32 + 0.002, low + 0.01 + h * (k + 1) as f32 - 0.002];
             let face = board([0.006 - half, inner + 0.0004, z[0]], [half - 0.006, inner + 0.02, z[1]], 0.003);
@@ -75,9 +76,17 @@ impl Furniture for FilingCabinet {
             let frame = board([-0.035, inner + 0.0198, z[1] - 0.105], [0.035, inner + 0.022, z[1] - 0.078], 0.0006);
             b.part(&object, &format!("pull_{}", k + 1), grip.with(frame), Finish::Aluminium);
             let rect = [0.006 - half, half - 0.006, z[0], z[1]];
-            pull(b, &object, &format!("drawer_{}", k + 1), from, rect, inner + 0.0004, inner + front - 0.03, self.finish);
+            let name = format!("drawer_{}", k + 1);
+            let joint = boxed(b, &object, &name, rect, inner + 0.0004, inner + front - 0.03, self.finish);
+            pulled.push((name, joint, from..b.part_count()));
         }
         let lock = crate::pieces::form::to_front(cylinder(0.008, 0.004, 18));
         b.part(&object, "lock", lock.moved(Vec3::new(half - 0.04, inner + 0.0199, top - 0.045)), Finish::Chrome);
+        let lock = b.part_count() - 1;
+        for (k, (name, joint, parts)) in pulled.into_iter().enumerate() {
+            // The lock is in the front of the uppermost drawer.
+            let locked = (k + 1 == self.drawers).then_some(lock);
+            b.joint(&object, &name, &joint, parts.chain(locked));
+        }
     }
 }

@@ -48,7 +48,7 @@ impl States {
     pub const MADE: Self = Self::All(State::Word(StateWord::Made));
 
     /// The state that is asked of a joint.
-    pub(super) fn of(&self, body: &str, kind: JointKind) -> State {
+    pub(crate) fn of(&self, body: &str, kind: JointKind) -> State {
         let made = State::Word(StateWord::Made);
         match self {
             Self::All(state) => *state,
@@ -60,7 +60,7 @@ impl States {
     }
 
     /// What is said about names of nothing.
-    pub(super) fn unknown<'a>(&self, joints: impl Iterator<Item = (&'a str, JointKind)> + Clone) -> Vec<String> {
+    pub(crate) fn unknown<'a>(&self, joints: impl Iterator<Item = (&'a str, JointKind)> + Clone) -> Vec<String> {
         let Self::Each(named) = self else { return Vec::new() };
         let is_unknown = |name: &&String| !joints.clone().any(|(body, kind)| rank(name, body, kind).is_some());
         let mut known: Vec<&str> = joints.clone().flat_map(|(body, kind)| [body, object_of(body), kind.name()]).collect();
@@ -68,7 +68,7 @@ impl States {
         known.dedup();
         let said = |name: &String| {
             let meant = closest(name, &known).map_or_else(String::new, |near| format!("; did you mean {near:?}?"));
-            format!("states: nothing in this home is called {name:?}{meant}")
+            format!("nothing in this home is called {name:?}{meant}")
         };
         named.keys().filter(is_unknown).map(said).collect()
     }
@@ -90,7 +90,7 @@ fn rank(name: &str, body: &str, kind: JointKind) -> Option<usize> {
 
 impl State {
     /// The share of the range that is meant; `None` as it is made. Chairs and other things that turn all around are never closed or open.
-    pub(super) fn share(self, kind: JointKind, rng: &mut Rng) -> Option<f64> {
+    pub(crate) fn share(self, kind: JointKind, rng: &mut Rng) -> Option<f64> {
         match self {
             Self::Share(share) => Some(share),
             Self::Word(StateWord::Random) if kind == JointKind::Chair => Some(f64::from(rng.next_f32())),
@@ -218,9 +218,9 @@ mod tests {
         assert_eq!(kinds.of("wardrobe_1/door_1", JointKind::Cupboard), State::Word(StateWord::Made));
         assert_eq!(kinds.of("nightstand_2/drawer_1", JointKind::Drawer), State::Word(StateWord::Open));
         let joints = [("door_3/leaf", JointKind::Door), ("desk_1/drawer_1", JointKind::Drawer)].into_iter();
-        assert_eq!(kinds.unknown(joints), ["states: nothing in this home is called \"nightstand_?\""]);
+        assert_eq!(kinds.unknown(joints), ["nothing in this home is called \"nightstand_?\""]);
         let near = read(r#"{"dor_3": 1}"#).unwrap().unknown([("door_3/leaf", JointKind::Door)].into_iter());
-        assert_eq!(near, ["states: nothing in this home is called \"dor_3\"; did you mean \"door_3\"?"]);
+        assert_eq!(near, ["nothing in this home is called \"dor_3\"; did you mean \"door_3\"?"]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How far a joint can go before what moves runs into something: states are tried one after another, on the triangles.
 
-use crate::check::contact::runs_into;
+use super::contact::runs_into;
 use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_math::{Bounds3, DAffine3, Vec3};
 use enfilade_scene::{BodyMotion, BodyStates};
