@@ -62,7 +62,9 @@ pub fn run() -> std::io::Result<()> {
         for joint in &made.joints {
             *opened.entry(joint.kind.name().into()).or_default() += 1;
             if let Some(thing) = &joint.limited_by {
-                *limits.entry(format!("{} of {} by {}", joint.kind.name(), family_of(object_of(&joint.body)), family_of(thing))).or_default() += 1;
+                *limits
+                    .entry(format!("{} of {} by {}", joint.kind.name(), family_of(object_of(&joint.body)), family_of(thing)))
+                    .or_default() += 1;
             }
         }
         for fault in found {

@@ -118,7 +118,10 @@ mod tests {
         let moving = with_motion(&scene(), &[opens("door_1", &[0.0, 1.0]), opens("dresser_*/drawer_?", &[0.2, 0.6])]).unwrap();
         assert_eq!(moving.bodies.len(), 4);
         let right = std::f64::consts::FRAC_PI_2;
-        assert_eq!([0.0, 0.5, 2.0].map(|time_s| moving.bodies[0].motion.state_at(time_s).unwrap()), [-0.5 * right, 0.5 * right, 1.5 * right]);
+        assert_eq!(
+            [0.0, 0.5, 2.0].map(|time_s| moving.bodies[0].motion.state_at(time_s).unwrap()),
+            [-0.5 * right, 0.5 * right, 1.5 * right]
+        );
         assert_eq!(moving.bodies[1].motion.state_at(1.0), Some(0.3));
         assert!(moving.at(1.0).parts[1].world_from_mesh.translation.abs_diff_eq(DVec3::Y * 0.3, 1e-12));
         assert!(moving.bodies[2].motion.is_rest() && moving.bodies[0].limits == scene().bodies[0].limits);

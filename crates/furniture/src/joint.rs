@@ -140,11 +140,9 @@ impl Joint {
     pub(crate) fn at_rest(&self, world_from_object: &DAffine3) -> BodyStates {
         let direction = |axis: DVec3| world_from_object.transform_vector3(axis).normalize();
         match self.axis {
-            Axis::Hinge { point, along } => BodyStates::Hinge {
-                point: world_from_object.transform_point3(point),
-                axis: direction(along),
-                angles_rad: vec![0.0],
-            },
+            Axis::Hinge { point, along } => {
+                BodyStates::Hinge { point: world_from_object.transform_point3(point), axis: direction(along), angles_rad: vec![0.0] }
+            }
             Axis::Slide(axis) => BodyStates::Slide { axis: direction(axis), distances_m: vec![0.0] },
         }
     }

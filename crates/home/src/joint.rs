@@ -1,8 +1,8 @@
 //! A joint of a home, and the joints as the layout lists them.
 
-use enfilade_furniture::{JointKind, Jointed};
+use enfilade_furniture::{JointKind, Jointed, object_of};
 use enfilade_math::DVec3;
-use enfilade_scene::{Body, BodyStates, Hinge, Labels, RoomJoint, Scene, WallOpening};
+use enfilade_scene::{Body, BodyStates, Hinge, Labels, PartId, RoomJoint, Scene, WallOpening};
 
 /// A joint of a home. Its range is in the limits of the body of its name: closed and open, relative to the home's rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +31,9 @@ pub(crate) fn listed(joints: &[HomeJoint], scene: &Scene, labels: &Labels) -> Ve
     let joint = |joint: &HomeJoint| {
         let body = body_named(scene, &joint.body)?;
         let [closed, open] = body.limits?;
+        // Not one of what it carries.
+        let is_own = |part: &PartId| object_of(&scene.parts[*part as usize].name) == object_of(&joint.body);
+        let own = body.parts.iter().copied().find(is_own)?;
         let (axis, point) = match &body.motion.states {
             BodyStates::Hinge { axis, point, .. } => (axis, Some(point.to_array())),
             BodyStates::Slide { axis, .. } => (axis, None),
@@ -39,7 +42,7 @@ pub(crate) fn listed(joints: &[HomeJoint], scene: &Scene, labels: &Labels) -> Ve
         Some(RoomJoint {
             name: joint.body.clone(),
             kind: joint.kind.name().into(),
-            instance: labels.parts.get(*body.parts.first()? as usize)?.instance,
+            instance: labels.parts.get(own as usize)?.instance,
             joint: body.motion.states.joint().into(),
             axis: axis.to_array(),
             point_m: point,

@@ -51,8 +51,11 @@ fn joints_leave_a_home_as_it_is(plain: &Home, made: &Home) {
     assert!(plain.joints.is_empty() && plain.scene.bodies.is_empty() && plain.rooms().joints.is_empty());
     assert_eq!((&plain.removed, plain.moved.len()), (&made.removed, made.moved.len()));
     let (usual, found) = (places(plain), places(made));
-    let moved: Vec<&str> =
-        usual.iter().filter(|(name, at)| found.get(*name).is_some_and(|here| !here.abs_diff_eq(**at, 1e-9))).map(|(name, _)| *name).collect();
+    let moved: Vec<&str> = usual
+        .iter()
+        .filter(|(name, at)| found.get(*name).is_some_and(|here| !here.abs_diff_eq(**at, 1e-9)))
+        .map(|(name, _)| *name)
+        .collect();
     assert!(moved.is_empty(), "{moved:?}");
     // Only what was one part is several now.
     let gone: BTreeSet<&str> = usual.keys().filter(|name| !found.contains_key(*name)).filter_map(|name| name.split('/').nth(1)).collect();

@@ -100,6 +100,8 @@ impl Furniture for KitchenIsland {
         b.part_at(&object, "back", grained(back, rng), local, self.style.lower);
         let fronts = b.object("kitchen_unit", Class::Cabinet, units);
         let count = (self.length / 0.55) as usize;
+        // Beside a sink the upper fronts hide its bowl.
+        let upper = if self.fixture == Fixture::Sink { Opening::Fixed } else { Opening::Drawer };
         for k in 0..count {
             let x = [k, k + 1].map(|k| INNER + (self.length - 2.0 * INNER) * k as f32 / count as f32);
             let split = low + 0.5 * (top - low);
@@ -121,7 +123,7 @@ impl Furniture for KitchenIsland {
                     &format!("drawer_{}_2", k + 1),
                     [x[0], x[1], split, top],
                     BOX + CONTACT,
-                    Opening::Drawer,
+                    upper,
                     &self.style,
                     self.style.lower,
                     rng,

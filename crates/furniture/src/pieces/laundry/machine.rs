@@ -156,7 +156,15 @@ fn plate_with_hole([x0, x1, z0, z1]: [f32; 4], y: [f32; 2], middle: f32, radius:
     // Around the hole: on the front out to the rim, to the rear, and back.
     let point = |i: usize, j: usize| {
         let way = Vec2::from_angle(angles[i % n]);
-        let reach = |way: f32, low: f32, high: f32| if way > 0.0 { high / way } else if way < 0.0 { low / way } else { f32::INFINITY };
+        let reach = |way: f32, low: f32, high: f32| {
+            if way > 0.0 {
+                high / way
+            } else if way < 0.0 {
+                low / way
+            } else {
+                f32::INFINITY
+            }
+        };
         let rim = reach(way.x, x0, x1).min(reach(way.y, z0 - middle, z1 - middle));
         let p = way * if j == 1 || j == 2 { rim } else { radius };
         let depth = if j == 2 || j == 3 { y[0] } else { y[1] };
