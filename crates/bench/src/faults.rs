@@ -1,10 +1,10 @@
-//! `faults [FIRST] [COUNT] [--rooms a,b,c | --random-rooms]` makes homes of consecutive seeds and reports what had to be moved, what had to
+//! `faults [FIRST] [COUNT] [--rooms a,b,c | --random-rooms] [--joints]` makes homes of consecutive seeds and reports what had to be moved, what had to
 //! be removed and why, which faults remain, how much processor time they took and how large they are. With `--random-rooms` each has one to
-//! twelve rooms of any kinds, which its seed decides.
+//! twelve rooms of any kinds, which its seed decides. With `--joints` their things can be opened, and what limits that is counted.
 
-use enfilade_furniture::family_of;
+use enfilade_furniture::{family_of, object_of};
 use enfilade_home::check::faults;
-use enfilade_home::{HomeConfig, RoomKind, home};
+use enfilade_home::{HomeConfig, RoomKind, States, home};
 use enfilade_math::Rng;
 use enfilade_testkit::process_cpu_s;
 use std::collections::BTreeMap;
@@ -23,12 +23,13 @@ pub fn run() -> std::io::Result<()> {
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(20));
     let rooms: Vec<RoomKind> = value("--rooms").iter().flat_map(|text| text.split(',')).filter_map(RoomKind::from_name).collect();
     let random_rooms = args.iter().any(|a| a == "--random-rooms");
-    let [mut kinds, mut families, mut causes, mut moved] = [const { Counts::new() }; 4];
+    let joints = args.iter().any(|a| a == "--joints");
+    let [mut kinds, mut families, mut causes, mut moved, mut limits, mut opened] = [const { Counts::new() }; 6];
     let (mut seconds, mut longest, mut triangles, mut sound) = (0.0, 0.0f64, 0, 0);
     for seed in first..first + count {
         let rooms = if random_rooms { any_rooms(seed) } else { rooms.clone() };
         let start = process_cpu_s();
-        let config = HomeConfig { seed, rooms, ..HomeConfig::default() };
+        let config = HomeConfig { seed, rooms, states: joints.then_some(States::MADE), ..HomeConfig::default() };
         let Ok(made) = std::panic::catch_unwind(|| home(&config)) else {
             println!("{seed:5}  panics with the rooms {:?}", config.rooms);
             *kinds.entry("panics".into()).or_default() += 1;
@@ -58,6 +59,14 @@ pub fn run() -> std::io::Result<()> {
             }
             *moved.entry(family_of(&shift.object).to_string()).or_default() += 1;
         }
+        for joint in &made.joints {
+            *opened.entry(joint.kind.name().into()).or_default() += 1;
+            if let Some(thing) = &joint.limited_by {
+                *limits
+                    .entry(format!("{} of {} by {}", joint.kind.name(), family_of(object_of(&joint.body)), family_of(thing)))
+                    .or_default() += 1;
+            }
+        }
         for fault in found {
             println!("       {fault}");
             *kinds.entry(fault.kind()).or_default() += 1;
@@ -72,6 +81,10 @@ pub fn run() -> std::io::Result<()> {
     show("removed, by family", families, count);
     show("removed, by cause", causes, count);
     show("moved, by family", moved, count);
+    if joints {
+        show("joints", opened, count);
+        show("joints that something limits", limits, count);
+    }
     Ok(())
 }
 

@@ -4,7 +4,7 @@
 //! surfaces for them, and lets them come to rest: `world` is a rigid-body simulation in which the parts of the scene do not move. Models
 //! are simulated as the convex pieces that `pieces` cuts them into. What cannot be placed is left out with the reason, or refused.
 //!
-//! What moves in a scene by `[[motion]]` is in `motion`.
+//! What moves in a scene by `[[motion]]` is in `motion`, what opens by its joints in `joints`.
 //!
 //! The result is a function of the scene, the groups and the seed: the simulation runs on one thread, in double precision, with an
 //! arithmetic that is the same on every processor.
@@ -13,6 +13,7 @@ mod compose;
 mod draw;
 mod error;
 mod group;
+mod joints;
 mod materials;
 mod model;
 mod motion;

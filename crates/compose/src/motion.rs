@@ -1,5 +1,6 @@
 //! `[[motion]]`: what moves in a scene, and how.
 
+use crate::joints::{self, Opening};
 use crate::surfaces::fits;
 use crate::{ComposeError, Many};
 use enfilade_math::{DQuat, DVec3};
@@ -18,6 +19,13 @@ options! {
     pub struct MotionGroup {
         /// What moves: names of objects or parts, with `*` and `?`; one or a list.
         pub of: Many = Many::default(),
+        /// What moves, by its joint, in place of `of` and an axis: names of joints (`dresser_1/drawer_2`) or of objects with joints
+        /// (`door_1`), with `*` and `?`; one or a list. `open` says how.
+        #[serde(skip_serializing_if = "Many::is_empty")]
+        pub joint: Many = Many::default(),
+        /// Shares of the joint's range at these moments: 0 is closed, 1 open as far as it goes.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub open: Vec<f64> = Vec::new(),
         /// Name of the body; the first of `of` unless given.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub name: Option<String> = None,
@@ -49,9 +57,16 @@ options! {
 /// The first value that cannot be, with its key, and names of nothing.
 pub fn with_motion(scene: &Scene, groups: &[MotionGroup]) -> Result<Scene, ComposeError> {
     let mut scene = scene.clone();
+    let mut opened = BTreeSet::new();
     for (group, number) in groups.iter().zip(1..) {
-        let body = group.body(&scene, number)?;
-        scene.bodies.push(body);
+        if group.joint.is_empty() {
+            let body = group.body(&scene, number)?;
+            scene.bodies.push(body);
+        } else {
+            group.validate(number)?;
+            let opening = Opening { names: &group.joint.0, times_s: &group.times_s, shares: &group.open };
+            joints::open(&mut scene, &opening, &mut opened).map_err(|problem| wrong(number, "joint", problem))?;
+        }
         scene.validate().map_err(|error| wrong(number, "of", error.to_string()))?;
     }
     Ok(scene)
@@ -68,8 +83,11 @@ impl MotionGroup {
     /// The first value that cannot be, with its key.
     pub fn validate(&self, group: usize) -> Result<(), ComposeError> {
         let refuse = |key, problem: &str| Err(wrong(group, key, problem.into()));
+        if !self.joint.is_empty() || !self.open.is_empty() {
+            return self.validate_joint(group);
+        }
         if self.of.0.is_empty() {
-            return refuse("of", "missing; expected names of objects or parts, such as of = \"door_1\"");
+            return refuse("of", "missing; expected names of objects or parts, such as of = \"door_1\", or a joint");
         }
         let free = !self.moved_m.is_empty() || !self.turned_deg.is_empty();
         if usize::from(free) + usize::from(!self.angles_deg.is_empty()) + usize::from(!self.distances_m.is_empty()) != 1 {
@@ -89,6 +107,36 @@ impl MotionGroup {
             return Err(wrong(group, "axis", format!("found {:?}, expected a direction such as [0, 0, 1]", self.axis)));
         }
         Ok(())
+    }
+
+    /// Checks the values of a group that has `joint` or `open`.
+    fn validate_joint(&self, group: usize) -> Result<(), ComposeError> {
+        let refuse = |key, problem: String| Err(wrong(group, key, problem));
+        if self.joint.is_empty() {
+            return refuse("open", "a share of the range of a joint; expected joint = \"NAME\" beside it".into());
+        }
+        let usual = Self::default();
+        let others = [
+            ("of", !self.of.is_empty()),
+            ("name", self.name.is_some()),
+            ("on", self.on.is_some()),
+            ("angles_deg", !self.angles_deg.is_empty()),
+            ("distances_m", !self.distances_m.is_empty()),
+            ("moved_m", !self.moved_m.is_empty()),
+            ("turned_deg", !self.turned_deg.is_empty()),
+            ("axis", self.axis != usual.axis),
+            ("point_m", self.point_m.is_some()),
+        ];
+        if let Some((key, _)) = others.into_iter().find(|(_, given)| *given) {
+            return refuse(key, "beside `joint`, which has its own name, axis and parts; expected `times_s` and `open` alone".into());
+        }
+        if self.open.len() != self.times_s.len() || self.open.is_empty() {
+            return refuse("open", format!("{} shares for {} moments in times_s", self.open.len(), self.times_s.len()));
+        }
+        match self.open.iter().find(|share| !(0.0..=1.0).contains(*share)) {
+            Some(share) => refuse("open", format!("found {share}, expected shares from 0 (closed) to 1 (open)")),
+            None => Ok(()),
+        }
     }
 
     fn axis(&self) -> Option<DVec3> {

@@ -1,12 +1,13 @@
 //! Puts parts, labels and materials together into a scene.
 
+use crate::joint::{Joint, Jointed};
 use crate::lamplight::Glow;
 use crate::materials::{Materials, Surfacing};
 use crate::models::{Body, Model};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb};
-use enfilade_scene::{Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
+use enfilade_scene::{BodyMotion, Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -81,6 +82,8 @@ pub struct Builder {
     loaned: BTreeMap<usize, Arc<Loaned>>,
     /// The models behind objects, by the objects' names.
     models: BTreeMap<String, Arc<Model>>,
+    /// The joints so far, one for each body of the scene; `None` where nothing has joints.
+    joints: Option<Vec<Jointed>>,
 }
 
 /// Indices of a model's meshes and materials in the scene.
@@ -108,7 +111,35 @@ impl Builder {
             instances: 0,
             loaned: BTreeMap::new(),
             models: BTreeMap::new(),
+            joints: None,
         }
+    }
+
+    /// A builder of things that can be opened: they have joints, and an inside.
+    #[must_use]
+    pub fn with_joints(self) -> Self {
+        Self { joints: Some(Vec::new()), ..self }
+    }
+
+    /// True where things have joints, and need what is to be seen when they are open.
+    pub fn has_joints(&self) -> bool {
+        self.joints.is_some()
+    }
+
+    /// Lets `parts` of `object`, in ascending order, move by a joint; nothing where things have none. `name` is that of what moves.
+    pub fn joint(&mut self, object: &Object, name: &str, joint: &Joint, parts: impl IntoIterator<Item = usize>) {
+        let Some(joints) = &mut self.joints else { return };
+        let body = format!("{}/{name}", object.name);
+        joints.push(Jointed { body: body.clone(), kind: joint.kind });
+        let motion = BodyMotion { times_s: vec![0.0], states: joint.at_rest(&object.pose) };
+        let parts = parts.into_iter().map(|part| part as u32).collect();
+        let limits = Some(joint.limits);
+        self.scene.bodies.push(enfilade_scene::Body { name: body, parent: None, parts, lights: Vec::new(), motion, limits });
+    }
+
+    /// The joints of the things built so far, one for each body of the scene.
+    pub fn joints(&self) -> &[Jointed] {
+        self.joints.as_deref().unwrap_or_default()
     }
 
     /// Parts added from now on have the colours of `palette`; in a `dark` room all lamps are lit at any hour.
@@ -200,6 +231,11 @@ impl Builder {
     pub fn take_back(&mut self, count: usize) {
         self.scene.parts.truncate(count);
         self.labels.parts.truncate(count);
+        let kept = self.scene.bodies.iter().take_while(|body| body.parts.iter().all(|&part| (part as usize) < count)).count();
+        self.scene.bodies.truncate(kept);
+        if let Some(joints) = &mut self.joints {
+            joints.truncate(kept);
+        }
     }
 
     /// Adds a material that only one object has.

@@ -20,6 +20,7 @@
 
 pub mod assets;
 mod builder;
+mod joint;
 mod lamplight;
 mod materials;
 pub mod meet;
@@ -33,6 +34,7 @@ mod surface;
 pub mod touch;
 
 pub use builder::{Builder, Class, Object, pose};
+pub use joint::{Axis, Joint, JointKind, Jointed};
 pub use lamplight::{Exposure, Glow, LampLight};
 pub use materials::{Finish, Materials, Surfacing};
 pub use names::{family_of, object_of};

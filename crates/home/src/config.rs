@@ -2,6 +2,7 @@
 
 use crate::light::Moment;
 use crate::room::kind::usual_programme;
+use crate::states::States;
 use enfilade_furniture::RoomKind;
 use enfilade_math::Rng;
 use enfilade_options::{named, options, words};
@@ -64,6 +65,13 @@ options! {
         pub moment: Option<Moment> = None,
         /// Density of small things: 0 leaves only the contents of shelves and cabinets, 1 looks lived in, 2 is untidy.
         pub clutter: f32 = 1.0,
+        /// What is open: `made`, `closed`, `open`, `random`, or, in files, a share of the range, or a table of these by name.
+        ///
+        /// Furniture has an inside and joints where it is given; without it, homes are those of earlier versions, in which nothing can be
+        /// opened. `made` leaves everything as it is in these. Names are those of joints (`dresser_1/drawer_2_1`), of objects (`door_1`), both
+        /// also with `*` and `?`, or kinds (`drawer`).
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub states: Option<States> = None,
         /// Folders of glTF models, or furniture of Sweet Home 3D (.sh3f), to take in place of our own furniture where a model fits.
         ///
         /// As written; the caller reads them.

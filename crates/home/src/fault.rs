@@ -1,6 +1,6 @@
 //! Faults of a home, in words for people and in families to be counted.
 
-use enfilade_furniture::family_of;
+use enfilade_furniture::{family_of, object_of};
 use std::fmt;
 
 /// Something that is wrong with a home.
@@ -16,6 +16,8 @@ pub enum Fault {
     Unreachable(usize),
     /// A start camera is too near to a part.
     Camera(String),
+    /// What moves by the joint runs into the object within its range.
+    Blocked(String, String),
 }
 
 impl Fault {
@@ -24,6 +26,7 @@ impl Fault {
         match self {
             Self::Meets(a, b) => format!("{} runs into {}", family_of(a), family_of(b)),
             Self::Floats(a) => format!("{} floats", family_of(a)),
+            Self::Blocked(joint, by) => format!("a joint of {} is blocked by {}", family_of(object_of(joint)), family_of(by)),
             other => other.to_string(),
         }
     }
@@ -37,6 +40,7 @@ impl fmt::Display for Fault {
             Self::Nameless(part) => write!(f, "{part} has no label"),
             Self::Unreachable(room) => write!(f, "room {room} cannot be reached"),
             Self::Camera(name) => write!(f, "camera {name} is not in free space"),
+            Self::Blocked(joint, by) => write!(f, "{joint} runs into {by} within its range"),
         }
     }
 }

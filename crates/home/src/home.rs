@@ -1,6 +1,7 @@
 //! A finished home: its scene with labels and floor plan, and what was moved or removed to make it possible.
 
 use crate::fault::Fault;
+use crate::joint::{HomeJoint, hang, listed};
 use crate::plan::FloorPlan;
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{DVec3, Vec3};
@@ -29,6 +30,10 @@ pub struct Home {
     pub credits: Vec<String>,
     /// What of a drawn plan was left out, guessed or added, and what its rooms lack; empty for other homes.
     pub notes: Vec<String>,
+    /// What can be opened, and how far; empty unless [`HomeConfig::states`](crate::HomeConfig::states) is given.
+    pub joints: Vec<HomeJoint>,
+    /// What is not as the states ask for, and names in them of nothing.
+    pub state_notes: Vec<String>,
 }
 
 impl Home {
@@ -42,7 +47,10 @@ impl Home {
             let front = front.map(|front| front.normalize().to_array());
             RoomThing { instance, name: name.into(), family: family_of(name).into(), front }
         };
-        Rooms { things: names.into_iter().map(thing).collect(), ..self.plan.to_rooms() }
+        let joints = listed(&self.joints, &self.scene, &self.labels);
+        let mut rooms = Rooms { things: names.into_iter().map(thing).collect(), joints, ..self.plan.to_rooms() };
+        hang(&mut rooms.openings, &self.joints, &self.scene);
+        rooms
     }
 }
 

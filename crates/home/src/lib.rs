@@ -22,19 +22,24 @@ mod config;
 mod fault;
 mod gravity;
 mod home;
+mod joint;
 mod lacks;
 pub mod light;
+mod open;
 mod place;
 mod plan;
 pub mod room;
 mod rooms;
 mod settle;
 mod shell;
+mod states;
 
 pub use config::{HomeConfig, RoomShape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
+pub use joint::HomeJoint;
 pub use plan::FloorPlan;
+pub use states::{State, StateWord, States};
 
 use enfilade_furniture::assets::Library;
 use enfilade_furniture::models::Model;
@@ -107,13 +112,21 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     // Shell and furniture of every room.
     let mut builder = Builder::new(Materials::new(decor.palette(), light.lamp_light(), decor.pictures()));
+    if config.states.is_some() {
+        builder = builder.with_joints();
+    }
     rooms::furnish(&mut builder, &plan, &decor, config, library);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
+    let jointed = builder.joints().to_vec();
     let (scene, labels) = builder.finish();
+    let joints = jointed.iter().filter_map(|jointed| HomeJoint::new(jointed, &scene)).collect();
     let (removed, moved, credits, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut home = Home { scene, labels, plan, fronts, removed, moved, credits, notes };
+    let mut home = Home { scene, labels, plan, fronts, removed, moved, credits, notes, joints, state_notes: Vec::new() };
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
+    if let Some(states) = &config.states {
+        open::open(&mut home, states, &config.stream(None, 8));
+    }
     home.credits = self::credits(&home.scene, &models);
     // Light and cameras are for the home as it is in the end.
     light.illuminate(&mut home.scene, &outlooks(&home.plan));

@@ -13,7 +13,7 @@ use crate::{Home, Removal, Shift};
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::object_of;
 use enfilade_math::{DAffine3, Vec3};
-use enfilade_scene::{Part, PartLabel, is_stuff};
+use enfilade_scene::{PartId, PartLabel, is_stuff};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Moves what can be put right, and removes what cannot; the shell stays.
@@ -27,14 +27,23 @@ pub fn settle(home: &mut Home) {
             part.world_from_mesh = DAffine3::from_translation(by.as_dvec3()) * part.world_from_mesh;
         }
     }
+    for body in &mut home.scene.bodies {
+        let by = moved.get(object_of(&body.name)).map(|by| DAffine3::from_translation(by.as_dvec3()));
+        if let Some(carried) = by.and_then(|by| body.carried(&by)) {
+            *body = carried;
+        }
+    }
     let mut gone = condemned(&bodies, &contacts);
     clear_ways(home, &bodies, &contacts, &mut gone);
     home.removed = gone.into_iter().map(|(i, fault)| Removal { object: bodies[i].name.clone(), fault }).collect();
     let gone: BTreeSet<&str> = home.removed.iter().map(|removal| removal.object.as_str()).collect();
     let (scene, labels) = (&mut home.scene, &mut home.labels);
-    let kept = |part: &Part| !gone.contains(object_of(&part.name));
-    let labelled = std::mem::take(&mut scene.parts).into_iter().zip(std::mem::take(&mut labels.parts));
-    (scene.parts, labels.parts) = labelled.filter(|(part, _)| kept(part)).unzip();
+    let is_gone: BTreeSet<PartId> =
+        scene.parts.iter().zip(0..).filter(|(part, _)| gone.contains(object_of(&part.name))).map(|(_, part)| part).collect();
+    let mut part = 0..;
+    labels.parts.retain(|_| part.next().is_none_or(|part| !is_gone.contains(&part)));
+    scene.remove_parts(&is_gone);
+    home.joints.retain(|joint| !gone.contains(object_of(&joint.body)));
     home.moved = moved.into_iter().filter(|(object, _)| !gone.contains(object.as_str())).map(|(object, by)| Shift { object, by }).collect();
     number_instances(home);
     drop_unused(home);
@@ -118,6 +127,7 @@ mod tests {
     use crate::{HomeConfig, RoomKind};
     use enfilade_furniture::pose;
     use enfilade_furniture::shape::bevelled_box;
+    use enfilade_scene::Part;
 
     #[test]
     fn what_stands_in_the_only_way_goes() {

@@ -59,7 +59,7 @@ pub use photometry::PhotometricWeb;
 pub use picture_files::{PictureFile, PictureFiles};
 pub use pictures::{PngEffort, smallest_png};
 pub use room_planes::{PLANE_NEAR_M, PlaneKind, RoomPlane};
-pub use rooms::{DoorLeaf, Hinge, OpeningKind, RoomOutline, RoomThing, Rooms, RoomsFit, WallFace, WallOpening};
+pub use rooms::{DoorLeaf, Hinge, OpeningKind, RoomJoint, RoomOutline, RoomThing, Rooms, RoomsFit, WallFace, WallOpening};
 pub use scene::{Part, PartId, Scene, SceneError};
 pub use slope::{CeilingSlope, Slope};
 pub use text::{decoded_text, without_padding};

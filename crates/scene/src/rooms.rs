@@ -43,6 +43,9 @@ pub struct Rooms {
     /// The labelled instances, in ascending order.
     #[serde(default)]
     pub things: Vec<RoomThing>,
+    /// What can be opened; empty where things have no joints.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<RoomJoint>,
     /// How well it agrees with the scene's surfaces, where it was fitted to them; `None` where the building was made after it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fit: Option<RoomsFit>,
@@ -70,6 +73,31 @@ pub struct RoomThing {
     pub family: String,
     /// Unit vector in the direction of its front, seen from above; `None` for things that lie on their back.
     pub front: Option<[f64; 2]>,
+}
+
+/// What can be opened of a thing: a door, a drawer, a lid. Its body in `metadata_bodies.csv` has the same name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RoomJoint {
+    /// Name of the thing, `/`, and the name of what moves: `dresser_1/drawer_2`.
+    pub name: String,
+    /// The thing that moves: `door`, `window`, `cupboard`, `drawer`, `flap`, `lid`, `tap` or `chair`.
+    pub kind: String,
+    /// Number of the instance that moves, as in the images.
+    pub instance: i16,
+    /// `hinge` or `slide`.
+    pub joint: String,
+    /// Unit vector: a hinge opens counter-clockwise seen against it, a slide in its direction.
+    pub axis: [f64; 3],
+    /// A point on the axis of a hinge, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point_m: Option<[f64; 3]>,
+    /// Its states closed and open as far as it goes, radians or metres from how it is.
+    pub limits: [f64; 2],
+    /// The share of that range by which it is open.
+    pub state: f64,
+    /// The thing that stops it before it is wide open, or before it is closed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limited_by: Option<String>,
 }
 
 /// A room between floor and ceiling, both level; where [`Rooms::slopes`] are lower, they are the ceiling.
@@ -168,6 +196,7 @@ impl Default for Rooms {
             walls: Vec::new(),
             openings: Vec::new(),
             slopes: Vec::new(),
+            joints: Vec::new(),
             things: Vec::new(),
             fit: None,
         }

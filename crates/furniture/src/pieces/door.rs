@@ -7,6 +7,7 @@
 
 use super::{WallOpening, board};
 use crate::builder::{Builder, Class, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::shape::{Reshape, lathe, picture_frame, tube};
 use enfilade_geometry::Mesh;
@@ -95,11 +96,11 @@ impl Door {
         let mesh =
             board([-stop - 0.001, LEAF[0] - 0.0295, top - LINING - 0.014], [stop + 0.001, LEAF[0] - 0.0005, top - LINING + 0.002], 0.001);
         b.part(&door, "stop_top", mesh, white);
-        self.hang(b, &door, Vec2::new(half - LINING - PLAY, top - LINING - PLAY));
+        self.hang(b, &door, Vec2::new(half - LINING - PLAY, top - LINING - PLAY), opening.outer);
     }
 
-    /// The leaf about its hinges; `size` is half its width and its height.
-    fn hang(&self, b: &mut Builder, door: &Object, size: Vec2) {
+    /// The leaf about its hinges; `size` is half its width and its height. An `outer` one stays shut: nothing is behind it.
+    fn hang(&self, b: &mut Builder, door: &Object, size: Vec2, outer: bool) {
         let Leaf { hinge, open_rad, .. } = self.leaf;
         // Hinges sit at the front edge of the leaf, which turns about them into the room.
         let pivot = Vec3::new(hinge * size.x, LEAF[1], 0.0).as_dvec3();
@@ -107,6 +108,7 @@ impl Door {
             * DAffine3::from_rotation_z(f64::from(-hinge * open_rad))
             * DAffine3::from_translation(-pivot);
         let white = Finish::WhitePaint;
+        let from = b.part_count();
         b.part_at(door, "leaf", board([-size.x, LEAF[0], 0.007], [size.x, LEAF[1], size.y], 0.002), swing, white);
         for (side, front) in [("", true), ("_back", false)] {
             // Both faces are alike; the back one is the front one turned about the leaf's middle.
@@ -123,6 +125,9 @@ impl Door {
             }
             let hand = if front { -hinge } else { hinge };
             b.part_at(door, &format!("handle{side}"), onto_face(handle(hand * (size.x - 0.065), hand)), swing, Finish::Steel);
+        }
+        if !outer {
+            b.joint(door, "leaf", &Joint::leaf(hinge * size.x, LEAF[1], hinge, open_rad), from..b.part_count());
         }
         for (i, z) in [0.24, size.y - 0.24].into_iter().enumerate() {
             let knuckle = tube(&[Vec3::new(0.0, 0.0, z - 0.04), Vec3::new(0.0, 0.0, z + 0.04)], 0.006, 12);

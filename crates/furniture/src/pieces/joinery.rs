@@ -4,11 +4,13 @@
 use super::form::{all, rod, turned};
 use super::{board, grained, leg, on};
 use crate::builder::{Builder, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::FRAC_PI_2;
+use std::ops::Range;
 
 /// Air between boards that meet, and between feet and what they carry, metres: it keeps two faces out of one plane.
 const GAP: f32 = 0.0002;
@@ -178,6 +180,94 @@ pub fn front(rect: [f32; 4], back: f32, thick: f32, framed: bool, rng: &mut Rng)
         piece([x0 + rail + e, z1 - rail], [x1 - rail - e, z1]),
     ];
     frame.into_iter().fold(panel, |mesh, part| mesh.with(grained(part, rng)))
+}
+
+/// Five boards around a box between two corners that is open to +y: the inside of what is closed by a front.
+pub fn hollow_box(min: [f32; 3], max: [f32; 3], thick: f32) -> Mesh {
+    let ([x0, y0, z0], [x1, y1, z1], t, e) = (min, max, thick, GAP);
+    let bevel = 0.1 * t;
+    all([
+        board([x0, y0, z0], [x1, y1, z0 + t], bevel),
+        board([x0, y0, z1 - t], [x1, y1, z1], bevel),
+        board([x0, y0, z0 + t + e], [x0 + t, y1, z1 - t - e], bevel),
+        board([x1 - t, y0, z0 + t + e], [x1, y1, z1 - t - e], bevel),
+        board([x0 + t + e, y0, z0 + t + e], [x1 - t - e, y0 + t, z1 - t - e], bevel),
+    ])
+}
+
+/// A solid box between two corners, or a hollow one where things can be opened.
+pub fn body_box(b: &Builder, min: [f32; 3], max: [f32; 3], bevel: f32) -> Mesh {
+    if b.has_joints() { hollow_box(min, max, INSIDE) } else { board(min, max, bevel) }
+}
+
+/// Thickness of the boards of hollow boxes, metres.
+pub const INSIDE: f32 = 0.016;
+
+/// The box of a drawer, open above: `rect` is that of its front, whose back is at y = `front`, and it is `depth` deep. It leaves room for
+/// runners at its sides, and for the boards around it.
+pub fn drawer_box([x0, x1, z0, z1]: [f32; 4], front: f32, depth: f32) -> Mesh {
+    /// Distance from the edges of the front at the sides, below and above, metres.
+    const ROOM: [f32; 3] = [0.033, 0.022, 0.034];
+    /// Thickness of its boards, metres.
+    const BOARD: f32 = 0.012;
+    let ([x0, x1, z0, z1], y) = ([x0 + ROOM[0], x1 - ROOM[0], z0 + ROOM[1], z1 - ROOM[2]], [front - depth, front - GAP]);
+    let (t, e) = (BOARD, GAP);
+    let z1 = z1.max(z0 + 2.0 * t);
+    all([
+        board([x0, y[0], z0], [x1, y[1], z0 + 0.5 * t], 0.001),
+        board([x0, y[0], z0 + 0.5 * t + e], [x0 + t, y[1], z1], 0.001),
+        board([x1 - t, y[0], z0 + 0.5 * t + e], [x1, y[1], z1], 0.001),
+        board([x0 + t + e, y[0], z0 + 0.5 * t + e], [x1 - t - e, y[0] + t, z1], 0.001),
+    ])
+}
+
+/// Lets the drawer that consists of the parts from number `from` on be pulled out, and gives it a box, as [`boxed`] does.
+pub fn pull(b: &mut Builder, object: &Object, name: &str, from: usize, rect: [f32; 4], front: f32, depth: f32, finish: Finish) {
+    let joint = boxed(b, object, name, rect, front, depth, finish);
+    b.joint(object, name, &joint, from..b.part_count());
+}
+
+/// Adds the box of a drawer where things have joints: `rect` is that of its front, whose back is at y = `front`; the box is `depth` deep.
+/// Returns the drawer's joint.
+pub fn boxed(b: &mut Builder, object: &Object, name: &str, rect: [f32; 4], front: f32, depth: f32, finish: Finish) -> Joint {
+    /// Share of its depth by which a drawer can be pulled out.
+    const OUT: f32 = 0.8;
+    if b.has_joints() {
+        b.part(object, &format!("{name}_box"), drawer_box(rect, front, depth), finish);
+    }
+    Joint::drawer(OUT * depth)
+}
+
+/// The fronts of a cabinet whose knobs are of one piece, unless things have joints.
+#[derive(Default)]
+pub struct Knobbed {
+    knobs: Vec<Mesh>,
+    fronts: Vec<(String, Joint, Range<usize>)>,
+}
+
+impl Knobbed {
+    /// A door that consists of the parts from number `from` on.
+    pub fn door(&mut self, b: &Builder, name: &str, from: usize, joint: Joint, knob: Mesh) {
+        self.knobs.push(knob);
+        self.fronts.push((name.into(), joint, from..b.part_count()));
+    }
+
+    /// A drawer that consists of the parts from number `from` on, with its box as [`pull`] adds it.
+    pub fn drawer(&mut self, b: &mut Builder, object: &Object, (name, from): (&str, usize), rect: [f32; 4], y: [f32; 2], knob: Mesh) {
+        let joint = boxed(b, object, name, rect, y[1], y[1] - y[0], Finish::Wood);
+        self.door(b, name, from, joint, knob);
+    }
+
+    /// Adds the knobs, and lets the fronts open.
+    pub fn add(self, b: &mut Builder, object: &Object, finish: Finish) {
+        if !b.has_joints() {
+            return b.part(object, "knobs", all(self.knobs), finish);
+        }
+        for (knob, (name, joint, parts)) in self.knobs.into_iter().zip(self.fronts) {
+            b.part(object, &format!("{name}_knob"), knob, finish);
+            b.joint(object, &name, &joint, parts.chain([b.part_count() - 1]));
+        }
+    }
 }
 
 /// A finish that bodies of bedroom furniture have, at random.

@@ -24,6 +24,8 @@ mod foliage;
 pub mod form;
 pub mod hall;
 pub mod joinery;
+#[cfg(test)]
+mod joint_tests;
 pub mod kitchen;
 mod lamp;
 pub mod laundry;

@@ -3,6 +3,7 @@
 
 use super::{CONTACT, Furniture, board, grained, leg, on};
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -55,11 +56,15 @@ impl TelevisionBench {
                 [x + 0.5 * third - 0.003, front - 0.001, TOP - 0.0255],
                 0.0015,
             );
+            let from = b.part_count();
             b.part(&cabinet, &format!("door_{i}"), grained(door, rng), fronts);
             let knob =
                 leg(0.022, [0.011, 0.007], Vec2::ZERO).moved(Vec3::new(0.0, 0.0, -0.022)).turned(Vec3::X, std::f32::consts::FRAC_PI_2);
             let at = Vec3::new(x - x.signum() * (0.5 * third - 0.045), front - 0.0012, TOP - 0.075);
             b.part(&cabinet, &format!("knob_{i}"), knob.moved(at), Finish::Brass);
+            // The knob is towards the middle, the hinges are at the outer edge.
+            let edge = x + x.signum() * (0.5 * third - 0.003);
+            b.joint(&cabinet, &format!("door_{i}"), &Joint::cupboard(edge, front - 0.001, x.signum()), from..b.part_count());
             let wall = 0.5 * third * x.signum();
             let divider = board([wall - 0.009, back + 0.0125, LEG + INNER], [wall + 0.009, front - 0.002, TOP - INNER], 0.0015);
             b.part(&cabinet, &format!("divider_{i}"), grained(divider, rng), wood);

@@ -4,6 +4,7 @@
 
 use super::{WallOpening, board, leg};
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::shape::{Reshape, grid, picture_frame, rounded_box};
 use enfilade_math::{Vec2, Vec3};
@@ -50,6 +51,7 @@ impl Window {
             let sash = Vec2::new(cell, clear.y) + 2.0 * LAP;
             let name = i + 1;
             let frame = picture_frame(sash.x, sash.y, &section(SASH, [PANE - 0.028, PANE + 0.048]));
+            let from = b.part_count();
             b.part(&window, &format!("sash_{name}"), frame.moved(Vec3::new(x, 0.0, 0.0)), white);
             let glass = 0.5 * sash - SASH + 0.008;
             let pane = grid(
@@ -75,6 +77,9 @@ impl Window {
                 leg(0.034, [0.008, 0.008], Vec2::ZERO).turned(Vec3::X, -std::f32::consts::FRAC_PI_2).moved(at + Vec3::new(0.0, 0.010, 0.0));
             let lever = rounded_box(Vec3::new(0.018, 0.012, 0.125), 0.005, 3).moved(at + Vec3::new(0.0, 0.046, -0.05));
             b.part(&window, &format!("handle_{name}"), rose.with(neck).with(lever), Finish::Steel);
+            // Sash and pane, and the handle, which comes after the post.
+            let joint = Joint::window(x - hand * 0.5 * sash.x, PANE + 0.048, -hand);
+            b.joint(&window, &format!("sash_{name}"), &joint, [from, from + 1, b.part_count() - 1]);
         }
         let half = 0.5 * size.x + 0.045;
         let low = -0.5 * size.y;

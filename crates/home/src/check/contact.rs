@@ -76,6 +76,11 @@ impl Contacts {
         Self { touching: touching(bodies, &pairs), meeting: meetings(bodies, &pairs) }
     }
 
+    /// Those by touch alone.
+    pub fn of_touch(bodies: &[Body]) -> Self {
+        Self { touching: touching(bodies, &neighbours(bodies)), meeting: Vec::new() }
+    }
+
     /// Finds the contacts between the bodies of `group`, which have moved, and all others again.
     pub fn renew(&mut self, bodies: &[Body], group: &[usize]) {
         let changed = |&(a, b): &(usize, usize)| group.contains(&a) != group.contains(&b);

@@ -1,21 +1,23 @@
-//! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, and people can go everywhere.
+//! Whether a home is possible: nothing runs into anything, nothing floats, everything has a label, people can go everywhere, and what has
+//! joints can go as far as its range says.
 //!
 //! The finished triangles are judged, not what placed them.
 
+pub(crate) mod bodies;
 pub(crate) mod contact;
+pub(crate) mod moving;
+pub(crate) mod sweep;
 pub(crate) mod walk;
 
 pub use crate::fault::Fault;
 
 use crate::Home;
 use crate::cameras::{CLEARANCES, Obstacle};
+use bodies::bodies_of;
 use contact::Contacts;
 use enfilade_furniture::meet::Body;
-use enfilade_furniture::object_of;
-use enfilade_geometry::Mesh;
 use enfilade_math::Vec3;
 use enfilade_scene::{NYU40, is_stuff};
-use std::collections::BTreeMap;
 
 /// Slack for rounding, metres: cameras keep their distance from boxes that are computed in another way than those here.
 const ROUNDING: f32 = 0.002;
@@ -27,6 +29,7 @@ pub fn faults(home: &Home) -> Vec<Fault> {
     faults.extend(of_bodies(&bodies));
     faults.extend(walk::unreachable(home).into_iter().map(Fault::Unreachable));
     faults.extend(blocked_cameras(home));
+    faults.extend(moving::blocked(home).into_iter().map(|(joint, by)| Fault::Blocked(joint, by)));
     faults
 }
 
@@ -41,16 +44,7 @@ fn of_bodies(bodies: &[Body]) -> Vec<Fault> {
 
 /// The objects of a home, by name.
 pub(crate) fn bodies(home: &Home) -> Vec<Body> {
-    let scene = &home.scene;
-    let mut bodies: BTreeMap<&str, Body> = BTreeMap::new();
-    for part in &scene.parts {
-        let mesh: &Mesh = &scene.meshes[part.mesh as usize];
-        let world: Vec<Vec3> = scene.world_positions(part).collect();
-        let triangles = mesh.triangles.iter().map(|t| t.map(|i| world[i as usize])).collect();
-        let name = object_of(&part.name);
-        bodies.entry(name).or_insert_with(|| Body::new(name)).push(triangles);
-    }
-    bodies.into_values().collect()
+    bodies_of(&home.scene)
 }
 
 fn unlabelled(home: &Home) -> Vec<Fault> {

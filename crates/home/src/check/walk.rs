@@ -1,5 +1,6 @@
 //! Walkability of a finished home: where a person can go, and which objects are in the way.
 
+use super::moving::as_made;
 use crate::Home;
 use crate::place::BODY;
 use crate::plan::FloorPlan;
@@ -106,7 +107,8 @@ struct Obstacle<'a> {
     cost: Option<u32>,
 }
 
-/// The floor of a home with everything that stands on it. Doors do not count: people open them.
+/// The floor of a home with everything that stands on it. Doors do not count: people open them. Other things that have joints count as
+/// they are made: people close them.
 pub struct Floor<'a> {
     plan: &'a FloorPlan,
     grid: Grid,
@@ -183,13 +185,14 @@ impl<'a> Floor<'a> {
 /// Everything at the height of a body, in the order of names.
 fn obstacles<'a>(home: &'a Home, grid: &Grid) -> Vec<Obstacle<'a>> {
     let mut solid: BTreeMap<&str, (Vec<bool>, Vec3, Vec3)> = BTreeMap::new();
-    for part in &home.scene.parts {
+    for (part, map) in home.scene.parts.iter().zip(as_made(home)) {
         let object = object_of(&part.name);
         if family_of(object) == "door" {
             continue;
         }
         let mesh = &home.scene.meshes[part.mesh as usize];
-        let world: Vec<Vec3> = home.scene.world_positions(part).collect();
+        let place = |p: Vec3| map.map_or(p, |map| map.transform_point3(p.as_dvec3()).as_vec3());
+        let world: Vec<Vec3> = home.scene.world_positions(part).map(place).collect();
         let empty = || (vec![false; grid.columns * grid.rows], Vec3::INFINITY, Vec3::NEG_INFINITY);
         let (cells, low, high) = solid.entry(object).or_insert_with(empty);
         for point in &world {

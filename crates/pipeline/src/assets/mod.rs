@@ -35,6 +35,7 @@ pub(crate) fn home(config: &HomeConfig, locate: &dyn Fn(&str) -> Result<PathBuf,
         Some(written) => on_plan(config, &library, &locate(written)?)?,
     };
     home.notes.iter().for_each(|note| cx.warn(Warning { place: "plan".into(), message: note.clone() }));
+    home.state_notes.iter().for_each(|note| cx.warn(Warning { place: "states".into(), message: note.clone() }));
     let dropped = notes.take();
     if !dropped.is_empty() {
         cx.warn(Warning { place: "assets".into(), message: format!("models are not as their files say: {}", listed(&dropped)) });

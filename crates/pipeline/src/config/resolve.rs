@@ -21,7 +21,7 @@ use crate::request::{Product, Request};
 use enfilade_compose::{ComposeError, MotionGroup, ObjectGroup};
 use enfilade_dataset::{ColorKind, SCENE_TYPES, check_name, read_ray_grid, scene_type};
 use enfilade_explore::Mode;
-use enfilade_home::HomeConfig;
+use enfilade_home::{HomeConfig, States};
 use enfilade_import::EnvironmentOverride;
 use enfilade_label::LabelTable;
 use enfilade_options::with_nearest;
@@ -185,12 +185,20 @@ impl Resolver<'_> {
         let camera = keys.level.camera.as_ref().or(document.camera.as_ref());
 
         // Built-in defaults.
+        let motions = self.motions(keys)?;
+        let mut source = self.scene_source(entry, seed)?;
+        if let Source::Home(home) = &mut source
+            && motions.iter().any(|group| !group.joint.is_empty())
+        {
+            // What is moved by its joint needs one, and an inside.
+            home.states.get_or_insert(States::MADE);
+        }
         let mut scene = SceneConfig {
             seed,
-            source: self.scene_source(entry, seed)?,
+            source,
             varies: None,
             objects: self.objects(keys)?,
-            motions: self.motions(keys)?,
+            motions,
             labels: self.labels(keys, &name)?,
             scene_type: keys.scene_type.as_ref().map(|word| self.scene_type(word)).transpose()?,
             cameras: keys.cameras.chosen.clone(),

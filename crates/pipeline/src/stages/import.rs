@@ -86,6 +86,9 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
             if !home.notes.is_empty() {
                 report["plan"] = serde_json::json!(home.notes);
             }
+            if !home.state_notes.is_empty() {
+                report["states"] = serde_json::json!(home.state_notes);
+            }
             // Its files were known before, and hashed.
             let rooms = home.rooms();
             (home.scene, Some(home.labels), Some(rooms), None, report, None)

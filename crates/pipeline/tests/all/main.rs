@@ -7,6 +7,7 @@ mod damage;
 mod demo;
 mod fitted_rooms;
 mod gates;
+mod home_joints;
 mod intake;
 mod motion;
 mod objects;

@@ -2,8 +2,10 @@
 //! cabinet, each door of class mirror, the lamp of class lamp. The origin is the middle of the back, on the wall.
 
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::rod;
+use crate::pieces::joinery::{INSIDE, body_box};
 use crate::pieces::{Furniture, board, on};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -39,7 +41,12 @@ impl Furniture for MirrorCabinet {
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let cabinet = b.object("mirror_cabinet", Class::Cabinet, pose);
         let (x, z) = (0.5 * self.width, 0.5 * self.height);
-        b.part(&cabinet, "carcass", board([-x, 0.0, -z], [x, DEPTH, z], 0.002), self.finish);
+        let carcass = body_box(b, [-x, 0.0, -z], [x, DEPTH, z], 0.002);
+        b.part(&cabinet, "carcass", carcass, self.finish);
+        if b.has_joints() {
+            let shelf = |z: f32| board([INSIDE - x, INSIDE, z - 0.003], [x - INSIDE, DEPTH - 0.01, z + 0.003], 0.001);
+            b.part(&cabinet, "shelves", shelf(-z / 3.0).with(shelf(z / 3.0)), Finish::Glass);
+        }
         let doors = ((self.width / 0.4).round() as usize).max(1);
         let wide = self.width / doors as f32;
         for k in 0..doors {
@@ -48,8 +55,11 @@ impl Furniture for MirrorCabinet {
             let panel = |inset: f32, y: [f32; 2]| {
                 board([from + 0.0012 + inset, y[0], -z + inset], [from + wide - 0.0012 - inset, y[1], z - inset], 0.0012)
             };
+            let from_part = b.part_count();
             b.part(&mirror, "door", panel(0.0, [DEPTH + 0.0008, DEPTH + 0.015]), self.finish);
             b.part(&mirror, "glass", panel(0.002, [DEPTH + 0.0148, DEPTH + 0.019]), Finish::Mirror);
+            let (edge, side) = if k % 2 == 0 { (from, -1.0) } else { (from + wide, 1.0) };
+            b.joint(&mirror, "door", &Joint::cupboard(edge, DEPTH + 0.019, side), from_part..b.part_count());
         }
         if self.lamp {
             let lamp = b.object("lamp", Class::Lamp, on(pose, Vec3::Z * z, 0.0));

@@ -5,7 +5,7 @@ mod ceramic;
 mod linen;
 mod mirror_cabinet;
 mod small;
-mod tap;
+pub(crate) mod tap;
 mod toilet;
 mod washbasin;
 

@@ -2,6 +2,7 @@
 //! origin on the wall's face. One metal is drawn for all fittings of an object.
 
 use crate::builder::{Builder, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, rod, to_front, turned, wire};
 use crate::shape::{Reshape, rounded_box, tube};
@@ -20,6 +21,9 @@ pub enum TapForm {
     Square,
 }
 
+/// Angle by which a lever opens a tap, radians.
+pub const LIFT: f64 = 0.44;
+
 /// Finish of taps: chrome three times in five.
 pub fn fittings(rng: &mut Rng) -> Finish {
     [Finish::Chrome, Finish::Chrome, Finish::Chrome, Finish::BlackMetal, Finish::Brass][rng.below(5)]
@@ -31,8 +35,9 @@ impl TapForm {
         [Self::Lever, Self::Arc, Self::Square][rng.below(3)]
     }
 
-    /// A tap that stands on the origin; its spout reaches `out` to the front, its mouth `rise` up.
-    pub fn mesh(self, out: f32, rise: f32) -> Mesh {
+    /// A tap that stands on the origin, without its lever, the lever, and how that moves; the spout reaches `out` to the front, its mouth
+    /// `rise` up.
+    pub fn pieces(self, out: f32, rise: f32) -> (Mesh, Mesh, Joint) {
         let base = cylinder(0.025, 0.008, 28);
         let lever = |at: Vec3, tilt: f32| {
             rounded_box(Vec3::new(0.014, 0.085, 0.008), 0.0035, 3).moved(Vec3::new(0.0, 0.03, 0.0)).turned(Vec3::X, tilt).moved(at)
@@ -45,7 +50,8 @@ impl TapForm {
                 );
                 let spout = tube(&[Vec3::new(0.0, 0.0, 0.7 * rise), Vec3::new(0.0, out, rise)], 0.0115, 18);
                 let aerator = rod([0.0, out - 0.012, rise - 0.016], [0.0, out - 0.012, rise + 0.002], 0.0095, 16);
-                all([base, column, spout, aerator, lever(Vec3::new(0.0, 0.0, rise + 0.053), 0.25)])
+                let at = Vec3::new(0.0, 0.0, rise + 0.053);
+                (all([base, column, spout, aerator]), lever(at, 0.25), Joint::tap(at.y, at.z, LIFT, true))
             }
             Self::Arc => {
                 let r = 0.5 * out;
@@ -59,15 +65,26 @@ impl TapForm {
                 let column = cylinder(0.021, 0.09, 28);
                 let side = rod([0.0, 0.0, 0.06], [0.045, 0.0, 0.06], 0.012, 18);
                 let pin = rod([0.04, 0.0, 0.06], [0.048, 0.02, 0.12], 0.0035, 10);
-                all([base, column, tube(&path, 0.0105, 18), side, pin])
+                (all([base, column, tube(&path, 0.0105, 18)]), side.with(pin), Joint::tap(0.0, 0.06, LIFT, false))
             }
             Self::Square => {
                 let column = rounded_box(Vec3::new(0.04, 0.04, rise + 0.03), 0.003, 2).moved(Vec3::new(0.0, 0.0, 0.5 * (rise + 0.03)));
                 let spout = rounded_box(Vec3::new(0.034, out + 0.02, 0.016), 0.003, 2).moved(Vec3::new(0.0, 0.5 * out, rise + 0.012));
-                all([base, column, spout, lever(Vec3::new(0.0, 0.0, rise + 0.036), 0.1)])
+                let at = Vec3::new(0.0, 0.0, rise + 0.036);
+                (all([base, column, spout]), lever(at, 0.1), Joint::tap(at.y, at.z, LIFT, true))
             }
         }
     }
+}
+
+/// Adds a tap at a place in the object's space: its body, lever and joint. All is one part unless things have joints.
+pub fn stand(b: &mut Builder, object: &Object, name: &str, (body, lever, joint): (Mesh, Mesh, Joint), at: Vec3, metal: Finish) {
+    if !b.has_joints() {
+        return b.part(object, name, body.with(lever).moved(at), metal);
+    }
+    b.part(object, name, body.moved(at), metal);
+    b.part(object, &format!("{name}_lever"), lever.moved(at), metal);
+    b.joint(object, &format!("{name}_lever"), &joint.moved(at), [b.part_count() - 1]);
 }
 
 /// A mixer on the wall with a spout below and a hand shower on its hose; its origin is on the wall's face.

@@ -2,11 +2,11 @@
 //! the wall with its trap in view, or on a pedestal (50 to 65 cm); 45 to 50 cm deep. The cabinet is of class cabinet. The wall is at −y.
 
 use super::ceramic::{Section, hollow, rectangle, rounding, waste};
-use super::tap::{TapForm, fittings, trap};
+use super::tap::{TapForm, fittings, stand, trap};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{plate_with_holes, turned};
-use crate::pieces::joinery::{Carcass, Handle, front};
+use crate::pieces::joinery::{Carcass, Handle, front, pull};
 use crate::pieces::{Furniture, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_geometry::Mesh;
@@ -96,7 +96,7 @@ impl Washbasin {
 
     fn basin(&self, b: &mut Builder, sink: &Object) {
         let tap = |b: &mut Builder, y: f32, z: f32, out: f32, rise: f32| {
-            b.part(sink, "tap", self.tap.mesh(out, rise).moved(Vec3::new(0.0, y, z)), self.metal);
+            stand(b, sink, "tap", self.tap.pieces(out, rise), Vec3::new(0.0, y, z), self.metal);
         };
         match self.stand {
             BasinStand::Bowl => {
@@ -154,9 +154,11 @@ impl Washbasin {
         for k in 0..rows {
             let low = z[0] + k as f32 * high;
             let rect = [-x + 0.0015, x - 0.0015, low + 0.0015, low + high - 0.0025];
+            let from = b.part_count();
             b.part(&vanity, &format!("drawer_{}", k + 1), front(rect, face + 0.0008, 0.019, false, rng), self.finish);
             let at = Vec3::new(0.0, face + 0.0198, low + 0.72 * high);
             self.handle.add(b, &vanity, &format!("handle_{}", k + 1), at, (0.45 * self.width).min(0.4), false);
+            pull(b, &vanity, &format!("drawer_{}", k + 1), from, rect, face + 0.0008, face + y - 0.03, self.finish);
         }
     }
 }

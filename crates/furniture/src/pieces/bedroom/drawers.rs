@@ -4,7 +4,7 @@
 
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
-use crate::pieces::joinery::{Carcass, Feet, Handle, body_finish, front, thickness_at_middle};
+use crate::pieces::joinery::{Carcass, Feet, Handle, body_finish, front, pull, thickness_at_middle};
 use crate::pieces::{Furniture, Surface, board, grained};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
@@ -73,6 +73,7 @@ impl DrawerBody {
         let rect = [x0 + 0.5 * GAP, x1 - 0.5 * GAP, z0 + 0.5 * GAP, z1 - 0.5 * GAP];
         // Air between the carcass and its fronts keeps faces out of one plane.
         let back = self.front() + 0.0008;
+        let from = b.part_count();
         b.part(object, name, front(rect, back, FRONT, self.framed, rng), self.fronts);
         let wide = x1 - x0;
         let middle = 0.5 * (z0 + z1);
@@ -86,6 +87,8 @@ impl DrawerBody {
         } else {
             self.handle.add(b, object, &format!("{name}_handle"), face(0.5 * (x0 + x1)), length, false);
         }
+        let depth = self.front() + 0.5 * self.size.y - 0.03;
+        pull(b, object, name, from, rect, back, depth, self.body);
     }
 
     fn top(&self) -> Surface {

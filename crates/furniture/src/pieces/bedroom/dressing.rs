@@ -5,7 +5,7 @@
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::form::{all, around, cut_out, rod, to_front, turned};
-use crate::pieces::joinery::{Handle, body_finish, front};
+use crate::pieces::joinery::{Handle, body_finish, front, pull};
 use crate::pieces::soft::Wrinkles;
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, leg, on};
 use crate::shape::{Reshape, lathe, padded_box, rounded_box, spline};
@@ -118,9 +118,12 @@ impl Furniture for DressingTable {
         for k in 0..2 {
             let from = -0.5 * wide + 0.5 * k as f32 * wide;
             let rect = [from + 0.0015, from + 0.5 * wide - 0.0015, low, TOP - 0.0225];
+            let from_part = b.part_count();
             b.part(&table, &format!("drawer_{}", k + 1), front(rect, face - 0.0205, 0.019, false, rng), self.finish);
             let at = Vec3::new(0.5 * (rect[0] + rect[1]), face - 0.0015, 0.5 * (rect[2] + rect[3]));
             self.handle.add(b, &table, &format!("handle_{}", k + 1), at, 0.14, false);
+            let depth = face - 0.0205 - rear - 0.03;
+            pull(b, &table, &format!("drawer_{}", k + 1), from_part, rect, face - 0.0205, depth, self.finish);
         }
         let middle = 0.5 * (rear + face);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {

@@ -4,6 +4,7 @@
 use super::clothes::{FoldedClothes, hang_garment};
 use super::garment::Garment;
 use crate::builder::{Builder, Class, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::rod;
 use crate::pieces::joinery::{Carcass, Handle, body_finish, front};
@@ -86,15 +87,32 @@ impl Wardrobe {
             let x = carcass.x[0] + k as f32 * wide;
             let rect = [x + gap, x + wide - gap, carcass.z[0] + gap, carcass.z[1] - gap];
             let framed = self.framed && mirrored != Some(k);
+            let from = b.part_count();
             b.part(object, &format!("door_{}", k + 1), front(rect, back, BOARD, framed, rng), self.finishes[1]);
             if mirrored == Some(k) {
                 self.mirror_at(b, object, rect, face, &format!("mirror_{}", k + 1));
             }
             // Doors open in pairs; a single last one has its handle on the left.
-            let inner = if k % 2 == 0 && k + 1 < count { rect[1] - 0.035 } else { rect[0] + 0.035 };
+            let to_right = k % 2 == 0 && k + 1 < count;
+            let inner = if to_right { rect[1] - 0.035 } else { rect[0] + 0.035 };
             let at = Vec3::new(inner, face + if mirrored == Some(k) { 0.003 } else { 0.0 }, 1.05);
             self.handle.add(b, object, &format!("handle_{}", k + 1), at, 0.22, true);
+            let (edge, side) = if to_right { (rect[0], -1.0) } else { (rect[1], 1.0) };
+            b.joint(object, &format!("door_{}", k + 1), &Joint::cupboard(edge, face, side), from..b.part_count());
         }
+        self.inside(b, object, carcass, carcass.y[1] - 0.004);
+    }
+
+    /// A rail for clothes below a shelf, where doors can be opened; both end before the depth `face`.
+    fn inside(&self, b: &mut Builder, object: &Object, carcass: &Carcass, face: f32) {
+        if !b.has_joints() {
+            return;
+        }
+        let ([x0, x1, _, high], y) = (carcass.inside(), carcass.y[0] + 0.5 * DEPTH);
+        let (z, rail) = (high - 0.3, high - 0.36);
+        let shelf = board([x0 - 0.0001, carcass.y[0] + 0.0105, z - HALF_SHELF], [x1 + 0.0001, face, z + HALF_SHELF], 0.0015);
+        b.part(object, "shelf", shelf, carcass.finish);
+        b.part(object, "rail", rod([x0 - 0.001, y, rail], [x1 + 0.001, y, rail], 0.0125, 16), Finish::Steel);
     }
 
     fn sliding(&self, b: &mut Builder, object: &Object, carcass: &Carcass, rng: &mut Rng) {
@@ -110,6 +128,7 @@ impl Wardrobe {
             let x = x0 + k as f32 * (wide - overlap);
             let back = outer - if k % 2 == 0 { 0.032 } else { 0.062 };
             let rect = [x + 0.001, x + wide - 0.001, low + 0.0125, high - 0.0355];
+            let from = b.part_count();
             b.part(object, &format!("door_{}", k + 1), front(rect, back, 0.016, false, rng), self.finishes[1]);
             if self.mirror && k == count / 2 {
                 self.mirror_at(b, object, rect, back + 0.016, &format!("mirror_{}", k + 1));
@@ -118,7 +137,11 @@ impl Wardrobe {
                 let strip = board([px, back + 0.0162, rect[2]], [px + 0.022, back + 0.026, rect[3]], 0.002);
                 b.part(object, &format!("profile_{}_{side}", k + 1), strip, Finish::Aluminium);
             }
+            // Before or behind its neighbour, the one at the right or, of the last door, at the left.
+            let by = if k + 1 < count { wide - overlap } else { overlap - wide };
+            b.joint(object, &format!("door_{}", k + 1), &Joint::sliding(by), from..b.part_count());
         }
+        self.inside(b, object, carcass, outer - 0.09);
     }
 
     /// The board between clothes and shelves.

@@ -3,6 +3,7 @@
 
 use super::{PlushBear, Toy};
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::all;
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
@@ -24,6 +25,8 @@ pub struct ToyChest {
 const DEPTH: f32 = 0.40;
 /// Height of the closed chest, metres: the same as a seat.
 const HEIGHT: f32 = 0.42;
+/// Angle to which the lid is lifted, radians: a stay holds it before it stands upright.
+const LIFT: f64 = 1.4;
 /// Thickness of the walls, metres.
 const BOARD: f32 = 0.016;
 /// Air between walls that meet, metres: it keeps faces out of one plane.
@@ -66,6 +69,7 @@ impl Furniture for ToyChest {
         if !self.open {
             let lid = board([-x - 0.01, -y - 0.01, top + 0.0005], [x + 0.01, y + 0.01, HEIGHT], 0.004);
             b.part(&chest, "lid", grained(lid, rng), if self.finish == Finish::Wood { Finish::Wood } else { self.finish });
+            b.joint(&chest, "lid", &Joint::lid(-y - 0.01, HEIGHT, LIFT, false), [b.part_count() - 1]);
             return;
         }
         // A blanket fills the chest; a bear on it looks out, and a ball lies beside the bear.

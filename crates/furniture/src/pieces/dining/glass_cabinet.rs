@@ -2,8 +2,10 @@
 //! stands on three shelves behind the glass. The cabinet is half the depth of its knobs behind the middle of the footprint.
 
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::{all, to_front, turned};
+use crate::pieces::joinery::Knobbed;
 use crate::pieces::tableware::shelf_of_crockery;
 use crate::pieces::{Furniture, board, grained, on};
 use crate::shape::{Reshape, grid, picture_frame};
@@ -59,7 +61,7 @@ impl Furniture for GlassCabinet {
         b.part(&object, "rear", grained(rear, rng), self.finish);
         b.part(&object, "plinth", board([BOARD - half, inner - 0.03, 0.0], [half - BOARD, inner - 0.012, 0.058], 0.001), self.finish);
         let y = front - 0.0215;
-        let mut knobs = Vec::new();
+        let mut fronts = Knobbed::default();
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
             let (w, x) = (half - 0.003, s * 0.5 * half);
             let knob = to_front(turned(&[[0.0, 0.0], [0.005, 0.0], [0.005, 0.01], [0.011, 0.016], [0.009, 0.022], [0.0, 0.023]], 20));
@@ -68,6 +70,7 @@ impl Furniture for GlassCabinet {
             {
                 let at = Vec3::new(x, y, 0.5 * (z0 + z1));
                 let rail = 0.05;
+                let from = b.part_count();
                 let section = [[0.0, 0.0], [0.0, 0.019], [0.001, 0.02], [rail - 0.001, 0.02], [rail, 0.019], [rail, 0.0]];
                 b.part(&object, &format!("{name}_{}", i + 1), grained(picture_frame(w, z1 - z0, &section).moved(at), rng), self.finish);
                 let inside = Vec2::new(0.5 * w - rail + 0.003, 0.5 * (z1 - z0) - rail + 0.003);
@@ -82,10 +85,11 @@ impl Furniture for GlassCabinet {
                     b.part(&object, &format!("panel_{}", i + 1), grained(panel, rng), self.finish);
                 }
                 let z = if glazed { z0 + 0.35 } else { z1 - 0.09 };
-                knobs.push(knob.clone().moved(Vec3::new(s * 0.026, y + 0.0198, z)));
+                let knob = knob.clone().moved(Vec3::new(s * 0.026, y + 0.0198, z));
+                fronts.door(b, &format!("{name}_{}", i + 1), from, Joint::cupboard(x + s * 0.5 * w, y + 0.02, s), knob);
             }
         }
-        b.part(&object, "knobs", all(knobs), Finish::Brass);
+        fronts.add(b, &object, Finish::Brass);
         for z in shelves {
             shelf_of_crockery(b, on(pose, Vec3::new(0.0, -0.02, z + BOARD), 0.0), self.width - 0.12, rng);
         }

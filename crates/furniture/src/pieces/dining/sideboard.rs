@@ -2,8 +2,10 @@
 //! three drawers. The body is of wood; fronts may be lacquered. It is half the depth of its knobs behind the middle of the footprint.
 
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::{all, to_front, turned};
+use crate::pieces::joinery::{Knobbed, body_box};
 use crate::pieces::{Furniture, Surface, board, grained, leg, on};
 use crate::shape::{Reshape, bevelled_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -103,12 +105,13 @@ impl Furniture for Sideboard {
         let side = |x: f32| board([x, back, LEG + BOARD + GAP], [x + BOARD, front, top - BOARD - GAP], 0.0015);
         b.part(&object, "sides", grained(side(-half).with(side(half - BOARD)), rng), wood);
         let (x0, x1, z0, z1) = (-half + BOARD, half - BOARD, LEG + BOARD, top - BOARD);
-        b.part(&object, "body", board([x0, back + 0.004, z0 + GAP], [x1, front - 0.024, z1 - GAP], 0.001), wood);
+        let body = body_box(b, [x0, back + 0.004, z0 + GAP], [x1, front - 0.024, z1 - GAP], 0.001);
+        b.part(&object, "body", body, wood);
         // Two doors, three drawers, one more door where there is room for it.
         let sections = if self.width > 1.55 { 4 } else { 3 };
         let w = (x1 - x0) / sections as f32;
         let y = front - 0.0235;
-        let mut knobs = Vec::new();
+        let mut fronts = Knobbed::default();
         let knob = |x: f32, z: f32| {
             let profile = [[0.0, 0.0], [0.006, 0.0], [0.005, 0.01], [0.011, 0.016], [0.011, 0.021], [0.0, 0.023]];
             to_front(turned(&profile, 20)).moved(Vec3::new(x, y + 0.0178, z))
@@ -119,20 +122,26 @@ impl Furniture for Sideboard {
                 for row in 0..3 {
                     let h = (z1 - z0 - 0.004) / 3.0;
                     let (low, high) = (z0 + 0.002 + h * row as f32 + 0.001, z0 + 0.002 + h * (row + 1) as f32 - 0.001);
+                    let from = b.part_count();
                     b.part(
                         &object,
                         &format!("drawer_{}", row + 1),
                         grained(board([a, y, low], [c, y + FRONT, high], 0.0012), rng),
                         self.fronts,
                     );
-                    knobs.push(knob(0.5 * (a + c), 0.5 * (low + high)));
+                    let knob = knob(0.5 * (a + c), 0.5 * (low + high));
+                    let name = format!("drawer_{}", row + 1);
+                    fronts.drawer(b, &object, (&name, from), [a, c, low, high], [back + 0.04, y], knob);
                 }
             } else {
+                let from = b.part_count();
                 self.door(b, &object, k + 1, [a, c, z0 + 0.003, z1 - 0.003], y, rng);
-                knobs.push(knob(if k == 0 { c - 0.022 } else { a + 0.022 }, 0.5 * (z0 + z1) + 0.1));
+                let knob = knob(if k == 0 { c - 0.022 } else { a + 0.022 }, 0.5 * (z0 + z1) + 0.1);
+                let (edge, side) = if k == 0 { (a, -1.0) } else { (c, 1.0) };
+                fronts.door(b, &format!("door_{}", k + 1), from, Joint::cupboard(edge, y + FRONT, side), knob);
             }
         }
-        b.part(&object, "knobs", all(knobs), [Finish::Brass, Finish::BlackMetal][rng.below(2)]);
+        fronts.add(b, &object, [Finish::Brass, Finish::BlackMetal][rng.below(2)]);
         for (i, s) in [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].into_iter().enumerate() {
             let at = Vec3::new(s.x * (half - 0.12), s.y * (front - 0.075), 0.0);
             b.part(&object, &format!("leg_{}", i + 1), leg(LEG - GAP, [0.012, 0.02], s * 0.03).moved(at), wood);

@@ -5,7 +5,7 @@
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::form::{all, rod, rounded_rectangle, to_front, wire};
-use crate::pieces::joinery::{Handle, front};
+use crate::pieces::joinery::{Handle, body_box, front, pull};
 use crate::pieces::{Bowl, CONTACT, Furniture, Surface, board, grained, on};
 use crate::shape::{Reshape, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -60,14 +60,17 @@ impl Furniture for Console {
         b.part(&console, "top", grained(board([-x, -y, TOP - BOARD], [x, face, TOP], 0.0025), rng), wood);
         let low = if self.drawer { TOP - BOARD - 0.12 } else { TOP - BOARD };
         if self.drawer {
-            let box_ = board([-x + INSET, -y + 0.006, low], [x - INSET, face - 0.0215, TOP - 0.0242], 0.0015);
+            let box_ = body_box(b, [-x + INSET, -y + 0.006, low], [x - INSET, face - 0.0215, TOP - 0.0242], 0.0015);
             b.part(&console, "body", grained(box_, rng), wood);
             for k in 0..2 {
                 let from = -x + INSET + k as f32 * (x - INSET);
                 let rect = [from + 0.0015, from + x - 0.0135, low + 0.001, TOP - 0.0262];
+                let from_part = b.part_count();
                 b.part(&console, &format!("drawer_{}", k + 1), front(rect, face - 0.0205, 0.018, false, rng), wood);
                 let at = Vec3::new(0.5 * (rect[0] + rect[1]), face - 0.0025, 0.5 * (rect[2] + rect[3]));
                 Handle::Knob(Finish::Brass).add(b, &console, &format!("knob_{}", k + 1), at, 0.1, false);
+                let depth = face - 0.0205 + y - 0.03;
+                pull(b, &console, &format!("drawer_{}", k + 1), from_part, rect, face - 0.0205, depth, wood);
             }
         }
         let (back, front_y) = (-y + 0.02, face - 0.03);

@@ -2,6 +2,7 @@
 //! toes to +y); and a shallow cabinet, 60 to 100 cm wide, with two or three tilting compartments for them (class cabinet).
 
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::joinery::{Handle, body_finish, front};
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
@@ -122,6 +123,8 @@ pub struct ShoeCabinet {
 const DEPTH: f32 = 0.26;
 /// Height of a compartment, metres: the length of a shoe and some more.
 const ROW: f32 = 0.34;
+/// Angle to which a compartment tilts, radians.
+const TILT: f64 = 0.7;
 /// Height of the lowest compartment above the floor, metres.
 const FOOT: f32 = 0.12;
 /// Upper end of sides and rear, metres below the upper face of the top: the board and air that keeps faces out of one plane.
@@ -178,9 +181,11 @@ impl Furniture for ShoeCabinet {
         for k in 0..self.rows {
             let z = FOOT + k as f32 * row;
             let rect = [-x + 0.0035, x - 0.0035, z + 0.0015, z + row - 0.0015];
+            let from = b.part_count();
             b.part(&cabinet, &format!("flap_{}", k + 1), front(rect, face + 0.0008, 0.018, false, rng), self.finishes[1]);
             let at = Vec3::new(0.0, face + 0.0188, z + row - 0.06);
             self.handle.add(b, &cabinet, &format!("handle_{}", k + 1), at, 0.16, false);
+            b.joint(&cabinet, &format!("flap_{}", k + 1), &Joint::flap(face + 0.0188, rect[2], TILT), from..b.part_count());
         }
     }
 }

@@ -5,8 +5,10 @@
 use super::front::KitchenStyle;
 use super::{BOX, WALL_UNIT, WORKTOP};
 use crate::builder::{Builder, Class, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::{all, around, cylinder, loft, rod, to_front, turned};
+use crate::pieces::joinery::body_box;
 use crate::pieces::{CONTACT, board};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -59,7 +61,11 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
     let oven = if low { b.object("built_in_microwave", Class::OtherProp, pose) } else { b.object("oven", Class::OtherStructure, pose) };
     let (body, glass) = if style.steel { (Finish::Steel, Finish::GlossBlack) } else { (Finish::GlossBlack, Finish::GlossBlack) };
     let y = BOX;
-    b.part(&oven, "body", board([x0 + 0.02, 0.04, z0 + 0.01], [x1 - 0.02, y, z1 - 0.01], 0.002), Finish::Steel);
+    let body_mesh = body_box(b, [x0 + 0.02, 0.04, z0 + 0.01], [x1 - 0.02, y, z1 - 0.01], 0.002);
+    b.part(&oven, "body", body_mesh, Finish::Steel);
+    if b.has_joints() {
+        rack(b, &oven, "rack", [x0 + 0.04, x1 - 0.04], [0.07, y - 0.03], z0 + if low { 0.03 } else { 0.2 });
+    }
     let fascia = if low { 0.0 } else { 0.095 };
     if !low {
         b.part(&oven, "fascia", board([x0, y - 0.0002, z1 - fascia], [x1, y + 0.02, z1], 0.0015), body);
@@ -73,6 +79,7 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
         b.part(&oven, "display", display, Finish::Screen);
     }
     let top = z1 - fascia - 0.003;
+    let from = b.part_count();
     b.part(&oven, "door", board([x0, y - 0.0002, z0], [x1, y + 0.022, top], 0.0015), body);
     let right = if low { x1 - 0.13 } else { x1 - 0.035 };
     let window = board([x0 + 0.035, y + 0.0215, z0 + 0.05], [right, y + 0.0228, top - if low { 0.05 } else { 0.09 }], 0.0006);
@@ -93,6 +100,16 @@ pub fn oven(b: &mut Builder, pose: DAffine3, rect: [f32; 4], style: &KitchenStyl
         ])
     };
     b.part(&oven, "handle", bar, Finish::Steel);
+    let face = y + 0.022;
+    let joint = if low { Joint::cupboard(x0, face, -1.0) } else { Joint::level_flap(face, z0) };
+    b.joint(&oven, "door", &joint, from..b.part_count());
+}
+
+/// A rack of wire at the height `z`, in an appliance that can be opened.
+fn rack(b: &mut Builder, object: &Object, name: &str, [x0, x1]: [f32; 2], [y0, y1]: [f32; 2], z: f32) {
+    let bars = (0..=12).map(|k| x0 + (x1 - x0) * k as f32 / 12.0).map(|x| rod([x, y0, z], [x, y1, z], 0.0015, 6));
+    let rails = [y0, y1].map(|y| rod([x0 - 0.004, y, z - 0.003], [x1 + 0.004, y, z - 0.003], 0.002, 6));
+    b.part(object, name, all(bars.chain(rails)), Finish::Steel);
 }
 
 /// Adds a dishwasher with a front of its own, over `[x0, x1]`.
@@ -101,7 +118,13 @@ pub fn dishwasher(b: &mut Builder, pose: DAffine3, x: [f32; 2], z: [f32; 2], sty
     let ([x0, x1], [z0, z1], y) = ([x[0] + 0.003, x[1] - 0.003], [z[0] + 0.002, z[1] - 0.003], BOX);
     let finish = if style.steel { Finish::Steel } else { Finish::CoatedWhite };
     // Screwed to the worktop from below.
-    b.part(&machine, "body", board([x0, 0.03, z0], [x1, y, z[1] - 0.001], 0.002), Finish::Steel);
+    let body = body_box(b, [x0, 0.03, z0], [x1, y, z[1] - 0.001], 0.002);
+    b.part(&machine, "body", body, Finish::Steel);
+    if b.has_joints() {
+        rack(b, &machine, "rack_1", [x0 + 0.021, x1 - 0.021], [0.06, y - 0.03], z0 + 0.16);
+        rack(b, &machine, "rack_2", [x0 + 0.021, x1 - 0.021], [0.06, y - 0.03], z0 + 0.44);
+    }
+    let from = b.part_count();
     b.part(&machine, "door", board([x0, y + CONTACT, z0], [x1, y + 0.022, z1 - 0.105], 0.003), finish);
     b.part(&machine, "fascia", board([x0, y + CONTACT, z1 - 0.102], [x1, y + 0.022, z1], 0.003), finish);
     let middle = 0.5 * (x0 + x1);
@@ -118,6 +141,7 @@ pub fn dishwasher(b: &mut Builder, pose: DAffine3, x: [f32; 2], z: [f32; 2], sty
         rod([x1 - 0.1, y + 0.02, z], [x1 - 0.1, y + 0.054, z], 0.005, 8),
     ]);
     b.part(&machine, "handle", bar, Finish::Steel);
+    b.joint(&machine, "door", &Joint::level_flap(y + 0.022, z0), from..b.part_count());
 }
 
 /// Adds an extractor hood against the wall; the pose is on the floor, in the middle of the unit at the wall.

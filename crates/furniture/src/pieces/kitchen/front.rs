@@ -2,8 +2,10 @@
 //! kitchen share. A front is in the xz plane of its unit and faces +y.
 
 use crate::builder::{Builder, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::{all, rod, to_front, turned, wire};
+use crate::pieces::joinery::pull;
 use crate::pieces::{board, grained};
 use crate::shape::{Reshape, picture_frame};
 use enfilade_geometry::Mesh;
@@ -81,6 +83,10 @@ pub enum Opening {
     /// A door above the worktop with its handle near the lower corner.
     Above(f32),
     Drawer,
+    /// A front that tilts about its lower edge.
+    Flap,
+    /// It does not open.
+    Fixed,
 }
 
 /// Thickness of a front, metres.
@@ -103,6 +109,7 @@ pub fn front(
     let [x0, x1, z0, z1] = [rect[0] + GAP, rect[1] - GAP, rect[2] + GAP, rect[3] - GAP];
     let (w, h) = (x1 - x0, z1 - z0);
     let middle = Vec3::new(0.5 * (x0 + x1), y, 0.5 * (z0 + z1));
+    let from = b.part_count();
     let mesh = if style.framed && h > 0.2 && w > 0.2 {
         let rail = 0.062;
         let section = [[0.0, 0.0], [0.0, FRONT - 0.001], [0.001, FRONT], [rail - 0.002, FRONT], [rail, FRONT - 0.002], [rail, 0.0]];
@@ -115,14 +122,27 @@ pub fn front(
     b.part(object, name, grained(mesh, rng), finish);
     let (handle, at) = handle(style.handle, opening, w, h);
     b.part(object, &format!("{name}_handle"), handle.moved(middle + at + Vec3::new(0.0, FRONT - 0.0002, 0.0)), style.metal);
+    let face = y + FRONT;
+    match opening {
+        Opening::Below(side) | Opening::Above(side) => {
+            let edge = if side > 0.0 { x0 } else { x1 };
+            b.joint(object, name, &Joint::cupboard(edge, face, -side), from..b.part_count());
+        }
+        Opening::Drawer => pull(b, object, name, from, [x0, x1, z0, z1], y, y - BEHIND, Finish::WhiteLacquer),
+        Opening::Flap => b.joint(object, name, &Joint::level_flap(face, z0), from..b.part_count()),
+        Opening::Fixed => {}
+    }
 }
+
+/// Distance of the rear end of drawers from the wall, metres.
+const BEHIND: f32 = 0.06;
 
 /// A handle, its middle at the origin and its feet on y = 0, and where to put it, from the middle of a front of `w` × `h`.
 fn handle(kind: Handle, opening: Opening, w: f32, h: f32) -> (Mesh, Vec3) {
     let (side, level) = match opening {
         Opening::Below(side) => (side, 1.0),
         Opening::Above(side) => (side, -1.0),
-        Opening::Drawer => (0.0, if h > 0.22 { 1.0 } else { 0.0 }),
+        Opening::Drawer | Opening::Flap | Opening::Fixed => (0.0, if h > 0.22 { 1.0 } else { 0.0 }),
     };
     let lying = side == 0.0;
     let length = match kind {

@@ -7,6 +7,7 @@ use super::{BOX, DEPTH, HANDLES, PLINTH, THICKNESS, WORKTOP, appliance, sink};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::form::plate_with_holes;
+use crate::pieces::joinery::body_box;
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -87,7 +88,8 @@ impl Furniture for KitchenIsland {
             * DAffine3::from_rotation_z(std::f64::consts::PI);
         let [low, top] = [PLINTH[0], WORKTOP - THICKNESS - CONTACT];
         let under = if self.fixture == Fixture::Sink { top - 0.22 } else { top };
-        b.part_at(&object, "box", board([INNER, INNER, low], [self.length - INNER, BOX, under], 0.001), local, Finish::WhiteLacquer);
+        let body = body_box(b, [INNER, INNER, low], [self.length - INNER, BOX, under], 0.001);
+        b.part_at(&object, "box", body, local, Finish::WhiteLacquer);
         let plinth = board([0.06, 0.06, 0.0], [self.length - 0.06, BOX - 0.04, low], 0.001);
         b.part_at(&object, "plinth", plinth, local, self.style.lower);
         for (name, x) in [("side_1", 0.0), ("side_2", self.length - PANEL)] {
@@ -98,6 +100,8 @@ impl Furniture for KitchenIsland {
         b.part_at(&object, "back", grained(back, rng), local, self.style.lower);
         let fronts = b.object("kitchen_unit", Class::Cabinet, units);
         let count = (self.length / 0.55) as usize;
+        // Beside a sink the upper fronts hide its bowl.
+        let upper = if self.fixture == Fixture::Sink { Opening::Fixed } else { Opening::Drawer };
         for k in 0..count {
             let x = [k, k + 1].map(|k| INNER + (self.length - 2.0 * INNER) * k as f32 / count as f32);
             let split = low + 0.5 * (top - low);
@@ -119,7 +123,7 @@ impl Furniture for KitchenIsland {
                     &format!("drawer_{}_2", k + 1),
                     [x[0], x[1], split, top],
                     BOX + CONTACT,
-                    Opening::Drawer,
+                    upper,
                     &self.style,
                     self.style.lower,
                     rng,

@@ -4,10 +4,13 @@
 
 use super::front::KitchenStyle;
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::CONTACT;
+use crate::pieces::bathroom::tap::{LIFT, stand};
 use crate::pieces::form::{all, cylinder, loft, rod, turned, wire};
 use crate::shape::{Reshape, rounded_box};
+use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec3};
 
 /// Opening that the worktop needs for a sink in a unit of this width, from its middle: half width, and depths from the wall.
@@ -45,11 +48,11 @@ pub fn build(b: &mut Builder, pose: DAffine3, width: f32, style: &KitchenStyle, 
     let waste = turned(&[[0.0, 0.0], [0.043, 0.0], [0.043, 0.002], [0.03, 0.0025], [0.026, 0.001], [0.0, 0.001]], 32);
     b.part(&sink, "waste", waste.moved(middle + Vec3::new(0.0, 0.0, CONTACT - drop)), Finish::Chrome);
     let metal = if style.metal == Finish::Steel { Finish::Chrome } else { style.metal };
-    b.part(&sink, "mixer", mixer(rng).moved(Vec3::new(0.0, 0.075, 0.0)), metal);
+    stand(b, &sink, "mixer", mixer(rng), Vec3::new(0.0, 0.075, 0.0), metal);
 }
 
-/// A mixer tap that stands on z = 0 and reaches to +y: a swan neck or a straight arm, with its lever at +x.
-fn mixer(rng: &mut Rng) -> enfilade_geometry::Mesh {
+/// A mixer tap that stands on z = 0 and reaches to +y, a swan neck or a straight arm; its lever at +x, and how that moves.
+fn mixer(rng: &mut Rng) -> (Mesh, Mesh, Joint) {
     let (height, reach) = (rng.range(0.25, 0.36), rng.range(0.18, 0.22));
     let base = cylinder(0.025, 0.008, 28).with(cylinder(0.019, 0.10, 24)).moved(Vec3::new(0.0, 0.0, CONTACT));
     let swan = rng.below(3) > 0;
@@ -76,5 +79,5 @@ fn mixer(rng: &mut Rng) -> enfilade_geometry::Mesh {
         ])
     };
     let lever = rod([0.015, 0.0, 0.07], [0.045, 0.0, 0.07], 0.012, 14).with(rod([0.038, 0.0, 0.075], [0.052, 0.0, 0.155], 0.0045, 10));
-    all([base, spout, lever])
+    (all([base, spout]), lever, Joint::tap(0.0, 0.07, LIFT, false))
 }

@@ -4,8 +4,10 @@
 use super::front::{FRONT, KitchenStyle, Opening, front};
 use super::{BOX, PLINTH, TALL, THICKNESS, WALL_DEPTH, WORKTOP, appliance};
 use crate::builder::{Builder, Class, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::all;
+use crate::pieces::joinery::body_box;
 use crate::pieces::{CONTACT, board, grained, on};
 use enfilade_math::{DAffine3, Rng, Vec3};
 
@@ -73,6 +75,9 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
     }
     let hollow = matches!(unit, Unit::Sink(_) | Unit::Oven(_) | Unit::Tower);
     carcass(b, &object, w, [low, top], hollow, finish);
+    if b.has_joints() {
+        shelves(b, &object, unit, [low, top]);
+    }
     let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
     let mut put = |name: &str, rect: [f32; 4], opening: Opening, rng: &mut Rng| {
         front(b, &object, name, rect, BOX + CONTACT, opening, style, finish, rng);
@@ -87,7 +92,7 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
             put("door", [0.0, w, low, top - 0.155], Opening::Below(side), rng);
         }
         Unit::Sink(_) | Unit::Dishwasher => {
-            put("door", [0.0, w, low, top], if unit == Unit::Dishwasher { Opening::Drawer } else { Opening::Below(side) }, rng);
+            put("door", [0.0, w, low, top], if unit == Unit::Dishwasher { Opening::Flap } else { Opening::Below(side) }, rng);
         }
         Unit::Drawers(_) => {
             let cuts = if rng.below(2) == 0 { [0.0, 0.37, 0.74, 1.0] } else { [0.0, 0.4, 0.8, 1.0] };
@@ -100,8 +105,8 @@ pub fn base(b: &mut Builder, pose: DAffine3, unit: Unit, style: &KitchenStyle, r
             put("drawer", [0.0, w, low, low + OVEN_DRAWER], Opening::Drawer, rng);
             if w > WIDE {
                 let rest = 0.5 * (w - 0.6);
-                put("filler_1", [0.0, rest, low + OVEN_DRAWER, top], Opening::Drawer, rng);
-                put("filler_2", [w - rest, w, low + OVEN_DRAWER, top], Opening::Drawer, rng);
+                put("filler_1", [0.0, rest, low + OVEN_DRAWER, top], Opening::Fixed, rng);
+                put("filler_2", [w - rest, w, low + OVEN_DRAWER, top], Opening::Fixed, rng);
             }
         }
         Unit::Larder(_) | Unit::BuiltInRefrigerator => {
@@ -149,9 +154,24 @@ fn carcass(b: &mut Builder, object: &Object, w: f32, [low, top]: [f32; 2], hollo
             board([x0 + SHELL, y0, low + SHELL], [x1 - SHELL, y0 + 0.006, top], BEVEL),
         ])
     } else {
-        board([x0, y0, low], [x1, BOX, top], BEVEL)
+        body_box(b, [x0, y0, low], [x1, BOX, top], BEVEL)
     };
     b.part(object, "box", mesh, finish);
+}
+
+/// The boards behind the doors of a unit that can be opened.
+fn shelves(b: &mut Builder, object: &Object, unit: Unit, [low, top]: [f32; 2]) {
+    let levels: Vec<f32> = match unit {
+        // Below the drawer.
+        Unit::Doors(w) if w <= WIDE => vec![0.5 * (low + top - 0.155)],
+        Unit::Doors(_) => vec![0.5 * (low + top)],
+        Unit::Larder(_) | Unit::BuiltInRefrigerator => (1..6).map(|k| low + (top - low) * k as f32 / 6.0).collect(),
+        _ => return,
+    };
+    let (x0, x1) = (APART + SHELL + 0.0002, unit.width() - APART - SHELL - 0.0002);
+    let finish = if unit == Unit::BuiltInRefrigerator { Finish::Glass } else { Finish::WhiteLacquer };
+    let level = |z: &f32| board([x0, 0.025, z - 0.5 * SHELL], [x1, BOX - 0.03, z + 0.5 * SHELL], BEVEL);
+    b.part(object, "shelves", all(levels.iter().map(level)), finish);
 }
 
 /// Adds a wall unit with `doors` over the width `w`; glazed ones show what is in them.
@@ -163,14 +183,20 @@ pub fn wall_cabinet(b: &mut Builder, pose: DAffine3, w: f32, z: [f32; 2], glazed
     if glazed {
         glazed_box(b, &object, w, depth, z);
     } else {
-        b.part(&object, "box", board([APART, 0.002, low], [w - APART, depth, top], 0.0008), style.upper);
+        let mesh = body_box(b, [APART, 0.002, low], [w - APART, depth, top], 0.0008);
+        b.part(&object, "box", mesh, style.upper);
+        if b.has_joints() {
+            let z = 0.5 * (low + top);
+            let shelf = board([APART + SHELL + 0.0002, 0.02, z], [w - APART - SHELL - 0.0002, depth - 0.02, z + SHELL], BEVEL);
+            b.part(&object, "shelf", shelf, Finish::WhiteLacquer);
+        }
     }
     let side = if rng.below(2) == 0 { -1.0 } else { 1.0 };
     for k in 0..doors {
         let x = [k as f32 / doors as f32 * w, (k + 1) as f32 / doors as f32 * w];
         let side = if doors == 2 { 1.0 - 2.0 * k as f32 } else { side };
         if glazed {
-            glass_door(b, &object, k + 1, [x[0], x[1], low, top], depth + CONTACT, style);
+            glass_door(b, &object, (k + 1, side), [x[0], x[1], low, top], depth + CONTACT, style);
         } else {
             front(
                 b,
@@ -207,17 +233,21 @@ fn glazed_box(b: &mut Builder, object: &Object, w: f32, depth: f32, [low, top]: 
     b.part(object, "box", mesh, Finish::WhiteLacquer);
 }
 
-fn glass_door(b: &mut Builder, object: &Object, number: usize, rect: [f32; 4], y: f32, style: &KitchenStyle) {
+/// A door with a pane, hinged at the edge away from `side`.
+fn glass_door(b: &mut Builder, object: &Object, (number, side): (usize, f32), rect: [f32; 4], y: f32, style: &KitchenStyle) {
     use crate::shape::{Reshape, grid, picture_frame};
     let [w, h] = [rect[1] - rect[0] - 0.003, rect[3] - rect[2] - 0.003];
     let at = Vec3::new(0.5 * (rect[0] + rect[1]), y, 0.5 * (rect[2] + rect[3]));
     let rail = 0.045;
     let section = [[0.0, 0.0], [0.0, FRONT - 0.001], [0.001, FRONT], [rail - 0.001, FRONT], [rail, FRONT - 0.001], [rail, 0.0]];
+    let from = b.part_count();
     b.part(object, &format!("door_{number}"), picture_frame(w, h, &section).moved(at), style.upper);
     let half = enfilade_math::Vec2::new(0.5 * w - rail + 0.004, 0.5 * h - rail + 0.004);
     let corner = |i: usize, j: usize| enfilade_math::Vec2::new(1.0 - 2.0 * i as f32, 2.0 * j as f32 - 1.0);
     let pane = grid(1, 1, |i, j| Vec3::new(half.x * corner(i, j).x, 0.5 * FRONT, half.y * corner(i, j).y), corner);
     b.part(object, &format!("pane_{number}"), pane.moved(at), Finish::Glass);
+    let joint = Joint::cupboard(at.x - side * 0.5 * w, y + FRONT, -side);
+    b.joint(object, &format!("door_{number}"), &joint, from..b.part_count());
 }
 
 /// True where the dishwasher hides behind a front like those of the units: beside appliances of black glass.

@@ -5,6 +5,7 @@ use super::{Keyboard, Laptop, Monitor, Mouse};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, rod};
+use crate::pieces::joinery::{body_box, pull};
 use crate::pieces::{Furniture, Surface, board, grained, leg, on};
 use crate::shape::{Reshape, bevelled_box, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
@@ -90,19 +91,31 @@ impl Desk {
         let (w, low, under) = (0.42, 0.04, UNDER);
         let (x0, x1) = if side > 0.0 { (half - w - 0.02, half - 0.02) } else { (0.02 - half, 0.02 - half + w) };
         let white = if self.finish == Finish::WhiteLacquer { Finish::WhiteLacquer } else { self.finish };
-        b.part(desk, "pedestal", grained(board([x0, back + 0.03, low], [x1, front - 0.042, under], 0.0015), rng), white);
+        let pedestal = body_box(b, [x0, back + 0.03, low], [x1, front - 0.042, under], 0.0015);
+        b.part(desk, "pedestal", grained(pedestal, rng), white);
         b.part(desk, "plinth", board([x0 + 0.02, back + 0.05, 0.0], [x1 - 0.02, front - 0.07, low - 0.0002], 0.001), Finish::BlackPlastic);
         let cuts = [0.0, 0.44, 0.72, 1.0];
         let mut pulls = Vec::new();
         for k in 0..3 {
             let z = [cuts[k], cuts[k + 1]].map(|t| low + t * (under - low));
             let face = board([x0 + 0.001, front - 0.0415, z[0] + 0.0015], [x1 - 0.001, front - 0.022, z[1] - 0.0015], 0.0012);
+            let from = b.part_count();
             b.part(desk, &format!("drawer_{}", k + 1), grained(face, rng), white);
+            let rect = [x0 + 0.001, x1 - 0.001, z[0], z[1]];
             let (x, y, z) = (0.5 * (x0 + x1), front - 0.0222, z[1] - 0.045);
             let post = |x: f32| rod([x, y, z], [x, y + 0.019, z], 0.004, 8);
-            pulls.push(all([rod([x - 0.07, y + 0.018, z], [x + 0.07, y + 0.018, z], 0.005, 10), post(x - 0.055), post(x + 0.055)]));
+            let bar = all([rod([x - 0.07, y + 0.018, z], [x + 0.07, y + 0.018, z], 0.005, 10), post(x - 0.055), post(x + 0.055)]);
+            if b.has_joints() {
+                b.part(desk, &format!("pull_{}", k + 1), bar, Finish::Steel);
+                let y = front - 0.0415;
+                pull(b, desk, &format!("drawer_{}", k + 1), from, rect, y, y - back - 0.06, white);
+            } else {
+                pulls.push(bar);
+            }
         }
-        b.part(desk, "pulls", all(pulls), Finish::Steel);
+        if !b.has_joints() {
+            b.part(desk, "pulls", all(pulls), Finish::Steel);
+        }
         for (i, y) in [back + 0.05, front - 0.05].into_iter().enumerate() {
             let x = -side * (half - 0.04);
             let post = board([x - 0.02, y - 0.02, 0.0], [x + 0.02, y + 0.02, under], 0.002);
@@ -158,15 +171,18 @@ impl Desk {
             let mesh = leg(under - 0.09, [0.013, 0.021], s * Vec2::new(0.05, 0.03)).moved((s * (half - 0.07)).extend(0.0));
             b.part(desk, &format!("leg_{}", i + 1), grained(mesh, rng), self.finish);
         }
-        let case = board([-half.x + 0.03, -half.y + 0.03, under - 0.0902], [half.x - 0.03, half.y - 0.045, under], 0.0015);
+        let case = body_box(b, [-half.x + 0.03, -half.y + 0.03, under - 0.0902], [half.x - 0.03, half.y - 0.045, under], 0.0015);
         b.part(desk, "case", grained(case, rng), self.finish);
         for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
             let x = [0.002, half.x - 0.032].map(|x| s * x);
             let face = board([x[0].min(x[1]), half.y - 0.0445, under - 0.088], [x[0].max(x[1]), half.y - 0.026, under - 0.002], 0.0012);
+            let from = b.part_count();
             b.part(desk, &format!("drawer_{}", i + 1), grained(face, rng), self.finish);
             let knob =
                 crate::pieces::form::to_front(cylinder(0.009, 0.02, 18)).moved(Vec3::new(0.5 * s * half.x, half.y - 0.0262, under - 0.045));
             b.part(desk, &format!("knob_{}", i + 1), knob, Finish::Brass);
+            let rect = [x[0].min(x[1]), x[0].max(x[1]), under - 0.088, under - 0.002];
+            pull(b, desk, &format!("drawer_{}", i + 1), from, rect, half.y - 0.0445, 2.0 * half.y - 0.11, self.finish);
         }
         let (y0, y1, z) = (-half.y, -half.y + 0.17, TOP + 0.13);
         let post = |x: f32| board([x - 0.008, y0, TOP + 0.0003], [x + 0.008, y1, z - 0.0002], 0.001);

@@ -2,6 +2,7 @@
 //! with or without arms, and with a head rest where it is tall. The sitter looks to +y.
 
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::Furniture;
 use crate::pieces::form::{all, around, cylinder, rod, turned, wire};
@@ -33,7 +34,8 @@ const BASE: f32 = 0.29;
 const HELD: f32 = 0.18;
 
 impl OfficeChair {
-    fn base(&self, b: &mut Builder, chair: &crate::builder::Object, turn: f32) {
+    /// Adds what is below the seat; returns the number of the first part that turns with the seat.
+    fn base(&self, b: &mut Builder, chair: &crate::builder::Object, turn: f32) -> usize {
         let metal = if self.polished { Finish::Aluminium } else { Finish::BlackPlastic };
         let arms = around(5, turn).map(|d| {
             let path = [[d.x * 0.02, d.y * 0.02, 0.105], [d.x * 0.15, d.y * 0.15, 0.098], [d.x * BASE, d.y * BASE, 0.078]];
@@ -50,6 +52,7 @@ impl OfficeChair {
         let lift = cylinder(0.026, 0.12, 24).moved(Vec3::new(0.0, 0.0, 0.1));
         b.part(chair, "sleeve", lift, Finish::BlackPlastic);
         b.part(chair, "gas_spring", cylinder(0.014, self.seat - 0.27, 20).moved(Vec3::new(0.0, 0.0, 0.2)), Finish::Chrome);
+        let turning = b.part_count();
         let plate = rounded_box(Vec3::new(0.2, 0.26, 0.045), 0.01, 2).moved(Vec3::new(0.0, -0.03, self.seat - 0.087));
         b.part(
             chair,
@@ -57,6 +60,7 @@ impl OfficeChair {
             plate.with(rod([0.09, 0.04, self.seat - 0.09], [0.22, 0.05, self.seat - 0.095], 0.006, 8)),
             Finish::BlackPlastic,
         );
+        turning
     }
 
     /// Bends a flat back (x across, z up from its lower edge) around the sitter and towards the small of the back.
@@ -103,7 +107,7 @@ impl Furniture for OfficeChair {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let chair = b.object("office_chair", Class::Chair, pose);
-        self.base(b, &chair, rng.range(0.0, 1.2));
+        let turning = self.base(b, &chair, rng.range(0.0, 1.2));
         let seat = padded_box(Vec3::new(0.49, 0.48, 0.06), 0.028, 0.012)
             .deformed(|p| Vec3::new(p.x, p.y, p.z - 0.03 * ((p.y - 0.12) / 0.12).max(0.0).powi(2)))
             .smoothed(60.0);
@@ -146,6 +150,7 @@ impl Furniture for OfficeChair {
             let z = self.seat + 0.045 + h;
             b.part(&chair, "head_rest", roll.moved(Vec3::new(0.0, -0.355, z)), self.cloth);
         }
+        b.joint(&chair, "seat", &Joint::seat(), turning..b.part_count());
     }
 }
 
