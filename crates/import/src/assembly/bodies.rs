@@ -30,10 +30,21 @@ impl Assembly<'_> {
         (times_s, poses): TimedPoses,
     ) -> Option<BodyId> {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses };
+        self.push_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
+    }
+
+    /// A body whose motion is stated in a frame of the file, as [`Assembly::push_body`] adds it, with the least and greatest of its states.
+    pub(crate) fn push_jointed(
+        &mut self,
+        name: &str,
+        parent: Option<BodyId>,
+        file_from_frame: DAffine3,
+        motion: BodyMotion,
+        _limits: Option<[f64; 2]>,
+    ) -> Option<BodyId> {
         let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let unique = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
-        let motion = BodyMotion { times_s, states };
         let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(

@@ -13,6 +13,8 @@
 //! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
 
 mod elements;
+mod joints;
+pub(crate) mod mjcf;
 mod sdf;
 mod shapes;
 mod urdf;
