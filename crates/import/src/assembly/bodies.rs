@@ -40,12 +40,12 @@ impl Assembly<'_> {
         parent: Option<BodyId>,
         file_from_frame: DAffine3,
         motion: BodyMotion,
-        _limits: Option<[f64; 2]>,
+        limits: Option<[f64; 2]>,
     ) -> Option<BodyId> {
         let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let unique = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
-        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), motion };
+        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), limits, motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(
                 format!("node {name:?}"),

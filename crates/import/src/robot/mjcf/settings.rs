@@ -98,7 +98,9 @@ impl Settings {
         let name = element.text("class").or(inherited).unwrap_or("main");
         let class = self.classes.get(name).ok_or_else(|| element.wrong(format!("there is no default class {name:?}")))?;
         let Some(defaults) = class.get(&element.tag) else { return Ok(element.clone()) };
-        Ok(Element { attributes: merged(&element.attributes, defaults), ..element.clone() })
+        let mut complete = element.clone();
+        complete.attributes = merged(&element.attributes, defaults);
+        Ok(complete)
     }
 
     /// An angle of the file, radians.

@@ -79,11 +79,6 @@ fn included(include: &Element, depth: usize, a: &mut Assembly) -> Result<Element
 }
 
 impl Element {
-    /// An element of a tag without attributes, at the place of this one.
-    pub(super) fn of_tag(&self, tag: &str) -> Self {
-        Self { tag: tag.into(), attributes: Vec::new(), children: Vec::new(), ..self.clone() }
-    }
-
     /// The elements of a tag within it.
     pub(super) fn all<'e, 't>(&'e self, tag: &'t str) -> impl Iterator<Item = &'e Element> + use<'e, 't> {
         self.children.iter().filter(move |child| child.tag == tag)
