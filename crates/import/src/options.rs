@@ -4,6 +4,7 @@ use crate::{EnvironmentOverride, ImportError};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_options::words;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 words! {
     /// The axis of the file that points up.
@@ -96,7 +97,10 @@ pub struct ImportOptions {
     pub allow_missing_meshes: bool,
     /// Groups of geoms of MuJoCo's models that are read; 0, 1 and 2 if none is given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub geom_groups: Vec<u8>,
+    pub geom_groups: Vec<u32>,
+    /// A stored run of a simulator, whose states the joints have over time (MJCF, URDF): `.npz` or `.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub states: Option<PathBuf>,
 }
 
 impl Default for ImportOptions {
@@ -108,6 +112,7 @@ impl Default for ImportOptions {
             allow_missing_textures: false,
             allow_missing_meshes: false,
             geom_groups: Vec::new(),
+            states: None,
         }
     }
 }

@@ -57,6 +57,14 @@ impl Assembly<'_> {
         Some(self.scene.bodies.len() as BodyId - 1)
     }
 
+    /// Gives a body another motion, which is stated in a frame of the file as in [`Assembly::push_jointed`].
+    pub(crate) fn move_body(&mut self, body: Option<BodyId>, file_from_frame: DAffine3, motion: BodyMotion) {
+        let Some(body) = body.map(|body| &mut self.scene.bodies[body as usize]) else { return };
+        let limits = body.limits;
+        let moved = Body { motion, ..body.clone() }.carried(&(self.world_from_file * file_from_frame));
+        *body = Body { limits, ..moved.unwrap_or_else(|| body.clone()) };
+    }
+
     /// Gives a body the parts and lights that came after `before`.
     pub(crate) fn carry(&mut self, body: BodyId, before: Contents) {
         let now = self.contents();

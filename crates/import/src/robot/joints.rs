@@ -29,8 +29,39 @@ pub(super) struct Joint {
     pub zero: f64,
     /// Least and greatest state relative to rest, if it has limits.
     pub limits: Option<[f64; 2]>,
+    /// The joint that it follows where it has no states of its own.
+    pub mimic: Option<Mimic>,
     /// The body that it moves, unless that cannot move rigidly.
     pub body: Option<BodyId>,
+}
+
+/// A joint that follows another: its state is `multiplier` × the other's + `offset`.
+pub(super) struct Mimic {
+    pub of: String,
+    pub multiplier: f64,
+    pub offset: f64,
+}
+
+/// A body of a robot (a link in URDF).
+pub(super) struct Link {
+    pub name: String,
+    /// At rest.
+    pub file_from_link: DAffine3,
+    /// Whether joints move it in relation to the body that it is in.
+    pub jointed: bool,
+    /// Whether a program moves it (MuJoCo's mocap bodies).
+    pub mocap: bool,
+    /// The body of the scene that it moves with.
+    pub body: Option<BodyId>,
+    /// The one that it is in; of the first, itself.
+    pub parent: usize,
+}
+
+impl Link {
+    /// Whether anything moves it in relation to the body that it is in.
+    pub(super) fn moves(&self) -> bool {
+        self.jointed || self.mocap
+    }
 }
 
 impl Kind {
@@ -45,6 +76,11 @@ impl Kind {
 }
 
 impl Joint {
+    /// A joint of any pose in the world.
+    pub(super) fn free(name: &str, file_from_frame: DAffine3) -> Self {
+        Self { name: name.into(), kind: Kind::Free, file_from_frame, axis: DVec3::Z, zero: 0.0, limits: None, mimic: None, body: None }
+    }
+
     /// Adds its body to the scene, at rest.
     pub(super) fn push(&mut self, body: &str, parent: Option<BodyId>, a: &mut Assembly) {
         let states = self.states(&[]);

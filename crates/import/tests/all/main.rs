@@ -18,6 +18,7 @@ mod gltf_textures;
 mod gltf_writers;
 mod habitat;
 mod lenient;
+mod mjcf;
 mod mitsuba;
 mod mitsuba_light;
 mod mitsuba_materials;

@@ -149,15 +149,16 @@ fn side(direction: Vec3) -> usize {
     2 * axis + usize::from(direction[axis] < 0.0)
 }
 
-/// The texture coordinates of a point of the cube from −1 to 1 on one of its sides; of the four upright sides z is up.
+/// The texture coordinates of a point of the cube from −1 to 1 on one of its sides, as OpenGL's cube maps have them: y is up on the sides of x
+/// and z.
 fn on_side(p: Vec3, side: usize, layout: Layout) -> Vec2 {
     let (u, v) = match side {
-        0 => (p.y, p.z),
-        1 => (-p.y, p.z),
-        2 => (-p.x, p.z),
+        0 => (-p.z, p.y),
+        1 => (p.z, p.y),
+        2 => (p.x, -p.z),
         3 => (p.x, p.z),
         4 => (p.x, p.y),
-        _ => (p.x, -p.y),
+        _ => (-p.x, p.y),
     };
     let (u, v) = (0.5 * (u + 1.0), 0.5 * (v + 1.0));
     // The first side is the uppermost of six.

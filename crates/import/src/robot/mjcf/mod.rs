@@ -21,10 +21,14 @@ mod tree;
 mod views;
 mod walk;
 
+use super::states::{self, States, Tree};
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported, UpAxis};
 use tree::Element;
 use walk::Walk;
+
+/// MuJoCo's time step where a model states none, seconds.
+const STEP_S: f64 = 0.002;
 
 /// Imports a model of MuJoCo.
 pub(crate) fn load(mut a: Assembly) -> Result<Imported, ImportError> {
@@ -32,6 +36,11 @@ pub(crate) fn load(mut a: Assembly) -> Result<Imported, ImportError> {
     let root = tree::read(&mut a)?;
     let mut walk = Walk::of(&root)?;
     walk.world(&mut a)?;
+    let step_s = root.all("option").find_map(|option| option.number("timestep").ok()?).unwrap_or(STEP_S);
+    if let Some(states) = States::read(Some(step_s), &mut a)? {
+        states::apply(&states, &Tree { joints: &walk.joints, links: &walk.links, ordered: true }, &mut a)?;
+    }
+    a.drop_unused_bodies();
     walk.omitted.report(&mut a);
     report(&root, &mut a);
     a.finish()

@@ -11,9 +11,11 @@ use std::collections::BTreeMap;
 
 /// Names of the files of a cube's sides, in the order of their places in a picture of all six.
 const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
+/// Letters of these sides in a grid.
+const LETTERS: [char; 6] = ['R', 'L', 'U', 'D', 'F', 'B'];
 /// Sides of a made picture that states none, and the largest, texels.
 const SIDE: u32 = 256;
-const LARGEST: u32 = 2048;
+const LARGEST: u32 = 1024;
 
 /// A texture of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,9 +83,9 @@ fn picture(element: &Element, user: &Element, settings: &Settings, a: &mut Assem
     let flat = element.text("type") == Some("2d");
     let flips = ["hflip", "vflip"].map(|flip| element.flag(flip) == Some(true));
     let of_user = format!("{} {:?}", user.tag, user.name());
-    if element.text("gridlayout").is_some_and(|grid| grid.chars().any(|c| c != '.')) || SIDES.iter().any(|side| element.text(side).is_some()) {
+    if SIDES.iter().any(|side| element.text(side).is_some()) {
         let place = element.place(a);
-        a.warn(place, "a cube of six pictures, or of a grid of them, is not read; the plain colour was used");
+        a.warn(place, "a cube of six files is not read (a grid in one file is); the plain colour was used");
         return Ok(None);
     }
     if let Some(path) = element.text("file") {
@@ -92,7 +94,12 @@ fn picture(element: &Element, user: &Element, settings: &Settings, a: &mut Assem
         let file = find(&path, &scene, a);
         let file = file.map_or(path, |file| std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned());
         let image = a.image(&Source::File(&file), Use::Color, &of_user)?;
-        return Ok(image.map(|image| Picture { image, layout: if flat { Layout::Flat } else { Layout::Cube }, flips }));
+        let Some(image) = image else { return Ok(None) };
+        let grid = element.text("gridlayout").filter(|grid| !flat && grid.chars().any(|cell| cell != '.'));
+        let Some(grid) = grid else { return Ok(Some(Picture { image, layout: if flat { Layout::Flat } else { Layout::Cube }, flips })) };
+        let [rows, columns] = element.vector::<2>("gridsize")?.map_or([1, 1], |sides| sides.map(|side| side.clamp(1.0, 12.0) as u32));
+        let sides = sides_of(a.image_at(image), [rows, columns], grid);
+        return Ok(Some(Picture { image: a.push_image(sides), layout: Layout::Sides, flips }));
     }
     let made = Made::of(element)?;
     let Some((image, layout)) = made.picture(flat) else {
@@ -101,6 +108,28 @@ fn picture(element: &Element, user: &Element, settings: &Settings, a: &mut Assem
         return Ok(None);
     };
     Ok(Some(Picture { image: a.push_image(image), layout, flips }))
+}
+
+/// The six sides of a cube among the cells of a picture, one below the other; a letter for each cell says which it is.
+fn sides_of(image: &Image, [rows, columns]: [u32; 2], grid: &str) -> Image {
+    let (side, cells) = ((image.width / columns).min(image.height / rows).max(1), grid.chars().collect::<Vec<char>>());
+    let corner = |letter: char| {
+        let cell = cells.iter().position(|cell| *cell == letter)? as u32;
+        Some([cell % columns * side, cell / columns * side]).filter(|[x, y]| x + side <= image.width && y + side <= image.height)
+    };
+    let corners: Vec<Option<[u32; 2]>> = LETTERS.iter().map(|letter| corner(*letter)).collect();
+    let places = (0..6 * side).flat_map(|y| (0..side).map(move |x| (x, y)));
+    let source = places.map(|(x, y)| {
+        let [left, top] = corners[(y / side) as usize]?;
+        Some(((top + y % side) * image.width + left + x) as usize)
+    });
+    let pixels = match &image.pixels {
+        Pixels::Rgba8 { srgb, texels } => {
+            Pixels::Rgba8 { srgb: *srgb, texels: source.map(|at| at.map_or([128, 128, 128, 255], |at| texels[at])).collect() }
+        }
+        Pixels::RgbF32(texels) => Pixels::RgbF32(source.map(|at| at.map_or([0.5; 3], |at| texels[at])).collect()),
+    };
+    Image { name: format!("{} (sides)", image.name), width: side, height: 6 * side, pixels }
 }
 
 /// A picture that MuJoCo makes.
@@ -159,11 +188,12 @@ impl<'e> Made<'e> {
         match (self.pattern, layout) {
             ("flat", _) => Some(first),
             ("checker", _) => Some(if (2 * x < width) == (2 * y < height) { first } else { second }),
-            ("gradient", Layout::Sides) => Some(match side {
-                4 => first,
-                5 => second,
-                _ => mixed(first, second, share(at(y, height))),
-            }),
+            ("gradient", Layout::Sides) => {
+                // By the direction's part along y, which is up in MuJoCo's cubes.
+                let (across, down) = (at(x, width), at(y, height));
+                let up = [-down, -down, 1.0, -1.0, -down, -down][side as usize] / (1.0 + across * across + down * down).sqrt();
+                Some(mixed(first, second, 0.5 * (1.0 - up)))
+            }
             ("gradient", _) => {
                 let place = at(x, width).hypot(at(y, height));
                 Some(mixed(first, second, share(2.0 * place.min(1.0) - 1.0)))

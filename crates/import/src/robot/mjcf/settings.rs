@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 /// Attributes of which an element may give the first numbers alone; the others are those of its class.
 const PARTIAL: [&str; 1] = ["size"];
+/// Ways to state a rotation: an element that has one of them inherits none.
+const ROTATIONS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
 /// The settings of a model.
 pub(super) struct Settings {
@@ -187,7 +189,9 @@ pub(super) fn along(direction: DVec3) -> Option<DQuat> {
 
 fn merged(own: &[(String, String)], inherited: &[(String, String)]) -> Vec<(String, String)> {
     let mut all = own.to_vec();
-    for (name, value) in inherited.iter().filter(|(name, _)| name != "class" && name != "name") {
+    let turned = own.iter().any(|(name, _)| ROTATIONS.contains(&name.as_str()));
+    let left = |name: &str| matches!(name, "class" | "name") || turned && ROTATIONS.contains(&name);
+    for (name, value) in inherited.iter().filter(|(name, _)| !left(name)) {
         match all.iter_mut().find(|(known, _)| known == name) {
             None => all.push((name.clone(), value.clone())),
             Some((_, given)) if PARTIAL.contains(&name.as_str()) => {

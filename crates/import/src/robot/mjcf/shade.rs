@@ -22,7 +22,7 @@ pub(super) struct Shade {
     rgba: [f64; 4],
     pub picture: Option<Picture>,
     repeat: [f64; 2],
-    /// Whether `repeat` counts by metre instead of by object.
+    /// Whether `repeat` counts by two metres instead of by object.
     uniform: bool,
     emission: f64,
     specular: f64,
@@ -166,9 +166,9 @@ impl Shade {
                 [[u * flip_u, 0.0, 0.0], [0.0, v * flip_v, 1.0 - v]]
             }
             Layout::Flat => {
-                // Coordinates are −1 to 1 over the object.
-                let scale = |axis: usize| (if self.uniform { self.repeat[axis] * half[axis] } else { 0.5 * self.repeat[axis] }) as f32;
-                [[scale(0) * flip_u, 0.0, 0.5], [0.0, scale(1) * flip_v, 0.5]]
+                // Coordinates are −1 to 1 over the object; as in MuJoCo, `repeat` counts from its edge, by object or by two metres.
+                let scale = |axis: usize| (0.5 * self.repeat[axis] * if self.uniform { half[axis] } else { 1.0 }) as f32;
+                [[scale(0) * flip_u, 0.0, scale(0)], [0.0, scale(1) * flip_v, scale(1)]]
             }
         };
         TextureRef { uv_transform: rows, ..texture }

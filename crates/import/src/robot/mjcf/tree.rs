@@ -9,6 +9,8 @@ use std::rc::Rc;
 
 /// Files that include each other deeper than this are taken for a circle.
 const MAX_DEPTH: usize = 16;
+/// More inclusions are taken for a mistake.
+const MAX_FILES: usize = 2_000;
 
 /// An element of a model.
 #[derive(Clone, Debug)]
@@ -32,7 +34,7 @@ pub(super) fn read(a: &mut Assembly) -> Result<Element, ImportError> {
     if root.tag != "mujoco" {
         return Err(a.malformed("line 1", format!("the outermost element is <{}>, expected <mujoco>", root.tag)));
     }
-    with_includes(root, 0, a)
+    with_includes(root, 0, &mut 0, a)
 }
 
 fn parsed(file: &Path, bytes: &[u8]) -> Result<Element, ImportError> {
@@ -53,29 +55,33 @@ fn element(node: Node, file: &Rc<PathBuf>) -> Element {
     }
 }
 
-fn with_includes(mut within: Element, depth: usize, a: &mut Assembly) -> Result<Element, ImportError> {
+fn with_includes(mut within: Element, depth: usize, files: &mut usize, a: &mut Assembly) -> Result<Element, ImportError> {
     let mut children = Vec::with_capacity(within.children.len());
     for child in std::mem::take(&mut within.children) {
         if child.tag == "include" {
-            children.extend(included(&child, depth, a)?.children);
+            children.extend(included(&child, depth, files, a)?.children);
         } else {
-            children.push(with_includes(child, depth, a)?);
+            children.push(with_includes(child, depth, files, a)?);
         }
     }
     within.children = children;
     Ok(within)
 }
 
-fn included(include: &Element, depth: usize, a: &mut Assembly) -> Result<Element, ImportError> {
+fn included(include: &Element, depth: usize, files: &mut usize, a: &mut Assembly) -> Result<Element, ImportError> {
     if depth >= MAX_DEPTH {
         return Err(include.wrong(format!("files include each other more than {MAX_DEPTH} deep; break the circle")));
+    }
+    *files += 1;
+    if *files > MAX_FILES {
+        return Err(include.wrong(format!("more than {MAX_FILES} files are included")));
     }
     let path = include.text("file").ok_or_else(|| include.wrong("it names no file".into()))?.replace('\\', "/");
     // From the model's own folder, as MuJoCo does; from the including file's, as others expect.
     let found = a.beside(&a.file().to_path_buf(), &path).or_else(|| a.beside(&include.file, &path));
     let file = found.unwrap_or_else(|| a.path_of(&path));
     let bytes = a.read_input(&file, &format!("{} includes it; put it there or correct the path", include.file.display()))?;
-    with_includes(parsed(&file, &bytes)?, depth + 1, a)
+    with_includes(parsed(&file, &bytes)?, depth + 1, files, a)
 }
 
 impl Element {

@@ -41,6 +41,10 @@ impl Walk<'_> {
         if let Some(axes) = target.and_then(|target| orthonormal(DVec3::Z, placed.translation - target)) {
             placed = DAffine3 { matrix3: axes, ..placed };
         }
+        if at.body.is_some() && a.options().states.is_some() {
+            let message = "it rides on a body; pictures begin where it is at rest (MujocoRecorder.save_camera in Python writes its poses as keyframes)";
+            a.warn(format!("camera {name:?}"), message);
+        }
         let aspect = camera.vector::<2>("resolution")?.filter(|[w, h]| *w > 1.0 && *h > 1.0).map_or(DEFAULT_ASPECT, |[w, h]| w / h);
         let sensor = camera.vector::<2>("sensorsize")?.filter(|[w, h]| *w > 0.0 && *h > 0.0);
         let focal = camera.vector::<2>("focal")?.or_else(|| {

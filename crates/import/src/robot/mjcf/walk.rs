@@ -8,14 +8,14 @@ use super::shade::Shades;
 use super::tree::Element;
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::robot::joints::{Joint, Kind};
+use crate::robot::joints::{Joint, Kind, Link};
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{BodyId, ObjectId};
 use std::collections::BTreeMap;
 
 /// Bodies, frames and copies within each other are no deeper than this.
 const MAX_DEPTH: usize = 200;
-/// More copies of a `<replicate>` are taken for a mistake.
+/// More copies by `<replicate>` are taken for a mistake.
 const MAX_COPIES: usize = 100_000;
 
 /// Where an element is.
@@ -36,17 +36,6 @@ pub(super) struct Place {
     depth: usize,
 }
 
-/// A body of the model, in MuJoCo's order; the first is the world.
-pub(super) struct Link {
-    pub name: String,
-    /// At rest.
-    pub file_from_link: DAffine3,
-    /// Whether joints, or a program, move it in relation to the body that it is in.
-    pub moves: bool,
-    /// The body of the scene, if it moves in relation to the world.
-    pub body: Option<BodyId>,
-}
-
 /// A model on its way into a scene.
 pub(super) struct Walk<'r> {
     pub settings: Settings,
@@ -55,10 +44,14 @@ pub(super) struct Walk<'r> {
     pub omitted: Omitted,
     pub pushed: BTreeMap<(String, Option<Layout>), Option<u32>>,
     pub root: &'r Element,
+    /// In MuJoCo's order; the first is the world.
     pub links: Vec<Link>,
+    /// In the order of `qpos`.
     pub joints: Vec<Joint>,
     /// Cameras and lights that look at a body, with it; placed when all bodies are known.
     pub aimed: Vec<(Element, Place)>,
+    /// Number of copies by `<replicate>` so far.
+    copies: usize,
 }
 
 impl<'r> Walk<'r> {
@@ -71,9 +64,17 @@ impl<'r> Walk<'r> {
             omitted: Omitted::default(),
             pushed: BTreeMap::new(),
             root,
-            links: vec![Link { name: "world".into(), file_from_link: DAffine3::IDENTITY, moves: false, body: None }],
+            links: vec![Link {
+                name: "world".into(),
+                file_from_link: DAffine3::IDENTITY,
+                jointed: false,
+                mocap: false,
+                body: None,
+                parent: 0,
+            }],
             joints: Vec::new(),
             aimed: Vec::new(),
+            copies: 0,
         })
     }
 
@@ -135,8 +136,9 @@ impl<'r> Walk<'r> {
 
     fn copies(&mut self, replicate: &Element, at: &Place, a: &mut Assembly) -> Result<(), ImportError> {
         let count = replicate.number("count")?.unwrap_or(0.0).max(0.0) as usize;
-        if count > MAX_COPIES {
-            return Err(replicate.wrong(format!("found {count} copies, expected at most {MAX_COPIES}")));
+        self.copies = self.copies.saturating_add(count);
+        if self.copies > MAX_COPIES {
+            return Err(replicate.wrong(format!("{} copies in the whole model, expected at most {MAX_COPIES}", self.copies)));
         }
         let offset = replicate.vector("offset")?.map_or(DVec3::ZERO, DVec3::from_array);
         let angles = replicate.vector::<3>("euler")?.unwrap_or_default();
@@ -163,8 +165,8 @@ impl<'r> Walk<'r> {
         let mut joints = Vec::new();
         self.joints_of(body, &here, &mut joints)?;
         let last = joints.len();
-        for (at, joint) in joints.iter_mut().enumerate() {
-            let name = if at + 1 == last { here.name.clone() } else { format!("{}.{}", here.name, joint.name) };
+        for (number, joint) in joints.iter_mut().enumerate() {
+            let name = if number + 1 == last { here.name.clone() } else { format!("{}.{}", here.name, joint.name) };
             joint.push(&name, here.body, a);
             here.body = joint.body.or(here.body);
         }
@@ -174,7 +176,8 @@ impl<'r> Walk<'r> {
             stand.push(&here.name, here.body, a);
             here.body = stand.body.or(here.body);
         }
-        self.links.push(Link { name: here.name.clone(), file_from_link: file_from_here, moves: mocap || last > 0, body: here.body });
+        let (name, body_id) = (here.name.clone(), here.body);
+        self.links.push(Link { name, file_from_link: file_from_here, jointed: last > 0, mocap, body: body_id, parent: at.link });
         self.joints.append(&mut joints);
         self.content(body, &here, a)
     }
@@ -184,7 +187,7 @@ impl<'r> Walk<'r> {
         for element in &scope.children {
             match element.tag.as_str() {
                 "joint" => found.push(self.joint(&self.settings.complete(element, at.class.as_deref())?, at, found.len())?),
-                "freejoint" => found.push(Joint::free(&format!("{}{}", element.name(), at.suffix), at.file_from_here)),
+                "freejoint" => found.push(Joint::free(&free_name(element, at), at.file_from_here)),
                 "frame" => {
                     let class = element.text("childclass").map_or_else(|| at.class.clone(), |class| Some(class.into()));
                     let file_from_here = at.file_from_here * self.settings.placement(element)?;
@@ -201,7 +204,7 @@ impl<'r> Walk<'r> {
             "hinge" => Kind::Hinge,
             "slide" => Kind::Slide,
             "ball" => Kind::Ball,
-            "free" => return Ok(Joint::free(&format!("{}{}", joint.name(), at.suffix), at.file_from_here)),
+            "free" => return Ok(Joint::free(&free_name(joint, at), at.file_from_here)),
             other => return Err(joint.wrong(format!("found {other:?} as type, expected hinge, slide, ball or free"))),
         };
         let angle = |value: f64| if kind == Kind::Hinge { self.settings.radians(value) } else { value };
@@ -216,13 +219,11 @@ impl<'r> Walk<'r> {
         }
         let anchor = joint.vector("pos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let name = if joint.name().is_empty() { format!("joint_{number}") } else { format!("{}{}", joint.name(), at.suffix) };
-        Ok(Joint { name, kind, file_from_frame: at.file_from_here * DAffine3::from_translation(anchor), axis, zero, limits, body: None })
+        Ok(Joint { name, kind, file_from_frame: at.file_from_here * DAffine3::from_translation(anchor), axis, zero, limits, mimic: None, body: None })
     }
 }
 
-impl Joint {
-    /// A joint of any pose in the world.
-    fn free(name: &str, file_from_frame: DAffine3) -> Self {
-        Self { name: name.into(), kind: Kind::Free, file_from_frame, axis: DVec3::Z, zero: 0.0, limits: None, body: None }
-    }
+/// The name of a free joint: its own, else the body's.
+fn free_name(joint: &Element, at: &Place) -> String {
+    if joint.name().is_empty() { at.name.clone() } else { format!("{}{}", joint.name(), at.suffix) }
 }
