@@ -169,9 +169,8 @@ fn of_xml(bytes: &[u8]) -> Option<Format> {
         let end = if rest.starts_with("<!--") { "-->" } else { ">" };
         rest = rest.split_once(end)?.1.trim_start();
     }
-    let begins = |tag: &str| {
-        rest.strip_prefix(tag).is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || matches!(c, '>' | '/')))
-    };
+    let begins =
+        |tag: &str| rest.strip_prefix(tag).is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || matches!(c, '>' | '/')));
     [("<scene", Format::Mitsuba), ("<mujoco", Format::Mjcf)].into_iter().find(|(tag, _)| begins(tag)).map(|(_, format)| format)
 }
 

@@ -96,7 +96,8 @@ fn read(joint: Node, file_from_frame: DAffine3, a: &mut Assembly) -> Result<Opti
     if limits.is_none() && joint.attribute("type").map(str::trim) != Some("continuous") {
         a.warn(format!("joint {name:?}"), "it has no limits (lower below upper); it moves without end");
     }
-    let number = |node: Node, of: &str, default: f64, a: &Assembly| Ok::<_, ImportError>(vector::<1>(node, of, a)?.map_or(default, |[v]| v));
+    let number =
+        |node: Node, of: &str, default: f64, a: &Assembly| Ok::<_, ImportError>(vector::<1>(node, of, a)?.map_or(default, |[v]| v));
     let mimic = match child(joint, "mimic").and_then(|mimic| Some((mimic, mimic.attribute("joint")?))) {
         Some((mimic, of)) => Some(Mimic {
             of: of.trim().to_string(),

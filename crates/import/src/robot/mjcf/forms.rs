@@ -30,15 +30,15 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// The word for its kind, of meshes that are shared.
-    pub(super) fn kind(&self) -> &'static str {
+    /// The name of its mesh, which all forms of this name share.
+    pub(super) fn key(&self) -> String {
         match self {
-            Self::Plane(_) => "plane",
-            Self::Box(_) => "box",
-            Self::Ellipsoid(_) => "ellipsoid",
-            Self::Cylinder { .. } => "cylinder",
-            Self::Capsule { .. } => "capsule",
-            Self::Mesh(_) => "mesh",
+            Self::Plane(_) => "<plane>".into(),
+            Self::Box(_) => "<box>".into(),
+            Self::Ellipsoid(_) => "<ellipsoid>".into(),
+            Self::Cylinder { .. } => "<cylinder>".into(),
+            Self::Capsule { radius, half } => format!("<capsule {}>", half / radius),
+            Self::Mesh(name) => name.clone(),
         }
     }
 
@@ -53,16 +53,21 @@ impl Form {
         }
     }
 
-    /// Its mesh, and the scale that gives it its size; all forms of a kind have the same mesh, but for capsules.
-    pub(super) fn mesh(&self) -> (Mesh, DVec3) {
+    /// The mesh of its kind, which [`Form::scale`] gives its size; none of a mesh among the assets.
+    pub(super) fn mesh(&self) -> Mesh {
         match self {
-            Self::Plane(_) => (primitives::rectangle(), self.half()),
-            Self::Box(half) => (primitives::cube(), *half),
-            Self::Ellipsoid(half) => (primitives::sphere(), *half),
-            Self::Cylinder { .. } => (cylinder(), self.half()),
-            Self::Capsule { radius, half } => (capsule((half / radius) as f32), DVec3::splat(*radius)),
-            Self::Mesh(_) => (Mesh::default(), DVec3::ONE),
+            Self::Plane(_) => primitives::rectangle(),
+            Self::Box(_) => primitives::cube(),
+            Self::Ellipsoid(_) => primitives::sphere(),
+            Self::Cylinder { .. } => cylinder(),
+            Self::Capsule { radius, half } => capsule((half / radius) as f32),
+            Self::Mesh(_) => Mesh::default(),
         }
+    }
+
+    /// The scale of its mesh.
+    pub(super) fn scale(&self) -> DVec3 {
+        if let Self::Capsule { radius, .. } = self { DVec3::splat(*radius) } else { self.half() }
     }
 }
 
@@ -116,11 +121,10 @@ fn joined(pieces: &[(Mesh, DAffine3)]) -> Mesh {
     all
 }
 
-/// A mesh with the texture coordinates that a picture's layout calls for: x and y over the box around it, from −1 to 1, or those of the side
+/// A mesh with the texture coordinates that a layout calls for: x and y over the box around it, from −1 to 1, or those of the side
 /// that a triangle faces, from 0 to 1 (a sixth of v for each where the sides differ).
 pub(super) fn laid_out(mesh: &Mesh, layout: Layout) -> Mesh {
-    let (low, high) =
-        mesh.positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+    let (low, high) = mesh.positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
     let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(Vec3::splat(1e-9)));
     let unit = |p: Vec3| (p - middle) / half;
     if layout == Layout::Flat {
@@ -149,7 +153,7 @@ fn side(direction: Vec3) -> usize {
     2 * axis + usize::from(direction[axis] < 0.0)
 }
 
-/// The texture coordinates of a point of the cube from −1 to 1 on one of its sides, as OpenGL's cube maps have them: y is up on the sides of x
+/// The texture coordinates of a point of the cube from −1 to 1 on one of its sides, as in cubes of OpenGL: y is up on the sides of x
 /// and z.
 fn on_side(p: Vec3, side: usize, layout: Layout) -> Vec2 {
     let (u, v) = match side {

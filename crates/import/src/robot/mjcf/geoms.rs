@@ -30,19 +30,23 @@ impl Omitted {
         let chosen = a.options().geom_groups.clone();
         let read = if chosen.is_empty() { "0, 1 and 2, as MuJoCo's viewer does".into() } else { format!("{chosen:?}") };
         if self.groups > 0 {
-            let message = format!("{} geoms of other groups were left out: those of {read} are read (geom_groups chooses others)", self.groups);
+            let message =
+                format!("{} geoms of other groups were left out: those of {read} are read (geom_groups chooses others)", self.groups);
             a.warn("geoms", message);
         }
         if self.invisible > 0 {
             a.warn("geoms", format!("{} geoms have an opacity of zero and were left out", self.invisible));
         }
         if self.endless > 0 {
-            a.warn("geoms", format!("{} planes have no end; they were cut {ENDLESS_M} m from their middle (size states another)", self.endless));
+            a.warn(
+                "geoms",
+                format!("{} planes have no end; they were cut {ENDLESS_M} m from their middle (size states another)", self.endless),
+            );
         }
         let [collision, visual] = self.doubled;
         if collision > 0 && visual > 0 && chosen.is_empty() {
             let message = format!(
-                "{collision} geoms of group 0 collide and {visual} of group 1 are only seen, as in robosuite, whose viewer shows group 1 alone: \
+                "{collision} geoms of group 0 collide and {visual} of group 1 are only seen, as in robosuite, which shows group 1 alone: \
                  geom_groups = [1] leaves the others out"
             );
             a.warn("geoms", message);
@@ -88,26 +92,26 @@ impl Walk<'_> {
         file_from_geom: DAffine3,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
-        let (key, mesh, placement, own_uvs) = match form {
-            Form::Mesh(name) => {
-                let Some(asset) = self.meshes.get(name, geom, &self.settings, a)? else { return Ok(()) };
-                let own_uvs = !asset.mesh.uvs.is_empty();
-                (name.clone(), asset.mesh.clone(), asset.geom_from_mesh, own_uvs)
-            }
-            form => {
-                let (mesh, scale) = form.mesh();
-                let ratio = if let Form::Capsule { radius, half } = form { format!(" {}", half / radius) } else { String::new() };
-                (format!("<{}{ratio}>", form.kind()), mesh, DAffine3::from_scale(scale), false)
-            }
+        let asset = match form {
+            Form::Mesh(name) => match self.meshes.get(name, geom, &self.settings, a)? {
+                Some(asset) => Some(asset),
+                None => return Ok(()),
+            },
+            _ => None,
+        };
+        let (placement, own_uvs) = match &asset {
+            Some(asset) => (asset.geom_from_mesh, !asset.mesh.uvs.is_empty()),
+            None => (DAffine3::from_scale(form.scale()), false),
         };
         let layout = shade.picture.map(|picture| picture.layout).filter(|layout| !own_uvs || *layout != Layout::Flat);
-        let key = (key, layout);
+        let key = (form.key(), layout);
         let pushed = match self.pushed.get(&key) {
             Some(known) => *known,
             None => {
-                let made = layout.map_or(mesh.clone(), |layout| laid_out(&mesh, layout));
+                let mesh = asset.as_ref().map_or_else(|| form.mesh(), |asset| asset.mesh.clone());
+                let mesh = layout.map_or_else(|| mesh.clone(), |layout| laid_out(&mesh, layout));
                 let file = a.file().to_path_buf();
-                let pushed = a.push_mesh(made, &file, &key.0)?;
+                let pushed = a.push_mesh(mesh, &file, &key.0)?;
                 self.pushed.insert(key, pushed);
                 pushed
             }

@@ -1,6 +1,7 @@
 //! Meshes of a model: files in OBJ, STL and MuJoCo's MSH, or vertices and faces within the model.
 
 use super::settings::Settings;
+use super::smooth::smoothed;
 use super::tree::Element;
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -69,7 +70,7 @@ impl Meshes {
             None => inline(element, a)?,
         };
         let asset = match mesh {
-            Some(mesh) => Some(Rc::new(MeshAsset { mesh, geom_from_mesh: transform(element)? })),
+            Some(mesh) => Some(Rc::new(MeshAsset { mesh: smoothed(mesh), geom_from_mesh: transform(element)? })),
             None => None,
         };
         self.known.insert(name.into(), asset.clone());
@@ -117,7 +118,8 @@ fn read(path: &str, a: &mut Assembly) -> Result<Mesh, ImportError> {
 /// One mesh of several, each at a place of its own.
 fn joined(parts: &[(&Mesh, DAffine3)]) -> Mesh {
     let mut all = Mesh::default();
-    let [has_normals, has_uvs] = [parts.iter().all(|(mesh, _)| !mesh.normals.is_empty()), parts.iter().any(|(mesh, _)| !mesh.uvs.is_empty())];
+    let [has_normals, has_uvs] =
+        [parts.iter().all(|(mesh, _)| !mesh.normals.is_empty()), parts.iter().any(|(mesh, _)| !mesh.uvs.is_empty())];
     for (mesh, place) in parts {
         let base = all.positions.len() as u32;
         all.positions.extend(mesh.positions.iter().map(|p| place.transform_point3(p.as_dvec3()).as_vec3()));

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `include`, `compiler`, `default` | followed: angles, folders, `eulerseq`, `autolimits`, classes with `childclass`. Global coordinates are refused |
 //! | bodies | each an object within the one that it is in; `frame` and `replicate` are followed; `attach` is refused |
-//! | geoms | a part each, called after the geom, else after its body and mesh: planes, boxes, spheres, ellipsoids, capsules, cylinders, meshes (OBJ, STL, MSH). Groups 0 to 2 as in MuJoCo's viewer, or those of [`ImportOptions::geom_groups`](crate::ImportOptions::geom_groups). Planes without an end are cut at 10 m. Height fields and signed distances are left out with a warning |
+//! | geoms | a part each, called after the geom, else after its body and mesh: planes, boxes, spheres, ellipsoids, capsules, cylinders, meshes (OBJ, STL, MSH), smooth across edges of less than 37° where the file has no normals. Groups 0 to 2 as in MuJoCo's viewer, or those of [`ImportOptions::geom_groups`](crate::ImportOptions::geom_groups). Planes without an end are cut at 10 m. Height fields and signed distances are left out with a warning |
 //! | materials | colours (sRGB), textures (2d: by the mesh's coordinates, else from above; cube: on the six sides of the box around the thing), built-in checkers, gradients and edges; `specular`, `shininess` (GGX of Phong's exponent 128 × shininess), `metallic`, `roughness`, `emission` (radiance of the colour), `reflectance` (a clear coat) |
 //! | joints | bodies that move: hinges, slides, balls and free ones, with limits; several joints of one body are a chain. Without states all is at rest (`qpos0`) |
 //! | cameras | where they are at rest, also those that look at a body |
@@ -17,6 +17,7 @@ mod meshes;
 mod pictures;
 mod settings;
 mod shade;
+mod smooth;
 mod tree;
 mod views;
 mod walk;
@@ -51,7 +52,10 @@ fn report(root: &Element, a: &mut Assembly) {
     let within = |outer: &str, inner: &str| root.all(outer).flat_map(|scope| scope.all(inner)).count();
     let skies = root.all("asset").flat_map(|asset| asset.all("texture")).filter(|texture| texture.text("type") == Some("skybox")).count();
     if skies > 0 {
-        a.warn("texture", "the sky (skybox) gives no light in MuJoCo and was left out; environment = \"sky\" or a picture surrounds the scene");
+        a.warn(
+            "texture",
+            "the sky (skybox) gives no light in MuJoCo and was left out; environment = \"sky\" or a picture surrounds the scene",
+        );
     }
     let soft = within("deformable", "skin") + within("deformable", "flex") + within("asset", "skin");
     if soft > 0 {
@@ -62,7 +66,10 @@ fn report(root: &Element, a: &mut Assembly) {
     }
     let has_light = root.all("worldbody").any(|world| contains(world, "light"));
     if !has_light {
-        a.warn("light", "the model has no light but MuJoCo's headlight, which is left out; environment = \"sky\" or lamps = \"ceiling\" add light");
+        a.warn(
+            "light",
+            "the model has no light but MuJoCo's headlight, which is left out; environment = \"sky\" or lamps = \"ceiling\" add light",
+        );
     }
 }
 

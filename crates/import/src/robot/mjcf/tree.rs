@@ -39,9 +39,8 @@ pub(super) fn read(a: &mut Assembly) -> Result<Element, ImportError> {
 
 fn parsed(file: &Path, bytes: &[u8]) -> Result<Element, ImportError> {
     let text = crate::xml::xml_text(bytes);
-    let document = Document::parse(&text).map_err(|e| {
-        ImportError::malformed(file, format!("line {}:{}", e.pos().row, e.pos().col), format!("not well-formed XML: {e}"))
-    })?;
+    let document = Document::parse(&text)
+        .map_err(|e| ImportError::malformed(file, format!("line {}:{}", e.pos().row, e.pos().col), format!("not well-formed XML: {e}")))?;
     Ok(element(document.root_element(), &Rc::new(file.to_path_buf())))
 }
 
@@ -116,11 +115,8 @@ impl Element {
     pub(super) fn numbers(&self, attribute: &str, counts: std::ops::RangeInclusive<usize>) -> Result<Option<Vec<f64>>, ImportError> {
         let Some(text) = self.text(attribute) else { return Ok(None) };
         let found = numbers(text).filter(|found| counts.contains(&found.len()));
-        let expected = if counts.start() == counts.end() {
-            counts.start().to_string()
-        } else {
-            format!("{} to {}", counts.start(), counts.end())
-        };
+        let expected =
+            if counts.start() == counts.end() { counts.start().to_string() } else { format!("{} to {}", counts.start(), counts.end()) };
         found.map(Some).ok_or_else(|| self.wrong(format!("found {text:?} as {attribute}, expected {expected} finite numbers")))
     }
 

@@ -42,7 +42,7 @@ impl Walk<'_> {
             placed = DAffine3 { matrix3: axes, ..placed };
         }
         if at.body.is_some() && a.options().states.is_some() {
-            let message = "it rides on a body; pictures begin where it is at rest (MujocoRecorder.save_camera in Python writes its poses as keyframes)";
+            let message = "it rides on a body and stays where that is at rest (MujocoRecorder.save_camera in Python writes its poses)";
             a.warn(format!("camera {name:?}"), message);
         }
         let aspect = camera.vector::<2>("resolution")?.filter(|[w, h]| *w > 1.0 && *h > 1.0).map_or(DEFAULT_ASPECT, |[w, h]| w / h);
@@ -98,8 +98,8 @@ impl Walk<'_> {
         }
         a.warn(
             "light",
-            "MuJoCo's lights have no unit: each lights what faces it at the middle of the model (statistic center, else the origin, and at least \
-             1 m away) as MuJoCo shows it, and falls off with the square of the distance; intensity counts as candela, 683 lm/W",
+            "MuJoCo's lights have no unit: each lights what faces it at the middle of the model (statistic center, else the origin, and 1 m or \
+             more away) as MuJoCo shows it, and falls off with the square of the distance; intensity counts as candela, 683 lm/W",
         );
         if let Some(body) = at.body {
             a.carry(body, before);

@@ -219,7 +219,16 @@ impl<'r> Walk<'r> {
         }
         let anchor = joint.vector("pos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let name = if joint.name().is_empty() { format!("joint_{number}") } else { format!("{}{}", joint.name(), at.suffix) };
-        Ok(Joint { name, kind, file_from_frame: at.file_from_here * DAffine3::from_translation(anchor), axis, zero, limits, mimic: None, body: None })
+        Ok(Joint {
+            name,
+            kind,
+            file_from_frame: at.file_from_here * DAffine3::from_translation(anchor),
+            axis,
+            zero,
+            limits,
+            mimic: None,
+            body: None,
+        })
     }
 }
 

@@ -88,12 +88,14 @@ fn by_name(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportE
         let source = followed.map_or(&joint.name, |mimic| &mimic.of);
         let Some(track) = states.shaped(source, &axes, "values of the joint")? else { continue };
         let factors = followed.map_or([1.0, 0.0], |mimic| [mimic.multiplier, mimic.offset]);
-        let values: Vec<f64> = track.values.iter().map(|value| if followed.is_some() { factors[0] * value + factors[1] } else { *value }).collect();
+        let values: Vec<f64> =
+            track.values.iter().map(|value| if followed.is_some() { factors[0] * value + factors[1] } else { *value }).collect();
         let steps: Vec<&[f64]> = values.chunks_exact(width).collect();
         give(states, &track, joint, &steps, a)?;
     }
     let has_states = |name: &str| states.arrays.contains_key(name);
-    let without = tree.joints.iter().filter(|joint| !has_states(&joint.name) && !joint.mimic.as_ref().is_some_and(|m| has_states(&m.of))).count();
+    let without =
+        tree.joints.iter().filter(|joint| !has_states(&joint.name) && !joint.mimic.as_ref().is_some_and(|m| has_states(&m.of))).count();
     if without > 0 {
         a.warn("states", format!("{without} of {} joints have no states and stay at rest", known.len()));
     }
@@ -132,14 +134,16 @@ fn poses(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportErr
         let own: Result<Vec<DAffine3>, ImportError> = (0..states.times_s.len())
             .map(|step| {
                 let (position, rotation) = (positions.step(step, 3 * column, 3), rotations.step(step, 4 * column, 4));
-                let placed = placed(position, rotation).ok_or_else(|| bad(states, "xpos", &format!("body {:?}", link.name), step, position))?;
+                let placed =
+                    placed(position, rotation).ok_or_else(|| bad(states, "xpos", &format!("body {:?}", link.name), step, position))?;
                 Ok(placed * link.file_from_link.inverse())
             })
             .collect();
         let own = own?;
         let bearer = bearer(tree, index).and_then(|bearer| maps.get(&bearer));
         let carried = |(step, map): (usize, &DAffine3)| bearer.map_or(*map, |maps| maps[step].inverse() * *map);
-        let poses: Vec<RigidPose> = own.iter().enumerate().map(|at| own_pose(link.file_from_link, carried(at) * link.file_from_link)).collect();
+        let poses: Vec<RigidPose> =
+            own.iter().enumerate().map(|at| own_pose(link.file_from_link, carried(at) * link.file_from_link)).collect();
         a.move_body(link.body, link.file_from_link, free(&states.times_s, poses));
         maps.insert(index, own);
     }
@@ -166,10 +170,13 @@ fn stand(
     for (index, link) in tree.links.iter().enumerate().filter(|(_, link)| !link.moves()) {
         let Some(&column) = by_link.get(&index) else { continue };
         let map = bearer(tree, index).and_then(|bearer| maps.get(&bearer)).map_or(DAffine3::IDENTITY, |maps| maps[0]);
-        let (expected, found) = (map.transform_point3(link.file_from_link.translation), DVec3::from_slice(positions.step(0, 3 * column, 3)));
+        let (expected, found) =
+            (map.transform_point3(link.file_from_link.translation), DVec3::from_slice(positions.step(0, 3 * column, 3)));
         if !(expected.distance(found) <= SAME_M) {
-            let problem =
-                format!("body {:?} is at {found} in step 0, but the model has it at {expected}; are these states of another model?", link.name);
+            let problem = format!(
+                "body {:?} is at {found} in step 0, but the model has it at {expected}; are these states of another model?",
+                link.name
+            );
             return Err(states.wrong("array \"xpos\"", problem));
         }
     }
@@ -187,7 +194,10 @@ fn columns(states: &States, tree: &Tree, a: &mut Assembly) -> Result<Vec<Option<
     }
     let without = tree.links.iter().enumerate().filter(|(at, link)| link.moves() && !columns.contains(&Some(*at))).count();
     if without > 0 {
-        a.warn("states", format!("{without} bodies that joints move are not in body_names; they stay as they are in the bodies around them"));
+        a.warn(
+            "states",
+            format!("{without} bodies that joints move are not in body_names; they stay as they are in the bodies around them"),
+        );
     }
     Ok(columns)
 }

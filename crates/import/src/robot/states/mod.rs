@@ -72,7 +72,10 @@ impl States {
         let times = match (self.track("time")?, step_s) {
             (Some(time), _) => time.values.to_vec(),
             (None, Some(step_s)) => {
-                a.warn(self.file.display().to_string(), format!("there is no array time: a step was taken for {step_s} s, the model's timestep"));
+                a.warn(
+                    self.file.display().to_string(),
+                    format!("there is no array time: a step was taken for {step_s} s, the model's timestep"),
+                );
                 (0..steps).map(|step| step as f64 * step_s).collect()
             }
             (None, None) => return Err(self.wrong("array \"time\"", "it is missing; add the seconds of every step".into())),

@@ -54,9 +54,10 @@ fn array(bytes: &[u8]) -> Result<Array, String> {
     let head = String::from_utf8_lossy(head);
     let data = &rest[start + length..];
     let after = |key: &str| head.split_once(key).map(|(_, rest)| rest.trim_start());
-    let kind = after("'descr':").and_then(|rest| rest.strip_prefix('\'')?.split_once('\'')).map(|(kind, _)| kind).ok_or_else(|| {
-        format!("found {:?}, expected numbers or texts; save it as float64", head.trim())
-    })?;
+    let kind = after("'descr':")
+        .and_then(|rest| rest.strip_prefix('\'')?.split_once('\''))
+        .map(|(kind, _)| kind)
+        .ok_or_else(|| format!("found {:?}, expected numbers or texts; save it as float64", head.trim()))?;
     let shape = after("'shape':").and_then(|rest| rest.strip_prefix('(')?.split_once(')')).map_or("", |(shape, _)| shape);
     let axes: Option<Vec<usize>> = shape.split(',').map(str::trim).filter(|axis| !axis.is_empty()).map(|axis| axis.parse().ok()).collect();
     let axes = axes.ok_or_else(damaged)?;
@@ -64,7 +65,8 @@ fn array(bytes: &[u8]) -> Result<Array, String> {
     if after("'fortran_order':").is_some_and(|rest| rest.starts_with("True")) && axes.len() > 1 {
         return Err("it is in Fortran's order; save it with numpy.ascontiguousarray".into());
     }
-    let values = values(kind, data).ok_or_else(|| format!("found elements of the type {kind:?}, expected numbers or texts; save it as float64"))?;
+    let values =
+        values(kind, data).ok_or_else(|| format!("found elements of the type {kind:?}, expected numbers or texts; save it as float64"))?;
     let found = match &values {
         Values::Numbers(numbers) => numbers.len(),
         Values::Texts(texts) => texts.len(),
@@ -97,9 +99,7 @@ fn values(kind: &str, data: &[u8]) -> Option<Values> {
                 let characters = bytes.as_chunks::<4>().0.iter().map(|c| u32::from_le_bytes(*c)).take_while(|c| *c != 0);
                 characters.filter_map(char::from_u32).collect()
             }),
-            ("|S", size) => texts(size.parse().ok()?, &|bytes| {
-                String::from_utf8_lossy(bytes).trim_end_matches('\0').to_string()
-            }),
+            ("|S", size) => texts(size.parse().ok()?, &|bytes| String::from_utf8_lossy(bytes).trim_end_matches('\0').to_string()),
             _ => return None,
         },
     })
