@@ -53,6 +53,8 @@ class MujocoRecorder:
 
         {options}
         """
+        if options.pop("states", None) is not None:
+            raise TypeError("save() takes no states: they are those that were recorded")
         self._require_steps()
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -61,7 +63,7 @@ class MujocoRecorder:
             if self._mocap[0][0].size:
                 arrays["mocap_pos"], arrays["mocap_quat"] = map(numpy.stack, zip(*self._mocap))
             numpy.savez(folder / "run.npz", **arrays)
-            return import_scene(scene, file, states=str(folder / "run.npz"), **options)
+            return import_scene(scene, file, states=folder / "run.npz", **options)
 
     def save_camera(self, name, file, fps=30.0):
         """Writes the poses of a camera of the model, which may ride on a body, as a file of `mode = { kind = "keyframes", files = [...] }`.

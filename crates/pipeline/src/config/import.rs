@@ -3,6 +3,7 @@
 use enfilade_import::{EnvironmentOverride, ImportOptions, UpAxis};
 use enfilade_options::{named, options, words};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 options! {
     /// A scene file and what it does not say itself.
@@ -30,7 +31,7 @@ options! {
         pub still: bool = false,
         /// A stored run of a simulator, by which the joints of the file move (MuJoCo's MJCF, URDF): `.npz` or `.csv`, see docs/motion.md.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        pub states: Option<String> = None => named("FILE"),
+        pub states: Option<PathBuf> = None => named("FILE"),
         /// Groups of geoms to read of a model of MuJoCo; 0, 1 and 2 unless given, as its viewer shows.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         pub geom_groups: Vec<u32> = Vec::new() => named("N,N"),
@@ -73,7 +74,7 @@ impl FileSource {
             allow_missing_textures,
             allow_missing_meshes,
             geom_groups: self.geom_groups.clone(),
-            states: self.states.as_ref().map(Into::into),
+            states: self.states.clone(),
         }
     }
 }

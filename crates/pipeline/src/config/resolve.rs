@@ -413,7 +413,7 @@ impl Resolver<'_> {
         if let Some(states) = &source.states
             && let Some(place) = levels.iter().rev().find_map(|level| level.states.as_ref())
         {
-            self.check_path(states, place)?;
+            self.check_path(&states.to_string_lossy(), place)?;
         }
         self.check_path(file.get_ref(), file)?;
         Ok(Source::File(source))

@@ -49,7 +49,7 @@ pub(crate) fn load_file(
         *written = locate(&written.to_string_lossy())?;
     }
     if let Some(written) = &source.states {
-        options.states = Some(locate(written)?);
+        options.states = Some(locate(&written.to_string_lossy())?);
     }
     let mut imported = enfilade_import::load(file, &options, cx).map_err(Error::stage)?;
     if source.still {
