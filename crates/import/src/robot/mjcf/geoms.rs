@@ -28,7 +28,7 @@ impl Omitted {
     /// Says what was left out.
     pub(super) fn report(&self, a: &mut Assembly) {
         let chosen = a.options().geom_groups.clone();
-        let read = if chosen.is_empty() { "0, 1 and 2, as MuJoCo's viewer does".into() } else { format!("{chosen:?}") };
+        let read = if chosen.is_empty() { "0, 1 and 2, which MuJoCo's viewer shows,".into() } else { format!("{chosen:?}") };
         if self.groups > 0 {
             let message =
                 format!("{} geoms of other groups were left out: those of {read} are read (geom_groups chooses others)", self.groups);

@@ -137,7 +137,7 @@ impl Shade {
         let texture = self.picture.map(|picture| self.texture(picture, half, own_uvs));
         let color = ColorParam { factor, texture };
         let principled = Principled {
-            base_color: color.clone(),
+            base_color: color,
             metallic: (self.metallic as f32).into(),
             roughness: (self.roughness as f32).into(),
             specular: (self.specular.min(1.0) as f32).into(),

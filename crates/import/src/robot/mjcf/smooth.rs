@@ -16,7 +16,7 @@ pub(super) fn smoothed(mesh: Mesh) -> Mesh {
     }
     let corners = |face: &[u32; 3]| face.map(|corner| mesh.positions[corner as usize]);
     // Twice the area long.
-    let crosses: Vec<Vec3> = mesh.triangles.iter().map(|face| corners(face)).map(|[a, b, c]| (b - a).cross(c - a)).collect();
+    let crosses: Vec<Vec3> = mesh.triangles.iter().map(corners).map(|[a, b, c]| (b - a).cross(c - a)).collect();
     let mut around: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
     for (face, number) in mesh.triangles.iter().zip(0..) {
         face.iter().for_each(|&corner| around[corner as usize].push(number));

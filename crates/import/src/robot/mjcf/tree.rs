@@ -77,7 +77,7 @@ fn included(include: &Element, depth: usize, files: &mut usize, a: &mut Assembly
     }
     let path = include.text("file").ok_or_else(|| include.wrong("it names no file".into()))?.replace('\\', "/");
     // From the model's own folder, as MuJoCo does; from the including file's, as others expect.
-    let found = a.beside(&a.file().to_path_buf(), &path).or_else(|| a.beside(&include.file, &path));
+    let found = a.beside(a.file(), &path).or_else(|| a.beside(&include.file, &path));
     let file = found.unwrap_or_else(|| a.path_of(&path));
     let bytes = a.read_input(&file, &format!("{} includes it; put it there or correct the path", include.file.display()))?;
     with_includes(parsed(&file, &bytes)?, depth + 1, files, a)

@@ -75,7 +75,7 @@ fn mocap(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportErr
 /// States of joints by their names; those that are not named stay at rest.
 fn by_name(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportError> {
     let known: Vec<&str> = tree.joints.iter().map(|joint| joint.name.as_str()).collect();
-    for name in states.names().filter(|name| !known.contains(name)) {
+    if let Some(name) = states.names().find(|name| !known.contains(name)) {
         let listed = known.iter().take(LISTED).map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
         let more = if known.len() > LISTED { ", …" } else { "" };
         let problem = format!("there is no joint of this name among {listed}{more}; are these states of another model?");
@@ -172,7 +172,7 @@ fn stand(
         let map = bearer(tree, index).and_then(|bearer| maps.get(&bearer)).map_or(DAffine3::IDENTITY, |maps| maps[0]);
         let (expected, found) =
             (map.transform_point3(link.file_from_link.translation), DVec3::from_slice(positions.step(0, 3 * column, 3)));
-        if !(expected.distance(found) <= SAME_M) {
+        if !found.is_finite() || expected.distance(found) > SAME_M {
             let problem = format!(
                 "body {:?} is at {found} in step 0, but the model has it at {expected}; are these states of another model?",
                 link.name
