@@ -23,13 +23,16 @@ def write(model, folder):
     elements = {0: ElementTree.SubElement(root, "worldbody")}
     for body, name in enumerate(names(model, "body", model.nbody)):
         if body:
-            elements[body] = ElementTree.SubElement(elements[int(model.body_parentid[body])], "body", _named(name))
+            elements[body] = ElementTree.Element("body", _named(name))
             elements[body].attrib |= {"pos": _numbers(model.body_pos[body]), "quat": _numbers(model.body_quat[body])}
             if model.body_mocapid[body] >= 0:
                 elements[body].set("mocap", "true")
     _joints(model, elements)
     _geoms(model, elements)
     _views(model, elements)
+    # Behind what is in the body itself, so that parts come in the model's order.
+    for body in range(1, model.nbody):
+        elements[int(model.body_parentid[body])].append(elements[body])
     file = folder / "model.xml"
     ElementTree.ElementTree(root).write(file, encoding="utf-8")
     return file

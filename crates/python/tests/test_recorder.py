@@ -62,7 +62,7 @@ class Recorder(unittest.TestCase):
     def test_a_run_becomes_a_scene_with_its_parts_and_bodies(self):
         file = datasets.folder() / "run.scene"
         done = self.recorder().save(file)
-        self.assertEqual(done["report"].name, "run.report.json")
+        self.assertTrue(done["report"].endswith("run.report.json"))
         scene = enfilade.Scene.read(file, progress=False)
         self.assertEqual([part.name for part in scene.parts], ["floor", "plate"])
         np.testing.assert_allclose(scene.parts["plate"].box, [[0.5, 0, 1], [1.5, 1, 1]], atol=1e-6)
