@@ -48,6 +48,7 @@ class MujocoRecorder:
         self._mocap.append((numpy.array(data.mocap_pos, numpy.float64), numpy.array(data.mocap_quat, numpy.float64)))
         self._cameras.append((numpy.array(data.cam_xpos, numpy.float64), numpy.array(data.cam_xmat, numpy.float64)))
 
+    @explained("FileSource")
     def save(self, file, **options):
         """Writes the run as a scene package (.scene); the options are those of `import_scene`, and so is what it gives.
 
@@ -95,6 +96,3 @@ class MujocoRecorder:
 
     def __repr__(self):
         return f"<enfilade.MujocoRecorder: {len(self)} steps>"
-
-
-MujocoRecorder.save = explained("FileSource")(MujocoRecorder.save)
