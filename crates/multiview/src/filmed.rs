@@ -95,7 +95,7 @@ impl<'d> Filmed<'d> {
     /// The moment of the scene that a frame shows, seconds.
     pub(crate) fn moment_s(&self, frame: usize) -> f64 {
         let (track, index) = self.frames[frame];
-        f64::from(self.tracks[track].poses[index].frame) * self.tracks[track].frame_time_s
+        self.tracks[track].poses[index].moment_s(self.tracks[track].frame_time_s)
     }
 
     /// Where the parts of the scene are in a frame.

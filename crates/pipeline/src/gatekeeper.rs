@@ -47,8 +47,15 @@ impl<'a> Gatekeeper<'a> {
         Judgement { measures, fault: self.config.fault(&measures) }
     }
 
+    /// Judges a view, and shows what it sees if it has a fault.
+    pub fn judged(&self, view: &CameraView<'_>) -> (Judgement, Option<Picture>) {
+        let judgement = self.judge(view);
+        let picture = judgement.fault.map(|_| self.thumbnail(view));
+        (judgement, picture)
+    }
+
     /// A small picture of what a view shows.
-    pub fn thumbnail(&self, view: &CameraView<'_>) -> Picture {
+    fn thumbnail(&self, view: &CameraView<'_>) -> Picture {
         let look = self.lookout.look(view, step(view));
         thumbnail(&look.frame, &self.wrong_side(&look))
     }

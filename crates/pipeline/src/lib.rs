@@ -36,6 +36,7 @@ pub use config::{
     CameraChoice, CameraConfig, CameraModel, Config, FarmConfig, FileSource, LabelSource, Lamps, LensConfig, Overrides, Placeholder,
     Quality, RenderChoices, SceneConfig, Source, StereoConfig, demo, read_sensors, select,
 };
+pub use enfilade_compose::MotionGroup;
 pub use enfilade_dataset::{ColorKind, PartitionConfig, WORKDIR};
 pub use enfilade_home::light::Moment;
 pub use enfilade_home::{HomeConfig, RoomKind};

@@ -8,14 +8,15 @@ use crate::material::Material;
 use crate::parts::{self, Parts};
 use crate::progress::Bar;
 use crate::scene_files::{file_source, home_config};
-use crate::{editing, json, numbers};
+use crate::{editing, json, keywords, numbers};
 use enfilade_export::scene_encoder;
-use enfilade_pipeline::{FilePlace, LabelSource, LoadedScene};
-use enfilade_scene::{EditError, LabelledScene, NewThing, WorldMesh};
+use enfilade_pipeline::{FilePlace, LabelSource, LoadedScene, MotionGroup};
+use enfilade_scene::{Body, EditError, LabelledScene, NewThing, WorldMesh};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// A scene in memory: `Scene.read` reads a file in any format that enfilade imports, `Scene.home` makes a furnished home, `Scene.empty` has nothing.
@@ -181,6 +182,25 @@ impl Scene {
         self.edited(py, |scene| scene.with_material(&names, &material))
     }
 
+    /// The scene in which a thing moves, as `[[motion]]` of a dataset moves it: `scene.animate(of="door_1*", times_s=[0, 2], angles_deg=[0, 90],
+    /// point_m=[1.2, 0, 0])`. A thing may ride on an earlier one, by `on`. `at` gives the scene at a moment; `render` shows a scene that moves at rest;
+    /// `save` keeps motion, in a `.scene` for datasets and in a `.glb` as an animation.
+    ///
+    /// {options}
+    #[pyo3(signature = (**options))]
+    fn animate(&self, py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let motion: MotionGroup = keywords::options(options, "Scene.animate", &[])?;
+        py.detach(|| self.0.with_motion(&motion)).map(Self).map_err(IntoPy::into_py)
+    }
+
+    /// The scene as it is at a moment, seconds from the beginning; nothing in it moves any more.
+    fn at(&self, py: Python<'_>, time_s: f64) -> PyResult<Self> {
+        if !time_s.is_finite() {
+            return Err(PyValueError::new_err(format!("time_s is {time_s}; expected a finite number of seconds")));
+        }
+        Ok(py.detach(|| Self(self.0.still_at(time_s))))
+    }
+
     /// The scene with one more light; where a light has its name, it gets a number.
     fn add_light(&self, py: Python<'_>, light: &Light) -> PyResult<Self> {
         self.edited(py, |scene| scene.with_light(light.0.clone()))
@@ -274,6 +294,24 @@ impl Scene {
     #[getter]
     fn lights(&self) -> Vec<Light> {
         self.0.scene().lights.iter().cloned().map(Light).collect()
+    }
+
+    /// What moves or can move, in the order of numbers: dictionaries with `name`, `parent` (the name of the body that bears it, or None), `joint` ("hinge",
+    /// "slide" or "free"), `limits` (radians or metres from rest, or None), `moves` and `parts` (names).
+    #[getter]
+    fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let scene = self.0.scene();
+        let row = |body: &Body| {
+            json!({
+                "name": body.name,
+                "parent": body.parent.map(|parent| &scene.bodies[parent as usize].name),
+                "joint": body.motion.states.joint(),
+                "limits": body.limits,
+                "moves": !body.motion.is_rest(),
+                "parts": body.parts.iter().map(|&part| &scene.parts[part as usize].name).collect::<Vec<_>>(),
+            })
+        };
+        json::to_python(py, &scene.bodies.iter().map(row).collect::<Vec<_>>())
     }
 
     /// Names of its cameras: `camera` gives each with its pose.

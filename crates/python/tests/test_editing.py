@@ -54,6 +54,31 @@ class Pictures(unittest.TestCase):
         is_top = (abs(x - 1) < 0.5) & (abs(y) < 0.25)
         np.testing.assert_allclose(frame["depth_z_meters"][is_top], 3.75, atol=1e-5)
 
+    def test_what_moves_is_seen_where_it_is_at_a_moment(self):
+        still = table_on_floor()
+        scene = still.animate(of="table", times_s=[0, 2], distances_m=[0, 1], axis=[1, 0, 0]).animate(
+            of="floor", on="table", times_s=[0], moved_m=[[0, 0, 0]]
+        )
+        bodies = [{**body, "parts": tuple(body["parts"])} for body in scene.bodies]
+        table = {"name": "table", "parent": None, "joint": "slide", "limits": None, "moves": True, "parts": ("table",)}
+        self.assertEqual(bodies, [table, {**table, "name": "floor", "parent": "table", "joint": "free", "moves": False, "parts": ("floor",)}])
+        self.assertEqual((still.bodies, scene.at(1).bodies), ([], []))
+        np.testing.assert_allclose(scene.at(1).parts["table"].box, [[0, -1, 0], [1, 1, 0.5]], atol=1e-6)
+        np.testing.assert_allclose(scene.parts["table"].box, still.parts["table"].box)
+        folder = datasets.folder() / "moving"
+        folder.mkdir()
+        for name in ("room.scene", "room.glb"):
+            self.assertEqual(scene.save(folder / name), [])
+            again = Scene.read(folder / name, progress=False)
+            np.testing.assert_allclose(again.at(0.5).parts["table"].box, [[-0.25, -1, 0], [0.75, 1, 0.5]], atol=1e-5)
+        for wrong, told in (
+            (lambda: still.animate(of="tabel", times_s=[0], angles_deg=[3]), 'no part or object "tabel"; did you mean "table"'),
+            (lambda: still.animate(of="table", times=[0]), "times_s"),
+            (lambda: still.at(float("nan")), "time_s is NaN"),
+        ):
+            with self.assertRaisesRegex((ValueError, TypeError), told.replace("?", r"\?")):
+                wrong()
+
     def test_a_painted_wall_has_the_colour_and_everything_else_stays(self):
         before = room()
         after = before.set_material("walls", Material(RED, name="paint"))

@@ -54,7 +54,7 @@ impl<'a, 's> Probe<'a, 's> {
     pub fn take(&mut self, samples: u32) {
         let [x, y] = self.corner;
         let pixels: Vec<(u32, u32)> = (0..Self::SIDE * Self::SIDE).map(|i| (x + i % Self::SIDE, y + i / Self::SIDE)).collect();
-        add_samples(&self.integrator, &self.view, &pixels, &vec![samples; pixels.len()], &mut self.film);
+        add_samples(std::slice::from_ref(&self.integrator), &self.view, &pixels, &vec![samples; pixels.len()], &mut self.film);
     }
 }
 

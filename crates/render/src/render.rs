@@ -90,6 +90,8 @@ pub fn render_frame(
 /// ```
 pub struct FrameRender<'a, 's> {
     integrator: Integrator<'a, 's>,
+    /// For equal stretches of the exposure, if something moves in it.
+    exposed: Vec<Integrator<'a, 's>>,
     view: CameraView<'a>,
     tiles: Tiles,
     /// Per tile, what its pixels have gathered.
@@ -160,7 +162,18 @@ impl<'a, 's> FrameRender<'a, 's> {
         let film = (0..tiles.count()).map(|tile| TileFilm::new(tiles.pixels(tile).count(), config.light_parts, fixtures)).collect();
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
-        Ok(Self { integrator: integrator(scene, guide, view, config), view: *view, tiles, film, wanted, schedule, done: 0 })
+        let integrator = integrator(scene, guide, view, config);
+        Ok(Self { integrator, exposed: Vec::new(), view: *view, tiles, film, wanted, schedule, done: 0 })
+    }
+
+    /// The frame with what moves blurred: each sample sees the scene, with its own guide, of the stretch of the exposure that it falls into.
+    /// The stretches are equally long and in the order of time; geometry stays that of the frame's own scene. Without a shutter all samples
+    /// see the middle one.
+    #[must_use]
+    pub fn exposed(mut self, stretches: &'a [(RenderScene<'s>, Guide)]) -> Self {
+        let config = self.integrator.config;
+        self.exposed = stretches.iter().map(|(scene, guide)| integrator(scene, guide, &self.view, config)).collect();
+        self
     }
 
     /// True when every pixel has the samples that it should have.
@@ -191,7 +204,8 @@ impl<'a, 's> FrameRender<'a, 's> {
             return;
         }
         // Say how far this call goes: in the first pass up to `goal` of its `whole` samples, in every other one to its end.
-        let (integrator, view, tiles, wanted) = (&self.integrator, &self.view, self.tiles, &self.wanted);
+        let (view, tiles, wanted) = (&self.view, self.tiles, &self.wanted);
+        let integrators = if self.exposed.is_empty() { std::slice::from_ref(&self.integrator) } else { &self.exposed };
         let (schedule, pass) = (self.schedule, self.done);
         let [width, _] = view.camera().size();
         let (begun, goal, whole) = match (pass, schedule.goal(0, 0, schedule.first)) {
@@ -211,7 +225,7 @@ impl<'a, 's> FrameRender<'a, 's> {
             let goal =
                 |(&(x, y), sum): (&(u32, u32), &PixelSum)| schedule.goal(pass, sum.samples(), wanted[(y * width + x) as usize]).min(max);
             let goals: Vec<u32> = pixels.iter().zip(&film.sums).map(goal).collect();
-            add_samples(integrator, view, &pixels, &goals, film);
+            add_samples(integrators, view, &pixels, &goals, film);
             cx.progress("rendering", before + in_pass(finished.fetch_add(1, Ordering::Relaxed) + 1), total);
         });
         if goal < whole {

@@ -10,9 +10,9 @@ use enfilade_scene::CameraView;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
-/// Adds samples to the pixels of a tile until each has its goal.
+/// Adds samples to the pixels of a tile until each has its goal. There is an integrator for each of equal stretches of the exposure.
 pub(crate) fn add_samples(
-    integrator: &Integrator<'_, '_>,
+    integrators: &[Integrator<'_, '_>],
     view: &CameraView<'_>,
     pixels: &[(u32, u32)],
     goals: &[u32],
@@ -20,13 +20,15 @@ pub(crate) fn add_samples(
 ) {
     for (i, &pixel) in pixels.iter().enumerate() {
         for index in film.sums[i].samples()..goals[i] {
-            film.add(i, &integrator.sample(&camera_sample(integrator.config, view, pixel, index)));
+            let (sample, time) = camera_sample(integrators[0].config, view, pixel, index);
+            let integrator = &integrators[(time * integrators.len() as f32) as usize];
+            film.add(i, &integrator.sample(&sample));
         }
     }
 }
 
-/// Sample number `index` of a pixel.
-fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32), index: u32) -> CameraSample {
+/// Sample number `index` of a pixel, and its moment within the exposure, on [0,1).
+fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32), index: u32) -> (CameraSample, f32) {
     let frame = view.pose().frame;
     let sampler = Sampler::new(config.seed, frame, x, y, index);
     let u = sampler.set(0);
@@ -38,5 +40,5 @@ fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32
     let ray = view.ray(f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1], [u[2], u[3]], time);
     // Where the picture shows nothing it is black.
     let ray = ray.map(|ray| Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()));
-    CameraSample { ray, sampler, index }
+    (CameraSample { ray, sampler, index }, time)
 }

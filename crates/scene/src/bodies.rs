@@ -93,6 +93,23 @@ impl Scene {
         scene
     }
 
+    /// The scene as it is at a moment, in which nothing moves: that is its rest. Joints with limits stay, and are stated from there.
+    #[must_use]
+    pub fn still_at(&self, time_s: f64) -> Self {
+        let maps = self.world_from_rest(time_s);
+        let mut scene = self.at(time_s);
+        for (body, was) in scene.bodies.iter_mut().zip(&self.bodies) {
+            // Rigid maps carry every motion.
+            if let Some(carried) = was.parent.and_then(|parent| was.carried(&maps[parent as usize])) {
+                *body = carried;
+            }
+            let state = was.motion.state_at(time_s).unwrap_or_default();
+            body.limits = was.limits.map(|ends| ends.map(|end| end - state));
+        }
+        scene.hold_still();
+        scene
+    }
+
     /// Takes parts out; those behind them move up. Bodies without parts and lights stay if they bear others.
     pub fn remove_parts(&mut self, gone: &BTreeSet<PartId>) {
         let mut index = 0..;
@@ -292,6 +309,20 @@ mod tests {
         scene.bodies[1].limits = None;
         scene.hold_still();
         assert_eq!(scene.bodies, []);
+    }
+
+    #[test]
+    fn a_moment_becomes_rest() {
+        let mut scene = scene();
+        scene.bodies[1].limits = Some([0.0, 0.75]);
+        // The door has turned by a quarter, so the handle on it slides along y, and is out by half a metre of three quarters.
+        let there = scene.still_at(1.0);
+        assert_eq!((there.is_still(), there.validate()), (true, Ok(())));
+        assert!(at(&there, 2, 0.0).abs_diff_eq(at(&scene, 2, 1.0), 1e-12));
+        let BodyStates::Slide { axis, .. } = &there.bodies[1].motion.states else { panic!() };
+        assert!(axis.abs_diff_eq(DVec3::Y, 1e-12));
+        assert_eq!(there.bodies[1].limits, Some([-0.5, 0.25]));
+        assert_eq!(scene.still_at(0.0).parts, scene.parts);
     }
 
     #[test]

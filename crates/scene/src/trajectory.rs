@@ -17,6 +17,11 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// The moment that the frame shows of a scene that moves, seconds, where frames are `frame_time_s` apart.
+    pub fn moment_s(&self, frame_time_s: f64) -> f64 {
+        f64::from(self.frame) * frame_time_s
+    }
+
     /// The pose that looks from `position` to `look_at` with `up` as close to the image's vertical as can be.
     ///
     /// `None` when the two points coincide or the view is along `up`.

@@ -33,10 +33,19 @@ impl Buffer {
         view
     }
 
-    /// Adds vectors of `N` floats; the index of their accessor. `bounds` as positions need them.
+    /// Adds what vertices have, `N` floats each; the index of its accessor. `bounds` as positions need them.
     pub(super) fn vectors<const N: usize>(&mut self, values: &[[f32; N]], bounds: bool) -> usize {
+        let accessor = self.numbers(values, bounds);
+        if let Some(view) = self.views.last_mut() {
+            view["target"] = json!(ARRAY_BUFFER);
+        }
+        accessor
+    }
+
+    /// Adds lists of `N` floats that are no vertices; the index of their accessor.
+    pub(super) fn numbers<const N: usize>(&mut self, values: &[[f32; N]], bounds: bool) -> usize {
         let data: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
-        let view = self.view_for(ARRAY_BUFFER, &data);
+        let view = self.view(&data);
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
         let mut accessor = json!({ "bufferView": view, "componentType": FLOAT, "count": values.len(), "type": kind });
         if bounds {

@@ -18,6 +18,7 @@ pub(super) struct Document<'f> {
     pub nodes: Vec<Value>,
     pub cameras: Vec<Value>,
     pub lights: Vec<Value>,
+    pub animations: Vec<Value>,
     pub extensions: BTreeSet<&'static str>,
     /// glTF images by picture of the scene and use.
     pub pictures: BTreeMap<(u32, TextureUse), usize>,
@@ -38,6 +39,7 @@ impl<'f> Document<'f> {
             nodes: Vec::new(),
             cameras: Vec::new(),
             lights: Vec::new(),
+            animations: Vec::new(),
             extensions: BTreeSet::new(),
             pictures: BTreeMap::new(),
             notes: Vec::new(),

@@ -6,6 +6,7 @@
 //!   count, `"instance"` (from 1). `enfilade import` reads them back.
 //! - **Objects**: `extras.objects` of the scene lists what parts are parts of, each with its `name` and the index of its `parent`; `"object"`
 //!   in the `extras` of a part's node is an index into that list. `enfilade import` reads these back too.
+//! - **Motion**: each body of a scene that moves is a node with its parts and lights below it, and an animation moves it.
 //! - **Materials** as metallic-roughness with the ratified extensions (clear coat, emissive strength, IOR, sheen, specular, transmission,
 //!   volume). glTF has no complex indices of refraction, no blends of two surfaces and no heights; their replacements are described in
 //!   `material.rs`, and every replacement that changes the look is among the notes.
@@ -15,6 +16,7 @@
 mod buffer;
 mod document;
 mod material;
+mod motion;
 mod node;
 mod picture;
 
@@ -47,7 +49,8 @@ pub fn scene_gltf(scene: &Scene, labels: &Labels, files: &PictureFiles) -> Scene
     material::add_all(&mut document, scene);
     node::add_all(&mut document, scene, labels);
     let environment = picture::environment(&mut document, scene);
-    let Document { buffer, meshes, materials, textures, samplers, images, nodes, cameras, lights, extensions, notes, .. } = document;
+    let Document { buffer, meshes, materials, textures, samplers, images, nodes, cameras, lights, animations, extensions, notes, .. } =
+        document;
     let (views, accessors, binary) = buffer.finish();
     let mut root = json!({
         "asset": { "version": "2.0", "generator": concat!("enfilade ", env!("CARGO_PKG_VERSION")) },
@@ -69,6 +72,7 @@ pub fn scene_gltf(scene: &Scene, labels: &Labels, files: &PictureFiles) -> Scene
         ("samplers", samplers),
         ("images", images),
         ("cameras", cameras),
+        ("animations", animations),
         ("bufferViews", views),
         ("accessors", accessors),
     ];

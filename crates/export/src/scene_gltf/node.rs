@@ -1,6 +1,7 @@
 //! Parts, cameras and lights as nodes below a root that turns our z up into glTF's y up.
 
 use super::document::Document;
+use super::motion::{Bodies, adopt};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 use enfilade_scene::{Labels, Light, NYU40, Object, PartLabel, Scene, SpotFalloff, StartCamera, is_stuff};
@@ -13,6 +14,8 @@ const GLTF_FROM_WORLD: [f32; 16] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0
 /// Adds the root and everything below it.
 pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
     document.nodes.push(Value::Null);
+    let bodies = Bodies::add(document, scene);
+    let mut children: Vec<usize> = bodies.roots(scene).collect();
     let mut vertices: HashMap<u32, Value> = HashMap::new();
     let mut faces: HashMap<(u32, bool), Value> = HashMap::new();
     let mut meshes: HashMap<(u32, u32, bool), usize> = HashMap::new();
@@ -27,7 +30,8 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
             document.meshes.len() - 1
         });
         let mut node = json!({ "name": part.name, "mesh": mesh });
-        place(&mut node, &part.world_from_mesh);
+        let bearer = bodies.of_part(index);
+        place(&mut node, &bearer.map_or(part.world_from_mesh, |(_, from_world)| *from_world * part.world_from_mesh));
         if let Some(extras) = labels.parts.get(index).and_then(extras) {
             node["extras"] = extras;
         }
@@ -35,11 +39,28 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
             node["extras"]["object"] = json!(object);
         }
         document.nodes.push(node);
+        put(document, &mut children, bearer.map(|(bearer, _)| bearer));
     }
-    scene.cameras.iter().for_each(|camera| add_camera(document, camera));
-    scene.lights.iter().for_each(|light| add_light(document, light));
-    let children: Vec<usize> = (1..document.nodes.len()).collect();
+    for camera in &scene.cameras {
+        add_camera(document, camera);
+        put(document, &mut children, None);
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        let bearer = bodies.of_light(index);
+        if add_light(document, light, bearer.map_or(&DAffine3::IDENTITY, |(_, from_world)| from_world)) {
+            put(document, &mut children, bearer.map(|(bearer, _)| bearer));
+        }
+    }
     document.nodes[0] = json!({ "name": "z_up_to_y_up", "matrix": GLTF_FROM_WORLD, "children": children });
+}
+
+/// Puts the node that was added last below a body, or else among the root's children.
+fn put(document: &mut Document, children: &mut Vec<usize>, bearer: Option<usize>) {
+    let node = document.nodes.len() - 1;
+    match bearer {
+        Some(bearer) => adopt(document, bearer, node),
+        None => children.push(node),
+    }
 }
 
 /// The mesh's triangles. Under a mirroring matrix glTF takes the other side for the front, so the corners of those parts are swapped.
@@ -103,8 +124,8 @@ fn add_camera(document: &mut Document, camera: &StartCamera) {
     document.nodes.push(node);
 }
 
-/// A light shines along its node's −z.
-fn add_light(document: &mut Document, light: &Light) {
+/// A light shines along its node's −z. False if glTF has none like it.
+fn add_light(document: &mut Document, light: &Light, bearer_from_world: &DAffine3) -> bool {
     let (kind, strength, position, direction, spot) = match light {
         Light::Point { position, intensity, .. } => ("point", *intensity, *position, Vec3::NEG_Z, None),
         Light::Spot { position, direction, intensity, inner_rad, outer_rad, falloff, .. } => {
@@ -123,7 +144,7 @@ fn add_light(document: &mut Document, light: &Light) {
         }
         Light::Profile { .. } => {
             document.notes.push(format!("light {:?}: its measured distribution has no place in glTF, so it was left out", light.name()));
-            return;
+            return false;
         }
     };
     let intensity = strength.max_component();
@@ -140,6 +161,7 @@ fn add_light(document: &mut Document, light: &Light) {
     });
     let z = -direction.as_dvec3().normalize_or(DVec3::NEG_Z);
     let x = z.any_orthonormal_vector();
-    place(&mut node, &DAffine3::from_mat3_translation(DMat3::from_cols(x, z.cross(x), z), position.as_dvec3()));
+    place(&mut node, &(*bearer_from_world * DAffine3::from_mat3_translation(DMat3::from_cols(x, z.cross(x), z), position.as_dvec3())));
     document.nodes.push(node);
+    true
 }

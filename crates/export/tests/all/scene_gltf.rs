@@ -4,10 +4,11 @@ use enfilade_export::{SceneGltf, scene_gltf};
 use enfilade_geometry::Mesh;
 use enfilade_home::{HomeConfig, RoomKind, home};
 use enfilade_import::{ImportOptions, Imported, ImportedLabel, load};
-use enfilade_math::{DAffine3, DMat3, DVec3, Mat3, Rgb, Vec2, Vec3};
+use enfilade_math::{DAffine3, DMat3, DQuat, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{
-    Alpha, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Object, Part, PartLabel, PictureFile,
-    PictureFiles, Pixels, Principled, Quiet, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef, Wrap,
+    Alpha, Body, BodyMotion, BodyStates, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Object, Part,
+    PartLabel, PictureFile, PictureFiles, Pixels, Principled, Quiet, RigidPose, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef,
+    Wrap,
 };
 
 /// The scene, written and read.
@@ -313,4 +314,48 @@ fn a_turned_sky_keeps_its_directions() {
     assert!(found.abs_diff_eq(map_from_world, 1e-6), "{found} instead of {map_from_world}");
     assert_eq!((rows, scale), (MapRows::PoleToPole, Rgb::WHITE));
     assert_eq!(imported.scene.images[image as usize].pixels, Pixels::RgbF32(vec![[6.0, 4.0, 2.0], [1.0, 0.5, 18.0]]));
+}
+
+#[test]
+fn motion_comes_back_at_every_moment() {
+    let mut scene = shelf((0..4).map(|_| Material::diffuse("grey", Rgb::splat(0.5))).collect(), vec![]);
+    scene.lights = vec![Light::Point { name: "bulb".into(), position: Vec3::new(3.0, 1.0, 2.0), intensity: Rgb::WHITE }];
+    let body = |name: &str, parent, part, times_s: &[f64], states| Body {
+        name: name.into(),
+        parent,
+        parts: vec![part],
+        lights: Vec::new(),
+        limits: None,
+        motion: BodyMotion { times_s: times_s.into(), states },
+    };
+    // More than half a turn between two states, a body on another one, and a jump.
+    let hinge = BodyStates::Hinge { point: DVec3::new(0.5, -1.0, 0.2), axis: DVec3::new(0.6, 0.0, 0.8), angles_rad: vec![0.3, 4.0] };
+    let slide = BodyStates::Slide { axis: DVec3::Y, distances_m: vec![0.0, 1.5, 0.25] };
+    let pose = |angle: f64, x: f64| RigidPose { rotation: DQuat::from_rotation_y(angle), translation: DVec3::new(x, 0.0, 0.5 * x) };
+    let free = BodyStates::Free {
+        position: DVec3::new(1.0, 2.0, 3.0),
+        rotation: DQuat::from_rotation_x(0.7),
+        poses: vec![pose(0.0, 0.0), pose(1.0, 2.0), pose(0.4, -1.0), pose(0.0, 0.0)],
+    };
+    scene.bodies = vec![
+        body("door", None, 0, &[0.5, 2.0], hinge),
+        Body { lights: vec![0], ..body("drawer", Some(0), 1, &[0.0, 1.0, 2.0], slide) },
+        body("ball", None, 2, &[-1.0, 1.0, 1.0, 2.5], free),
+    ];
+    let (imported, notes) = round_trip(&scene, &Labels::default());
+    assert_eq!(notes, Vec::<String>::new());
+    let found = imported.scene;
+    let place = |scene: &Scene, name: &str| scene.parts.iter().find(|part| part.name == name).unwrap().world_from_mesh;
+    for time_s in [0.0, 0.25, 0.5, 0.9, 1.3, 1.99, 2.2, 3.0] {
+        let (expected, found) = (scene.at(time_s), found.at(time_s));
+        for part in &scene.parts {
+            let [expected, found] = [&expected, &found].map(|scene| place(scene, &part.name));
+            assert!(found.abs_diff_eq(expected, 1e-5), "{} at {time_s} s: {found:?}, expected {expected:?}", part.name);
+        }
+        let (Light::Point { position: expected, .. }, Light::Point { position: found, .. }) = (&expected.lights[0], &found.lights[0])
+        else {
+            panic!("{:?}", found.lights)
+        };
+        assert!(found.abs_diff_eq(*expected, 1e-5), "{found} at {time_s} s, expected {expected}");
+    }
 }

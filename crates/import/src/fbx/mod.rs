@@ -16,7 +16,8 @@
 //! | point, spot, directional lights | see below; spots dim evenly with the angle, those of Blender by its own law |
 //! | area lights | a square two units wide that shines along its axis, as FBX does not state its size |
 //! | cameras | perspective, by field of view or focal length and aperture; orthographic ones, film offset and roll are dropped |
-//! | animation, skins, blend shapes | the first moment of the first animation, else the pose of the nodes; each is reported |
+//! | animation | the first one moves nodes that keep their scale, from its first moment on, sixty states a second where they do not move evenly; else the pose of the nodes |
+//! | skins, blend shapes | as at the first moment of the first animation, else as at rest; each is reported |
 //! | dropped with a warning | vertex colours, points and lines, NURBS, curves, subdivision, caches of positions, subsurface scattering, anisotropy, thin film, displacement, normal maps of coats, volume lights (replaced by a point) |
 //!
 //! Every surface has two sides, and emits on both, as FBX knows no sides.
@@ -32,6 +33,7 @@
 //! The C library [ufbx](https://github.com/ufbx/ufbx) reads the file, from memory, with a limit on what it allocates; it opens no
 //! other file.
 
+mod animation;
 mod light;
 mod material;
 mod mesh;
@@ -45,7 +47,7 @@ use enfilade_math::{DMat3, DVec3};
 
 /// Imports an FBX file.
 pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
-    let scene = reader::read(&mut assembly)?;
+    let (scene, animations) = reader::read(&mut assembly)?;
     let settings = &scene.settings;
     let axes = reader::world_from_axes(&settings.axes).unwrap_or_else(|| {
         assembly.warn("GlobalSettings", "the file does not say which axis is up; y was used");
@@ -57,6 +59,6 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
         assembly.warn("GlobalSettings", format!("found a unit of {metres} m; one of 1 cm was used"));
     }
     assembly.state_space(if usable { metres } else { 0.01 }, axes);
-    node::place(&scene, &mut assembly)?;
+    node::place(&scene, &animations, &mut assembly)?;
     assembly.finish()
 }

@@ -1,5 +1,6 @@
 //! The node tree: parts, lights and cameras with their placements.
 
+use super::animation::Animations;
 use super::light::{add_camera, add_light};
 use super::material::{self, Materials};
 use super::mesh;
@@ -7,7 +8,7 @@ use super::reader::affine;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;
-use enfilade_scene::{ObjectId, PartLabel};
+use enfilade_scene::{BodyId, ObjectId, PartLabel};
 use std::collections::{HashMap, HashSet};
 use ufbx::{ElementType, Node, Scene};
 
@@ -15,28 +16,66 @@ use ufbx::{ElementType, Node, Scene};
 ///
 /// # Errors
 /// When a mesh cannot be used, or a texture is missing.
-pub(super) fn place(scene: &Scene, a: &mut Assembly) -> Result<(), ImportError> {
+pub(super) fn place(scene: &Scene, animations: &Animations, a: &mut Assembly) -> Result<(), ImportError> {
     let hidden_layers = scene.display_layers.as_ref().iter().filter(|l| !l.visible);
     let hidden: HashSet<u32> = hidden_layers.flat_map(|l| l.nodes.as_ref().iter().map(|n| n.element.element_id)).collect();
     let mut placer = Placer { materials: Materials::default(), meshes: HashMap::new() };
-    let mut stack: Vec<(&Node, bool, Option<ObjectId>)> = vec![(&scene.root_node, true, None)];
+    let mut stack: Vec<(&Node, bool, Option<ObjectId>, Option<BodyId>)> = vec![(&scene.root_node, true, None, None)];
     let mut done = 0;
-    while let Some((node, inherited, parent)) = stack.pop() {
+    while let Some((node, inherited, parent, bearer)) = stack.pop() {
         done += 1;
         a.progress(done, scene.nodes.count);
         let follows = ufbx::find_prop(&node.element.props, "Visibility Inheritance").is_none_or(|p| p.value_int != 0);
         let visible = node.visible && !hidden.contains(&node.element.element_id) && (inherited || !follows);
         let named = node.mesh.is_some() || !node.element.name.trim().is_empty();
         let object = if named { Some(a.push_object(&name(node), parent)) } else { parent };
+        let body = body(node, animations, bearer, a);
+        let before = a.contents();
         placer.node(node, object, visible, a)?;
+        // Bent meshes follow their bones.
+        if let Some(body) = body.filter(|_| !is_bent(node)) {
+            a.carry(body, before);
+        }
         let levels = node.attrib_type == ElementType::LodGroup;
         if levels && node.children.count > 1 {
             a.warn(place_of(node), "only the first of its levels of detail was used");
         }
         let wanted = if levels { &node.children.as_ref()[..node.children.count.min(1)] } else { node.children.as_ref() };
-        stack.extend(wanted.iter().rev().map(|child| (child.as_ref(), visible, object)));
+        stack.extend(wanted.iter().rev().map(|child| (child.as_ref(), visible, object, body)));
     }
+    report_motion(scene, animations, a);
     Ok(())
+}
+
+/// The body that a node is, if it moves by itself, else the one that bears it.
+fn body(node: &Node, animations: &Animations, bearer: Option<BodyId>, a: &mut Assembly) -> Option<BodyId> {
+    match animations.of(node) {
+        None => bearer,
+        Some(Ok((file_from_frame, states))) => a.push_body(&name(node), bearer, file_from_frame, states).or(bearer),
+        Some(Err(problem)) => {
+            a.warn(place_of(node), format!("it is animated, but {problem}; it stays"));
+            bearer
+        }
+    }
+}
+
+/// True if bones bend the node's mesh.
+pub(super) fn is_bent(node: &Node) -> bool {
+    node.mesh.as_ref().is_some_and(|mesh| !mesh.skin_deformers.is_empty())
+}
+
+/// Says what became of the animation of the file.
+fn report_motion(scene: &Scene, animations: &Animations, a: &mut Assembly) {
+    if animations.is_empty() {
+        return;
+    }
+    let message = match a.drop_unused_bodies() {
+        0 => "nothing that is seen moves by it; parts stay in the pose of its first moment".into(),
+        bodies => format!("{bodies} things move by the first animation (still = true leaves motion out)"),
+    };
+    let others = scene.anim_stacks.count.saturating_sub(1);
+    let more = if others > 0 { format!("; {others} more were dropped") } else { String::new() };
+    a.warn("animations", message + &more);
 }
 
 struct Placer {

@@ -1,10 +1,12 @@
 //! The bytes of an FBX file to its objects, by the library ufbx, within limits of memory and depth.
 
+use super::animation::Animations;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use ufbx::{
-    AllocatorOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, Matrix, SceneRoot,
+    AllocatorOpts, BakeOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, Matrix,
+    SceneRoot,
 };
 
 /// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
@@ -16,8 +18,8 @@ const MEMORY_PER_BYTE: usize = 64;
 /// Nodes within nodes.
 const MAX_DEPTH: u32 = 512;
 
-/// The scene of an FBX file in its own units and axes, in the pose of its first moment where it is animated.
-pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
+/// The scene of an FBX file in its own units and axes, in the pose of its first moment where it is animated, and its animation.
+pub(super) fn read(a: &mut Assembly) -> Result<(SceneRoot, Animations), ImportError> {
     let bytes = a.read_scene_file()?;
     let limits =
         || AllocatorOpts { memory_limit: MEMORY.saturating_add(bytes.len().saturating_mul(MEMORY_PER_BYTE)), ..AllocatorOpts::default() };
@@ -37,15 +39,14 @@ pub(super) fn read(a: &mut Assembly) -> Result<SceneRoot, ImportError> {
     }
     report_version(&scene, a);
     let Some(stack) = scene.anim_stacks.as_ref().iter().find(|s| s.layers.iter().any(|l| !l.anim_values.is_empty())) else {
-        return Ok(scene);
+        return Ok((scene, Animations::default()));
     };
-    a.warn(
-        format!("animation {:?}", &*stack.element.name),
-        format!("animated scene; its first moment ({} s) was used, the rest was dropped", stack.time_begin),
-    );
+    let place = format!("animation {:?}", &*stack.element.name);
+    let baking = BakeOpts { temp_allocator: limits(), result_allocator: limits(), ..BakeOpts::default() };
+    let animations = Animations::sample(&scene, &stack.anim, baking).map_err(|e| a.malformed(&place, problem(&e, &bytes)))?;
     let options = EvaluateOpts { temp_allocator: limits(), result_allocator: limits(), evaluate_skinning: true, ..EvaluateOpts::default() };
-    ufbx::evaluate_scene(&scene, &stack.anim, stack.time_begin, options)
-        .map_err(|e| a.malformed(format!("animation {:?}", &*stack.element.name), problem(&e, &bytes)))
+    let first = ufbx::evaluate_scene(&scene, &stack.anim, stack.time_begin, options);
+    Ok((first.map_err(|e| a.malformed(&place, problem(&e, &bytes)))?, animations))
 }
 
 /// The message for an error: the fault, and what to do about it.

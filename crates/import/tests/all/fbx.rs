@@ -421,3 +421,62 @@ fn damaged_files_are_errors_with_a_remedy() {
     folder.write("huge.fbx", huge);
     assert!(folder.error("huge.fbx").contains("huge.fbx: whole file: "));
 }
+
+/// A curve of linear keys, seconds and values, that drives a component of a property of the node.
+fn curve(id: i64, component: &'static str, property: &'static str, keys: &[(f64, f64)]) -> (Vec<Record>, Vec<Record>) {
+    const TICKS_PER_S: f64 = 46_186_158_000.0;
+    const LINEAR: i32 = 4;
+    let list = |name, values| record(name, vec![values], vec![]);
+    let children = vec![
+        record("Default", vec![Value::Real(0.0)], vec![]),
+        record("KeyVer", vec![Value::Int(4008)], vec![]),
+        list("KeyTime", Value::Longs(keys.iter().map(|(time_s, _)| (time_s * TICKS_PER_S) as i64).collect())),
+        list("KeyValueFloat", Value::Reals(keys.iter().map(|(_, value)| *value).collect())),
+        list("KeyAttrFlags", Value::Ints(vec![LINEAR])),
+        list("KeyAttrDataFloat", Value::Reals(vec![0.0; 4])),
+        list("KeyAttrRefCount", Value::Ints(vec![keys.len() as i32])),
+    ];
+    let of_property = object("AnimationCurveNode", id, "T\0\x01AnimCurveNode", "", vec![properties(vec![])]);
+    let objects = vec![of_property, object("AnimationCurve", id + 1, "\0\x01AnimCurve", "", children)];
+    (objects, vec![belongs(id, 41), feeds(id, NODE, property), feeds(id + 1, id, component)])
+}
+
+#[test]
+fn animated_nodes_move_from_the_first_moment_of_the_animation() {
+    // From the first to the third second the node goes 50 cm along x, and turns by 180 degrees about its x.
+    let (mut more, mut links) = curve(50, "d|X", "Lcl Translation", &[(1.0, 10.0), (3.0, 60.0)]);
+    let (objects, connections) = curve(60, "d|X", "Lcl Rotation", &[(1.0, 0.0), (3.0, 180.0)]);
+    more.extend(objects);
+    links.extend(connections);
+    let span = |name, ticks: i64| property(name, "KTime", vec![Value::Int(ticks)]);
+    let ends = vec![span("LocalStart", 46_186_158_000), span("LocalStop", 3 * 46_186_158_000)];
+    more.push(object("AnimationStack", 40, "Take\0\x01AnimStack", "", vec![properties(ends)]));
+    more.push(object("AnimationLayer", 41, "Base\0\x01AnimLayer", "", vec![]));
+    links.push(belongs(41, 40));
+    let of_node = vec![vector("Lcl Translation", [0.0, 0.0, 5.0]), vector("Lcl Scaling", [2.0, 2.0, 2.0])];
+    let folder = Folder::new();
+    let imported = load(&folder, &scene(vec![], of_node.clone(), more.clone(), links.clone()));
+    assert!(warnings(&imported).contains("1 things move by the first animation"), "{}", warnings(&imported));
+    let moving = imported.scene;
+    assert_eq!((moving.bodies.len(), moving.bodies[0].name.as_str(), moving.bodies[0].parts.as_slice()), (1, "Chair", &[0][..]));
+    // In the file the second corner is at (2, 0, 0) cm of the node and the third at (0, 2, 0), which turns to (0, 0, 2) in a second.
+    for (time_s, second, third) in [
+        (0.0, [12.0, 0.0, 5.0], [10.0, 2.0, 5.0]),
+        (1.0, [37.0, 0.0, 5.0], [35.0, 0.0, 7.0]),
+        (2.0, [62.0, 0.0, 5.0], [60.0, -2.0, 5.0]),
+        (9.0, [62.0, 0.0, 5.0], [60.0, -2.0, 5.0]),
+    ] {
+        let there = moving.at(time_s);
+        let found = there.world_corners(&there.parts[0], 0);
+        // z up: y of the file is our z, and its z points towards −y.
+        for (found, [x, y, z]) in [(found[1], second), (found[2], third)] {
+            near(found, [0.01 * x, -0.01 * z, 0.01 * y]);
+        }
+    }
+
+    // A scale that changes is no rigid motion.
+    let (objects, connections) = curve(70, "d|Y", "Lcl Scaling", &[(1.0, 1.0), (3.0, 2.0)]);
+    let stretched = load(&folder, &scene(vec![], of_node, [more, objects].concat(), [links, connections].concat()));
+    assert_eq!(stretched.scene.bodies, []);
+    assert!(warnings(&stretched).contains("its scale changes, which no rigid motion does; it stays"), "{}", warnings(&stretched));
+}

@@ -4,6 +4,7 @@ use super::LoadedScene;
 use crate::config::FileSource;
 use crate::error::Error;
 use crate::intake::{labelled, load_file};
+use enfilade_compose::{MotionGroup, with_motion};
 use enfilade_dataset::counted;
 use enfilade_import::scene_name;
 use enfilade_math::{DAffine3, DVec3};
@@ -36,6 +37,24 @@ impl LoadedScene {
     pub fn edited(&self, edit: impl FnOnce(&LabelledScene) -> Result<LabelledScene, EditError>) -> Result<Self, Error> {
         let contents = edit(&self.contents).map_err(refused)?;
         Ok(Self::new(self.name.clone(), contents, self.warnings.clone(), self.report.clone()))
+    }
+
+    /// The scene in which one more thing moves, as a `[[motion]]` of a dataset moves it. Rendered as it is, it is at rest.
+    ///
+    /// # Errors
+    /// When a value cannot be, or the scene has no such thing.
+    pub fn with_motion(&self, motion: &MotionGroup) -> Result<Self, Error> {
+        let scene = with_motion(self.scene(), std::slice::from_ref(motion));
+        let scene = scene.map_err(|error| Error::usage(error.to_string(), "docs/motion.md has the keys"))?;
+        self.edited(|before| Ok(LabelledScene { scene, labels: before.labels.clone(), picture_files: before.picture_files.clone() }))
+    }
+
+    /// The scene as it is at a moment, seconds; nothing in it moves.
+    #[must_use]
+    pub fn still_at(&self, time_s: f64) -> Self {
+        let LabelledScene { scene, labels, picture_files } = &**self.contents();
+        let contents = LabelledScene { scene: scene.still_at(time_s), labels: labels.clone(), picture_files: picture_files.clone() };
+        Self::new(self.name.clone(), contents, self.warnings.clone(), self.report.clone())
     }
 
     /// The scene with all parts and lights of the file of `source` (its path is used unchanged), read as [`LoadedScene::read`] reads it but for

@@ -1,10 +1,11 @@
 //! `gate`: which of the planned views are worth rendering, by their geometry.
 
-use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, moments};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
+use crate::world::World;
 use enfilade_dataset::{JudgedView, ViewFault, ViewVerdict, counted, remove_folder, remove_if_there, write_bytes};
 use enfilade_explore::PlanReport;
 use enfilade_scene::{CameraView, Cx, Trajectory, Warning};
@@ -23,6 +24,7 @@ pub(super) fn settings(job: &Job) -> Hash {
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?, job.input_from(Stage::Carve, &job.work_file(carve::STARTS)?)?];
     inputs.extend(camera_files::inputs(job)?);
+    inputs.extend(moments::inputs(job)?);
     Ok(Some(inputs))
 }
 
@@ -34,20 +36,29 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         cx.warn(Warning { place: "gates".into(), message });
     }
     let (scene, world) = (job.load_scene()?, job.load_world()?);
-    let keeper = Gatekeeper::new(&scene, &world, &carve::standing(job)?, config)?;
+    let starts = carve::standing(job)?;
+    let keeper = Gatekeeper::new(&scene, &world, &starts, config)?;
     let filmed = job.filmed()?;
     let total: usize = filmed.iter().map(|(_, trajectory)| trajectory.poses.len()).sum();
     let (mut judged, mut outputs): (Vec<Judged>, Vec<PathBuf>) = (Vec::new(), Vec::new());
     for (camera, trajectory) in filmed.iter() {
         let (first, given) = (judged.len(), given_frame(job, &trajectory.name));
+        let frame_time_s = moments::frame_time(job.dataset, &job.package()?, name, &trajectory.name)?;
         for (index, pose) in trajectory.poses.iter().enumerate() {
             let view = CameraView::of_frame(camera, &trajectory.poses, index);
-            let judgement = keeper.judge(&view);
-            let thumbnail = match judgement.fault {
+            let (judgement, picture) = match frame_time_s {
+                None => keeper.judged(&view),
+                // What moves may hide everything.
+                Some(frame_time_s) => {
+                    let scene = scene.at(pose.moment_s(frame_time_s));
+                    Gatekeeper::new(&scene, &World::of(&scene), &starts, config)?.judged(&view)
+                }
+            };
+            let thumbnail = match picture {
                 None => None,
-                Some(_) => {
+                Some(picture) => {
                     let path = layout.rejected_view(name, &trajectory.name, pose.frame);
-                    write_bytes(&path, jpeg(&keeper.thumbnail(&view)))?;
+                    write_bytes(&path, jpeg(&picture))?;
                     let relative = path.strip_prefix(layout.detail_dir(name)).unwrap_or(&path).display().to_string();
                     outputs.push(path);
                     Some(relative)

@@ -7,8 +7,7 @@ use crate::workdir::{Hash, PACKAGE, Workdir};
 use crate::world::World;
 use enfilade_dataset::{Dataset, DatasetError, quoted, read_package};
 use enfilade_frame::Pass;
-use enfilade_geometry::Bvh;
-use enfilade_scene::{Camera, Scene, Trajectory, WorldMesh};
+use enfilade_scene::{Camera, Scene, Trajectory};
 use enfilade_verify::NotJudged;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -122,9 +121,7 @@ impl<'a> Job<'a> {
         if let Some(world) = &loaded.world {
             return Ok(world.clone());
         }
-        let mesh = WorldMesh::new(&scene);
-        let bvh = Bvh::new(&mesh.corners, &|_| false);
-        Ok(loaded.world.insert(Arc::new(World { mesh, bvh })).clone())
+        Ok(loaded.world.insert(Arc::new(World::of(&scene))).clone())
     }
 
     /// The cameras that are there; by their files where the table of them is damaged, as planning has still to make it again.

@@ -8,6 +8,7 @@ mod boxes;
 mod camera_files;
 mod carve;
 mod denoise;
+mod exposure;
 mod finisher;
 mod gate;
 mod import;

@@ -1,13 +1,13 @@
 //! Scenes that move: the moment that a frame shows, and the scene as that frame finds it. Frame n of a camera shows the scene n times the
 //! camera's time between frames after its beginning.
 
-use super::Job;
+use super::{Input, Job, exposure};
 use crate::error::Error;
 use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
 use enfilade_frame::{Frame, Layer, Values, traits};
 use enfilade_math::DAffine3;
 use enfilade_render::{Lookout, Moved};
-use enfilade_scene::{Body, BodyStates, PACKAGE_HEAD_BYTES, Pose, Scene, is_jointed_package, is_moving_package};
+use enfilade_scene::{Body, BodyStates, CameraView, PACKAGE_HEAD_BYTES, Pose, Scene, Trajectory, is_jointed_package, is_moving_package};
 use std::io::Read;
 use std::path::Path;
 
@@ -28,17 +28,24 @@ fn head(package: &Path) -> Vec<u8> {
     if read.is_ok() { head } else { Vec::new() }
 }
 
+/// The files that tell how long the time between frames is, of a scene that moves.
+///
+/// # Errors
+/// When a file is missing.
+pub(super) fn inputs(job: &Job) -> Result<Vec<Input>, Error> {
+    if !moves(&job.package()?) {
+        return Ok(Vec::new());
+    }
+    let file = |trajectory: &Trajectory| Input::of(&job.dataset.layout().metadata_camera(&job.scene.name, &trajectory.name));
+    job.filmed()?.iter().map(|(_, trajectory)| file(trajectory)).collect()
+}
+
 /// Seconds between the frames of a camera, if the scene of the package moves.
 ///
 /// # Errors
 /// When the camera's file cannot be read.
 pub(crate) fn frame_time(dataset: &Dataset, package: &Path, scene: &str, camera: &str) -> Result<Option<f64>, Error> {
     moves(package).then(|| dataset.read_frame_time(scene, camera).map_err(Error::stage)).transpose()
-}
-
-/// The moment that a frame shows, seconds.
-fn moment_s(pose: &Pose, frame_time_s: f64) -> f64 {
-    f64::from(pose.frame) * frame_time_s
 }
 
 /// A scene that moves, at the moment of a frame, and where everything goes.
@@ -49,13 +56,15 @@ pub(crate) struct Moment {
     next: Option<(Scene, Vec<Option<DAffine3>>)>,
     /// By part: whether it moves on the way to the next frame, or from the one before.
     moving: Vec<bool>,
+    /// The scene in the middle of equal stretches of the exposure, in the order of time; none if nothing moves in it.
+    pub exposed: Vec<Scene>,
 }
 
 impl Moment {
     /// The moment of the pose `index` of a trajectory whose frames are `frame_time_s` apart.
-    pub fn new(scene: &Scene, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
-        let at = |index: usize| poses.get(index).map(|pose| moment_s(pose, frame_time_s));
-        let now = moment_s(&poses[index], frame_time_s);
+    pub fn new(scene: &Scene, view: &CameraView<'_>, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
+        let at = |index: usize| poses.get(index).map(|pose| pose.moment_s(frame_time_s));
+        let now = poses[index].moment_s(frame_time_s);
         let next = at(index + 1).map(|then| (scene.at(then), scene.carried(now, then)));
         let before = index.checked_sub(1).and_then(at).map(|then| scene.carried(now, then));
         let mut moving = vec![false; scene.parts.len()];
@@ -64,7 +73,7 @@ impl Moment {
                 *moves |= carried.is_some_and(|carried| carried != DAffine3::IDENTITY);
             }
         }
-        Self { scene: scene.at(now), next, moving }
+        Self { scene: scene.at(now), next, moving, exposed: exposure::stretches(scene, view, now) }
     }
 
     /// The next frame's moment, ready for flow; `None` of the last frame.
@@ -97,7 +106,7 @@ pub(super) fn write_tables(job: &Job, scene: Option<&Scene>) -> Result<(), Error
     for (_, trajectory) in job.filmed()?.iter() {
         let frame_time_s = job.dataset.read_frame_time(name, &trajectory.name).map_err(Error::stage)?;
         let frame = |pose: &Pose| {
-            let (scene, time_s) = (scene.filter(|scene| !scene.is_still())?, moment_s(pose, frame_time_s));
+            let (scene, time_s) = (scene.filter(|scene| !scene.is_still())?, pose.moment_s(frame_time_s));
             let states = scene.bodies.iter().map(|body| body.motion.state_at(time_s)).collect();
             Some(FrameBodies { frame: pose.frame, time_s, world_from_rest: scene.world_from_rest(time_s), states })
         };

@@ -20,11 +20,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
     let mut inputs = vec![job.input_from(Stage::Import, &job.package()?)?];
     inputs.extend(camera_files::inputs(job)?);
     inputs.extend(gate::verdicts(job)?);
-    if moments::moves(&job.package()?) {
-        for (_, trajectory) in job.filmed()?.iter() {
-            inputs.push(Input::of(&job.dataset.layout().metadata_camera(&job.scene.name, &trajectory.name))?);
-        }
-    }
+    inputs.extend(moments::inputs(job)?);
     Ok(Some(inputs))
 }
 
@@ -84,11 +80,11 @@ fn refuse_unfit(job: &Job, filmed: &[(Camera, Trajectory)], cx: &StageCx) -> Res
         let message = "the scene moves, and light is kept apart by lamp and window only of still scenes".to_string();
         return Err(Error::scene(message, "take out fixtures = true, or give the scene still = true and no [[motion]]"));
     }
-    if let Some((_, trajectory)) = filmed.iter().find(|(camera, _)| camera.shutter.is_some()) {
-        let message =
-            "the camera has a shutter, but what moves by itself is not blurred or sheared: each frame shows it at the frame's own \
-                       moment"
-                .into();
+    let rolls = |(camera, _): &&(Camera, Trajectory)| camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0);
+    if let Some((_, trajectory)) = filmed.iter().find(rolls) {
+        let message = "the camera has a rolling shutter, which shears what it moves past, but not what moves by itself: that is blurred, \
+                       and seen around the frame's own moment in every row"
+            .into();
         cx.warn(Warning { place: format!("{}/{}", job.scene.name, trajectory.name), message });
     }
     Ok(())
@@ -223,7 +219,7 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
             let take = |rendering: FrameRender<'_, '_>| progressive::render(job, &trajectory.name, info, rendering, &frame_cx);
             let (frame, sampling) = match scene {
                 Rendered::Moving(scene) => {
-                    let moment = moments::Moment::new(scene, &trajectory.poses, index, frame_time_s);
+                    let moment = moments::Moment::new(scene, &views[index], &trajectory.poses, index, frame_time_s);
                     take_at(&moment, &views, index, config, take)?
                 }
                 Rendered::Still(scene) => {
@@ -261,9 +257,11 @@ pub(crate) fn take_at<T>(
     config: &RenderConfig,
     take: impl FnOnce(FrameRender<'_, '_>) -> Result<(Frame, T), Error>,
 ) -> Result<(Frame, T), Error> {
-    let scene = RenderScene::new(&moment.scene, &Quiet).map_err(Error::stage)?.settled(config);
-    let guide = Guide::learn(&scene, &views[index..=index], config);
-    let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?;
+    let (scene, guide) = prepared(&moment.scene, &views[index], config, 1)?;
+    // What moves while the shutter is open is blurred.
+    let stretches = moment.exposed.iter().map(|scene| prepared(scene, &views[index], config, moment.exposed.len()));
+    let stretches = stretches.collect::<Result<Vec<_>, _>>()?;
+    let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?.exposed(&stretches);
     let (mut frame, taken) = take(rendering)?;
     if config.extra {
         let moved = moment.moved()?;
@@ -272,6 +270,14 @@ pub(crate) fn take_at<T>(
         moment.mark(&mut frame);
     }
     Ok((frame, taken))
+}
+
+/// A state of a scene, ready for rays, and what was learned of it; `share` states divide the effort among them.
+fn prepared<'s>(scene: &'s Scene, view: &CameraView<'_>, config: &RenderConfig, share: usize) -> Result<(RenderScene<'s>, Guide), Error> {
+    let scene = RenderScene::new(scene, &Quiet).map_err(Error::stage)?.settled(config);
+    let learning = RenderConfig { samples: config.samples.div_ceil(share as u32), ..config.clone() };
+    let guide = Guide::learn(&scene, &[*view], &learning);
+    Ok((scene, guide))
 }
 
 /// Lists what lights the scene, where the light of each is kept apart.
@@ -325,7 +331,11 @@ pub(crate) fn config_hash(
 ) -> String {
     let version = (HASHED_AS, Stage::Render.version());
     let still = (version, package, config, timing.limit_s, CameraRecord::from(camera), &trajectory.poses, pose);
-    timing.frame_s.map_or_else(|| Hash::of(&still), |frame_s| Hash::of(&(&still, frame_s))).0
+    match (timing.frame_s, camera.shutter) {
+        (None, _) => Hash::of(&still).0,
+        (Some(frame_s), None) => Hash::of(&(&still, frame_s)).0,
+        (Some(frame_s), Some(_)) => Hash::of(&(&still, frame_s, "blurred")).0,
+    }
 }
 
 /// The program as records name it.

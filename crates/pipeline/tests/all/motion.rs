@@ -1,7 +1,7 @@
 //! Scenes that move, against formulas: a door that turns, a box that falls, a chain that swings, a wheel that rolls.
 
 use crate::common::{LAMP, WALL, block, write_blocks};
-use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies};
+use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies, ViewVerdict};
 use enfilade_frame::{Layer, traits, vector};
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, Overrides, PairsRequest, Request, Silent, make, replay, run};
@@ -164,4 +164,74 @@ fn flow_is_as_expected(dataset: &Dataset, number: u32) -> usize {
         compared += 1;
     }
     compared
+}
+
+/// A panel slides past a camera with an open shutter: the share of the exposure in which it covers a pixel is the share of its colour there.
+#[test]
+fn what_moves_while_the_shutter_is_open_is_blurred() {
+    let (speed, exposure_s, left, right, depth) = (0.8, 0.5, -0.9, -0.6, 0.5);
+    let folder = tempfile::tempdir().unwrap();
+    let panel = block("panel", [left, depth, 0.7], [right, depth + 0.01, 1.3], [0.1, 0.1, 0.1]);
+    write_blocks(folder.path(), &[WALL, LAMP, panel]);
+    let path = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0,-1.3,1,0,1,1,0\n1,0,-1.3,1,0,1,1,0\n";
+    std::fs::write(folder.path().join("path.csv"), path).unwrap();
+    let text = format!(
+        "seed = 3\n[render]\nsize = [64, 48]\nsamples = 64\nadaptive = false\nmax_bounces = 1\nfilter = \"box\"\n[gate]\naction = \"report\"\n\
+         [carve]\nrays = 8192\niterations = 2\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\nup_axis = \"z\"\n\
+         camera = {{ shutter = {{ exposure_s = {exposure_s}, frame_time_s = 1.0 }} }}\n\
+         [scene.plan]\nmode = {{ kind = \"keyframes\", files = [\"path.csv\"] }}\n\
+         [[scene.motion]]\nof = \"panel\"\ntimes_s = [0, 2]\nmoved_m = [[0, 0, 0], [{}, 0, 0]]\n",
+        2.0 * speed
+    );
+    std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
+    let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
+    assert!(run(&config, &out, None, &Silent).unwrap().ok());
+
+    let dataset = Dataset::open(&out).unwrap();
+    let camera = dataset.read_camera("room", "cam_00").unwrap();
+    let poses = dataset.read_trajectory("room", "cam_00").unwrap().poses;
+    let frame = dataset.read_frame("room", "cam_00", 1, &[Layer::DiffuseReflectance]).unwrap();
+    let reflectance = frame.get(Layer::DiffuseReflectance).unwrap();
+    let view = CameraView::of_frame(&camera, &poses, 1);
+    let plane_x = |x: f64| {
+        let ray = view.centre_ray(x, 24.5).unwrap();
+        ray.origin.x + ray.direction.x * (depth - ray.origin.y) / ray.direction.y
+    };
+    let mut partly = 0;
+    for column in 0..64 {
+        // The share of the moments at which the panel covers points of the pixel, in steps.
+        let covers = |step: usize| {
+            let (share, time_s) = (((step % 32) as f64 + 0.5) / 32.0, 1.0 + exposure_s * (((step / 32) as f64 + 0.5) / 256.0 - 0.5));
+            let at_rest = plane_x(f64::from(column) + share) - speed * time_s;
+            (left..right).contains(&at_rest)
+        };
+        let share = (0..32 * 256).filter(|&step| covers(step)).count() as f64 / (32.0 * 256.0);
+        let found = (0.7 - reflectance.get(3 * (24 * 64 + column as usize))) / 0.6;
+        assert!((found - share).abs() < 0.1, "column {column}: {found}, expected {share}");
+        partly += u32::from((0.1..0.9).contains(&share));
+    }
+    assert!(partly > 8, "{partly}");
+    // Its geometry is that of the frame's own moment.
+    let bodies = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+    assert!((bodies.frames().nth(1).unwrap().world_from_rest[0].translation.x - speed).abs() < 1e-12);
+    assert!(replay(&dataset.layout().frame_record("room", "cam_00", 1), None, &Quiet).unwrap().is_same());
+}
+
+/// A board that comes to stand before the camera hides everything in the second frame; the first one and the third see the room.
+#[test]
+fn views_are_judged_at_their_own_moment() {
+    let folder = tempfile::tempdir().unwrap();
+    let board = block("board", [-1.9, -1.25, 0.0], [-1.0, -1.24, 2.0], [0.1, 0.1, 0.1]);
+    write_blocks(folder.path(), &[WALL, LAMP, board]);
+    let path = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0.5,-1.3,1,-1.5,1.0,0.4,0\n2,0.5,-1.3,1,-1.5,1.0,0.4,0\n";
+    std::fs::write(folder.path().join("path.csv"), path).unwrap();
+    let text = "[render]\nsize = [64, 48]\nsamples = 1\n[carve]\nrays = 8192\niterations = 2\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\n\
+                up_axis = \"z\"\n[scene.plan]\nmode = { kind = \"keyframes\", files = [\"path.csv\"] }\n\
+                [[scene.motion]]\nof = \"board\"\ntimes_s = [0, 1, 2]\nmoved_m = [[0, 0, 0], [1.9, 0, 0], [0, 0, 0]]\n";
+    std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
+    let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    assert!(summary.ok(), "{:?}", summary.scenes);
+    let judged = Dataset::open(&out).unwrap().read_view_gates("room", "cam_00").unwrap().unwrap();
+    assert_eq!(judged.iter().map(|view| view.verdict == ViewVerdict::Passed).collect::<Vec<_>>(), [true, false, true], "{judged:?}");
 }

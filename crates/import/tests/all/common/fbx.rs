@@ -7,6 +7,7 @@ pub enum Value {
     Real(f64),
     Text(&'static str),
     Ints(Vec<i32>),
+    Longs(Vec<i64>),
     Reals(Vec<f64>),
     Bytes(Vec<u8>),
 }
@@ -101,6 +102,7 @@ fn write_text(record: &Record, out: &mut String) {
             None => format!("\"{t}\""),
         },
         Value::Ints(v) => array(v.iter().map(i32::to_string).collect()),
+        Value::Longs(v) => array(v.iter().map(i64::to_string).collect()),
         Value::Reals(v) => array(v.iter().map(|v| format!("{v:?}")).collect()),
         Value::Bytes(b) => format!(",\n\"{}\"", super::base64(b)),
     };
@@ -150,6 +152,7 @@ fn write_value(value: &Value, out: &mut Vec<u8>) {
     };
     match value {
         Value::Ints(v) => array(b'i', v.len(), v.iter().flat_map(|v| v.to_le_bytes()).collect()),
+        Value::Longs(v) => array(b'l', v.len(), v.iter().flat_map(|v| v.to_le_bytes()).collect()),
         Value::Reals(v) => array(b'd', v.len(), v.iter().flat_map(|v| v.to_le_bytes()).collect()),
         Value::Int(v) => {
             out.push(b'L');

@@ -1,0 +1,99 @@
+//! Animations of nodes, as rigid motion over time.
+//!
+//! ufbx samples the local placement of every animated node, with all pivots and layers, sixty times a second where it does not change
+//! evenly, and keeps the states that matter. Nodes whose scale changes, or that take only a part of their parent's, stay at the first moment.
+
+use super::reader::affine;
+use crate::assembly::TimedPoses;
+use enfilade_math::{DAffine3, DQuat, DVec3};
+use enfilade_scene::RigidPose;
+use std::collections::BTreeMap;
+use ufbx::{Anim, BakeOpts, BakedNode, InheritMode, Node, Quat, Scene, Vec3};
+
+/// States a second, where a node does not move evenly.
+const RATE_HZ: f64 = 60.0;
+/// Most states of one node.
+const MOST_STATES: usize = 200_000;
+
+/// The motion of the nodes of a file, by number.
+#[derive(Default)]
+pub(super) struct Animations {
+    nodes: BTreeMap<u32, Result<TimedPoses, String>>,
+}
+
+impl Animations {
+    /// Samples an animation of a scene; its first moment is 0.
+    ///
+    /// # Errors
+    /// When the library cannot.
+    pub(super) fn sample(scene: &Scene, anim: &Anim, options: BakeOpts) -> Result<Self, ufbx::Error> {
+        let options = BakeOpts {
+            trim_start_time: true,
+            resample_rate: RATE_HZ,
+            key_reduction_enabled: true,
+            key_reduction_rotation: true,
+            ..options
+        };
+        let baked = ufbx::bake_anim(scene, anim, options)?;
+        let moves = |node: &&BakedNode| !(node.constant_translation && node.constant_rotation && node.constant_scale);
+        Ok(Self { nodes: baked.nodes.iter().filter(moves).map(|node| (node.typed_id, states(node))).collect() })
+    }
+
+    /// True when nothing is animated.
+    pub(super) fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The states of a node relative to its first moment, in its own axes, and the frame of these in the file; `None` of nodes that stay.
+    ///
+    /// # Errors
+    /// Why a node that is animated stays, as a clause.
+    pub(super) fn of(&self, node: &Node) -> Option<Result<(DAffine3, TimedPoses), String>> {
+        let states = match self.nodes.get(&node.element.typed_id)? {
+            Ok(states) => states.clone(),
+            Err(problem) => return Some(Err(problem.clone())),
+        };
+        if node.inherit_mode != InheritMode::Normal {
+            return Some(Err("it takes only a part of its parent's scale".into()));
+        }
+        let local = &node.local_transform;
+        let parent_from_frame = DAffine3::from_rotation_translation(rotation(&local.rotation), vector(&local.translation));
+        let file_from_parent = node.parent.as_ref().map_or(DAffine3::IDENTITY, |parent| affine(&parent.node_to_world));
+        Some(Ok((file_from_parent * parent_from_frame, states)))
+    }
+}
+
+/// The states of a sampled node.
+fn states(node: &BakedNode) -> Result<TimedPoses, String> {
+    if !node.constant_scale {
+        return Err("its scale changes, which no rigid motion does".into());
+    }
+    let (translations, rotations) = (node.translation_keys.as_ref(), node.rotation_keys.as_ref());
+    let mut times_s: Vec<f64> = translations.iter().map(|key| key.time).chain(rotations.iter().map(|key| key.time)).collect();
+    times_s.sort_by(f64::total_cmp);
+    times_s.dedup();
+    if times_s.len() > MOST_STATES {
+        return Err(format!("it has {} states, more than {MOST_STATES}", times_s.len()));
+    }
+    let at = |time_s: f64| {
+        let translation = vector(&ufbx::evaluate_baked_vec3(translations, time_s));
+        (translation, rotation(&ufbx::evaluate_baked_quat(rotations, time_s)))
+    };
+    let (start, turn) = at(0.0);
+    let back = turn.inverse();
+    let pose = |&time_s: &f64| {
+        let (translation, rotation) = at(time_s);
+        RigidPose { rotation: (back * rotation).normalize(), translation: back * (translation - start) }
+    };
+    let poses: Vec<RigidPose> = times_s.iter().map(pose).collect();
+    let finite = poses.iter().all(|pose| pose.rotation.is_finite() && pose.translation.is_finite());
+    if finite { Ok((times_s, poses)) } else { Err("a state of it is not finite".into()) }
+}
+
+fn vector(v: &Vec3) -> DVec3 {
+    DVec3::new(v.x, v.y, v.z)
+}
+
+fn rotation(q: &Quat) -> DQuat {
+    DQuat::from_xyzw(q.x, q.y, q.z, q.w).normalize()
+}
