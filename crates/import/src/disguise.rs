@@ -65,7 +65,7 @@ const SIGNATURES: [(&[u8], &str, Option<&str>); 33] = [
 
 /// Outermost elements of XML files, the contents of these files, and the extension of scenes in that format.
 const ROOTS: [(&str, &str, Option<&str>); 17] = [
-    ("mujoco", "a model of MuJoCo", None),
+    ("mujoco", "a model of MuJoCo", Some("mjcf")),
     ("robot", "a robot in URDF", Some("urdf")),
     ("sdf", "a world or model of Gazebo (SDF)", Some("sdf")),
     ("world", "a world of Gazebo", None),
@@ -201,28 +201,40 @@ impl Content {
             Format::Collada => !matches!(self, Self::Xml(root, false) if root == "collada"),
             Format::Urdf => !matches!(self, Self::Xml(root, false) if root == "robot"),
             Format::Sdf => !matches!(self, Self::Xml(root, false) if root == "sdf" || root == "gazebo"),
+            Format::Mjcf => !matches!(self, Self::Xml(root, false) if root == "mujoco"),
             Format::Collection => !matches!(self, Self::JsonTable(_)),
             Format::Stl | Format::Package => false,
         }
     }
 }
 
-/// Refuses a scene file whose content does not match its name.
+/// The format of a scene file that has this one by its name: models of MuJoCo are called `.xml`, as Mitsuba's scenes are.
 ///
 /// # Errors
-/// [`ImportError::Malformed`], with what it is and what to do. A file that cannot be read is left to its importer.
-pub(crate) fn refuse(path: &Path, format: Format) -> Result<(), ImportError> {
+/// [`ImportError::Malformed`] if the content does not match the name, with what it is and what to do. A file that cannot be read is left to
+/// its importer.
+pub(crate) fn checked(path: &Path, format: Format) -> Result<Format, ImportError> {
     let mut head = Vec::new();
     let is_file = path.metadata().is_ok_and(|data| data.is_file());
     let read = File::open(path).ok().filter(|_| is_file).map(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
-    if read == Some(true) { refuse_head(path, &head, format) } else { Ok(()) }
+    if read == Some(true) { checked_head(path, &head, format) } else { Ok(format) }
 }
 
-/// Refuses a file that begins with `head`, as [`refuse`] does.
+/// The format of a file that begins with `head`, as [`checked`] has it.
 ///
 /// # Errors
 /// As there.
-pub(crate) fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<(), ImportError> {
+pub(crate) fn checked_head(path: &Path, head: &[u8], format: Format) -> Result<Format, ImportError> {
+    let is_mujoco = || matches!(Content::of(head), Some(Content::Xml(root, false)) if root == "mujoco");
+    let format = if format == Format::Mitsuba && is_mujoco() { Format::Mjcf } else { format };
+    refuse_head(path, head, format).map(|()| format)
+}
+
+/// Refuses a file that begins with `head` if that does not match its format.
+///
+/// # Errors
+/// As [`checked`].
+fn refuse_head(path: &Path, head: &[u8], format: Format) -> Result<(), ImportError> {
     if is_git_lfs_pointer(head) {
         return Ok(());
     }

@@ -15,8 +15,18 @@ const MAX_FILES: usize = 20_000;
 /// Names of the file that includes the others.
 const MAIN: [&str; 5] = ["scene", "main", "root", "model", "index"];
 /// Formats of whole scenes, the fuller ones first; of the same scene in several, the first is read.
-const SCENES: [Format; 9] =
-    [Format::Gltf, Format::Usd, Format::VRay, Format::Pbrt, Format::Mitsuba, Format::Sdf, Format::Urdf, Format::Fbx, Format::Collada];
+const SCENES: [Format; 10] = [
+    Format::Gltf,
+    Format::Usd,
+    Format::VRay,
+    Format::Pbrt,
+    Format::Mitsuba,
+    Format::Mjcf,
+    Format::Sdf,
+    Format::Urdf,
+    Format::Fbx,
+    Format::Collada,
+];
 /// Formats of meshes: where there is a scene, these are parts of it.
 const MESHES: [Format; 3] = [Format::Obj, Format::Ply, Format::Stl];
 
@@ -41,10 +51,10 @@ pub(crate) fn load_zip(
     let chosen =
         chosen.map_err(|unclear| assembly.malformed("archive", unclear.message("unpack it and give the scene file", archive.names())))?;
     let entry = file.join(&chosen.name);
-    disguise::refuse_head(&entry, &archive.head(&chosen.name, disguise::HEAD), chosen.format)?;
-    let mut inside = assembly.inside(chosen.format, chosen.format.up_axis(), &archive, &chosen.name);
+    let format = disguise::checked_head(&entry, &archive.head(&chosen.name, disguise::HEAD), chosen.format)?;
+    let mut inside = assembly.inside(format, format.up_axis(), &archive, &chosen.name);
     inside.chosen_among(chosen.others_in("archive", &file));
-    by_format(chosen.format, inside)
+    by_format(format, inside)
 }
 
 /// The file to import of a folder that has one scene file, with the others where there was a choice; `None` where it has none.
@@ -84,7 +94,7 @@ impl Chosen {
     /// Other scene files in an archive or a folder. Meshes beside a scene that is put together of mesh files are its parts, read or not,
     /// unless they are called like the scene.
     fn others_in(&self, place: &'static str, home: &Path) -> Others {
-        let has_parts = matches!(self.format, Format::Mitsuba | Format::Pbrt | Format::Urdf | Format::Sdf);
+        let has_parts = matches!(self.format, Format::Mitsuba | Format::Pbrt | Format::Urdf | Format::Sdf | Format::Mjcf);
         let is_mesh = |name: &str| Format::of(Path::new(name)).is_ok_and(|format| MESHES.contains(&format));
         let others = self.others.iter().filter(|name| !(has_parts && is_mesh(name) && stem(name) != stem(&self.name)));
         let files = others.map(|name| (name.clone(), home.join(name))).collect();
@@ -136,9 +146,7 @@ fn rank(name: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<usize> {
         return None;
     }
     let format = Format::of(Path::new(name)).ok()?;
-    if format == Format::Mitsuba && !read(name).is_some_and(|bytes| is_mitsuba(&bytes)) {
-        return None;
-    }
+    let format = if format == Format::Mitsuba { of_xml(&read(name)?)? } else { format };
     SCENES.iter().chain(&MESHES).position(|known| *known == format)
 }
 
@@ -153,16 +161,17 @@ fn is_hidden(name: &str) -> bool {
     name.starts_with("__MACOSX/") || name.rsplit('/').next().unwrap_or(name).starts_with('.')
 }
 
-/// True for XML whose outermost element is a scene; many programs write XML.
-fn is_mitsuba(bytes: &[u8]) -> bool {
+/// The format of XML whose outermost element is a scene of Mitsuba or a model of MuJoCo; many programs write XML.
+fn of_xml(bytes: &[u8]) -> Option<Format> {
     let text = crate::xml::xml_text(bytes);
     let mut rest = text.trim_start();
     while rest.starts_with("<?") || rest.starts_with("<!") {
         let end = if rest.starts_with("<!--") { "-->" } else { ">" };
-        let Some((_, after)) = rest.split_once(end) else { return false };
-        rest = after.trim_start();
+        rest = rest.split_once(end)?.1.trim_start();
     }
-    rest.strip_prefix("<scene").is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || matches!(c, '>' | '/')))
+    let begins =
+        |tag: &str| rest.strip_prefix(tag).is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || matches!(c, '>' | '/')));
+    [("<scene", Format::Mitsuba), ("<mujoco", Format::Mjcf)].into_iter().find(|(tag, _)| begins(tag)).map(|(_, format)| format)
 }
 
 fn stem(name: &str) -> String {

@@ -30,6 +30,8 @@ pub enum Format {
     Urdf,
     /// Worlds and models of Gazebo in SDF.
     Sdf,
+    /// Models of MuJoCo (MJCF): robots and their worlds.
+    Mjcf,
     /// A scene file of another format with what it refers to, in a ZIP archive.
     Zip,
     /// Homes and furniture libraries of Sweet Home 3D.
@@ -73,7 +75,7 @@ const OTHERS: [(&[&str], &str); 18] = [
 
 impl Format {
     /// Every format with its file name extensions, in lower case.
-    pub const ALL: [(Self, &'static [&'static str]); 16] = [
+    pub const ALL: [(Self, &'static [&'static str]); 17] = [
         (Self::Gltf, &["gltf", "glb"]),
         (Self::Obj, &["obj"]),
         (Self::Mitsuba, &["xml"]),
@@ -85,6 +87,7 @@ impl Format {
         (Self::Stl, &["stl"]),
         (Self::Urdf, &["urdf"]),
         (Self::Sdf, &["sdf", "world"]),
+        (Self::Mjcf, &["mjcf"]),
         (Self::Zip, &["zip"]),
         (Self::SweetHome, &["sh3d", "sh3f"]),
         (Self::VRay, &["vrscene"]),
@@ -109,6 +112,7 @@ impl Format {
             Self::Stl => "an STL",
             Self::Urdf => "a robot in URDF",
             Self::Sdf => "a world or model in SDF",
+            Self::Mjcf => "a model of MuJoCo",
             Self::Zip => "a ZIP archive",
             Self::SweetHome => "a home of Sweet Home 3D",
             Self::VRay => "a scene of V-Ray",
@@ -119,7 +123,7 @@ impl Format {
 
     /// The upward axis where a scene of the format states none.
     pub(crate) const fn up_axis(self) -> UpAxis {
-        if matches!(self, Self::Stl | Self::Urdf | Self::Sdf) { UpAxis::Z } else { UpAxis::Y }
+        if matches!(self, Self::Stl | Self::Urdf | Self::Sdf | Self::Mjcf) { UpAxis::Z } else { UpAxis::Y }
     }
 
     /// All extensions as written in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).
@@ -198,7 +202,7 @@ mod tests {
         let message = Format::of(Path::new("a/room.blend")).unwrap_err().to_string();
         assert_eq!(
             message,
-            "a/room.blend: no importer for .blend files: open it in Blender and export glTF 2.0 (.glb); expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .dae, .stl, .urdf, .sdf, .world, .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene"
+            "a/room.blend: no importer for .blend files: open it in Blender and export glTF 2.0 (.glb); expected one of .gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .dae, .stl, .urdf, .sdf, .world, .mjcf, .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene"
         );
         for (file, advice) in [
             ("a.SKP", "SketchUp"),

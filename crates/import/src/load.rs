@@ -17,14 +17,12 @@ pub fn load(path: &Path, options: &ImportOptions, cx: &dyn Cx) -> Result<Importe
     options.validate()?;
     if path.is_dir() && Format::of(path).is_err() {
         let (file, others) = in_folder(path)?.ok_or_else(|| collections::no_scene_in_folder(path))?;
-        let format = Format::of(&file)?;
-        disguise::refuse(&file, format)?;
+        let format = disguise::checked(&file, Format::of(&file)?)?;
         let mut assembly = Assembly::new(format, &file, format.up_axis(), options, cx);
         others.into_iter().for_each(|others| assembly.chosen_among(others));
         return by_format(format, assembly);
     }
-    let format = Format::of(path)?;
-    disguise::refuse(path, format)?;
+    let format = disguise::checked(path, Format::of(path)?)?;
     by_format(format, Assembly::new(format, path, format.up_axis(), options, cx))
 }
 
@@ -46,6 +44,10 @@ fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<Others>)>, ImportE
 
 /// Imports by the importer of a format.
 fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
+    let moves = matches!(format, Format::Mjcf | Format::Urdf | Format::Zip);
+    if let Some(states) = assembly.options().states.as_ref().filter(|_| !moves) {
+        return Err(robot::states::refuse(states, format.words()));
+    }
     match format {
         Format::Gltf => gltf::load(assembly),
         Format::Obj => obj::load(assembly),
@@ -59,6 +61,7 @@ fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError
         Format::Stl => stl::load(assembly),
         Format::Urdf => robot::load_urdf(assembly),
         Format::Sdf => robot::load_sdf(assembly),
+        Format::Mjcf => robot::mjcf::load(assembly),
         Format::Zip => download::load_zip(assembly, by_format),
         Format::SweetHome => sweethome::load(assembly),
         Format::Collection => collections::load(assembly),

@@ -4,6 +4,7 @@ use crate::{EnvironmentOverride, ImportError};
 use enfilade_math::{DMat3, DVec3};
 use enfilade_options::words;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 words! {
     /// The axis of the file that points up.
@@ -92,13 +93,27 @@ pub struct ImportOptions {
     /// Goes on with plain grey where a texture is missing or broken, with a warning each; off by default.
     pub allow_missing_textures: bool,
     /// Goes on without a mesh whose file is missing or broken, with a warning each, in scenes that refer to such files (Mitsuba, pbrt, URDF,
-    /// SDF); off by default.
+    /// SDF, MJCF); off by default.
     pub allow_missing_meshes: bool,
+    /// Groups of geoms of MuJoCo's models that are read; 0, 1 and 2 if none is given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub geom_groups: Vec<u32>,
+    /// A stored run of a simulator, whose states the joints have over time (MJCF, URDF): `.npz` or `.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub states: Option<PathBuf>,
 }
 
 impl Default for ImportOptions {
     fn default() -> Self {
-        Self { meters_per_unit: 1.0, up_axis: None, environment: None, allow_missing_textures: false, allow_missing_meshes: false }
+        Self {
+            meters_per_unit: 1.0,
+            up_axis: None,
+            environment: None,
+            allow_missing_textures: false,
+            allow_missing_meshes: false,
+            geom_groups: Vec::new(),
+            states: None,
+        }
     }
 }
 

@@ -79,6 +79,7 @@ impl ImportReport {
             Format::Stl => "stl",
             Format::Urdf => "urdf",
             Format::Sdf => "sdf",
+            Format::Mjcf => "mjcf",
             Format::Zip => "zip",
             Format::SweetHome => "sweethome",
             Format::Collection => "collection",

@@ -57,6 +57,7 @@ from ._native import (
     stage,
     verify,
 )
+from ._recorder import MujocoRecorder
 
 __all__ = [
     "FORMATS",
@@ -78,6 +79,7 @@ __all__ = [
     "LoaderIterator",
     "Material",
     "Mesh",
+    "MujocoRecorder",
     "NyuV2",
     "Part",
     "Parts",

@@ -295,6 +295,30 @@ class Parts:
     @overload
     def __getitem__(self, key: slice, /) -> list[Part]: ...
 
+class MujocoRecorder:
+    def __init__(self, model: Any) -> None: ...
+    def step(self, data: Any) -> None: ...
+    def save(
+        self,
+        file: Path,
+        *,
+        # options: FileSource
+        meters_per_unit: float = 1.0,
+        up_axis: Literal["y", "z", "x", "-x", "-y", "-z"] | None = None,
+        environment: Path | None = None,
+        lamps: Literal["ceiling"] | None = None,
+        drop_doubled_faces: bool = False,
+        still: bool = False,
+        states: Path | None = None,
+        geom_groups: Sequence[int] | None = None,
+        panes: Names | None = None,
+        allow_missing_textures: bool = False,
+        allow_missing_meshes: bool = False,
+        # end of options
+    ) -> dict[str, Any]: ...
+    def save_camera(self, name: str, file: Path, fps: float = 30.0) -> None: ...
+    def __len__(self) -> int: ...
+
 Selected = str | Part | Iterable[str | Part]
 Shape = Mesh | tuple[ArrayLike, ArrayLike] | Any
 
@@ -313,6 +337,8 @@ class Scene:
         lamps: Literal["ceiling"] | None = None,
         drop_doubled_faces: bool = False,
         still: bool = False,
+        states: Path | None = None,
+        geom_groups: Sequence[int] | None = None,
         panes: Names | None = None,
         allow_missing_textures: bool = False,
         allow_missing_meshes: bool = False,
@@ -507,6 +533,8 @@ def import_scene(
     lamps: Literal["ceiling"] | None = None,
     drop_doubled_faces: bool = False,
     still: bool = False,
+    states: Path | None = None,
+    geom_groups: Sequence[int] | None = None,
     panes: Names | None = None,
     allow_missing_textures: bool = False,
     allow_missing_meshes: bool = False,

@@ -2,7 +2,7 @@
 //!
 //! They are the lines from `# options: STRUCT` to `# end of options`; the rest of the stubs is written by hand.
 
-use super::fields::{Declared, last_name};
+use super::fields::{Declared, argument, last_name};
 use super::sources::Sources;
 use crate::house::House;
 use syn::Type;
@@ -109,6 +109,7 @@ fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
         Some("String") => "str",
         Some("EnvironmentOverride" | "PathBuf") => "Path",
         Some("Interval") => "Sequence[float]",
+        Some("Vec") if argument(&option.of).and_then(last_name).as_deref() == Some("u32") => "Sequence[int]",
         Some("Vec") => "Names",
         other => {
             return Err(format!(

@@ -75,6 +75,8 @@ pub const TARGETS: &[Target] = &[
     importer("stl", "scene.stl", "scene.stl", "STL, as text and binary", none),
     importer("urdf", "scene.urdf", "scene.urdf", "robots and furniture in URDF", none),
     importer("sdf", "scene.sdf", "scene.sdf", "worlds and models of Gazebo in SDF", none),
+    importer("mjcf", "scene.mjcf", "scene.mjcf", "models of MuJoCo", none),
+    own("states", "stored runs of simulators, npz and CSV", 4 << 10, scene_files::states, none),
     own("zip", "scenes in ZIP archives", 8 << 10, scene_files::archive, seeds::gltf),
     own("sweethome", "homes of Sweet Home 3D", 8 << 10, sweethome::home, none),
     own("collections", "scenes of collections, and what they are made of", 8 << 10, collections::scene, none),

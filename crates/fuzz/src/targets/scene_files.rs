@@ -43,6 +43,25 @@ pub fn prepare(folder: &Path, file: &str, scene: &str) -> Run {
     })
 }
 
+/// A model whose joints the runs move.
+const JOINTED: &str = "<mujoco><worldbody><body name=\"a\"><freejoint name=\"f\"/><geom size=\"1\"/><body name=\"b\"><joint name=\"h\"/>\
+    <geom size=\"1\"/></body></body><body name=\"m\" mocap=\"true\"><geom size=\"1\"/></body></worldbody></mujoco>";
+
+/// Imports a model that moves by the bytes: an archive of arrays, or else a table.
+pub fn states(folder: &Path) -> Run {
+    let scene = folder.join("scene.mjcf");
+    std::fs::write(&scene, JOINTED).expect("a folder that can be written");
+    let [archive, table] = ["run.npz", "run.csv"].map(|name| folder.join(name));
+    Box::new(move |bytes| {
+        let file = if bytes.starts_with(b"PK") { &archive } else { &table };
+        std::fs::write(file, bytes).expect("a folder that can be written");
+        let options = ImportOptions { states: Some(file.clone()), ..ImportOptions::default() };
+        if let Ok(imported) = load(&scene, &options, &Quiet) {
+            imported.scene.validate().expect("an imported scene is valid");
+        }
+    })
+}
+
 /// Imports an archive; other bytes as the glTF within one that is right, since searching would never find an archive's checksums.
 pub fn archive(folder: &Path) -> Run {
     let file = folder.join("scene.zip");

@@ -30,11 +30,22 @@ impl Assembly<'_> {
         (times_s, poses): TimedPoses,
     ) -> Option<BodyId> {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses };
+        self.push_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
+    }
+
+    /// A body whose motion is stated in a frame of the file, as [`Assembly::push_body`] adds it, with the least and greatest of its states.
+    pub(crate) fn push_jointed(
+        &mut self,
+        name: &str,
+        parent: Option<BodyId>,
+        file_from_frame: DAffine3,
+        motion: BodyMotion,
+        limits: Option<[f64; 2]>,
+    ) -> Option<BodyId> {
         let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let unique = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
-        let motion = BodyMotion { times_s, states };
-        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), limits: None, motion };
+        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), limits, motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(
                 format!("node {name:?}"),
@@ -44,6 +55,14 @@ impl Assembly<'_> {
         };
         self.scene.bodies.push(body);
         Some(self.scene.bodies.len() as BodyId - 1)
+    }
+
+    /// Gives a body another motion, which is stated in a frame of the file as in [`Assembly::push_jointed`].
+    pub(crate) fn move_body(&mut self, body: Option<BodyId>, file_from_frame: DAffine3, motion: BodyMotion) {
+        let Some(body) = body.map(|body| &mut self.scene.bodies[body as usize]) else { return };
+        let limits = body.limits;
+        let moved = Body { motion, ..body.clone() }.carried(&(self.world_from_file * file_from_frame));
+        *body = Body { limits, ..moved.unwrap_or_else(|| body.clone()) };
     }
 
     /// Gives a body the parts and lights that came after `before`.

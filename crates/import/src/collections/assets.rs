@@ -28,7 +28,7 @@ impl Models {
         if let Some(known) = self.known.get(file) {
             return Ok(known.clone());
         }
-        let read = read(file, a);
+        let read = read(file, a.allows_missing_textures(), a);
         if read.is_err() && !a.is_file(file) {
             a.note_missing(file);
         }
@@ -61,9 +61,8 @@ pub(crate) fn unless_odd<T>(read: Result<T, ImportError>, place: &str, what: &st
 ///
 /// # Errors
 /// When it cannot be read.
-pub(crate) fn read(file: &Path, a: &Assembly) -> Result<Imported, ImportError> {
-    let options =
-        ImportOptions { up_axis: Some(UpAxis::Z), allow_missing_textures: a.allows_missing_textures(), ..ImportOptions::default() };
+pub(crate) fn read(file: &Path, allow_missing_textures: bool, a: &Assembly) -> Result<Imported, ImportError> {
+    let options = ImportOptions { up_axis: Some(UpAxis::Z), allow_missing_textures, ..ImportOptions::default() };
     let format = Format::of(file)?;
     let assembly = Assembly::new(format, file, UpAxis::Z, &options, &Quiet);
     let assembly = match a.archive() {

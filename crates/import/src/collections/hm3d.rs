@@ -41,7 +41,7 @@ pub(super) fn load(bytes: &[u8], mut a: Assembly) -> Result<Imported, ImportErro
     let by_color = parse(&enfilade_scene::decoded_text(bytes)).map_err(|(line, problem)| a.malformed(format!("line {line}"), problem))?;
     a.set_units(1.0, UpAxis::Z);
     let beside = |end: &str| with_end(&file, end);
-    let semantic = assets::read(&beside(".semantic.glb"), &a)?;
+    let semantic = assets::read(&beside(".semantic.glb"), a.allows_missing_textures(), &a)?;
     let colors = colors(&semantic.scene, &by_color);
     let scan = [".basis.glb", ".glb"].map(beside).into_iter().find(|scan| scan.is_file());
     let pieces = pieces(&semantic, scan.as_deref(), &mut a)?;
@@ -124,7 +124,7 @@ fn texel(image: &Image, texture: &TextureRef, uv: Vec2) -> Option<[u8; 3]> {
 /// The scan's pieces where its triangles are those of the semantic model, otherwise the semantic model's in grey.
 fn pieces(semantic: &Imported, scan: Option<&Path>, a: &mut Assembly) -> Result<Vec<Piece>, ImportError> {
     if let Some(file) = scan {
-        let imported = assets::read(file, a)?;
+        let imported = assets::read(file, a.allows_missing_textures(), a)?;
         if agree(&semantic.scene, &imported.scene) {
             // The semantic model was read too.
             a.note_inputs(&semantic.inputs);

@@ -2,27 +2,31 @@
 
 use super::elements::{child, children, name_of, pose};
 use super::shapes::{Look, Shape, Shapes};
+use super::states::{self, States, Tree};
+use super::urdf_joints::Joints;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::collections::vectors::numbers;
 use enfilade_math::{DAffine3, DVec3};
 use roxmltree::Node;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-/// Places the links of a robot.
+/// Places the links of a robot, and gives them the motion of the states.
 pub(super) fn place(robot: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
     let links: Vec<Node> = children(robot, "link").collect();
-    let stands = stands(robot, &links, a)?;
+    let mut tree = Joints::of(robot, &links, a)?;
     let whole = a.push_object(if name_of(robot).is_empty() { "robot" } else { name_of(robot) }, None);
     let looks: HashMap<&str, Look> = children(robot, "material").map(|m| (name_of(m), look(m))).collect();
+    tree.push(a);
     let mut loose = Vec::new();
     for link in &links {
         let name = if name_of(*link).is_empty() { "link" } else { name_of(*link) };
-        let Some(&base_from_link) = stands.get(name_of(*link)) else {
+        let Some(stand) = tree.stands.get(name_of(*link)).map(|at| &tree.links[*at]) else {
             loose.push(name);
             continue;
         };
         let object = a.push_object(name, Some(whole));
+        let before = a.contents();
         for visual in children(*link, "visual") {
             let Some(shape) = shape(visual, a)? else {
                 a.warn(format!("link {name:?}"), "a visual has no geometry that is known and was left out");
@@ -33,35 +37,21 @@ pub(super) fn place(robot: Node, shapes: &mut Shapes, a: &mut Assembly) -> Resul
                 if own.rgba.is_none() && own.texture.is_none() { looks.get(name_of(m)).cloned().unwrap_or(own) } else { own }
             });
             let part = if name_of(visual).is_empty() { name.to_string() } else { format!("{name}.{}", name_of(visual)) };
-            let placement = base_from_link * origin(visual, a)?;
+            let placement = stand.file_from_link * origin(visual, a)?;
             shapes.place(&shape, look.as_ref(), &part, placement, object, a)?;
+        }
+        if let Some(body) = stand.body {
+            a.carry(body, before);
         }
     }
     if let Some(first) = loose.first() {
         a.warn("links", format!("{} links hang on themselves and were left out, such as {first:?}", loose.len()));
     }
+    if let Some(states) = States::read(None, a)? {
+        states::apply(&states, &Tree { joints: &tree.joints, links: &tree.links, ordered: false }, a)?;
+    }
+    a.drop_unused_bodies();
     Ok(())
-}
-
-/// The pose of each link, by its name; links that no root leads to are left out.
-fn stands<'d>(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &Assembly) -> Result<HashMap<&'d str, DAffine3>, ImportError> {
-    let mut joints: HashMap<&str, Vec<(&'d str, DAffine3)>> = HashMap::new();
-    let mut has_parent: HashSet<&str> = HashSet::new();
-    for joint in children(robot, "joint") {
-        let link = |tag: &str| child(joint, tag).and_then(|n| n.attribute("link"));
-        let (Some(parent), Some(below)) = (link("parent"), link("child")) else { continue };
-        joints.entry(parent).or_default().push((below, origin(joint, a)?));
-        has_parent.insert(below);
-    }
-    let mut stands = HashMap::new();
-    let roots = links.iter().map(|link| name_of(*link)).filter(|name| !has_parent.contains(name));
-    let mut stack: Vec<(&'d str, DAffine3)> = roots.map(|name| (name, DAffine3::IDENTITY)).collect();
-    while let Some((name, place)) = stack.pop() {
-        if stands.insert(name, place).is_none() {
-            stack.extend(joints.get(name).into_iter().flatten().map(|(below, joint)| (*below, place * *joint)));
-        }
-    }
-    Ok(stands)
 }
 
 fn shape(visual: Node, a: &Assembly) -> Result<Option<Shape>, ImportError> {
@@ -98,14 +88,14 @@ fn look(material: Node) -> Look {
 }
 
 /// The placement in the element `origin` within another.
-fn origin(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
+pub(super) fn origin(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
     let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
     let of = |name: &str| vector::<3>(origin, name, a).map(|v| v.map_or(DVec3::ZERO, DVec3::from_array));
     Ok(pose(of("xyz")?, of("rpy")?))
 }
 
 /// The numbers of an attribute; `None` where there is none.
-fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) -> Result<Option<[f64; N]>, ImportError> {
+pub(super) fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) -> Result<Option<[f64; N]>, ImportError> {
     let Some(text) = node.attribute(attribute) else { return Ok(None) };
     let found: Option<[f64; N]> = numbers(text).and_then(|v| v.try_into().ok());
     let at = node.document().text_pos_at(node.range().start);

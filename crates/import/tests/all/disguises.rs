@@ -43,7 +43,11 @@ fn scenes_pictures_and_archives_under_wrong_names_are_named() {
         ("a.usdz", b"#usda 1.0\n", "it is USD as text, not an archive (usdz); if it is the scene, let its name end with .usda"),
         ("a.USDZ", b"PXR-USDC\0", "it is binary USD, not an archive (usdz); if it is the scene, let its name end with .usdc"),
         ("a.gltf", b"{\"metadata\": {\"type\": \"Object\"}, \"geometries\": []}", "it has no \"asset\", so it is JSON of another program"),
-        ("a.xml", b"<mujoco model=\"kitchen\"><worldbody/></mujoco>", "it is a model of MuJoCo, not a scene of Mitsuba"),
+        (
+            "a.urdf",
+            b"<mujoco model=\"kitchen\"><worldbody/></mujoco>",
+            "it is a model of MuJoCo, not a robot in URDF; if it is the scene, let its name end with .mjcf",
+        ),
         ("a.xml", b"<?xml version='1.0'?><Error><Code>AccessDenied</Code></Error>", "it is the error message of a server"),
         ("a.xml", b"<scene><camera type=\"perspective\"/><mesh type=\"obj\"/></scene>", "it is a scene of Nori, not a scene of Mitsuba"),
     ] {

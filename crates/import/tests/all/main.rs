@@ -24,6 +24,7 @@ mod mitsuba_materials;
 mod mitsuba_media;
 mod mitsuba_pictures;
 mod mitsuba_references;
+mod mjcf;
 mod obj;
 mod objects;
 mod pbrt;

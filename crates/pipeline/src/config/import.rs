@@ -3,6 +3,7 @@
 use enfilade_import::{EnvironmentOverride, ImportOptions, UpAxis};
 use enfilade_options::{named, options, words};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 options! {
     /// A scene file and what it does not say itself.
@@ -28,6 +29,12 @@ options! {
         /// Leave motion out: everything stays where the file has it at rest.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         pub still: bool = false,
+        /// A stored run of a simulator, by which the joints of the file move (MuJoCo's MJCF, URDF): `.npz` or `.csv`, see docs/motion.md.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub states: Option<PathBuf> = None => named("FILE"),
+        /// Groups of geoms to read of a model of MuJoCo; 0, 1 and 2 unless given, as its viewer shows.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub geom_groups: Vec<u32> = Vec::new() => named("N,N"),
         /// Names of parts or materials to make clear panes of ("glass*,window pane"), where glass lost its transparency; `*` is any run of
         /// characters.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -35,7 +42,7 @@ options! {
         /// Use plain grey, with a warning, where a texture is missing.
         #[serde(default)]
         pub allow_missing_textures: bool = false,
-        /// Leave out meshes whose file is missing or damaged, with a warning (Mitsuba, pbrt, URDF, SDF).
+        /// Leave out meshes whose file is missing or damaged, with a warning (Mitsuba, pbrt, URDF, SDF, MJCF).
         #[serde(default)]
         pub allow_missing_meshes: bool = false,
     }
@@ -57,9 +64,17 @@ impl FileSource {
         Self { file: file.into(), ..Self::default() }
     }
 
-    /// The options that its importer takes; a path of the environment is as written.
+    /// The options that its importer takes; the paths of the environment and of the states are as written.
     pub(crate) fn importer(&self) -> ImportOptions {
         let Self { meters_per_unit, up_axis, allow_missing_textures, allow_missing_meshes, .. } = *self;
-        ImportOptions { meters_per_unit, up_axis, environment: self.environment.clone(), allow_missing_textures, allow_missing_meshes }
+        ImportOptions {
+            meters_per_unit,
+            up_axis,
+            environment: self.environment.clone(),
+            allow_missing_textures,
+            allow_missing_meshes,
+            geom_groups: self.geom_groups.clone(),
+            states: self.states.clone(),
+        }
     }
 }

@@ -418,6 +418,11 @@ impl Resolver<'_> {
         {
             self.check_path(&picture.to_string_lossy(), place)?;
         }
+        if let Some(states) = &source.states
+            && let Some(place) = levels.iter().rev().find_map(|level| level.states.as_ref())
+        {
+            self.check_path(&states.to_string_lossy(), place)?;
+        }
         self.check_path(file.get_ref(), file)?;
         Ok(Source::File(source))
     }

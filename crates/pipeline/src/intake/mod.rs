@@ -48,6 +48,9 @@ pub(crate) fn load_file(
     if let Some(written) = options.environment.as_mut().and_then(|e| e.file_mut()) {
         *written = locate(&written.to_string_lossy())?;
     }
+    if let Some(written) = &source.states {
+        options.states = Some(locate(&written.to_string_lossy())?);
+    }
     let mut imported = enfilade_import::load(file, &options, cx).map_err(Error::stage)?;
     if source.still {
         imported.scene.hold_still();

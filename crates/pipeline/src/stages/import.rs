@@ -124,7 +124,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 /// The files that the configuration names, as written.
 fn named(source: &FileSource) -> impl Iterator<Item = String> {
     let picture = source.environment.as_ref().and_then(EnvironmentOverride::file).map(|file| file.to_string_lossy().into_owned());
-    [Some(source.file.clone()), picture].into_iter().flatten()
+    let states = source.states.as_ref().map(|file| file.to_string_lossy().into_owned());
+    [Some(source.file.clone()), picture, states].into_iter().flatten()
 }
 
 /// Finds files that somebody saves while the scene is read from them: whether the old or the new content was read is unknown.

@@ -22,7 +22,7 @@ use names::Named;
 use upright::{Lying, Witness};
 
 /// Formats whose files state which way is up.
-const STATE_UP: [&str; 10] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "zip", "vray", "sweethome", "collection"];
+const STATE_UP: [&str; 11] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "mjcf", "zip", "vray", "sweethome", "collection"];
 
 /// The suspicions about a scene.
 pub(super) struct Suspicions {
