@@ -30,6 +30,8 @@ words! {
 
 /// Angle to which doors of furniture open, radians: 110 degrees, as cup hinges do.
 pub const WIDE: f64 = 1.92;
+/// Angle to which doors between rooms open, radians: 100 degrees, before they meet the corner of their wall.
+const AJAR: f64 = 1.745;
 /// A right angle, radians.
 const RIGHT: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -108,7 +110,7 @@ impl Joint {
     /// The leaf of a door, hinged as [`Joint::cupboard`] is, that is built open by `open_rad`.
     pub fn leaf(x: f32, y: f32, side: f32, open_rad: f32) -> Self {
         let open = f64::from(open_rad);
-        Self { kind: JointKind::Door, axis: upright(x, y, side), limits: [-open, WIDE.max(open) - open] }
+        Self { kind: JointKind::Door, axis: upright(x, y, side), limits: [-open, AJAR.max(open) - open] }
     }
 
     /// The lever of a tap, about a level axis along x through `y`, `z`: `up` lifts its front, otherwise it tilts to the front.
@@ -188,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_leaf_that_is_built_open_closes_by_as_much() {
-        assert_eq!(Joint::leaf(0.4, -0.018, 1.0, 0.5).limits, [-0.5, WIDE - 0.5]);
+        assert_eq!(Joint::leaf(0.4, -0.018, 1.0, 0.5).limits, [-0.5, AJAR - 0.5]);
         assert_eq!(Joint::lid(0.0, 0.4, 1.5, true).limits, [-1.5, 0.0]);
     }
 }

@@ -47,7 +47,7 @@ pub(crate) fn listed(joints: &[HomeJoint], scene: &Scene, labels: &Labels) -> Ve
             axis: axis.to_array(),
             point_m: point,
             limits: [closed, open],
-            state: if open > closed { (-closed / (open - closed)).clamp(0.0, 1.0) } else { 0.0 },
+            state: if open > closed { ((0.0 - closed) / (open - closed)).clamp(0.0, 1.0) } else { 0.0 },
             limited_by: joint.limited_by.clone(),
         })
     };

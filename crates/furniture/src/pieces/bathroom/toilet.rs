@@ -129,7 +129,8 @@ impl Toilet {
         let angle = if self.hung { 1.72 } else { 1.60 };
         let lid = if self.open { mesh.moved(-axis).turned(Vec3::X, angle).moved(axis + Vec3::Z * 0.004) } else { mesh };
         b.part(toilet, "lid", lid, white);
-        b.joint(toilet, "lid", &Joint::lid(axis.y, axis.z, f64::from(angle), self.open), [b.part_count() - 1]);
+        // As far above as an open lid is raised, so that its rear edge clears the seat.
+        b.joint(toilet, "lid", &Joint::lid(axis.y, axis.z + 0.004, f64::from(angle), self.open), [b.part_count() - 1]);
         let hinges = [-0.075f32, 0.075].map(|x| cylinder(0.013, 0.022, 18).moved(Vec3::new(x, hinge - 0.5 * d - 0.008, RIM - 0.001)));
         b.part(toilet, "hinges", all(hinges), Finish::Chrome);
     }
