@@ -99,7 +99,11 @@ fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
         return Ok(format!("Literal[{}]", values.join(", ")));
     }
     if let Type::Array(array) = &option.of {
-        let of = if let Type::Tuple(_) = *array.elem { "Sequence[tuple[str, int] | str]" } else { "Sequence[int]" };
+        let of = match &*array.elem {
+            Type::Tuple(_) => "Sequence[tuple[str, int] | str]",
+            number if last_name(number).as_deref() == Some("f64") => "Sequence[float]",
+            _ => "Sequence[int]",
+        };
         return Ok(of.into());
     }
     let of = match last_name(&option.of).as_deref() {
@@ -109,8 +113,13 @@ fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
         Some("String") => "str",
         Some("EnvironmentOverride" | "PathBuf") => "Path",
         Some("Interval") => "Sequence[float]",
-        Some("Vec") if argument(&option.of).and_then(last_name).as_deref() == Some("u32") => "Sequence[int]",
-        Some("Vec") => "Names",
+        Some("Vec") => match argument(&option.of) {
+            Some(Type::Array(_)) => "Sequence[Sequence[float]]",
+            Some(of) if last_name(of).as_deref() == Some("u32") => "Sequence[int]",
+            Some(of) if last_name(of).as_deref() == Some("f64") => "Sequence[float]",
+            _ => "Names",
+        },
+        Some("Many") => "Names",
         other => {
             return Err(format!(
                 "the option `{}` is a {other:?}, which has no word in Python yet: xtask/src/docs/signatures.rs",

@@ -26,7 +26,7 @@ impl Animations {
     ///
     /// # Errors
     /// When the library cannot.
-    pub(super) fn sample(scene: &Scene, anim: &Anim, options: BakeOpts) -> Result<Self, ufbx::Error> {
+    pub(super) fn sample(scene: &Scene, anim: &Anim, options: BakeOpts) -> Result<Self, Box<ufbx::Error>> {
         let options = BakeOpts {
             trim_start_time: true,
             resample_rate: RATE_HZ,

@@ -65,8 +65,8 @@ fn report(root: &Element, a: &mut Assembly) {
         a.warn("equality", "constraints are not followed: states have the pose of every joint");
     }
     let glows = |material: &Element| material.number("emission").is_ok_and(|emission| emission.is_some_and(|emission| emission > 0.0));
-    let has_light = root.all("worldbody").any(|world| contains(world, "light"))
-        || root.all("asset").flat_map(|asset| asset.all("material")).any(glows);
+    let has_light =
+        root.all("worldbody").any(|world| contains(world, "light")) || root.all("asset").flat_map(|asset| asset.all("material")).any(glows);
     if !has_light {
         a.warn(
             "light",
