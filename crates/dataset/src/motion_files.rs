@@ -1,5 +1,5 @@
-//! What moves in a scene: `_detail/metadata_bodies.csv` lists the bodies, and `metadata_body_poses.csv` of each camera has their places in
-//! its frames. Still scenes have neither.
+//! What moves or can move in a scene: `_detail/metadata_bodies.csv` lists the bodies and their joints, and where one moves
+//! `metadata_body_poses.csv` of each camera has their places in its frames. Scenes without bodies have neither.
 
 use crate::atomic::remove_if_there;
 use crate::tables::Table;
@@ -8,11 +8,17 @@ use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::PartLabel;
 use std::collections::BTreeMap;
 
+/// The columns of a joint's axis.
+const AXIS: [&str; 3] = ["axis_x", "axis_y", "axis_z"];
+/// The columns of a point on the axis.
+const POINT: [&str; 3] = ["point_x", "point_y", "point_z"];
+/// The columns of the ends of a joint.
+const LIMITS: [&str; 2] = ["state_min", "state_max"];
 /// The columns of a map of the world to itself: three rows of the rotation, each with the translation at its end.
 const MATRIX: [&str; 12] = ["r00", "r01", "r02", "t0", "r10", "r11", "r12", "t1", "r20", "r21", "r22", "t2"];
 
 /// Parts that move as one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct BodyRow {
     /// From 1 on, without gaps; a body comes after the one that bears it.
     pub id: u32,
@@ -22,6 +28,14 @@ pub struct BodyRow {
     pub parent: Option<u32>,
     /// `free`, `hinge` or `slide`.
     pub joint: String,
+    /// Direction of the joint's axis, world, at rest; unit length. `None` of free bodies.
+    pub axis: Option<[f64; 3]>,
+    /// A point on the axis of a hinge, world, at rest, metres.
+    pub point: Option<[f64; 3]>,
+    /// The least and the greatest state: radians of a hinge, metres of a slide, from rest.
+    pub limits: Option<[f64; 2]>,
+    /// Whether it moves in the course of the frames.
+    pub moves: bool,
     /// Parts of the body, as `render_entity_id` numbers them.
     pub node_ids: Vec<u32>,
 }
@@ -35,6 +49,8 @@ pub struct FrameBodies {
     pub time_s: f64,
     /// By body: the map of the world to itself that takes it from rest to its place.
     pub world_from_rest: Vec<DAffine3>,
+    /// By body: the state of its joint, radians of a hinge, metres of a slide, from rest; `None` of free bodies.
+    pub states: Vec<Option<f64>>,
 }
 
 /// The bodies of a scene in the frames of a camera.
@@ -130,11 +146,21 @@ impl Dataset {
         if bodies.is_empty() {
             return remove_if_there(&path);
         }
-        let mut table = Table::new(&path, &["body_id", "name", "parent_id", "joint", "node_ids"]);
+        let header: Vec<&str> = ["body_id", "name", "parent_id", "joint"]
+            .into_iter()
+            .chain(AXIS)
+            .chain(POINT)
+            .chain(LIMITS)
+            .chain(["moves", "node_ids"])
+            .collect();
+        let mut table = Table::new(&path, &header);
         let row = |body: &BodyRow| {
             let ids: Vec<String> = body.node_ids.iter().map(ToString::to_string).collect();
             let parent = body.parent.map_or_else(String::new, |parent| parent.to_string());
-            vec![body.id.to_string(), body.name.clone(), parent, body.joint.clone(), ids.join(" ")]
+            let mut cells = vec![body.id.to_string(), body.name.clone(), parent, body.joint.clone()];
+            cells.extend(cells_of(body.axis).into_iter().chain(cells_of(body.point)).chain(cells_of(body.limits)));
+            cells.extend([u8::from(body.moves).to_string(), ids.join(" ")]);
+            cells
         };
         table.rows = bodies.iter().map(row).collect();
         table.write()
@@ -151,20 +177,21 @@ impl Dataset {
         if frames.is_empty() {
             return remove_if_there(&path);
         }
-        let header: Vec<&str> = ["frame_id", "time_seconds", "body_id"].into_iter().chain(MATRIX).collect();
+        let header: Vec<&str> = ["frame_id", "time_seconds", "body_id", "state"].into_iter().chain(MATRIX).collect();
         let mut table = Table::new(&path, &header);
         for frame in frames {
-            for (map, id) in frame.world_from_rest.iter().zip(1..) {
+            for ((map, state), id) in frame.world_from_rest.iter().zip(&frame.states).zip(1..) {
                 let [x, y, z] = map.matrix3.transpose().to_cols_array_2d();
                 let rows = [x, y, z].into_iter().zip(map.translation.to_array()).flat_map(|([a, b, c], t)| [a, b, c, t]);
                 let begin = [frame.frame.to_string(), frame.time_s.to_string(), i32::to_string(&id)];
-                table.rows.push(begin.into_iter().chain(rows.map(|value| value.to_string())).collect());
+                let begin = begin.into_iter().chain(cells_of(state.map(|state| [state])));
+                table.rows.push(begin.chain(rows.map(|value| value.to_string())).collect());
             }
         }
         table.write()
     }
 
-    /// The bodies of a scene; none where nothing moves.
+    /// The bodies of a scene; none where nothing can move.
     ///
     /// # Errors
     /// When the table cannot be read.
@@ -174,7 +201,8 @@ impl Dataset {
             return Ok(Vec::new());
         }
         let table = Table::read(&path)?;
-        let [id, name, parent, joint, ids] = table.columns(["body_id", "name", "parent_id", "joint", "node_ids"])?;
+        let [id, name, parent, joint, moves, ids] = table.columns(["body_id", "name", "parent_id", "joint", "moves", "node_ids"])?;
+        let (axis, point, limits) = (table.columns(AXIS)?, table.columns(POINT)?, table.columns(LIMITS)?);
         let wrong = |row: usize, what: &str, found: &str| {
             DatasetError::text(&path, format!("line {}: expected {what}, found {found:?}; render the scene again", row + 2))
         };
@@ -192,9 +220,27 @@ impl Dataset {
             };
             let node_ids: Option<Vec<u32>> = nodes.split_whitespace().map(|id| id.parse().ok().filter(|&id| id > 0)).collect();
             let node_ids = node_ids.ok_or_else(|| wrong(row, "node_ids from 1", nodes))?;
-            Ok(BodyRow { id: number, name: table.rows[row][name].clone(), parent, joint: table.rows[row][joint].clone(), node_ids })
+            Ok(BodyRow {
+                id: number,
+                name: table.rows[row][name].clone(),
+                parent,
+                joint: table.rows[row][joint].clone(),
+                axis: numbers(&table, row, axis)?,
+                point: numbers(&table, row, point)?,
+                limits: numbers(&table, row, limits)?,
+                moves: table.parse::<u8>(row, moves)? != 0,
+                node_ids,
+            })
         };
         (0..table.rows.len()).map(body).collect()
+    }
+
+    /// Whether anything in a scene moves in the course of its frames.
+    ///
+    /// # Errors
+    /// When the table cannot be read.
+    pub fn moves(&self, scene: &str) -> Result<bool, DatasetError> {
+        Ok(self.read_bodies(scene)?.iter().any(|body| body.moves))
     }
 
     /// The bodies of a scene in the frames of a camera; `None` where nothing moves.
@@ -203,22 +249,24 @@ impl Dataset {
     /// When a table cannot be read, or the poses are not of these bodies.
     pub fn read_filmed_bodies(&self, scene: &str, camera: &str) -> Result<Option<FilmedBodies>, DatasetError> {
         let bodies = self.read_bodies(scene)?;
-        if bodies.is_empty() {
+        if !bodies.iter().any(|body| body.moves) {
             return Ok(None);
         }
         let path = self.layout().metadata_body_poses(scene, camera);
         let table = Table::read(&path)?;
-        let [frame, time, id] = table.columns(["frame_id", "time_seconds", "body_id"])?;
+        let [frame, time, id, state] = table.columns(["frame_id", "time_seconds", "body_id", "state"])?;
         let matrix = table.columns(MATRIX)?;
         let mut frames = BTreeMap::new();
         for row in 0..table.rows.len() {
             let number = table.parse(row, frame)?;
-            let listed = frames.entry(number).or_insert(FrameBodies { frame: number, time_s: 0.0, world_from_rest: Vec::new() });
+            let none = || FrameBodies { frame: number, time_s: 0.0, world_from_rest: Vec::new(), states: Vec::new() };
+            let listed = frames.entry(number).or_insert_with(none);
             listed.time_s = table.parse(row, time)?;
             if table.parse::<usize>(row, id)? != listed.world_from_rest.len() + 1 {
                 let problem = format!("line {}: expected body_id {}; render the scene again", row + 2, listed.world_from_rest.len() + 1);
                 return Err(DatasetError::text(&path, problem));
             }
+            listed.states.push(numbers(&table, row, [state])?.map(|[state]| state));
             let mut cells = [0.0; 12];
             for (cell, &column) in cells.iter_mut().zip(&matrix) {
                 *cell = table.parse(row, column)?;
@@ -235,13 +283,40 @@ impl Dataset {
     }
 }
 
+/// Cells of numbers; empty where there are none.
+fn cells_of<const N: usize>(numbers: Option<[f64; N]>) -> [String; N] {
+    numbers.map_or_else(|| std::array::from_fn(|_| String::new()), |numbers| numbers.map(|number| number.to_string()))
+}
+
+/// The numbers in cells; `None` where the first is empty.
+fn numbers<const N: usize>(table: &Table, row: usize, columns: [usize; N]) -> Result<Option<[f64; N]>, DatasetError> {
+    if table.rows[row][columns[0]].is_empty() {
+        return Ok(None);
+    }
+    let mut numbers = [0.0; N];
+    for (number, column) in numbers.iter_mut().zip(columns) {
+        *number = table.parse(row, column)?;
+    }
+    Ok(Some(numbers))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use enfilade_math::DQuat;
 
     fn row(id: u32, parent: Option<u32>, node_ids: &[u32]) -> BodyRow {
-        BodyRow { id, name: format!("body, {id}"), parent, joint: "hinge".into(), node_ids: node_ids.into() }
+        BodyRow {
+            id,
+            name: format!("body, {id}"),
+            parent,
+            joint: "hinge".into(),
+            axis: Some([0.0, 0.6, 0.8]),
+            point: Some([1.0, -2.5, 0.1]),
+            limits: parent.map(|_| [-0.1, 1.5]),
+            moves: true,
+            node_ids: node_ids.into(),
+        }
     }
 
     #[test]
@@ -252,7 +327,12 @@ mod tests {
         let bodies = [row(1, None, &[2, 5]), row(2, Some(1), &[])];
         dataset.write_bodies("room", &bodies).unwrap();
         let turn = DAffine3::from_rotation_translation(DQuat::from_rotation_z(0.3), DVec3::new(0.1, 0.2, -0.7));
-        let frame = |frame, maps: [DAffine3; 2]| FrameBodies { frame, time_s: f64::from(frame) / 30.0, world_from_rest: maps.into() };
+        let frame = |frame, maps: [DAffine3; 2]| FrameBodies {
+            frame,
+            time_s: f64::from(frame) / 30.0,
+            world_from_rest: maps.into(),
+            states: vec![Some(0.3), None],
+        };
         let frames = [frame(0, [DAffine3::IDENTITY; 2]), frame(7, [turn, turn.inverse()])];
         dataset.write_body_poses("room", "cam_00", &frames).unwrap();
 
@@ -277,5 +357,11 @@ mod tests {
         dataset.write_bodies("room", &[]).unwrap();
         dataset.write_body_poses("room", "cam_00", &[]).unwrap();
         assert_eq!(dataset.read_bodies("room").unwrap(), []);
+
+        // Joints that stay have no poses.
+        let still = BodyRow { moves: false, ..row(1, None, &[1]) };
+        dataset.write_bodies("room", std::slice::from_ref(&still)).unwrap();
+        assert_eq!((dataset.read_bodies("room").unwrap(), dataset.read_filmed_bodies("room", "cam_00").unwrap()), (vec![still], None));
+        assert!(!dataset.moves("room").unwrap());
     }
 }

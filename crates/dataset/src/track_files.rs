@@ -67,7 +67,7 @@ impl Dataset {
         let queries = read("query_points", "<f4", &[n, 3])?.floats();
         let node_ids = match read("node_ids", "<i4", &[n]) {
             Ok(ids) => ids.bytes.as_chunks().0.iter().map(|bytes| i32::from_le_bytes(*bytes)).collect(),
-            Err(_) if self.read_bodies(scene)?.is_empty() => Vec::new(),
+            Err(_) if !self.moves(scene)? => Vec::new(),
             Err(error) => return Err(error),
         };
         let number = |bytes: &[u8; 8]| u32::try_from(i64::from_le_bytes(*bytes));

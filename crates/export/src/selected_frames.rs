@@ -105,7 +105,7 @@ impl<'d> SelectedFrames<'d> {
         selected.check(spec, selection)?;
         if spec.needs_still {
             for scene in &selection.scenes {
-                if !dataset.read_bodies(scene)?.is_empty() {
+                if dataset.moves(scene)? {
                     let problem = "things move in it, and the format has a world that stays as it is; take a format of single frames, such as \
                                    coco, bop or exr, or make it without motion";
                     return Err(selected.unsuitable(scene.clone(), problem));

@@ -5,9 +5,17 @@ use enfilade_math::DAffine3;
 use std::collections::BTreeSet;
 
 impl Scene {
-    /// True when nothing in the scene moves.
+    /// True when nothing in the scene moves: it may have joints that stay as they are.
     pub fn is_still(&self) -> bool {
-        self.bodies.is_empty()
+        self.bodies.iter().all(|body| body.motion.is_rest())
+    }
+
+    /// Leaves every joint at rest, and takes out bodies that have none.
+    pub fn hold_still(&mut self) {
+        if self.bodies.iter().all(|body| body.limits.is_none()) {
+            self.bodies.clear();
+        }
+        self.bodies.iter_mut().for_each(|body| body.motion = body.motion.rested());
     }
 
     /// The maps of the world to itself that take each body from rest to its place at a moment.
@@ -56,6 +64,7 @@ impl Scene {
     ///         parent: None,
     ///         parts: vec![0],
     ///         lights: Vec::new(),
+    ///         limits: None,
     ///         motion: BodyMotion { times_s: vec![0.0, 2.0], states },
     ///     }],
     ///     ..Scene::default()
@@ -143,7 +152,7 @@ impl Scene {
                     return wrong(format!("its {kind}s are not in ascending order"));
                 }
             }
-            if let Some(problem) = body.motion.problem() {
+            if let Some(problem) = body.problem() {
                 return wrong(problem);
             }
         }
@@ -167,7 +176,7 @@ mod tests {
 
     fn body(name: &str, parent: Option<BodyId>, parts: Vec<PartId>, states: BodyStates) -> Body {
         let times_s = (0..count_of(&states)).map(|at| at as f64).collect();
-        Body { name: name.into(), parent, parts, lights: Vec::new(), motion: BodyMotion { times_s, states } }
+        Body { name: name.into(), parent, parts, lights: Vec::new(), limits: None, motion: BodyMotion { times_s, states } }
     }
 
     fn count_of(states: &BodyStates) -> usize {
@@ -265,7 +274,24 @@ mod tests {
         refused(&|body| body.parts = vec![9], "refers to part 9, but there are only 3");
         refused(&|body| body.parent = Some(1), "refers to the body 1");
         refused(&|body| body.name = "door".into(), "two bodies have this name");
+        refused(&|body| body.limits = Some([0.2, 0.1]), "limits 0.2 to 0.1; expected two finite numbers");
+        refused(&|body| (body.limits, body.motion) = (Some([0.0, 1.0]), BodyMotion::rest()), "a free body has no limits");
         refused(&|body| body.motion.states = BodyStates::Slide { axis: DVec3::ZERO, distances_m: vec![0.0; 2] }, "no axis");
+    }
+
+    #[test]
+    fn joints_that_stay_do_not_move_the_scene() {
+        let mut scene = scene();
+        assert!(!scene.is_still());
+        scene.bodies[1].limits = Some([0.0, 0.4]);
+        assert_eq!((scene.bodies[0].motion.state_at(0.5), scene.bodies[1].motion.state_at(0.5)), (Some(FRAC_PI_2 / 2.0), Some(0.25)));
+        let doubled = scene.bodies[1].carried(&DAffine3::from_scale(DVec3::splat(2.0))).unwrap();
+        assert_eq!(doubled.limits, Some([0.0, 0.8]));
+        scene.hold_still();
+        assert!(scene.is_still() && scene.bodies.len() == 2 && scene.validate().is_ok());
+        scene.bodies[1].limits = None;
+        scene.hold_still();
+        assert_eq!(scene.bodies, []);
     }
 
     #[test]

@@ -23,6 +23,10 @@ pub struct Body {
     pub parts: Vec<u32>,
     /// Indices of the body's lights, in ascending order.
     pub lights: Vec<u32>,
+    /// The least and the greatest state of the joint: radians of a hinge, metres of a slide, from rest. `None` of a joint without end, and of
+    /// free bodies. Joints of things that close are closed at the least and open at the greatest. States beyond them are no error: what a
+    /// simulator or an animation says is taken.
+    pub limits: Option<[f64; 2]>,
     /// Motion relative to its parent.
     pub motion: BodyMotion,
 }
@@ -97,23 +101,60 @@ impl BodyStates {
 }
 
 impl BodyMotion {
-    /// A motion that stays at rest.
+    /// A motion of no joint that stays at rest.
     pub fn rest() -> Self {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses: vec![RigidPose::IDENTITY] };
         Self { times_s: vec![0.0], states }
     }
 
+    /// The same joint, which stays at rest.
+    #[must_use]
+    pub fn rested(&self) -> Self {
+        let states = match &self.states {
+            BodyStates::Slide { axis, .. } => BodyStates::Slide { axis: *axis, distances_m: vec![0.0] },
+            BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point: *point, axis: *axis, angles_rad: vec![0.0] },
+            BodyStates::Free { position, rotation, .. } => {
+                BodyStates::Free { position: *position, rotation: *rotation, poses: vec![RigidPose::IDENTITY] }
+            }
+        };
+        Self { times_s: vec![0.0], states }
+    }
+
+    /// True when it never leaves rest.
+    pub fn is_rest(&self) -> bool {
+        match &self.states {
+            BodyStates::Free { poses, .. } => poses.iter().all(|pose| *pose == RigidPose::IDENTITY),
+            BodyStates::Hinge { angles_rad: values, .. } | BodyStates::Slide { distances_m: values, .. } => {
+                values.iter().all(|&value| value == 0.0)
+            }
+        }
+    }
+
+    /// The state at a moment: radians of a hinge, metres of a slide; `None` of free bodies.
+    pub fn state_at(&self, time_s: f64) -> Option<f64> {
+        match &self.states {
+            BodyStates::Free { .. } => None,
+            BodyStates::Hinge { angles_rad: values, .. } | BodyStates::Slide { distances_m: values, .. } => {
+                Some(self.mixed(values, time_s))
+            }
+        }
+    }
+
+    fn mixed(&self, values: &[f64], time_s: f64) -> f64 {
+        let (before, after, share) = self.between(time_s);
+        values[before] + (values[after] - values[before]) * share
+    }
+
     /// The map of the world to itself that takes the body from rest to its place at a moment, while its parent rests.
     pub fn world_from_rest(&self, time_s: f64) -> DAffine3 {
-        let (before, after, share) = self.between(time_s);
-        let mix = |values: &[f64]| values[before] + (values[after] - values[before]) * share;
         match &self.states {
-            BodyStates::Slide { axis, distances_m } => DAffine3::from_translation(*axis * mix(distances_m)),
+            BodyStates::Slide { axis, distances_m } => DAffine3::from_translation(*axis * self.mixed(distances_m, time_s)),
             BodyStates::Hinge { point, axis, angles_rad } => {
-                let matrix3 = DMat3::from_axis_angle(*axis, mix(angles_rad));
+                let matrix3 = DMat3::from_axis_angle(*axis, self.mixed(angles_rad, time_s));
                 DAffine3 { matrix3, translation: *point - matrix3 * *point }
             }
             BodyStates::Free { position, rotation, poses } => {
+                let (before, after, share) = self.between(time_s);
                 let [a, b] = [&poses[before], &poses[after]];
                 let pose =
                     RigidPose { rotation: a.rotation.slerp(b.rotation, share), translation: a.translation.lerp(b.translation, share) };
@@ -163,7 +204,7 @@ impl BodyMotion {
     }
 
     /// What is wrong with it, if anything.
-    pub(crate) fn problem(&self) -> Option<String> {
+    fn problem(&self) -> Option<String> {
         let (times, count) = (&self.times_s, self.count());
         if times.is_empty() || times.len() != count {
             return Some(format!("{} moments for {count} states; expected as many of both, and at least one", times.len()));
@@ -216,6 +257,22 @@ impl Similarity {
 impl Body {
     /// The body after the world was carried away by `map`; `None` if the map distorts or mirrors, so that the motion would not be rigid.
     pub fn carried(&self, map: &DAffine3) -> Option<Self> {
-        Some(Self { motion: self.motion.carried(&Similarity::of(map)?), ..self.clone() })
+        let by = Similarity::of(map)?;
+        let limits = match self.motion.states {
+            BodyStates::Slide { .. } => self.limits.map(|ends| ends.map(|end| by.scale * end)),
+            _ => self.limits,
+        };
+        Some(Self { limits, motion: self.motion.carried(&by), ..self.clone() })
+    }
+
+    /// What is wrong with the joint, if anything.
+    pub(crate) fn problem(&self) -> Option<String> {
+        match (self.limits, &self.motion.states) {
+            (Some(_), BodyStates::Free { .. }) => Some("a free body has no limits; expected a hinge or a slide".into()),
+            (Some([least, greatest]), _) if !least.is_finite() || !greatest.is_finite() || least > greatest => {
+                Some(format!("limits {least} to {greatest}; expected two finite numbers, the least first"))
+            }
+            _ => self.motion.problem(),
+        }
     }
 }

@@ -53,7 +53,7 @@ pub use motion::{GRAVITY_M_S2, Motion, MotionSample, OPENCV};
 pub use object::{Object, ObjectId};
 pub use package::{
     FIRST_PACKAGE, PACKAGE_HEAD_BYTES, PackageError, from_bytes, from_bytes_beside, from_bytes_with_labels, is_current_package,
-    is_moving_package, to_bytes, to_bytes_beside, to_bytes_with_labels,
+    is_jointed_package, is_moving_package, to_bytes, to_bytes_beside, to_bytes_with_labels,
 };
 pub use photometry::PhotometricWeb;
 pub use picture_files::{PictureFile, PictureFiles};

@@ -1,7 +1,7 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
-//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene; in packages of scenes that
-//! move, which have a number of their own, the bodies; and, where the package has them, the labels of its parts. Reading checks the hash, so
+//! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene; in packages of scenes with
+//! bodies, which have numbers of their own, these; and, where the package has them, the labels of its parts. Reading checks the hash, so
 //! a truncated or altered package is distinguished from a scene that is wrong.
 //!
 //! The package of a variation has only the meshes and pictures that the package it varies does not have; that one lies beside it, as
@@ -54,6 +54,11 @@ pub fn is_moving_package(head: &[u8]) -> bool {
     split_head(head).is_ok_and(|(kind, _)| kind.moves)
 }
 
+/// True if the bytes begin like the package of a scene with bodies, whether they move or not.
+pub fn is_jointed_package(head: &[u8]) -> bool {
+    split_head(head).is_ok_and(|(kind, _)| kind.bodies)
+}
+
 /// The scene in a package.
 ///
 /// # Errors
@@ -98,9 +103,9 @@ pub fn from_bytes_beside<E: ToString>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyMotion, Material, Part, PartLabel};
+    use crate::{Body, BodyMotion, BodyStates, Material, Part, PartLabel};
     use enfilade_geometry::Mesh;
-    use enfilade_math::{DAffine3, Rgb, Vec3};
+    use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
 
     fn scene() -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
@@ -152,10 +157,21 @@ mod tests {
     fn scenes_that_move_have_packages_of_their_own_and_still_ones_keep_their_bytes() {
         let still = to_bytes(&scene());
         assert!(still.starts_with(b"enfilade scene 4\n"));
-        let body = Body { name: "it".into(), parent: None, parts: vec![0], lights: Vec::new(), motion: BodyMotion::rest() };
+        let states = BodyStates::Slide { axis: DVec3::X, distances_m: vec![0.0, 1.0] };
+        let motion = BodyMotion { times_s: vec![0.0, 1.0], states };
+        let body = Body { name: "it".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: Some([0.0, 1.0]), motion };
         let moving = Scene { bodies: vec![body], ..scene() };
+        let mut jointed = moving.clone();
+        jointed.hold_still();
+        let with_joints = to_bytes(&jointed);
+        assert!(
+            with_joints.starts_with(b"enfilade scene 6\n")
+                && is_jointed_package(&with_joints[..32])
+                && !is_moving_package(&with_joints[..32])
+        );
+        assert_eq!(from_bytes(&with_joints).unwrap(), jointed);
         let bytes = to_bytes(&moving);
-        assert!(bytes.starts_with(b"enfilade scene 5\n") && is_current_package(&bytes[..32]));
+        assert!(bytes.starts_with(b"enfilade scene 7\n") && is_current_package(&bytes[..32]));
         assert!(is_moving_package(&bytes[..32]) && !is_moving_package(&still[..32]));
         assert_eq!(from_bytes(&bytes).unwrap(), moving);
         let labels = Labels { parts: vec![PartLabel { semantic: 4, instance: 7 }] };

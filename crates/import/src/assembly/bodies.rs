@@ -34,7 +34,7 @@ impl Assembly<'_> {
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let unique = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
         let motion = BodyMotion { times_s, states };
-        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), motion };
+        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), limits: None, motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(
                 format!("node {name:?}"),

@@ -50,7 +50,7 @@ pub(crate) fn load_file(
     }
     let mut imported = enfilade_import::load(file, &options, cx).map_err(Error::stage)?;
     if source.still {
-        imported.scene.bodies.clear();
+        imported.scene.hold_still();
     }
     Ok(imported)
 }

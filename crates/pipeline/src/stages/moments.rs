@@ -7,15 +7,25 @@ use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
 use enfilade_frame::{Frame, Layer, Values, traits};
 use enfilade_math::DAffine3;
 use enfilade_render::{Lookout, Moved};
-use enfilade_scene::{PACKAGE_HEAD_BYTES, Pose, Scene, is_moving_package};
+use enfilade_scene::{Body, BodyStates, PACKAGE_HEAD_BYTES, Pose, Scene, is_jointed_package, is_moving_package};
 use std::io::Read;
 use std::path::Path;
 
 /// True if the package is of a scene that moves; what cannot be read does not.
 pub(crate) fn moves(package: &Path) -> bool {
+    is_moving_package(&head(package))
+}
+
+/// True if the package is of a scene with joints, whether they move or not.
+pub(crate) fn has_joints(package: &Path) -> bool {
+    is_jointed_package(&head(package))
+}
+
+/// The first bytes of a file; none of one that cannot be read.
+fn head(package: &Path) -> Vec<u8> {
     let mut head = Vec::new();
-    let file = std::fs::File::open(package);
-    file.is_ok_and(|file| file.take(PACKAGE_HEAD_BYTES).read_to_end(&mut head).is_ok() && is_moving_package(&head))
+    let read = std::fs::File::open(package).and_then(|file| file.take(PACKAGE_HEAD_BYTES).read_to_end(&mut head));
+    if read.is_ok() { head } else { Vec::new() }
 }
 
 /// Seconds between the frames of a camera, if the scene of the package moves.
@@ -77,27 +87,43 @@ impl Moment {
     }
 }
 
-/// Writes the tables of what moves; removes those of a scene that no longer does.
+/// Writes the tables of what moves or can move; removes those of a scene in which nothing does any longer.
 pub(super) fn write_tables(job: &Job, scene: Option<&Scene>) -> Result<(), Error> {
     let name = &job.scene.name;
     let bodies = scene.map_or(&[][..], |scene| &scene.bodies);
-    let row = |(body, id): (&enfilade_scene::Body, u32)| BodyRow {
-        id,
-        name: body.name.clone(),
-        parent: body.parent.map(|parent| parent + 1),
-        joint: body.motion.states.joint().into(),
-        node_ids: body.parts.iter().map(|part| part + 1).collect(),
-    };
-    job.dataset.write_bodies(name, &bodies.iter().zip(1..).map(row).collect::<Vec<_>>()).map_err(Error::stage)?;
+    job.dataset
+        .write_bodies(name, &bodies.iter().zip(1..).map(|(body, id)| row(bodies, body, id)).collect::<Vec<_>>())
+        .map_err(Error::stage)?;
     for (_, trajectory) in job.filmed()?.iter() {
         let frame_time_s = job.dataset.read_frame_time(name, &trajectory.name).map_err(Error::stage)?;
         let frame = |pose: &Pose| {
-            let time_s = moment_s(pose, frame_time_s);
-            let world_from_rest = scene?.world_from_rest(time_s);
-            Some(FrameBodies { frame: pose.frame, time_s, world_from_rest })
+            let (scene, time_s) = (scene.filter(|scene| !scene.is_still())?, moment_s(pose, frame_time_s));
+            let states = scene.bodies.iter().map(|body| body.motion.state_at(time_s)).collect();
+            Some(FrameBodies { frame: pose.frame, time_s, world_from_rest: scene.world_from_rest(time_s), states })
         };
         let frames: Vec<FrameBodies> = trajectory.poses.iter().filter_map(frame).collect();
         job.dataset.write_body_poses(name, &trajectory.name, &frames).map_err(Error::stage)?;
     }
     Ok(())
+}
+
+/// The row of a body; `bodies` are all of its scene.
+fn row(bodies: &[Body], body: &Body, id: u32) -> BodyRow {
+    let (axis, point) = match &body.motion.states {
+        BodyStates::Free { .. } => (None, None),
+        BodyStates::Hinge { axis, point, .. } => (Some(axis.to_array()), Some(point.to_array())),
+        BodyStates::Slide { axis, .. } => (Some(axis.to_array()), None),
+    };
+    let bearers = std::iter::successors(Some(body), |body| body.parent.map(|parent| &bodies[parent as usize]));
+    BodyRow {
+        id,
+        name: body.name.clone(),
+        parent: body.parent.map(|parent| parent + 1),
+        joint: body.motion.states.joint().into(),
+        axis,
+        point,
+        limits: body.limits,
+        moves: bearers.into_iter().any(|body| !body.motion.is_rest()),
+        node_ids: body.parts.iter().map(|part| part + 1).collect(),
+    }
 }

@@ -59,7 +59,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
         moments::write_tables(job, Some(&scene))?;
         timed_out = render(job, &Rendered::Moving(&scene), &missing, [total - rendered, total], cx)?;
     } else {
-        moments::write_tables(job, None)?;
+        let jointed = if moments::has_joints(&job.package()?) { Some(job.load_scene()?) } else { None };
+        moments::write_tables(job, jointed.as_deref())?;
         if rendered > 0 || lists_fixtures {
             job.forget_world();
             let scene = job.load_scene()?;
@@ -336,8 +337,10 @@ pub(crate) fn program() -> String {
 fn outputs(job: &Job) -> Result<Vec<PathBuf>, Error> {
     let has_fixtures = !job.dataset.read_fixtures(&job.scene.name).map_err(Error::stage)?.is_empty();
     let mut outputs: Vec<PathBuf> = has_fixtures.then(|| job.dataset.layout().metadata_fixtures(&job.scene.name)).into_iter().collect();
-    if moments::moves(&job.package()?) {
+    if moments::has_joints(&job.package()?) {
         outputs.push(job.dataset.layout().metadata_bodies(&job.scene.name));
+    }
+    if moments::moves(&job.package()?) {
         outputs.extend(job.filmed()?.iter().map(|(_, filmed)| job.dataset.layout().metadata_body_poses(&job.scene.name, &filmed.name)));
     }
     Ok(outputs)

@@ -147,6 +147,7 @@ impl LabelledScene {
                 parent: body.parent.map(|parent| bodies + parent),
                 parts: body.parts.iter().map(|part| parts + part).collect(),
                 lights: body.lights.iter().map(|light| lights + light).collect(),
+                limits: carried.limits,
                 motion: carried.motion,
             });
         }

@@ -2,7 +2,7 @@
 //!
 //! Layout: the magic line, which ends in ` changes`, the hash of the body, the body: the hash of the other package, for each mesh and each
 //! picture its number among those of the other package followed by its own, and the scene with its own meshes and pictures alone; in packages
-//! of scenes that move the bodies follow.
+//! of scenes with bodies these follow.
 
 use super::encoding::{CHANGES, Kind, PackageError, bodies, decoded, encoded, headed, split, split_head, undecoded, whole};
 use crate::Scene;
@@ -68,7 +68,7 @@ fn divided<T>(all: &[Arc<T>], first: &[Arc<T>]) -> (Vec<u32>, Vec<Arc<T>>) {
 impl Changes {
     /// Takes the bodies, which follow.
     pub(super) fn take_bodies(&mut self, kind: Kind, rest: &[u8]) -> Result<(), PackageError> {
-        if kind.moves {
+        if kind.bodies {
             self.own.bodies = postcard::from_bytes(rest).map_err(undecoded)?;
         }
         Ok(())
@@ -145,10 +145,10 @@ mod tests {
         assert!(bytes.len() > 19_200 && bytes.len() < 20_200, "{}", bytes.len());
         let read = |name: &str| if name == "first.scene" { Ok(whole.clone()) } else { Err("?") };
         assert_eq!(from_bytes_beside(&bytes, read).unwrap(), (scene.clone(), None));
-        let body = Body { name: "a".into(), parent: None, parts: vec![0], lights: Vec::new(), motion: BodyMotion::rest() };
+        let body = Body { name: "a".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: None, motion: BodyMotion::rest() };
         let moving = Scene { bodies: vec![body], ..scene.clone() };
         let of_moving = to_bytes_beside(&moving, &first, &whole).unwrap();
-        assert!(of_moving.starts_with(b"enfilade scene 5 changes\n"));
+        assert!(of_moving.starts_with(b"enfilade scene 6 changes\n"));
         assert_eq!(from_bytes_beside(&of_moving, read).unwrap(), (moving, None));
         // Equal bytes however often, and a package by itself where nothing is shared.
         assert_eq!(to_bytes_beside(&scene, &first, &whole).unwrap(), bytes);

@@ -6,8 +6,10 @@ use crate::{Labels, Scene, SceneError};
 pub(super) const NAME: &str = "enfilade scene ";
 /// Rises with every change of the types in a [`Scene`]: postcard writes no names.
 pub(super) const VERSION: u32 = 4;
-/// The number of packages of scenes that move: their bodies follow the scene.
-pub(super) const MOVING: u32 = 5;
+/// The number of packages of scenes with joints that stay as they are: their bodies follow the scene.
+const JOINTED: u32 = 6;
+/// The number of packages of scenes that move: the bodies as well.
+const MOVING: u32 = 7;
 /// Behind the number in the first line of packages that lack what another one has.
 pub(super) const CHANGES: &str = " changes";
 /// Name of the package beside one that lacks what this has.
@@ -61,13 +63,17 @@ pub(super) fn encoded<T: serde::Serialize>(data: &T) -> Vec<u8> {
     postcard::to_stdvec(data).expect("plain data encodes")
 }
 
-/// The bodies of a scene that moves; nothing of one that does not.
+/// The bodies of a scene; nothing of one that has none.
 pub(super) fn bodies(scene: &Scene) -> Vec<u8> {
-    if scene.is_still() { Vec::new() } else { encoded(&scene.bodies) }
+    if scene.bodies.is_empty() { Vec::new() } else { encoded(&scene.bodies) }
 }
 
 pub(super) fn headed(kind: &str, scene: &Scene, body: &[u8]) -> Vec<u8> {
-    let version = if scene.is_still() { VERSION } else { MOVING };
+    let version = match (scene.bodies.is_empty(), scene.is_still()) {
+        (true, _) => VERSION,
+        (false, true) => JOINTED,
+        (false, false) => MOVING,
+    };
     [format!("{NAME}{version}{kind}\n").as_bytes(), blake3::hash(body).as_bytes(), body].concat()
 }
 
@@ -76,6 +82,8 @@ pub(super) fn headed(kind: &str, scene: &Scene, body: &[u8]) -> Vec<u8> {
 pub(super) struct Kind {
     /// True if it lacks what another one has.
     pub lacks: bool,
+    /// True if bodies follow the scene.
+    pub bodies: bool,
     /// True if the scene moves.
     pub moves: bool,
 }
@@ -87,7 +95,9 @@ pub(super) fn split_head(bytes: &[u8]) -> Result<(Kind, &[u8]), PackageError> {
     let text = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok());
     let number = text.map(|text| text.strip_suffix(CHANGES).map_or((false, text), |number| (true, number)));
     match number.and_then(|(lacks, number)| Some((lacks, number.parse().ok()?))) {
-        Some((lacks, version @ (VERSION | MOVING))) => Ok((Kind { lacks, moves: version == MOVING }, &bytes[line.len()..])),
+        Some((lacks, version @ (VERSION | JOINTED | MOVING))) => {
+            Ok((Kind { lacks, bodies: version != VERSION, moves: version == MOVING }, &bytes[line.len()..]))
+        }
         Some((_, found)) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
     }
@@ -107,7 +117,7 @@ fn age(found: u32) -> &'static str {
 /// The scene and the labels in the body of a package that lacks nothing.
 pub(super) fn decoded(kind: Kind, body: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
     let (mut scene, mut rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(undecoded)?;
-    if kind.moves {
+    if kind.bodies {
         (scene.bodies, rest) = postcard::take_from_bytes(rest).map_err(undecoded)?;
     }
     let labels = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(undecoded)?) };
