@@ -21,17 +21,22 @@ const DIRECTIONS: usize = 1000;
 /// A mesh that is thinner than this share of its length is one piece.
 const FLAT: f64 = 1e-3;
 
-/// Corners of the convex pieces of a mesh.
-pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
+/// Corners of a mesh that is one convex piece, or flat; `None` of others.
+pub fn one_piece(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Vec<DVec3>> {
     let (low, high) = bounds(points);
     let extent = high - low;
-    if extent.min_element() < FLAT * extent.max_element() || triangles.len() < 4 {
-        return vec![few(points)];
-    }
     let corners = few(points);
-    if is_convex(points, triangles, &corners, HOLLOW * extent.max_element()) {
+    let flat = extent.min_element() < FLAT * extent.max_element() || triangles.len() < 4;
+    (flat || is_convex(points, triangles, &corners, HOLLOW * extent.max_element())).then_some(corners)
+}
+
+/// Corners of the convex pieces of a mesh.
+pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
+    if let Some(corners) = one_piece(points, triangles) {
         return vec![corners];
     }
+    let (low, high) = bounds(points);
+    let extent = high - low;
     let parameters = VHACDParameters {
         resolution: RESOLUTION,
         concavity: CONCAVITY,
@@ -46,7 +51,7 @@ pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
     let parts = decomposition.compute_primitive_intersections(&scaled, triangles);
     let back = |part: Vec<_>| -> Vec<DVec3> { part.into_iter().map(|p| crate::shapes::ours(p) * unit + middle).collect() };
     let found: Vec<Vec<DVec3>> = parts.into_iter().map(back).filter(|part| part.len() >= 4).map(|part| few(&part)).collect();
-    if found.is_empty() { vec![corners] } else { found }
+    if found.is_empty() { vec![few(points)] } else { found }
 }
 
 /// Whether no corner is in front of any triangle.
