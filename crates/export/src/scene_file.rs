@@ -15,7 +15,7 @@ struct Form {
 }
 
 /// All forms.
-const FORMS: [Form; 5] = [
+static FORMS: [Form; 5] = [
     Form { extension: "scene", about: "a package, nothing is lost", encode: package },
     Form { extension: "glb", about: "glTF, for other programs", encode: glb },
     Form { extension: "xml", about: "MJCF, for MuJoCo", encode: |given| simulator(given, mjcf) },
@@ -43,8 +43,9 @@ pub type SceneEncoder = Box<dyn Fn(&Scene, Option<&Labels>, &PictureFiles) -> En
 pub fn scene_encoder(output: &Path) -> Result<SceneEncoder, ExportError> {
     let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let Some(form) = FORMS.iter().find(|form| Some(form.extension) == extension.as_deref()) else {
-        let forms = FORMS.map(|form| format!(".{} ({})", form.extension, form.about)).join(", ");
-        let problem = format!("cannot tell from the name {} how to write the scene; end it with one of {forms}", output.display());
+        let forms: Vec<String> = FORMS.iter().map(|form| format!(".{} ({})", form.extension, form.about)).collect();
+        let (name, forms) = (output.display(), forms.join(", "));
+        let problem = format!("cannot tell from the name {name} how to write the scene; end it with one of {forms}");
         return Err(ExportError::Selection(problem));
     };
     let name = output.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());

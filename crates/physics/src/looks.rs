@@ -129,7 +129,7 @@ fn surface(scene: &Scene, mesh: u32, placed: &DAffine3, transform: Option<[[f32;
 impl Looks {
     /// The meshes as OBJ files and the pictures, by their paths below `folder`.
     pub(crate) fn files(&self, folder: &str) -> impl Iterator<Item = (String, Vec<u8>)> {
-        let meshes = self.meshes.iter().enumerate().map(|(number, mesh)| (format!("{folder}/{}.obj", mesh_name(number)), mesh.obj()));
+        let meshes = self.meshes.iter().enumerate().map(move |(number, mesh)| (format!("{folder}/{}.obj", mesh_name(number)), mesh.obj()));
         meshes.chain(self.pictures.iter().map(move |(name, bytes)| (format!("{folder}/{name}"), bytes.clone())))
     }
 }
@@ -145,6 +145,8 @@ impl Surface {
         let mut text = String::new();
         let mut line = |tag: &str, values: &[f64]| _ = writeln!(text, "{tag} {}", numbers(values));
         self.points.iter().for_each(|p| line("v", &p.to_array()));
+        // MuJoCo refuses meshes of fewer than four vertices.
+        self.points.iter().take(4usize.saturating_sub(self.points.len())).for_each(|p| line("v", &p.to_array()));
         self.coordinates.iter().for_each(|uv| line("vt", uv));
         self.normals.iter().for_each(|n| line("vn", &n.to_array()));
         let corner = |i: u32| match (self.coordinates.is_empty(), self.normals.is_empty(), i + 1) {

@@ -14,7 +14,7 @@ use std::fmt::Write;
 
 /// Seconds of a step.
 const STEP_S: f64 = 0.002;
-/// Time constant of contacts, seconds: the stiffest that steps of that length allow with some reserve.
+/// Time constant of contacts and of friction in joints, seconds: the stiffest that steps of that length allow with some reserve.
 const CONTACT_S: f64 = 0.006;
 /// Friction about the normal, metres, and against rolling, metres.
 const TURNING: [f64; 2] = [0.005, 0.0005];
@@ -139,7 +139,7 @@ fn joint(out: &mut String, body: &Rigid, indent: &str) {
     let (friction, damping) = (small(friction), small(damping));
     _ = writeln!(
         out,
-        "{indent}  <joint name=\"{name}\" type=\"{word}\" axis=\"{}\"{range} frictionloss=\"{friction}\" damping=\"{damping}\"/>",
+        "{indent}  <joint name=\"{name}\" type=\"{word}\" axis=\"{}\"{range} frictionloss=\"{friction}\" solreffriction=\"{CONTACT_S} 1\" damping=\"{damping}\"/>",
         vector(axis)
     );
 }
