@@ -1,6 +1,6 @@
 //! Convex solids: the pieces of a mesh as closed surfaces, for what else simulates.
 
-use crate::pieces::{bounds, one_piece, pieces};
+use crate::pieces::{bounds, cut, farthest, is_convex};
 use crate::shapes::{ours, vector};
 use enfilade_math::{DMat3, DVec3};
 use rapier3d_f64::parry::mass_properties::MassProperties;
@@ -9,6 +9,8 @@ use rapier3d_f64::parry::transformation::try_convex_hull;
 
 /// Thickness of a solid whose points lie in a plane, metres.
 pub const SHEET_M: f64 = 5e-4;
+/// Most corners of a piece of what is not convex. A sphere loses 3 % of its radius.
+const CORNERS: usize = 64;
 /// Points that are nearer to a plane than this share of their extent lie in it.
 const IN_PLANE: f64 = 1e-6;
 
@@ -77,7 +79,8 @@ impl Solid {
 
     /// The solid in the simulation.
     pub(crate) fn shape(&self) -> Option<SharedShape> {
-        SharedShape::convex_hull(&self.corners.iter().copied().map(vector).collect::<Vec<_>>())
+        let corners: Vec<_> = self.corners.iter().copied().map(vector).collect();
+        SharedShape::convex_mesh(corners.clone(), &self.triangles).or_else(|| SharedShape::convex_hull(&corners))
     }
 }
 
@@ -99,14 +102,18 @@ impl Moments {
     }
 }
 
-/// The convex solids of a mesh, which contain its whole surface: V-HACD's pieces (see [`pieces`]), one of a convex mesh.
-pub fn solids(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Solid> {
-    pieces(points, triangles).iter().filter_map(|piece| Solid::around(piece)).collect()
+/// The solid of a mesh that is convex, or flat; `None` of others, and of lines.
+pub fn convex_solid(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Solid> {
+    Solid::around(points).filter(|solid| is_convex(points, triangles, &solid.corners))
 }
 
-/// The solid of a mesh that is convex, or flat; `None` of others.
-pub fn convex_solid(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Solid> {
-    Solid::around(&one_piece(points, triangles)?)
+/// The convex solids of a mesh that is not convex: V-HACD's pieces, as those of `[[object]]`, with fewer corners.
+pub fn solids(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Solid> {
+    let fewer = |solid: Solid| match solid.corners.len() {
+        0..=CORNERS => Some(solid),
+        _ => Solid::around(&farthest(&solid.corners, CORNERS)),
+    };
+    cut(points, triangles).iter().filter_map(|part| Solid::around(part).and_then(fewer)).collect()
 }
 
 /// The normal of the plane through three points that span much; `None` where all lie on a line.

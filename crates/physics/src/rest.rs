@@ -86,8 +86,8 @@ fn movers(groups: &[Group], parts: &[Vec<Piece>], seconds: f64) -> Vec<usize> {
             Err(_) => fixed.extend(solids(group, parts)),
         }
     }
-    let found = unrest(&fixed, &things, seconds);
-    free.into_iter().zip(found).filter(|(_, unrest)| unrest.way_m > STEADY_M).map(|(number, _)| number).collect()
+    let ways = unrest(&fixed, &things, seconds);
+    free.into_iter().zip(ways).filter(|(_, way)| *way > STEADY_M).map(|(number, _)| number).collect()
 }
 
 /// Pairs of bodies of which one has a hinge or a slide, and which bear each other or touch at rest.
