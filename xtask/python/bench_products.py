@@ -5,16 +5,12 @@ DOCS/benchmarks/products.md and products.json, and the pictures of DOCS/ground-t
 """
 
 import json
-import os
 import shutil
-import subprocess
 import sys
-import tempfile
-import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import product_pictures
+from cost import Cost, measured
 from machine import processor
 
 FRAMES = 2
@@ -27,15 +23,6 @@ QUALITY = "draft"
 SCENE, CAMERA = "home", "cam_00"
 
 
-@dataclass
-class Cost:
-    """Processor and wall-clock seconds of a command, and the most memory that it held."""
-
-    cpu_s: float
-    wall_s: float
-    peak_bytes: int
-
-
 class Program:
     """The program, its dataset, and what its commands cost."""
 
@@ -43,19 +30,7 @@ class Program:
         self.program, self.out = program, out
 
     def run(self, *arguments) -> Cost:
-        words = [str(word) for word in arguments]
-        print("  enfilade", *words, flush=True)
-        start = time.monotonic()
-        with tempfile.TemporaryFile("w+") as printed:
-            process = subprocess.Popen([self.program, "--quiet", *words], stdout=printed, stderr=printed)
-            _, status, usage = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-            if process.returncode != 0:
-                printed.seek(0)
-                sys.exit(f"enfilade {' '.join(words)}\n{printed.read()}")
-        # Linux counts ru_maxrss in KiB, macOS in bytes.
-        unit = 1 if sys.platform == "darwin" else 1024
-        return Cost(usage.ru_utime + usage.ru_stime, time.monotonic() - start, unit * usage.ru_maxrss)
+        return measured([self.program, "--quiet", *arguments])
 
     def bytes_of(self, pattern: str) -> int:
         return sum(path.stat().st_size for path in self.out.glob(pattern) if path.is_file())

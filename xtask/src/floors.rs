@@ -16,7 +16,7 @@ enum Floor {
 }
 
 /// Every crate by the name of its folder.
-const FLOORS: [(&str, Floor); 41] = [
+const FLOORS: [(&str, Floor); 42] = [
     ("math", Floor::Number(0)),
     ("options", Floor::Number(0)),
     ("parallel", Floor::Number(0)),
@@ -40,6 +40,7 @@ const FLOORS: [(&str, Floor); 41] = [
     ("vray", Floor::Number(4)),
     ("compose", Floor::Number(4)),
     ("home", Floor::Number(5)),
+    ("physics", Floor::Number(5)),
     ("describe", Floor::Number(5)),
     ("verify", Floor::Number(5)),
     ("show", Floor::Number(6)),

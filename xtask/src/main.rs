@@ -8,6 +8,7 @@
 
 mod acceptance;
 mod bench;
+mod bop;
 mod browser;
 mod check;
 mod circles;
@@ -54,6 +55,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask simulate                       the same on thousands of nodes, simulated
        cargo xtask bench render [CASE...]         what pictures of rooms and homes cost, against Mitsuba 3
        cargo xtask bench cycles [CASE...]         what pictures of homes cost, against Blender's Cycles
+       cargo xtask bench bop [--program PATH] [SCENE...]   heaps of models as BOP: lines and time, against BlenderProc
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
        cargo xtask bench products                 what each kind of ground truth costs, with a picture
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
@@ -75,6 +77,7 @@ fn main() -> ExitCode {
         ["fuzz", rest @ ..] => fuzz::run(&house, rest),
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
         ["bench", "cycles", rest @ ..] => cycles::run(&house, rest),
+        ["bench", "bop", rest @ ..] => bop::run(&house, rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "products"] => products::run(&house),
@@ -97,11 +100,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// True if only the usage is requested; the programs of `oracle`, `bench render` and `bench cycles` have their own usage.
+/// True if only the usage is requested; the programs of `oracle` and of some measurements have their own usage.
 fn asks_for_usage(words: &[&str]) -> bool {
     match words {
         [] | ["help"] => true,
-        ["oracle", ..] | ["bench", "render" | "cycles", ..] => false,
+        ["oracle", ..] | ["bench", "render" | "cycles" | "bop", ..] => false,
         words => words.iter().any(|word| matches!(*word, "--help" | "-h")),
     }
 }

@@ -18,6 +18,29 @@ const DENOISER: &str = "pyoidn==2.5.1.0";
 /// Names a Python with Blender's module, numpy and Pillow.
 const BLENDER_VARIABLE: &str = "ENFILADE_BLENDER_PYTHON";
 
+/// Blender's module, in the version that was measured.
+const BLENDER: &str = "bpy==4.5.15";
+
+/// Names a Python with Blender's module, BlenderProc, what it installs otherwise, and BOP's toolkit.
+const BLENDERPROC_VARIABLE: &str = "ENFILADE_BLENDERPROC_PYTHON";
+
+/// BlenderProc, the packages that it would install into Blender, and BOP's toolkit, which is in no index.
+const BLENDERPROC: [&str; 13] = [
+    "blenderproc==2.8.0",
+    "numpy<2",
+    "pillow",
+    "trimesh==4.4.0",
+    "pyrender==0.1.45",
+    "imageio",
+    "gitpython",
+    "scikit-image",
+    "scikit-learn",
+    "scipy",
+    "rich",
+    "pypng",
+    "bop_toolkit_lib @ git+https://github.com/thodan/bop_toolkit@cea62d651c7e395b2e1962b9749e4e89693c6ac4",
+];
+
 /// Names of interpreters; names with a version are for machines whose `python3` is too old for our module.
 const PYTHONS: [&str; 6] = ["python3", "python", "python3.14", "python3.13", "python3.12", "python3.11"];
 
@@ -79,16 +102,29 @@ pub fn with_peers(house: &House) -> Result<PathBuf, String> {
 /// # Errors
 /// When there is no Python 3.11, or no network to install from.
 pub fn with_blender(house: &House) -> Result<PathBuf, String> {
-    const IMPORTS: &str = "import bpy, numpy, PIL";
-    if let Some(python) = named(house, BLENDER_VARIABLE, IMPORTS)? {
+    in_blender(house, BLENDER_VARIABLE, "venv-blender", "import bpy, numpy, PIL", &[BLENDER, "numpy", "pillow"])
+}
+
+/// The Python that [`BLENDERPROC_VARIABLE`] names, else one with BlenderProc in Blender's module made below the target folder.
+///
+/// # Errors
+/// When there is no Python 3.11, or no network to install from.
+pub fn with_blenderproc(house: &House) -> Result<PathBuf, String> {
+    const IMPORTS: &str = "import importlib.util, bpy, pyrender, bop_toolkit_lib.inout; assert importlib.util.find_spec('blenderproc')";
+    in_blender(house, BLENDERPROC_VARIABLE, "venv-blenderproc", IMPORTS, &[&[BLENDER][..], &BLENDERPROC].concat())
+}
+
+/// The Python that `variable` names, else the one in `folder` below the target folder, made unless `imports` succeeds there.
+fn in_blender(house: &House, variable: &str, folder: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
+    if let Some(python) = named(house, variable, imports)? {
         return Ok(python);
     }
-    let (folder, own) = place(house, "venv-blender")?;
-    if succeeds(house, &own, IMPORTS) {
+    let (folder, own) = place(house, folder)?;
+    if succeeds(house, &own, imports) {
         return Ok(own);
     }
     let python = system(house, BLENDERS).ok_or("Blender's module needs Python 3.11 with the module venv, and there is none")?;
-    fill(house, python, &folder, &own, &["bpy==4.5.15", "numpy", "pillow"])
+    fill(house, python, &folder, &own, packages)
 }
 
 /// The Python that `variable` names, if it does.

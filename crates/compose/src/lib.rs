@@ -4,6 +4,8 @@
 //! surfaces for them, and lets them come to rest: `world` is a rigid-body simulation in which the parts of the scene do not move. Models
 //! are simulated as the convex pieces that `pieces` cuts them into. What cannot be placed is left out with the reason, or refused.
 //!
+//! `solid` and `unrest` offer convex pieces and the simulation to what writes scenes for simulators.
+//!
 //! What moves in a scene by `[[motion]]` is in `motion`, what opens by its joints in `joints`.
 //!
 //! The result is a function of the scene, the groups and the seed: the simulation runs on one thread, in double precision, with an
@@ -21,9 +23,11 @@ mod pieces;
 mod place;
 mod rest;
 mod shapes;
+mod solid;
 mod surfaces;
 #[cfg(test)]
 mod tests;
+mod unrest;
 mod words;
 mod world;
 
@@ -32,4 +36,7 @@ pub use error::ComposeError;
 pub use group::{Files, Materials, Missing, ObjectGroup, Pose, Turn};
 pub use motion::{MotionGroup, with_motion};
 pub use rest::moved_again;
+pub use solid::{Moments, SHEET_M, Solid, convex_solid, solids};
+pub use unrest::{overlaps, unrest};
 pub use words::{ClassWord, Extent, Many, Number};
+pub use world::{FRICTION, SOLVER};

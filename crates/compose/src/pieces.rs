@@ -23,15 +23,17 @@ const FLAT: f64 = 1e-3;
 
 /// Corners of the convex pieces of a mesh.
 pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
-    let (low, high) = bounds(points);
-    let extent = high - low;
-    if extent.min_element() < FLAT * extent.max_element() || triangles.len() < 4 {
-        return vec![few(points)];
-    }
-    let corners = few(points);
-    if is_convex(points, triangles, &corners, HOLLOW * extent.max_element()) {
+    let corners = farthest(points, DIRECTIONS);
+    if is_convex(points, triangles, &corners) {
         return vec![corners];
     }
+    let found: Vec<Vec<DVec3>> = cut(points, triangles).into_iter().map(|part| farthest(&part, DIRECTIONS)).collect();
+    if found.is_empty() { vec![corners] } else { found }
+}
+
+/// Points of the parts of a mesh that is not convex, whose hulls are its pieces.
+pub fn cut(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
+    let (low, high) = bounds(points);
     let parameters = VHACDParameters {
         resolution: RESOLUTION,
         concavity: CONCAVITY,
@@ -40,22 +42,25 @@ pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
         ..VHACDParameters::default()
     };
     // In units of its own length: the library's tolerances are absolute.
-    let (middle, unit) = ((low + high) / 2.0, extent.max_element());
+    let (middle, unit) = ((low + high) / 2.0, (high - low).max_element());
     let scaled: Vec<_> = points.iter().map(|p| crate::shapes::vector((p - middle) / unit)).collect();
     let decomposition = VHACD::decompose(&parameters, &scaled, triangles, true);
     let parts = decomposition.compute_primitive_intersections(&scaled, triangles);
     let back = |part: Vec<_>| -> Vec<DVec3> { part.into_iter().map(|p| crate::shapes::ours(p) * unit + middle).collect() };
-    let found: Vec<Vec<DVec3>> = parts.into_iter().map(back).filter(|part| part.len() >= 4).map(|part| few(&part)).collect();
-    if found.is_empty() { vec![corners] } else { found }
+    parts.into_iter().map(back).filter(|part| part.len() >= 4).collect()
 }
 
-/// Whether no corner is in front of any triangle.
-fn is_convex(points: &[DVec3], triangles: &[[u32; 3]], corners: &[DVec3], tolerance: f64) -> bool {
-    triangles.iter().all(|triangle| {
+/// Whether a mesh is flat, or no corner of its hull is in front of any triangle.
+pub fn is_convex(points: &[DVec3], triangles: &[[u32; 3]], corners: &[DVec3]) -> bool {
+    let (low, high) = bounds(points);
+    let extent = high - low;
+    let tolerance = HOLLOW * extent.max_element();
+    let behind = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|corner| points[corner as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
         corners.iter().all(|corner| normal.dot(*corner - a) <= tolerance)
-    })
+    };
+    extent.min_element() < FLAT * extent.max_element() || triangles.len() < 4 || triangles.iter().all(behind)
 }
 
 /// Least and greatest coordinates.
@@ -63,15 +68,15 @@ pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
 }
 
-/// The points that are farthest in some direction, or all of few.
-fn few(points: &[DVec3]) -> Vec<DVec3> {
-    if points.len() <= DIRECTIONS {
+/// The points that are farthest in one of some directions, or all if there are no more.
+pub fn farthest(points: &[DVec3], directions: usize) -> Vec<DVec3> {
+    if points.len() <= directions {
         return points.to_vec();
     }
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    let mut farthest: Vec<usize> = (0..DIRECTIONS)
+    let mut farthest: Vec<usize> = (0..directions)
         .map(|i| {
-            let z = 1.0 - (2 * i + 1) as f64 / DIRECTIONS as f64;
+            let z = 1.0 - (2 * i + 1) as f64 / directions as f64;
             let (sin, cos) = (golden * i as f64).sin_cos();
             let direction = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
             (0..points.len()).max_by(|a, b| points[*a].dot(direction).total_cmp(&points[*b].dot(direction))).unwrap_or(0)
@@ -130,7 +135,7 @@ mod tests {
                 DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z)
             })
             .collect();
-        let kept = few(&sphere);
+        let kept = farthest(&sphere, DIRECTIONS);
         assert!(kept.len() <= DIRECTIONS && kept.len() > DIRECTIONS / 2, "{}", kept.len());
     }
 }

@@ -24,7 +24,8 @@ const LENGTH_UNIT_M: f64 = 0.1;
 /// Natural frequency of contacts between objects, Hz; to the scene twice as much. The stiffer, the less things sink into each other, and
 /// the longer they tremble.
 const STIFFNESS_HZ: f64 = 45.0;
-const FRICTION: f64 = 0.6;
+/// Coefficient of friction of everything.
+pub const FRICTION: f64 = 0.6;
 /// Mass of objects, kg/m³: that of wood.
 const DENSITY: f64 = 600.0;
 /// Below these speeds something is at rest, m/s and rad/s.
@@ -78,6 +79,11 @@ impl World {
             still.push(Still { part: id, shape, bounds });
         }
         Self::of(still)
+    }
+
+    /// Shapes that are at rest, which are of no part.
+    pub fn beside(fixed: impl Iterator<Item = SharedShape>) -> Self {
+        Self::of(fixed.map(|shape| Still { part: 0, bounds: shape.compute_local_aabb(), shape }).collect())
     }
 
     /// A simulation that begins with everything where it is, and knows nothing of what was before.

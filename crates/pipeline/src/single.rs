@@ -8,7 +8,7 @@ use crate::stages::describe;
 use enfilade_dataset::{WORKDIR, write_bytes, write_json};
 use enfilade_home::HomeConfig;
 use enfilade_import::{scene_in_folder, scene_name};
-use enfilade_scene::{Cx, Labels, PictureFiles, Scene, Warning};
+use enfilade_scene::{Cx, EncodedScene, Labels, PictureFiles, Scene, SceneFiles, Warning};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -47,15 +47,15 @@ pub fn holds_scene(folder: &Path) -> Result<bool, Error> {
     Ok(!folder.join(WORKDIR).exists() && scene_in_folder(folder).map_err(Error::stage)?.is_some())
 }
 
-/// Imports the file of `source` (its path is used unchanged) to `output` and a report `<output>.report.json`. `encode` returns the bytes of
-/// the output from the scene and its labels, and what they cannot represent.
+/// Imports the file of `source` (its path is used unchanged) to `output` and a report `<output>.report.json`. `encode` returns the
+/// output and files beside it from the scene and its labels, and what they cannot represent.
 ///
 /// # Errors
 /// When the file cannot be imported, or the output is a file that was read for it or cannot be written.
 pub fn import_file(
     source: &FileSource,
     output: &Path,
-    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
+    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> EncodedScene,
     cx: &dyn Cx,
 ) -> Result<Imported, Error> {
     let held = Held::over(cx);
@@ -65,8 +65,8 @@ pub fn import_file(
     drop(held);
     let summary = describe(&imported.scene);
     let labels = imported.labels.map(|labels| labels_by_part(&imported.scene, &labels));
-    let (bytes, lost) = encode(&imported.scene, labels.as_ref(), &imported.picture_files);
-    write_output(output, &bytes)?;
+    let files = encode(&imported.scene, labels.as_ref(), &imported.picture_files).map_err(Error::Stage)?;
+    let lost = write_files(output, files)?;
     let report = output.with_extension("report.json");
     write_json(&report, &Report { scene: &summary, import: &imported.report, lost: &lost })?;
     Ok(Imported { summary, report, warnings: imported.report.warnings, lost })
@@ -113,6 +113,19 @@ pub(crate) fn write_output(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     Ok(write_bytes(path, bytes)?)
 }
 
+/// Writes a scene's file and those beside it, which come first; returns what they cannot represent.
+pub(crate) fn write_files(output: &Path, files: SceneFiles) -> Result<Vec<String>, Error> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    for (name, bytes) in &files.beside {
+        let path = folder.join(name);
+        let within = path.parent().unwrap_or(folder);
+        std::fs::create_dir_all(within).map_err(Error::io("create the folder", within))?;
+        write_bytes(&path, bytes)?;
+    }
+    write_output(output, &files.main)?;
+    Ok(files.notes)
+}
+
 /// Result of making a home.
 #[derive(Clone, Debug)]
 pub struct MadeHome {
@@ -126,19 +139,18 @@ pub struct MadeHome {
     pub credits: Vec<String>,
 }
 
-/// Makes a home and writes it to `output`; `encode` returns its bytes (see [`import_file`]). All its parts are labelled.
+/// Makes a home and writes it to `output`; `encode` returns its files (see [`import_file`]). All its parts are labelled.
 ///
 /// # Errors
 /// When a library of models cannot be used (see [`HomeConfig::assets`]; the paths are used unchanged), or the file cannot be written.
 pub fn make_home(
     config: &HomeConfig,
     output: &Path,
-    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
+    encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> EncodedScene,
     cx: &dyn Cx,
 ) -> Result<MadeHome, Error> {
     let home = assets::home(config, &|path| Ok(path.into()), cx)?;
-    let (bytes, lost) = encode(&home.scene, Some(&home.labels), &PictureFiles::new());
-    write_output(output, &bytes)?;
+    let lost = write_files(output, encode(&home.scene, Some(&home.labels), &PictureFiles::new()).map_err(Error::Stage)?)?;
     let rooms = home.plan.rooms.iter().map(|room| format!("{} {:.1} m2", room.kind.name(), room.area));
     Ok(MadeHome { summary: describe(&home.scene), rooms: rooms.collect::<Vec<_>>().join(", "), lost, credits: home.credits })
 }

@@ -237,7 +237,8 @@ impl Scene {
         Camera::pinhole(size, fov_x_deg, start.pose(0), start.name.clone())
     }
 
-    /// Writes the scene with its labels as a scene package (.scene) or binary glTF (.glb), and gives what the file cannot hold.
+    /// Writes the scene with its labels as a scene package (.scene), binary glTF (.glb) or for simulators (.xml of MuJoCo, .urdf, .usda), and gives
+    /// what the file cannot hold.
     fn save(&self, py: Python<'_>, file: PathBuf) -> PyResult<Vec<String>> {
         let encode = scene_encoder(&file).map_err(IntoPy::into_py)?;
         py.detach(|| self.0.save(&file, encode)).map_err(IntoPy::into_py)

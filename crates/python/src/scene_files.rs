@@ -12,7 +12,8 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Imports a scene file (.gltf, .glb, .obj, .xml, .pbrt, .pbrt.gz, .ply, .usd, .usda, .usdc, .usdz, .fbx, .dae, .stl, .urdf, .sdf, .world,
-/// .mjcf, .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene) to a scene package (.scene) or binary glTF (.glb), and writes a
+/// .mjcf, .zip, .sh3d, .sh3f, .vrscene, .json, .house, .semantic.txt, .scene) to a scene package (.scene), binary glTF (.glb) or for simulators (.xml
+/// of MuJoCo, .urdf, .usda), and writes a
 /// report beside it.
 ///
 /// output: the file to write; the input's name with .scene, in the current folder, unless given.
@@ -36,7 +37,7 @@ pub fn import_scene<'py>(
     json::to_python(py, &done)
 }
 
-/// Makes a furnished home of a seed, with its labels, as a scene package (.scene) or binary glTF (.glb).
+/// Makes a furnished home of a seed, with its labels, as a scene package (.scene), binary glTF (.glb) or for simulators (.xml of MuJoCo, .urdf, .usda).
 ///
 /// {options}
 ///

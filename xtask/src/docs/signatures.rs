@@ -98,6 +98,12 @@ fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
     if let Some(values) = sources.values(&option.of) {
         return Ok(format!("Literal[{}]", values.join(", ")));
     }
+    // In Python one word is for all that can be opened.
+    if last_name(&option.of).as_deref() == Some("States")
+        && let Some(values) = sources.values(&syn::parse_quote!(StateWord))
+    {
+        return Ok(format!("Literal[{}]", values.join(", ")));
+    }
     if let Type::Array(array) = &option.of {
         let of = match &*array.elem {
             Type::Tuple(_) => "Sequence[tuple[str, int] | str]",

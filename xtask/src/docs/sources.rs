@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Files that declare the contents of `dataset.toml`.
-const FILES: [&str; 22] = [
+const FILES: [&str; 23] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
@@ -22,6 +22,7 @@ const FILES: [&str; 22] = [
     "crates/render/src/config.rs",
     "crates/verify/src/view_gates/config.rs",
     "crates/home/src/config.rs",
+    "crates/home/src/states.rs",
     "crates/furniture/src/room_kind.rs",
     "crates/home/src/light/mod.rs",
     "crates/home/src/light/outside/mod.rs",

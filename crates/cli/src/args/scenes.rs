@@ -16,7 +16,7 @@ pub struct HomeArgs {
     #[command(flatten)]
     #[allow(missing_docs, reason = "plain words")]
     pub choices: Flags<HomeConfig>,
-    /// The scene package (.scene) or binary glTF (.glb) to write, labels included
+    /// The scene package (.scene), binary glTF (.glb) or scene for simulators (.xml of MuJoCo, .urdf, .usda) to write, labels included
     #[arg(short, long, value_name = "FILE", default_value = "home.scene")]
     pub output: PathBuf,
 }
@@ -35,8 +35,8 @@ pub struct ImportArgs {
     /// A scene file, or the folder of a collection's scene or of Pix3D
     #[arg(help = format!("A scene file ({}), the folder of one, or that of Pix3D", SceneFormat::extensions()))]
     pub input: PathBuf,
-    /// The scene package (.scene) or binary glTF (.glb) to write [default: the input's name with .scene, in the current folder]; of Pix3D
-    /// the JSON, in which paths begin at the folder of Pix3D
+    /// The scene package (.scene), binary glTF (.glb) or scene for simulators (.xml of MuJoCo, .urdf, .usda) to write [default: the input's
+    /// name with .scene, in the current folder]; of Pix3D the JSON, in which paths begin at the folder of Pix3D
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Report what would be dropped, guessed or fixed and what is odd about the geometry, and write nothing

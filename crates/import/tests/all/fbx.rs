@@ -422,8 +422,8 @@ fn damaged_files_are_errors_with_a_remedy() {
     assert!(folder.error("huge.fbx").contains("huge.fbx: whole file: "));
 }
 
-/// A curve of linear keys, seconds and values, that drives a component of a property of the node.
-fn curve(id: i64, component: &'static str, property: &'static str, keys: &[(f64, f64)]) -> (Vec<Record>, Vec<Record>) {
+/// A curve of linear keys, seconds and values, that drives a component of a property of the node; the others stay as at rest.
+fn curve(id: i64, component: &'static str, property: &'static str, rest: [f64; 3], keys: &[(f64, f64)]) -> (Vec<Record>, Vec<Record>) {
     const TICKS_PER_S: f64 = 46_186_158_000.0;
     const LINEAR: i32 = 4;
     let list = |name, values| record(name, vec![values], vec![]);
@@ -436,7 +436,8 @@ fn curve(id: i64, component: &'static str, property: &'static str, keys: &[(f64,
         list("KeyAttrDataFloat", Value::Reals(vec![0.0; 4])),
         list("KeyAttrRefCount", Value::Ints(vec![keys.len() as i32])),
     ];
-    let of_property = object("AnimationCurveNode", id, "T\0\x01AnimCurveNode", "", vec![properties(vec![])]);
+    let at_rest = ["d|X", "d|Y", "d|Z"].into_iter().zip(rest).map(|(name, value)| reals(name, "Number", &[value])).collect();
+    let of_property = object("AnimationCurveNode", id, "T\0\x01AnimCurveNode", "", vec![properties(at_rest)]);
     let objects = vec![of_property, object("AnimationCurve", id + 1, "\0\x01AnimCurve", "", children)];
     (objects, vec![belongs(id, 41), feeds(id, NODE, property), feeds(id + 1, id, component)])
 }
@@ -444,8 +445,8 @@ fn curve(id: i64, component: &'static str, property: &'static str, keys: &[(f64,
 #[test]
 fn animated_nodes_move_from_the_first_moment_of_the_animation() {
     // From the first to the third second the node goes 50 cm along x, and turns by 180 degrees about its x.
-    let (mut more, mut links) = curve(50, "d|X", "Lcl Translation", &[(1.0, 10.0), (3.0, 60.0)]);
-    let (objects, connections) = curve(60, "d|X", "Lcl Rotation", &[(1.0, 0.0), (3.0, 180.0)]);
+    let (mut more, mut links) = curve(50, "d|X", "Lcl Translation", [0.0, 0.0, 5.0], &[(1.0, 10.0), (3.0, 60.0)]);
+    let (objects, connections) = curve(60, "d|X", "Lcl Rotation", [0.0; 3], &[(1.0, 0.0), (3.0, 180.0)]);
     more.extend(objects);
     links.extend(connections);
     let span = |name, ticks: i64| property(name, "KTime", vec![Value::Int(ticks)]);
@@ -475,7 +476,7 @@ fn animated_nodes_move_from_the_first_moment_of_the_animation() {
     }
 
     // A scale that changes is no rigid motion.
-    let (objects, connections) = curve(70, "d|Y", "Lcl Scaling", &[(1.0, 1.0), (3.0, 2.0)]);
+    let (objects, connections) = curve(70, "d|Y", "Lcl Scaling", [2.0; 3], &[(1.0, 1.0), (3.0, 2.0)]);
     let stretched = load(&folder, &scene(vec![], of_node, [more, objects].concat(), [links, connections].concat()));
     assert_eq!(stretched.scene.bodies, []);
     assert!(warnings(&stretched).contains("its scale changes, which no rigid motion does; it stays"), "{}", warnings(&stretched));

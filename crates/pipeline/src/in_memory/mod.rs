@@ -13,7 +13,7 @@ use crate::config::{FileSource, LabelSource, Quality, RenderChoices};
 use crate::error::Error;
 use crate::intake::{self, Look, labelled};
 use crate::look::{named_camera, place};
-use crate::single::write_output;
+use crate::single::write_files;
 use crate::stages::{FrameCx, add_extra, assign_table, describe};
 use enfilade_dataset::ColorKind;
 use enfilade_denoise::{Denoiser, denoise};
@@ -23,7 +23,7 @@ use enfilade_import::scene_name;
 use enfilade_label::join;
 use enfilade_render::{FrameRender, Guide, RenderConfig, RenderScene};
 use enfilade_scene::{
-    Camera, CameraView, Cx, LabelledScene, Labels, PictureFiles, Pose, Scene, SceneError, StartCamera, Warning, WorldMesh,
+    Camera, CameraView, Cx, EncodedScene, LabelledScene, Labels, PictureFiles, Pose, Scene, SceneError, StartCamera, Warning, WorldMesh,
 };
 use enfilade_show::planview::floor_plan_svg;
 use std::path::Path;
@@ -205,20 +205,18 @@ impl LoadedScene {
         Ok(frame)
     }
 
-    /// Writes the scene to `output`; `encode` returns its bytes and what they cannot represent.
+    /// Writes the scene to `output`; `encode` returns its files and what they cannot represent.
     ///
     /// # Errors
     /// When the scene has no parts, or the file cannot be written.
     pub fn save(
         &self,
         output: &Path,
-        encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> (Vec<u8>, Vec<String>),
+        encode: impl FnOnce(&Scene, Option<&Labels>, &PictureFiles) -> EncodedScene,
     ) -> Result<Vec<String>, Error> {
         self.refuse_empty()?;
         let LabelledScene { scene, labels, picture_files } = &*self.contents;
-        let (bytes, lost) = encode(scene, Some(labels), picture_files);
-        write_output(output, &bytes)?;
-        Ok(lost)
+        write_files(output, encode(scene, Some(labels), picture_files).map_err(Error::Stage)?)
     }
 
     /// Refuses a scene without parts as its file would be.

@@ -34,7 +34,7 @@ fn told(source: &FileSource) -> String {
 
 fn imported(folder: &Path, source: &FileSource) -> (Scene, serde_json::Value) {
     let output = folder.join("room.scene");
-    let made = import_file(source, &output, |scene, _, _| (to_bytes(scene), Vec::new()), &Quiet).unwrap();
+    let made = import_file(source, &output, |scene, _, _| Ok(to_bytes(scene).into()), &Quiet).unwrap();
     let report = serde_json::from_slice(&std::fs::read(made.report).unwrap()).unwrap();
     (from_bytes(&std::fs::read(output).unwrap()).unwrap(), report)
 }

@@ -221,7 +221,7 @@ fn generated_homes_are_not_suspected() {
     for seed in 0..3 {
         let output = folder.path().join("home.scene");
         let config = HomeConfig { seed, ..HomeConfig::default() };
-        make_home(&config, &output, |scene, _, _| (to_bytes(scene), Vec::new()), &Quiet).unwrap();
+        make_home(&config, &output, |scene, _, _| Ok(to_bytes(scene).into()), &Quiet).unwrap();
         assert_eq!(of(&FileSource::of(Path::new(&output).to_string_lossy())), [""; 0], "home {seed}");
     }
 }

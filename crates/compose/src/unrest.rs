@@ -1,0 +1,73 @@
+//! How much things move that are left to themselves.
+
+use crate::solid::Solid;
+use crate::world::World;
+use rapier3d_f64::math::Pose3;
+use rapier3d_f64::parry::bounding_volume::{Aabb, BoundingVolume};
+use rapier3d_f64::parry::query;
+use rapier3d_f64::parry::shape::SharedShape;
+
+/// How far things move that are simulated for some time, all at once and with nothing asleep, beside what does not move: of each the way of the
+/// corner that moves most, metres.
+pub fn unrest(fixed: &[Solid], things: &[Vec<Solid>], seconds: f64) -> Vec<f64> {
+    let mut world = World::beside(fixed.iter().filter_map(Solid::shape));
+    for thing in things {
+        let parts = thing.iter().filter_map(|solid| Some((Pose3::IDENTITY, solid.shape()?)));
+        world.add(SharedShape::compound(parts.collect()), Pose3::IDENTITY);
+    }
+    world.run(seconds);
+    let way = |(number, thing): (usize, &Vec<Solid>)| {
+        let after = world.placement(number);
+        let corners = thing.iter().flat_map(|solid| &solid.corners);
+        corners.map(|corner| after.transform_point3(*corner).distance(*corner)).fold(0.0, f64::max)
+    };
+    things.iter().enumerate().map(way).collect()
+}
+
+/// Pairs of things, the first one lower, that are nearer to each other than this, metres; below 0, deeper in each other.
+pub fn overlaps(things: &[Vec<Solid>], within_m: f64) -> Vec<[usize; 2]> {
+    let shaped = |solid: &Solid| solid.shape().map(|shape| (shape.compute_local_aabb().loosened(within_m.max(0.0)), shape));
+    let shapes: Vec<Vec<(Aabb, SharedShape)>> = things.iter().map(|thing| thing.iter().filter_map(shaped).collect()).collect();
+    let around = |of: &Vec<(Aabb, SharedShape)>| of.iter().map(|(bounds, _)| *bounds).reduce(|all, one| all.merged(&one));
+    let bounds: Vec<Option<Aabb>> = shapes.iter().map(around).collect();
+    let meet = |a: &SharedShape, b: &SharedShape| {
+        let contact = query::contact(&Pose3::IDENTITY, &**a, &Pose3::IDENTITY, &**b, within_m.max(0.0));
+        contact.ok().flatten().is_some_and(|contact| contact.dist < within_m)
+    };
+    let pair = |a: usize, b: usize| {
+        let (Some(first), Some(second)) = (bounds[a], bounds[b]) else { return false };
+        let near = |of: usize, other: Aabb| shapes[of].iter().filter(move |(bounds, _)| bounds.intersects(&other));
+        first.intersects(&second) && near(a, second).any(|(one, a)| near(b, first).any(|(other, b)| one.intersects(other) && meet(a, b)))
+    };
+    let of = |a: usize| (a + 1..things.len()).filter(|b| pair(a, *b)).map(|b| [a, b]).collect::<Vec<_>>();
+    enfilade_parallel::flat_map_up_to(things.len(), of)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_math::DVec3;
+
+    fn block(low: DVec3, size: DVec3) -> Solid {
+        let corner = |i: u32| low + size * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        Solid::around(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn pairs_are_told_by_their_distance_and_their_depth() {
+        let at = |x: f64| vec![block(DVec3::X * x, DVec3::splat(0.1))];
+        let things = [at(0.0), at(0.1005), at(0.2)];
+        assert_eq!(overlaps(&things, 0.001), [[0, 1], [1, 2]]);
+        assert_eq!(overlaps(&things, -0.0003), [[1, 2]]);
+        assert!(overlaps(&things, -0.001).is_empty());
+    }
+
+    #[test]
+    fn what_stands_stays_and_what_hangs_falls() {
+        let floor = block(DVec3::new(-2.0, -2.0, -0.1), DVec3::new(4.0, 4.0, 0.1));
+        let stands = block(DVec3::ZERO, DVec3::splat(0.2));
+        let hangs = block(DVec3::new(1.0, 0.0, 0.5), DVec3::splat(0.2));
+        let found = unrest(&[floor], &[vec![stands], vec![hangs]], 0.5);
+        assert!(found[0] < 3e-4 && (found[1] - 0.5).abs() < 0.05, "{found:?}");
+    }
+}
