@@ -10,6 +10,9 @@ use enfilade_scene::{Body, BodyStates, RigidPose, Scene};
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_PI_2;
 
+/// Moments of a node that moves, and its translation and rotation there.
+type Keys = Vec<(f32, DVec3, DQuat)>;
+
 /// Where the nodes of moving things belong.
 pub(super) struct Bodies {
     /// By body: its node, and the map from the world to the node's axes, at rest; none if nothing moves.
@@ -100,11 +103,11 @@ fn rotation(map: &DAffine3) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis)).normalize()
 }
 
-/// Moments of a body, and its node's translation and rotation there.
-fn keys(body: &Body, parent_from_frame: &DAffine3) -> Vec<(f32, DVec3, DQuat)> {
+/// The keys of a body's node.
+fn keys(body: &Body, parent_from_frame: &DAffine3) -> Keys {
     let times = moments(body);
     let turn = rotation(parent_from_frame);
-    let mut keys: Vec<(f32, DVec3, DQuat)> = Vec::with_capacity(times.len());
+    let mut keys = Keys::with_capacity(times.len());
     for (time_s, pose) in times {
         let key = (time_s as f32, parent_from_frame.transform_point3(pose.translation), turn * pose.rotation);
         match keys.last() {
@@ -156,7 +159,7 @@ fn moments(body: &Body) -> Vec<(f64, RigidPose)> {
 }
 
 /// Adds one animation of these nodes.
-fn animate(document: &mut Document, nodes: Vec<(usize, Vec<(f32, DVec3, DQuat)>)>) {
+fn animate(document: &mut Document, nodes: Vec<(usize, Keys)>) {
     let (mut samplers, mut channels): (Vec<Value>, Vec<Value>) = (Vec::new(), Vec::new());
     for (node, keys) in nodes {
         let times: Vec<[f32; 1]> = keys.iter().map(|(time_s, ..)| [*time_s]).collect();
