@@ -173,6 +173,19 @@ mod tests {
     }
 
     #[test]
+    fn a_floor_of_thin_boards_has_a_hull() {
+        let row = |z: f64, inset: f64| {
+            let ends = move |i: i32, j: i32| {
+                [0.0, 1.0].map(|to| [0.0, 1.0].map(|too| DVec3::new(f64::from(i) + to, f64::from(j) * 0.165 + 0.165 * too, z)))
+            };
+            let all = (0..6).flat_map(move |i| (0..25).flat_map(move |j| ends(i, j).into_iter().flatten()));
+            all.map(move |p| p + DVec3::new(if p.x < 0.5 { inset } else { -inset }, if p.y < 0.1 { inset } else { -inset }, 0.0))
+        };
+        let solid = Solid::around(&row(0.0, 0.0016).chain(row(-0.0012, 0.0)).collect::<Vec<_>>()).unwrap();
+        assert!((solid.volume_m3() / (6.0 * 25.0 * 0.165 * 0.0012) - 1.0).abs() < 0.01, "{}", solid.volume_m3());
+    }
+
+    #[test]
     fn a_tilted_sheet_has_a_thickness_and_a_line_is_nothing() {
         let sheet = [DVec3::ZERO, DVec3::new(0.2, 0.0, 0.2), DVec3::new(0.2, 0.3, 0.2), DVec3::new(0.0, 0.3, 0.0)];
         let area = 0.3 * (0.2f64 * 0.2 * 2.0).sqrt();

@@ -19,6 +19,8 @@ const STAYS_S: f64 = 2.0;
 pub(crate) const STEADY_M: f64 = 5e-4;
 /// What moves no farther hovers, and is lowered, metres.
 const LOWERED_M: f64 = 3e-3;
+/// What comes down by less stands, metres: contacts give way by that much.
+const HOVERS_M: f64 = 1e-4;
 /// How often things are lowered: each time, what stands on lowered things follows.
 const ROUNDS: usize = 3;
 /// How deep things may be in each other, metres.
@@ -34,7 +36,7 @@ pub(crate) fn settle(groups: &mut [Group], parts: &mut [Vec<Piece>], notes: &mut
     let mut fallen = BTreeSet::new();
     FALLS_S.iter().for_each(|span| fix(groups, parts, *span, LOWERED_M, &mut fallen));
     for _ in 0..ROUNDS {
-        for (number, way) in ways(groups, parts, LOWERS_S) {
+        for (number, way) in ways(groups, parts, LOWERS_S).into_iter().filter(|(_, way)| way.middle_m.z < -HOVERS_M) {
             shift(groups, parts, number, DVec3::Z * way.middle_m.z);
         }
     }
