@@ -65,9 +65,9 @@ pub(crate) fn of_parts(scene: &Scene, labels: &Labels, groups: &[Group]) -> Vec<
 
 /// Of every mesh, the first one that has the same surface.
 fn same_meshes(scene: &Scene) -> Vec<usize> {
-    let mut first: BTreeMap<(Vec<[u32; 3]>, &[[u32; 3]]), usize> = BTreeMap::new();
+    let mut first: BTreeMap<_, usize> = BTreeMap::new();
     let bits = |p: &Vec3| p.to_array().map(f32::to_bits);
-    let surfaces = scene.meshes.iter().map(|mesh| (mesh.positions.iter().map(bits).collect(), mesh.triangles.as_slice()));
+    let surfaces = scene.meshes.iter().map(|mesh| (mesh.positions.iter().map(bits).collect::<Vec<_>>(), mesh.triangles.as_slice()));
     surfaces.enumerate().map(|(number, surface)| *first.entry(surface).or_insert(number)).collect()
 }
 

@@ -276,7 +276,7 @@ fn mjcf_names_all_that_it_has() {
     let model = simulated(&scene, &labels).unwrap();
     let files = mjcf(&model, "room", "room_files");
     let text = String::from_utf8(files.main.clone()).unwrap();
-    for (name, _) in &files.beside {
+    for name in files.beside.keys() {
         assert!(text.contains(&format!("file=\"{}\"", name.trim_start_matches("room_files/"))), "{name}");
     }
     assert!(text.contains("<freejoint name=\"crate\"/>"));
