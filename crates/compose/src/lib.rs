@@ -37,6 +37,6 @@ pub use group::{Files, Materials, Missing, ObjectGroup, Pose, Turn};
 pub use motion::{MotionGroup, with_motion};
 pub use rest::moved_again;
 pub use solid::{Moments, SHEET_M, Solid, convex_solid, solids};
-pub use unrest::{overlaps, unrest};
+pub use unrest::{Way, overlaps, unrest};
 pub use words::{ClassWord, Extent, Many, Number};
 pub use world::{FRICTION, SOLVER};

@@ -27,15 +27,15 @@ pub fn pieces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
     if is_convex(points, triangles, &corners) {
         return vec![corners];
     }
-    let found: Vec<Vec<DVec3>> = cut(points, triangles).into_iter().map(|part| farthest(&part, DIRECTIONS)).collect();
+    let found: Vec<Vec<DVec3>> = cut(points, triangles, RESOLUTION).into_iter().map(|part| farthest(&part, DIRECTIONS)).collect();
     if found.is_empty() { vec![corners] } else { found }
 }
 
-/// Points of the parts of a mesh that is not convex, whose hulls are its pieces.
-pub fn cut(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<DVec3>> {
+/// Points of the parts of a mesh that is not convex, whose hulls are its pieces; `resolution` is the number of voxels along its longest side.
+pub fn cut(points: &[DVec3], triangles: &[[u32; 3]], resolution: u32) -> Vec<Vec<DVec3>> {
     let (low, high) = bounds(points);
     let parameters = VHACDParameters {
-        resolution: RESOLUTION,
+        resolution,
         concavity: CONCAVITY,
         max_convex_hulls: MOST_PIECES,
         fill_mode: FillMode::FloodFill { detect_cavities: false },

@@ -9,8 +9,13 @@ use rapier3d_f64::parry::transformation::try_convex_hull;
 
 /// Thickness of a solid whose points lie in a plane, metres.
 pub const SHEET_M: f64 = 5e-4;
+/// Length of a voxel, metres, where the whole is small; and the fewest and most voxels along its longest side.
+const VOXEL_M: f64 = 0.005;
+const VOXELS: [u32; 2] = [12, 40];
 /// Most corners of a piece of what is not convex. A sphere loses 3 % of its radius.
 const CORNERS: usize = 64;
+/// Smallest extent, as a share of the greatest, that is scaled to 1 for the hull.
+const FLATTEST: f64 = 1e-5;
 /// Points that are nearer to a plane than this share of their extent lie in it.
 const IN_PLANE: f64 = 1e-6;
 
@@ -52,7 +57,8 @@ impl Solid {
     fn hull(points: &[DVec3]) -> Option<Self> {
         let (low, high) = bounds(points);
         // In units of its own length: the library's tolerances are absolute.
-        let (middle, unit) = ((low + high) / 2.0, (high - low).max_element());
+        // Along every axis, because of flat things it finds no hull otherwise; hulls stay hulls.
+        let (middle, unit) = ((low + high) / 2.0, (high - low).max(DVec3::splat(FLATTEST * (high - low).max_element())));
         let scaled: Vec<_> = points.iter().map(|p| vector((*p - middle) / unit)).collect();
         let (corners, triangles) = try_convex_hull(&scaled).ok()?;
         let solid = Self { corners: corners.into_iter().map(|p| ours(p) * unit + middle).collect(), triangles };
@@ -107,13 +113,18 @@ pub fn convex_solid(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Solid> {
     Solid::around(points).filter(|solid| is_convex(points, triangles, &solid.corners))
 }
 
-/// The convex solids of a mesh that is not convex: V-HACD's pieces, as those of `[[object]]`, with fewer corners.
+/// The convex solids of a mesh that is not convex: V-HACD's pieces, as those of `[[object]]`, with fewer corners, and with
+/// coarser voxels where it is small. Of a mesh in which there are none, its hull.
 pub fn solids(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Solid> {
     let fewer = |solid: Solid| match solid.corners.len() {
         0..=CORNERS => Some(solid),
         _ => Solid::around(&farthest(&solid.corners, CORNERS)),
     };
-    cut(points, triangles).iter().filter_map(|part| Solid::around(part).and_then(fewer)).collect()
+    let (low, high) = bounds(points);
+    let voxels = ((high - low).max_element() / VOXEL_M) as u32;
+    let parts = cut(points, triangles, voxels.clamp(VOXELS[0], VOXELS[1]));
+    let found: Vec<Solid> = parts.iter().filter_map(|part| Solid::around(part).and_then(fewer)).collect();
+    if found.is_empty() { Solid::around(points).and_then(fewer).into_iter().collect() } else { found }
 }
 
 /// The normal of the plane through three points that span much; `None` where all lie on a line.
@@ -159,6 +170,19 @@ mod tests {
         assert!(joined.center.distance(whole.center) < 1e-9);
         let worst = (joined.inertia - whole.inertia).to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
         assert!(worst < 1e-9, "{worst}");
+    }
+
+    #[test]
+    fn a_floor_of_thin_boards_has_a_hull() {
+        let row = |z: f64, inset: f64| {
+            let ends = move |i: i32, j: i32| {
+                [0.0, 1.0].map(|to| [0.0, 1.0].map(|too| DVec3::new(f64::from(i) + to, f64::from(j) * 0.165 + 0.165 * too, z)))
+            };
+            let all = (0..6).flat_map(move |i| (0..25).flat_map(move |j| ends(i, j).into_iter().flatten()));
+            all.map(move |p| p + DVec3::new(if p.x < 0.5 { inset } else { -inset }, if p.y < 0.1 { inset } else { -inset }, 0.0))
+        };
+        let solid = Solid::around(&row(0.0, 0.0016).chain(row(-0.0012, 0.0)).collect::<Vec<_>>()).unwrap();
+        assert!((solid.volume_m3() / (6.0 * 25.0 * 0.165 * 0.0012) - 1.0).abs() < 0.01, "{}", solid.volume_m3());
     }
 
     #[test]

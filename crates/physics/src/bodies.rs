@@ -58,6 +58,8 @@ pub(crate) struct Group {
     pub is_body: bool,
     /// The group with which it shares an instance: what bears a joint.
     pub bearer: Option<usize>,
+    /// How far it is lowered onto what is below it, metres, world.
+    pub shift: DVec3,
 }
 
 /// The groups of a scene, parents first, and notes.
@@ -69,8 +71,15 @@ pub(crate) fn groups(scene: &Scene, labels: &Labels) -> Result<(Vec<Group>, Vec<
     loose()
         .filter_map(|part| Some((label(part)?.instance, part)))
         .for_each(|(instance, part)| instances.entry(instance).or_default().push(part));
-    let fixed =
-        |name: &str, parts: Vec<PartId>| Group { name: name.into(), parts, parent: None, joint: Hold::Fixed, is_body: false, bearer: None };
+    let fixed = |name: &str, parts: Vec<PartId>| Group {
+        name: name.into(),
+        parts,
+        parent: None,
+        joint: Hold::Fixed,
+        is_body: false,
+        bearer: None,
+        shift: DVec3::ZERO,
+    };
     let mut groups = vec![fixed("structure", loose().filter(|part| label(*part).is_none()).collect())];
     let mut numbers = BTreeMap::new();
     for (instance, parts) in instances {
@@ -110,7 +119,15 @@ fn add_bodies(scene: &Scene, groups: &mut Vec<Group>, instance: impl Fn(PartId) 
             groups[bearer].joint = Hold::Fixed;
         }
         numbers.push(Some(groups.len()));
-        groups.push(Group { name: body.name.clone(), parts: body.parts.clone(), parent: on, joint, is_body: true, bearer });
+        groups.push(Group {
+            name: body.name.clone(),
+            parts: body.parts.clone(),
+            parent: on,
+            joint,
+            is_body: true,
+            bearer,
+            shift: DVec3::ZERO,
+        });
     }
     Ok(())
 }

@@ -38,9 +38,9 @@ const GRAVITY: f64 = 9.81;
 /// When something that moves has no volume, or a body moves freely on another.
 pub fn simulated(scene: &Scene, labels: &Labels) -> Result<Model, PhysicsError> {
     let (mut groups, mut notes) = bodies::groups(scene, labels)?;
-    let parts = pieces::of_parts(scene, labels, &groups);
+    let mut parts = pieces::of_parts(scene, labels, &groups);
     refuse_nothing(scene, &mut groups, &parts)?;
-    rest::settle(&mut groups, &parts, &mut notes);
+    rest::settle(&mut groups, &mut parts, &mut notes);
     bodies::in_order(&mut groups);
     let excluded = rest::touching(&groups, &parts);
     let (looks, visuals) = looks::of(scene, &mut notes);
@@ -74,7 +74,7 @@ fn body(group: &bodies::Group, parts: &[Vec<Piece>], visuals: &[Visual]) -> Rigi
     };
     let seen = |part: &u32| {
         let visual = visuals[*part as usize];
-        Visual { place: visual.place - origin, ..visual }
+        Visual { place: visual.place + group.shift - origin, ..visual }
     };
     Rigid {
         name: group.name.clone(),

@@ -1,7 +1,8 @@
 //! Convex pieces of parts, with their masses.
 //!
-//! A part falls into what hangs together. Of that, what is convex is one piece; what is fixed and has few triangles becomes slabs behind them
-//! (`skin`), so that openings of walls keep their edges; everything else is cut by V-HACD (`enfilade_compose::solids`).
+//! A part falls into what hangs together, such as the planks of a floor. Of that, what is convex is one piece; what is fixed and has few triangles
+//! becomes slabs behind them (`skin`), so that openings of walls keep their edges; of what moves, what is small or nearly convex is its
+//! hull; everything else is cut by V-HACD (`enfilade_compose::solids`).
 //!
 //! The mass of a part is its density times the volume that its surface encloses, or, where the surface is open, that of its pieces. Pieces share
 //! it by their volumes.
@@ -9,17 +10,23 @@
 use crate::bodies::{Group, Hold};
 use crate::matter::density;
 use crate::model::Piece;
-use crate::skin::slabs;
+use crate::skin::{ground, slabs};
 use enfilade_compose::{Solid, convex_solid, solids};
 use enfilade_geometry::DisjointSets;
-use enfilade_math::{DAffine3, DVec3};
+use enfilade_math::{DAffine3, DMat3, DVec3, Vec3};
 use enfilade_scene::{Labels, Scene};
 use std::collections::BTreeMap;
 
-/// What hangs together in more pieces than this is cut as a whole.
+/// What moves and hangs together in more pieces than this is cut as a whole.
 const MOST_ISLANDS: usize = 64;
+/// What moves and is smaller than this is its hull, metres.
+const SMALL_M: f64 = 0.02;
+/// What moves and fills this share of its hull is its hull.
+const FILLED: f64 = 0.95;
+/// How far the product of a matrix with its transpose may be from 1 for a rotation: coordinates of meshes have 24 bits.
+const TURNED: f64 = 1e-9;
 /// Fixed parts of at most so many triangles become slabs where they are not convex.
-const MOST_SLABS: usize = 600;
+const MOST_SLABS: usize = 2500;
 
 /// The pieces of every part, world, at rest.
 pub(crate) fn of_parts(scene: &Scene, labels: &Labels, groups: &[Group]) -> Vec<Vec<Piece>> {
@@ -27,10 +34,11 @@ pub(crate) fn of_parts(scene: &Scene, labels: &Labels, groups: &[Group]) -> Vec<
     for group in groups.iter().filter(|group| group.joint == Hold::Fixed) {
         group.parts.iter().for_each(|part| fixed[*part as usize] = true);
     }
-    // Parts with one mesh in one size and direction are cut once.
+    // Parts with one mesh in one size are cut once.
+    let same = same_meshes(scene);
     let key = |part: usize| {
         let part = &scene.parts[part];
-        (part.mesh, part.world_from_mesh.matrix3.to_cols_array().map(f64::to_bits))
+        (same[part.mesh as usize], split(part.world_from_mesh.matrix3).0.to_cols_array().map(f64::to_bits))
     };
     let mut first: BTreeMap<_, usize> = BTreeMap::new();
     (0..scene.parts.len()).for_each(|part| {
@@ -44,9 +52,10 @@ pub(crate) fn of_parts(scene: &Scene, labels: &Labels, groups: &[Group]) -> Vec<
         let own: Vec<f64> = solids.iter().map(Solid::volume_m3).collect();
         let sum: f64 = own.iter().sum();
         let mass = density(scene, labels, part as u32) * volume.map_or(sum, |volume| volume.min(sum));
-        let at = scene.parts[part].world_from_mesh.translation;
+        let placed = scene.parts[part].world_from_mesh;
+        let place = DAffine3 { matrix3: split(placed.matrix3).1, ..placed };
         let piece = |(solid, own): (&Solid, &f64)| {
-            let corners = solid.corners.iter().map(|corner| *corner + at).collect();
+            let corners = solid.corners.iter().map(|corner| place.transform_point3(*corner)).collect();
             Piece { solid: Solid { corners, triangles: solid.triangles.clone() }, mass_kg: mass * own / sum }
         };
         solids.iter().zip(&own).map(piece).collect()
@@ -54,30 +63,55 @@ pub(crate) fn of_parts(scene: &Scene, labels: &Labels, groups: &[Group]) -> Vec<
     (0..scene.parts.len()).map(placed).collect()
 }
 
-/// The solids of a part about its own origin, with the axes of the world, and the volume of a closed surface.
+/// Of every mesh, the first one that has the same surface.
+fn same_meshes(scene: &Scene) -> Vec<usize> {
+    let mut first: BTreeMap<_, usize> = BTreeMap::new();
+    let bits = |p: &Vec3| p.to_array().map(f32::to_bits);
+    let surfaces = scene.meshes.iter().map(|mesh| (mesh.positions.iter().map(bits).collect::<Vec<_>>(), mesh.triangles.as_slice()));
+    surfaces.enumerate().map(|(number, surface)| *first.entry(surface).or_insert(number)).collect()
+}
+
+/// A matrix as what is done before the cut, and the rotation after it: all of a rotation comes after it.
+fn split(matrix: DMat3) -> (DMat3, DMat3) {
+    let off = matrix * matrix.transpose() - DMat3::IDENTITY;
+    let turns = matrix.determinant() > 0.0 && off.to_cols_array().iter().all(|value| value.abs() < TURNED);
+    if turns { (DMat3::IDENTITY, matrix) } else { (matrix, DMat3::IDENTITY) }
+}
+
+/// The solids of a part about its own origin, before its rotation, and the volume of a closed surface.
 fn cut(scene: &Scene, part: usize, fixed: bool) -> (Vec<Solid>, Option<f64>) {
     let part = &scene.parts[part];
     let mesh = &scene.meshes[part.mesh as usize];
-    let turned = DAffine3 { translation: DVec3::ZERO, ..part.world_from_mesh };
-    let points: Vec<DVec3> = mesh.positions.iter().map(|p| turned.transform_point3(p.as_dvec3())).collect();
+    let shaped = split(part.world_from_mesh.matrix3).0;
+    let points: Vec<DVec3> = mesh.positions.iter().map(|p| shaped * p.as_dvec3()).collect();
     let (points, triangles) = welded(&points, &mesh.triangles);
-    let whole = |points: &[DVec3], triangles: &[[u32; 3]]| {
-        let cut = || if fixed && triangles.len() <= MOST_SLABS { slabs(points, triangles) } else { solids(points, triangles) };
-        convex_solid(points, triangles).map_or_else(cut, |solid| vec![solid])
-    };
     let islands = islands(points.len(), &triangles);
-    let solids = if islands.len() > MOST_ISLANDS {
+    let cut = if islands.len() > MOST_ISLANDS && !fixed {
         solids(&points, &triangles)
     } else {
-        islands
-            .iter()
-            .flat_map(|island| {
-                let (points, triangles) = packed(&points, island);
-                whole(&points, &triangles)
-            })
-            .collect()
+        let packed = islands.iter().map(|island| packed(&points, island));
+        packed.flat_map(|(points, triangles)| whole(&points, &triangles, fixed)).collect()
     };
-    (solids, enclosed(&points, &triangles))
+    (cut, enclosed(&points, &triangles))
+}
+
+/// The solids of what hangs together.
+fn whole(points: &[DVec3], triangles: &[[u32; 3]], fixed: bool) -> Vec<Solid> {
+    if let Some(solid) = convex_solid(points, triangles) {
+        let ground = if fixed { ground(points, triangles) } else { None };
+        return vec![ground.unwrap_or(solid)];
+    }
+    if fixed && triangles.len() <= MOST_SLABS {
+        return slabs(points, triangles);
+    }
+    let filled = |solid: &Solid| enclosed(points, triangles).is_some_and(|volume| volume > FILLED * solid.volume_m3());
+    let extent = |solid: &Solid| {
+        let corners = solid.corners.iter();
+        let (low, high) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+        (high - low).max_element()
+    };
+    let hull = Solid::around(points).filter(|solid| !fixed && (extent(solid) < SMALL_M || filled(solid)));
+    hull.map_or_else(|| solids(points, triangles), |solid| vec![solid])
 }
 
 /// Points of one place as one, and the triangles that keep three corners.

@@ -1,17 +1,28 @@
-//! What would not stay where it is: things that are in each other are joined, and what falls, tips or is pushed is fixed.
+//! What would not stay where it is: things that are in each other are joined, what hovers is lowered, and what falls, tips or is
+//! pushed is fixed.
 //!
 //! The simulation of `[[object]]` (`enfilade_compose::unrest`) judges, with the pieces that are written. It runs for a short time first, so that what
 //! hangs in the air is fixed before it falls on something else.
 
 use crate::bodies::{Group, Hold};
 use crate::model::Piece;
-use enfilade_compose::{Solid, overlaps, unrest};
+use enfilade_compose::{Solid, Way, overlaps, unrest};
+use enfilade_math::DVec3;
 use std::collections::BTreeSet;
 
-/// Seconds for which things are left to themselves, one after the other.
-const SPANS_S: [f64; 3] = [0.1, 0.5, 2.0];
+/// Seconds for which things are left to themselves, one after the other, to see what falls.
+const FALLS_S: [f64; 2] = [0.1, 0.5];
+/// Seconds in which what hovers comes down, and those in which everything has to stay.
+const LOWERS_S: f64 = 0.25;
+const STAYS_S: f64 = 2.0;
 /// How far a thing may move, metres.
 pub(crate) const STEADY_M: f64 = 5e-4;
+/// What moves no farther hovers, and is lowered, metres.
+const LOWERED_M: f64 = 3e-3;
+/// What comes down by less stands, metres: contacts give way by that much.
+const HOVERS_M: f64 = 1e-4;
+/// How often things are lowered: each time, what stands on lowered things follows.
+const ROUNDS: usize = 3;
 /// How deep things may be in each other, metres.
 const DEEP_M: f64 = 3e-4;
 /// What is nearer to a joint's body at rest than this does not touch it, metres.
@@ -19,25 +30,58 @@ const NEAR_M: f64 = 5e-4;
 /// Names in a note.
 const TOLD: usize = 8;
 
-/// Joins and fixes what would move.
-pub(crate) fn settle(groups: &mut [Group], parts: &[Vec<Piece>], notes: &mut Vec<String>) {
+/// Joins, lowers and fixes what would move.
+pub(crate) fn settle(groups: &mut [Group], parts: &mut [Vec<Piece>], notes: &mut Vec<String>) {
     join(groups, parts, notes);
     let mut fallen = BTreeSet::new();
-    for span in SPANS_S {
-        loop {
-            let moved = movers(groups, parts, span);
-            if moved.is_empty() {
-                break;
-            }
-            for number in moved {
-                groups[number].joint = Hold::Fixed;
-                fallen.insert(groups[number].name.clone());
-            }
+    FALLS_S.iter().for_each(|span| fix(groups, parts, *span, LOWERED_M, &mut fallen));
+    for _ in 0..ROUNDS {
+        for (number, way) in ways(groups, parts, LOWERS_S).into_iter().filter(|(_, way)| way.middle_m.z < -HOVERS_M) {
+            shift(groups, parts, number, DVec3::Z * way.middle_m.z);
         }
     }
+    fix(groups, parts, STAYS_S, STEADY_M, &mut fallen);
     if !fallen.is_empty() {
         notes.push(format!("{} things are fixed because they would not stay by themselves: {}", fallen.len(), told(&fallen)));
     }
+}
+
+/// Fixes what moves farther than `most_m` within some seconds, until nothing does.
+fn fix(groups: &mut [Group], parts: &[Vec<Piece>], seconds: f64, most_m: f64, fallen: &mut BTreeSet<String>) {
+    loop {
+        let ways = ways(groups, parts, seconds);
+        let moves: Vec<usize> = ways.iter().filter(|(_, way)| way.farthest_m > most_m).map(|(number, _)| *number).collect();
+        if moves.is_empty() {
+            break;
+        }
+        for number in undermost(groups, parts, &moves) {
+            groups[number].joint = Hold::Fixed;
+            fallen.insert(groups[number].name.clone());
+        }
+    }
+}
+
+/// Moves a group and what is joined to it.
+fn shift(groups: &mut [Group], parts: &mut [Vec<Piece>], number: usize, by: DVec3) {
+    for one in (0..groups.len()).filter(|one| root(groups, *one) == number).collect::<Vec<_>>() {
+        groups[one].shift += by;
+        let pieces =
+            groups[one].parts.iter().flat_map(|part| std::mem::take(&mut parts[*part as usize]).into_iter().map(|piece| (*part, piece)));
+        for (part, mut piece) in pieces.collect::<Vec<_>>() {
+            piece.solid.corners.iter_mut().for_each(|corner| *corner += by);
+            parts[part as usize].push(piece);
+        }
+    }
+}
+
+/// Those of some groups that stand on no other of them: what stands on something that falls need not fall itself.
+fn undermost(groups: &[Group], parts: &[Vec<Piece>], some: &[usize]) -> Vec<usize> {
+    let all: Vec<Vec<Solid>> = some.iter().map(|number| solids(&groups[*number], parts)).collect();
+    let bottom = |thing: &Vec<Solid>| thing.iter().flat_map(|solid| &solid.corners).map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+    let bottoms: Vec<f64> = all.iter().map(bottom).collect();
+    let above = |[a, b]: [usize; 2]| if bottoms[a] > bottoms[b] { a } else { b };
+    let borne: BTreeSet<usize> = overlaps(&all, LOWERED_M).into_iter().map(above).collect();
+    (0..some.len()).filter(|number| !borne.contains(number)).map(|number| some[number]).collect()
 }
 
 /// Fixes free things that are in others to these: the lighter one to the heavier, or to the world where the other is fixed.
@@ -75,8 +119,8 @@ fn root(groups: &[Group], mut number: usize) -> usize {
     number
 }
 
-/// The free groups that move within some seconds.
-fn movers(groups: &[Group], parts: &[Vec<Piece>], seconds: f64) -> Vec<usize> {
+/// How the free groups move within some seconds.
+fn ways(groups: &[Group], parts: &[Vec<Piece>], seconds: f64) -> Vec<(usize, Way)> {
     let free: Vec<usize> = (0..groups.len()).filter(|number| groups[*number].joint == Hold::Free).collect();
     let mut things: Vec<Vec<Solid>> = vec![Vec::new(); free.len()];
     let mut fixed = Vec::new();
@@ -87,7 +131,7 @@ fn movers(groups: &[Group], parts: &[Vec<Piece>], seconds: f64) -> Vec<usize> {
         }
     }
     let ways = unrest(&fixed, &things, seconds);
-    free.into_iter().zip(ways).filter(|(_, way)| *way > STEADY_M).map(|(number, _)| number).collect()
+    free.into_iter().zip(ways).collect()
 }
 
 /// Pairs of bodies of which one has a hinge or a slide, and which bear each other or touch at rest.

@@ -142,6 +142,60 @@ fn an_opening_in_a_wall_stays_open() {
     assert!(!inside(DVec3::new(1.501, 0.1, 1.5)) && !inside(DVec3::new(2.0, 0.1, 1.5)) && !inside(DVec3::new(2.499, 0.1, 1.999)));
 }
 
+/// Boards as floors of homes have them: a level field inside four bevels of 1.2 mm, open below, side by side.
+fn boards(columns: u32, rows: u32) -> Mesh {
+    let (size, bevel, mut mesh) = (Vec3::new(1.0, 0.2, 0.0), 0.0016f32, Mesh::default());
+    for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+        let base = mesh.positions.len() as u32;
+        for (inset, z) in [(0.0, -0.0012), (bevel, 0.0)] {
+            for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+                let inner = |side: u32| if side == 0 { inset } else { -inset };
+                let corner = Vec3::new((column + x) as f32 * size.x + inner(x), (row + y) as f32 * size.y + inner(y), z);
+                mesh.positions.push(corner);
+            }
+        }
+        let sides = (0..4).map(|k| [k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k]);
+        for [a, b, c, d] in sides.chain([[4, 5, 6, 7]]).map(|quad| quad.map(|corner| base + corner)) {
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+#[test]
+fn boards_bear_what_hovers_above_them_which_is_lowered() {
+    let mut turned = boards(6, 3);
+    turned.append(&{
+        let mut more = boards(3, 4);
+        more.positions.iter_mut().for_each(|p| p.y += 0.6);
+        more
+    });
+    // A rectangle, and one that goes around a corner, each as one mesh.
+    for floor in [boards(6, 25), turned] {
+        let mut room = Room::default()
+            .with("floor", "oak planks", Vec3::ONE, DVec3::ZERO, 2, -1)
+            .with("screed", "screed", Vec3::new(6.0, 5.0, 0.1), DVec3::new(0.0, 0.0, -0.12), 2, -1)
+            .with("table", "oak", Vec3::splat(0.4), DVec3::new(0.9, 0.1, 0.0005), 7, 1)
+            .with("bowl", "oak", Vec3::splat(0.1), DVec3::new(1.0, 0.2, 0.402), 40, 2)
+            .with("shelf", "oak", Vec3::new(0.5, 0.2, 0.02), DVec3::new(2.0, 0.1, 1.0), 15, 3)
+            .with("vase", "oak", Vec3::splat(0.1), DVec3::new(2.1, 0.15, 1.021), 40, 4);
+        room.scene.meshes[0] = floor.into();
+        let model = simulated(&room.scene, &room.labels).unwrap();
+        let body = |name: &str| model.bodies.iter().find(|body| body.name == name).unwrap();
+        // The shelf hangs in the air and is fixed; the vase stands on it and is not.
+        assert_eq!(["table", "bowl", "shelf", "vase"].map(|name| body(name).joint.kind), {
+            [JointKind::Free, JointKind::Free, JointKind::Fixed, JointKind::Free]
+        });
+        for (name, bottom) in [("table", 0.0), ("bowl", 0.4), ("vase", 1.02)] {
+            let corners = body(name).pieces.iter().flat_map(|piece| &piece.solid.corners);
+            let found = corners.map(|corner| corner.z + body(name).origin.z).fold(f64::INFINITY, f64::min);
+            assert!((found - bottom).abs() < 2e-4, "{name}: {found}");
+            let seen = body(name).origin.z + body(name).visuals[0].place.z;
+            assert!((seen - found).abs() < 1e-6, "{name}: seen at {seen}, in pieces at {found}");
+        }
+    }
+}
+
 #[test]
 fn what_moves_without_a_volume_is_refused() {
     let mut room = Room::default().with("cord", "steel", Vec3::new(1.0, 0.0, 0.0), DVec3::ZERO, 40, 1);
