@@ -4,13 +4,14 @@
 //! - Instances of the classes in [`BUILT_IN`] are fixed; other instances are free.
 //! - Everything else is the structure, which is fixed.
 
-use crate::GRAVITY;
 use crate::model::{Joint, JointKind, PhysicsError};
 use enfilade_compose::Moments;
 use enfilade_math::DVec3;
 use enfilade_scene::{Body, BodyStates, Labels, NYU40, PartId, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Gravity, m/s².
+const GRAVITY: f64 = 9.81;
 /// Classes of what is fixed to the building.
 const BUILT_IN: [&str; 17] = [
     "wall",

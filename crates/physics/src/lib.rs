@@ -19,17 +19,14 @@ mod tests;
 mod urdf;
 mod usd;
 
-pub use looks::{Look, Looks, Surface};
+pub use looks::{Look, Looks, Surface, Visual};
 pub use mjcf::mjcf;
-pub use model::{Joint, JointKind, Model, PhysicsError, Piece, Rigid, Visual};
+pub use model::{Joint, JointKind, Model, PhysicsError, Piece, Rigid};
 pub use urdf::urdf;
 pub use usd::usd;
 
 use enfilade_compose::Moments;
 use enfilade_scene::{Labels, Scene};
-
-/// Gravity, m/s².
-const GRAVITY: f64 = 9.81;
 
 /// A scene as bodies for simulators. Without labels, and where they do not tell things apart, everything is fixed but what
 /// [`Scene::bodies`] have.

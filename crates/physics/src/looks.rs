@@ -4,7 +4,6 @@
 //! colour of its body and its picture; roughness, bumps, glass and light of its own are left out, and glass is a tenth opaque.
 
 use crate::files::numbers;
-use crate::model::Visual;
 use enfilade_math::{DAffine3, DVec3, Vec2, srgb_from_linear};
 use enfilade_scene::{Bsdf, ColorParam, Image, Material, Pixels, PngEffort, Scene, smallest_png};
 use std::collections::BTreeMap;
@@ -37,6 +36,17 @@ pub struct Surface {
     pub coordinates: Vec<[f64; 2]>,
     /// Indices of points, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// A part of the scene as it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visual {
+    /// Index into the model's meshes.
+    pub mesh: usize,
+    /// Index into the model's materials.
+    pub material: usize,
+    /// Where the mesh's origin is, relative to the body's.
+    pub place: DVec3,
 }
 
 /// A material.

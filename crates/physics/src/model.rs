@@ -1,6 +1,6 @@
 //! Bodies in memory, as every format for simulators has them.
 
-use crate::looks::Looks;
+use crate::looks::{Looks, Visual};
 use enfilade_compose::{Moments, Solid};
 use enfilade_math::DVec3;
 
@@ -67,17 +67,6 @@ pub struct Piece {
     pub solid: Solid,
     /// Kilograms.
     pub mass_kg: f64,
-}
-
-/// A part of the scene as it is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Visual {
-    /// Index into the model's meshes.
-    pub mesh: usize,
-    /// Index into the model's materials.
-    pub material: usize,
-    /// Where the mesh's origin is, relative to the body's.
-    pub place: DVec3,
 }
 
 /// Why a scene cannot be written for simulators.

@@ -362,7 +362,7 @@ class Scene:
         light: int | None = None,
         moment: Literal["day", "evening", "night"] | None = None,
         clutter: float = 1.0,
-        states: Literal["made", "closed", "open", "random"] | None = None,
+        states: Literal[{ kind = "All" }, { kind = "Each" }] | None = None,
         assets: Names | None = None,
         assets_share: float = 1.0,
         allow_broken_assets: bool = False,
@@ -392,6 +392,18 @@ class Scene:
         self,
         *,
         # options: MotionGroup
+        of: Names | None = None,
+        joint: Names | None = None,
+        open: Sequence[float] | None = None,
+        name: str | None = None,
+        on: str | None = None,
+        times_s: Sequence[float] | None = None,
+        angles_deg: Sequence[float] | None = None,
+        distances_m: Sequence[float] | None = None,
+        moved_m: Sequence[Sequence[float]] | None = None,
+        turned_deg: Sequence[Sequence[float]] | None = None,
+        axis: Sequence[float] | None = None,
+        point_m: Sequence[float] | None = None,
         # end of options
     ) -> Scene: ...
     def at(self, time_s: float) -> Scene: ...
@@ -555,7 +567,7 @@ def home(
     light: int | None = None,
     moment: Literal["day", "evening", "night"] | None = None,
     clutter: float = 1.0,
-    states: Literal["made", "closed", "open", "random"] | None = None,
+    states: Literal[{ kind = "All" }, { kind = "Each" }] | None = None,
     assets: Names | None = None,
     assets_share: float = 1.0,
     allow_broken_assets: bool = False,

@@ -3,7 +3,7 @@
 //! ufbx samples the local placement of every animated node, with all pivots and layers, sixty times a second where it does not change
 //! evenly, and keeps the states that matter. Nodes whose scale changes, or that take only a part of their parent's, stay at the first moment.
 
-use super::reader::affine;
+use super::matrix::affine;
 use crate::assembly::TimedPoses;
 use enfilade_math::{DAffine3, DQuat, DVec3};
 use enfilade_scene::RigidPose;

@@ -1,6 +1,7 @@
 //! Lights and cameras of FBX nodes. [`super`] documents the meaning of a light's strength.
 
-use super::reader::{affine, of_blender};
+use super::matrix::affine;
+use super::reader::of_blender;
 use crate::assembly::Assembly;
 use crate::blender::spot_inner_rad;
 use enfilade_geometry::Mesh;

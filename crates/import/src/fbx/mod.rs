@@ -36,6 +36,7 @@
 mod animation;
 mod light;
 mod material;
+mod matrix;
 mod mesh;
 mod node;
 mod reader;

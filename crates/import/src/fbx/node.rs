@@ -3,8 +3,8 @@
 use super::animation::Animations;
 use super::light::{add_camera, add_light};
 use super::material::{self, Materials};
+use super::matrix::affine;
 use super::mesh;
-use super::reader::affine;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;

@@ -3,10 +3,9 @@
 use super::animation::Animations;
 use crate::ImportError;
 use crate::assembly::Assembly;
-use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_math::{DMat3, DVec3};
 use ufbx::{
-    AllocatorOpts, BakeOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, Matrix,
-    SceneRoot,
+    AllocatorOpts, BakeOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, SceneRoot,
 };
 
 /// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
@@ -97,16 +96,6 @@ fn direction(axis: CoordinateAxis) -> Option<DVec3> {
         CoordinateAxis::NegativeZ => DVec3::NEG_Z,
         CoordinateAxis::Unknown => return None,
     })
-}
-
-/// A matrix of the library as ours.
-pub(super) fn affine(m: &Matrix) -> DAffine3 {
-    DAffine3::from_cols(
-        DVec3::new(m.m00, m.m10, m.m20),
-        DVec3::new(m.m01, m.m11, m.m21),
-        DVec3::new(m.m02, m.m12, m.m22),
-        DVec3::new(m.m03, m.m13, m.m23),
-    )
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! Common parts of URDF and SDF: child elements, names and placements.
 
+use crate::ImportError;
+use crate::assembly::Assembly;
+use crate::collections::vectors::numbers;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use roxmltree::Node;
 
@@ -22,4 +25,20 @@ pub(super) fn name_of<'d>(node: Node<'d, '_>) -> &'d str {
 pub(super) fn pose(translation: DVec3, angles_rad: DVec3) -> DAffine3 {
     let turn = DMat3::from_rotation_z(angles_rad.z) * DMat3::from_rotation_y(angles_rad.y) * DMat3::from_rotation_x(angles_rad.x);
     DAffine3::from_mat3_translation(turn, translation)
+}
+
+/// The placement in the element `origin` within another.
+pub(super) fn origin(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
+    let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
+    let of = |name: &str| vector::<3>(origin, name, a).map(|v| v.map_or(DVec3::ZERO, DVec3::from_array));
+    Ok(pose(of("xyz")?, of("rpy")?))
+}
+
+/// The numbers of an attribute; `None` where there is none.
+pub(super) fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) -> Result<Option<[f64; N]>, ImportError> {
+    let Some(text) = node.attribute(attribute) else { return Ok(None) };
+    let found: Option<[f64; N]> = numbers(text).and_then(|v| v.try_into().ok());
+    let at = node.document().text_pos_at(node.range().start);
+    let problem = || format!("found {text:?} as {attribute} of <{}>, expected {N} numbers", node.tag_name().name());
+    found.map(Some).ok_or_else(|| a.malformed(format!("line {}", at.row), problem()))
 }

@@ -1,13 +1,13 @@
 //! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that place them.
 
-use super::elements::{child, children, name_of, pose};
+use super::elements::{child, children, name_of, origin, vector};
 use super::shapes::{Look, Shape, Shapes};
 use super::states::{self, States, Tree};
 use super::urdf_joints::Joints;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::collections::vectors::numbers;
-use enfilade_math::{DAffine3, DVec3};
+use enfilade_math::DVec3;
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -85,20 +85,4 @@ fn look(material: Node) -> Look {
     });
     let texture = child(material, "texture").and_then(|t| t.attribute("filename")).filter(|t| !t.trim().is_empty());
     Look { name: name_of(material).to_string(), rgba, texture: texture.map(str::to_string), emission: None }
-}
-
-/// The placement in the element `origin` within another.
-pub(super) fn origin(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
-    let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
-    let of = |name: &str| vector::<3>(origin, name, a).map(|v| v.map_or(DVec3::ZERO, DVec3::from_array));
-    Ok(pose(of("xyz")?, of("rpy")?))
-}
-
-/// The numbers of an attribute; `None` where there is none.
-pub(super) fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) -> Result<Option<[f64; N]>, ImportError> {
-    let Some(text) = node.attribute(attribute) else { return Ok(None) };
-    let found: Option<[f64; N]> = numbers(text).and_then(|v| v.try_into().ok());
-    let at = node.document().text_pos_at(node.range().start);
-    let problem = || format!("found {text:?} as {attribute} of <{}>, expected {N} numbers", node.tag_name().name());
-    found.map(Some).ok_or_else(|| a.malformed(format!("line {}", at.row), problem()))
 }

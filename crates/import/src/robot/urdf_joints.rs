@@ -1,8 +1,7 @@
 //! Joints of URDF: where they place the links, and how these move.
 
-use super::elements::{child, children, name_of};
+use super::elements::{child, children, name_of, origin, vector};
 use super::joints::{Joint, Kind, Link, Mimic};
-use super::urdf::{origin, vector};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DVec3};

@@ -14,6 +14,7 @@
 mod forms;
 mod geoms;
 mod meshes;
+mod omitted;
 mod pictures;
 mod settings;
 mod shade;

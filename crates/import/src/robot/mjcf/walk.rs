@@ -1,7 +1,7 @@
 //! The tree of bodies, with what is in them.
 
-use super::geoms::Omitted;
 use super::meshes::Meshes;
+use super::omitted::Omitted;
 use super::pictures::Layout;
 use super::settings::Settings;
 use super::shade::Shades;
