@@ -68,7 +68,7 @@ class Pictures(unittest.TestCase):
         folder = datasets.folder() / "moving"
         folder.mkdir()
         for name in ("room.scene", "room.glb"):
-            self.assertEqual(scene.save(folder / name), [])
+            self.assertEqual([loss for loss in scene.save(folder / name) if "sun" not in loss], [])
             again = Scene.read(folder / name, progress=False)
             np.testing.assert_allclose(again.at(0.5).parts["table"].box, [[-0.25, -1, 0], [0.75, 1, 0.5]], atol=1e-5)
         for wrong, told in (

@@ -123,7 +123,7 @@ class Rendered(unittest.TestCase):
         again = enfilade.Scene.read(path)
         self.assertEqual((again.parts.names, again.materials, again.summary), (scene.parts.names, scene.materials, scene.summary))
         np.testing.assert_array_equal(again.labels, scene.labels)
-        with self.assertRaisesRegex(ValueError, "end it with .scene"):
+        with self.assertRaisesRegex(ValueError, "end it with one of .scene"):
             scene.save(datasets.folder() / "toilet.txt")
 
 

@@ -131,7 +131,7 @@ class Verbs(unittest.TestCase):
         self.assertEqual(Path(done["scene"]), folder / "slab.scene")
         self.assertTrue(Path(done["scene"]).is_file() and Path(done["report"]).is_file())
         self.assertIn("gone.mtl", str(done["warnings"]))
-        with self.assertRaisesRegex(ValueError, "slab.txt.*end it with .scene"):
+        with self.assertRaisesRegex(ValueError, "slab.txt.*end it with one of .scene"):
             enfilade.import_scene(folder / "slab.obj", folder / "slab.txt")
         with self.assertRaisesRegex(ValueError, "expected one of y, z, x"):
             enfilade.import_scene(folder / "slab.obj", up_axis="w")
