@@ -95,13 +95,10 @@ fn keyword(option: &Declared, sources: &Sources) -> Result<String, String> {
 }
 
 fn python_type(option: &Declared, sources: &Sources) -> Result<String, String> {
-    if let Some(values) = sources.values(&option.of) {
-        return Ok(format!("Literal[{}]", values.join(", ")));
-    }
     // In Python one word is for all that can be opened.
-    if last_name(&option.of).as_deref() == Some("States")
-        && let Some(values) = sources.values(&syn::parse_quote!(StateWord))
-    {
+    let word = syn::parse_quote!(StateWord);
+    let of = if last_name(argument(&option.of).unwrap_or(&option.of)).as_deref() == Some("States") { &word } else { &option.of };
+    if let Some(values) = sources.values(of) {
         return Ok(format!("Literal[{}]", values.join(", ")));
     }
     if let Type::Array(array) = &option.of {
