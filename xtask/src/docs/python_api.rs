@@ -7,10 +7,10 @@ use crate::house::House;
 use std::collections::HashMap;
 use syn::{Attribute, ImplItem, Item, LitStr, Type};
 
-/// A module, its stub, and the file with its part in Python.
-const MODULES: [(&str, &str, &str); 2] = [
-    ("enfilade", "crates/python/enfilade/__init__.pyi", "crates/python/enfilade/_frames.py"),
-    ("enfilade.farm", "crates/python/enfilade/farm.pyi", "crates/python/enfilade/farm.py"),
+/// A module, its stub, and the files with its part in Python.
+const MODULES: [(&str, &str, &[&str]); 2] = [
+    ("enfilade", "crates/python/enfilade/__init__.pyi", &["crates/python/enfilade/_frames.py", "crates/python/enfilade/_recorder.py"]),
+    ("enfilade.farm", "crates/python/enfilade/farm.pyi", &["crates/python/enfilade/farm.py"]),
 ];
 
 /// Folder of the part in Rust.
@@ -38,7 +38,7 @@ pub fn page(house: &House) -> Result<String, String> {
     let sources = Sources::read(house)?;
     let mut page = String::new();
     for (module, stub, source) in MODULES {
-        let (stub, source) = (house.read(stub)?, house.read(source)?);
+        let (stub, source) = (house.read(stub)?, read_all(house, source)?);
         let short = module.strip_prefix("enfilade.").map_or(String::new(), |name| format!("{name}."));
         let (explained, plain): (Vec<Declared>, Vec<Declared>) = declarations(&stub).into_iter().partition(Declared::has_functions);
         page += &format!("## {module}\n\n");
@@ -162,6 +162,11 @@ fn python_name(attributes: &[Attribute], own: &syn::Ident) -> String {
     name
 }
 
+/// Files, one after the other.
+fn read_all(house: &House, files: &[&str]) -> Result<String, String> {
+    files.iter().map(|file| house.read(file)).collect()
+}
+
 /// The doc string of a class or function in Python's source.
 fn written_in_python(source: &str, name: &str) -> Option<Vec<String>> {
     let begins = |line: &&str| {
@@ -214,7 +219,7 @@ mod tests {
         let house = House::find().unwrap();
         let docs = written_in_rust(&house).unwrap();
         for (module, stub, source) in MODULES {
-            let (stub, source) = (house.read(stub).unwrap(), house.read(source).unwrap());
+            let (stub, source) = (house.read(stub).unwrap(), read_all(&house, source).unwrap());
             let short = module.strip_prefix("enfilade").unwrap().trim_start_matches('.');
             let key = |name: &str| if short.is_empty() { name.to_string() } else { format!("{short}.{name}") };
             for Declared { name, stub } in declarations(&stub).iter().filter(|declared| declared.has_functions()) {
