@@ -2,7 +2,7 @@
 
 use crate::surfaces::fits;
 use enfilade_options::closest;
-use enfilade_scene::{Body, BodyMotion, BodyStates, Scene};
+use enfilade_scene::{Body, BodyMotion, Scene};
 use std::collections::BTreeSet;
 
 /// How far what is named is open at moments.
@@ -48,12 +48,9 @@ pub(crate) fn open(scene: &mut Scene, opening: &Opening, opened: &mut BTreeSet<S
 /// The motion of a joint that is open by these shares.
 fn motion(body: &Body, [closed, open]: [f64; 2], opening: &Opening) -> BodyMotion {
     let values = opening.shares.iter().map(|share| closed + share * (open - closed)).collect();
-    let states = match &body.motion.states {
-        BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point: *point, axis: *axis, angles_rad: values },
-        BodyStates::Slide { axis, .. } => BodyStates::Slide { axis: *axis, distances_m: values },
-        free @ BodyStates::Free { .. } => return BodyMotion { times_s: vec![0.0], states: free.clone() },
-    };
-    BodyMotion { times_s: opening.times_s.to_vec(), states }
+    let states = body.motion.states.with_values(values);
+    // Free bodies have no limits.
+    states.map_or_else(|| body.motion.clone(), |states| BodyMotion { times_s: opening.times_s.to_vec(), states })
 }
 
 /// What is said of a name of no joint.
@@ -76,7 +73,7 @@ mod tests {
     use crate::{Many, MotionGroup, with_motion};
     use enfilade_geometry::Mesh;
     use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-    use enfilade_scene::{Material, Part};
+    use enfilade_scene::{BodyStates, Material, Part};
 
     /// A door that is a quarter open of two right angles, a drawer that goes out by half a metre, a lid that cannot move, and a free body.
     fn scene() -> Scene {

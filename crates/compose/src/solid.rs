@@ -91,7 +91,7 @@ impl Solid {
 }
 
 impl Moments {
-    /// Those of several solids that move as one; `None` of none, or without mass.
+    /// Moments of several solids that move as one; `None` of none, or without mass.
     pub fn joined(all: &[Self]) -> Option<Self> {
         let mass_kg: f64 = all.iter().map(|m| m.mass_kg).sum();
         if mass_kg <= 0.0 {

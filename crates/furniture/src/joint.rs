@@ -56,7 +56,7 @@ pub struct Joint {
     pub kind: JointKind,
     /// How it moves.
     pub axis: Axis,
-    /// Its states closed and wide open, radians or metres, relative to the state in which it is built.
+    /// States closed and wide open, radians or metres, relative to the state in which it is built.
     pub limits: [f64; 2],
 }
 

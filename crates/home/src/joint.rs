@@ -11,7 +11,7 @@ pub struct HomeJoint {
     pub body: String,
     /// The thing that moves.
     pub kind: JointKind,
-    /// Its state as the home is made, relative to its rest, radians or metres.
+    /// State as the home is made, relative to its rest, radians or metres.
     pub made: f64,
     /// Closed and open by its own measures, relative to the home's rest: what is around it may leave less.
     pub built: [f64; 2],

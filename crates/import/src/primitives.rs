@@ -62,18 +62,24 @@ fn sphere_of(segments: u32) -> Mesh {
         }
     }
     mesh.normals = mesh.positions.clone();
+    mesh.triangles = bands(rings, segments);
+    mesh
+}
+
+/// Triangles between rows of `segments` + 1 vertices each, from a pole to a pole, where one of two triangles has no area.
+pub(crate) fn bands(count: u32, segments: u32) -> Vec<[u32; 3]> {
     let row = segments + 1;
-    for (j, i) in (0..rings).flat_map(|j| (0..segments).map(move |i| (j, i))) {
-        let (above, below) = (j * row + i, (j + 1) * row + i);
-        // At the poles one of both triangles has no area.
-        if j > 0 {
-            mesh.triangles.push([above, below + 1, above + 1]);
+    let mut triangles = Vec::new();
+    for (band, i) in (0..count).flat_map(|band| (0..segments).map(move |i| (band, i))) {
+        let (above, below) = (band * row + i, (band + 1) * row + i);
+        if band > 0 {
+            triangles.push([above, below + 1, above + 1]);
         }
-        if j + 1 < rings {
-            mesh.triangles.push([above, below, below + 1]);
+        if band + 1 < count {
+            triangles.push([above, below, below + 1]);
         }
     }
-    mesh
+    triangles
 }
 
 /// The open cylinder of radius 1 about the z axis from z = 0 to z = 1, facing outward.

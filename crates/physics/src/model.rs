@@ -63,7 +63,7 @@ pub enum JointKind {
 /// A convex piece of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// Its surface.
+    /// The convex surface.
     pub solid: Solid,
     /// Kilograms.
     pub mass_kg: f64,

@@ -74,7 +74,7 @@ fn shift(groups: &mut [Group], parts: &mut [Vec<Piece>], number: usize, by: DVec
     }
 }
 
-/// Those of some groups that stand on no other of them: what stands on something that falls need not fall itself.
+/// Groups among some that stand on no other of them: what stands on something that falls need not fall itself.
 fn undermost(groups: &[Group], parts: &[Vec<Piece>], some: &[usize]) -> Vec<usize> {
     let all: Vec<Vec<Solid>> = some.iter().map(|number| solids(&groups[*number], parts)).collect();
     let bottom = |thing: &Vec<Solid>| thing.iter().flat_map(|solid| &solid.corners).map(|corner| corner.z).fold(f64::INFINITY, f64::min);

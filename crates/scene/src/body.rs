@@ -90,6 +90,15 @@ impl RigidPose {
 }
 
 impl BodyStates {
+    /// The same joint in other states, radians of a hinge or metres of a slide; `None` of free bodies.
+    pub fn with_values(&self, values: Vec<f64>) -> Option<Self> {
+        match self {
+            Self::Free { .. } => None,
+            Self::Hinge { point, axis, .. } => Some(Self::Hinge { point: *point, axis: *axis, angles_rad: values }),
+            Self::Slide { axis, .. } => Some(Self::Slide { axis: *axis, distances_m: values }),
+        }
+    }
+
     /// The word for the joint.
     pub fn joint(&self) -> &'static str {
         match self {
@@ -111,13 +120,12 @@ impl BodyMotion {
     #[must_use]
     pub fn rested(&self) -> Self {
         let states = match &self.states {
-            BodyStates::Slide { axis, .. } => BodyStates::Slide { axis: *axis, distances_m: vec![0.0] },
-            BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point: *point, axis: *axis, angles_rad: vec![0.0] },
             BodyStates::Free { position, rotation, .. } => {
-                BodyStates::Free { position: *position, rotation: *rotation, poses: vec![RigidPose::IDENTITY] }
+                Some(BodyStates::Free { position: *position, rotation: *rotation, poses: vec![RigidPose::IDENTITY] })
             }
+            joint => joint.with_values(vec![0.0]),
         };
-        Self { times_s: vec![0.0], states }
+        states.map_or_else(Self::rest, |states| Self { times_s: vec![0.0], states })
     }
 
     /// True when it never leaves rest.

@@ -91,7 +91,7 @@ pub struct RoomJoint {
     /// A point on the axis of a hinge, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point_m: Option<[f64; 3]>,
-    /// Its states closed and open as far as it goes, radians or metres from how it is.
+    /// States closed and open as far as it goes, radians or metres from how it is.
     pub limits: [f64; 2],
     /// The share of that range by which it is open.
     pub state: f64,

@@ -67,7 +67,7 @@ impl Bodies {
         self.of(self.of_part[part])
     }
 
-    /// The same for a light.
+    /// The node of the body that a light belongs to, and the map from the world to its axes.
     pub fn of_light(&self, light: usize) -> Option<(usize, &DAffine3)> {
         self.of(self.of_light[light])
     }

@@ -29,11 +29,7 @@ pub struct Reach {
 
 /// The map of the world that takes what has this joint from rest to a state, radians or metres.
 pub fn to_state(states: &BodyStates, state: f64) -> DAffine3 {
-    let states = match states {
-        BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point: *point, axis: *axis, angles_rad: vec![state] },
-        BodyStates::Slide { axis, .. } => BodyStates::Slide { axis: *axis, distances_m: vec![state] },
-        free @ BodyStates::Free { .. } => free.clone(),
-    };
+    let states = states.with_values(vec![state]).unwrap_or_else(|| states.clone());
     BodyMotion { times_s: vec![0.0], states }.world_from_rest(0.0)
 }
 

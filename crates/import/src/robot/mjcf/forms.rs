@@ -96,17 +96,7 @@ fn capsule(half: f32) -> Mesh {
             mesh.positions.push(normal + Vec3::Z * z);
         }
     }
-    let (row, bands) = (SEGMENTS + 1, 2 * RINGS + 1);
-    for (band, i) in (0..bands).flat_map(|band| (0..SEGMENTS).map(move |i| (band, i))) {
-        let (above, below) = (band * row + i, (band + 1) * row + i);
-        // At the poles one of both triangles has no area.
-        if band > 0 {
-            mesh.triangles.push([above, below + 1, above + 1]);
-        }
-        if band + 1 < bands {
-            mesh.triangles.push([above, below, below + 1]);
-        }
-    }
+    mesh.triangles = primitives::bands(2 * RINGS + 1, SEGMENTS);
     mesh
 }
 

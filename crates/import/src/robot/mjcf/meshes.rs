@@ -12,7 +12,6 @@ use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use std::collections::BTreeMap;
 use std::io::{Error, ErrorKind};
-use std::path::Path;
 use std::rc::Rc;
 
 /// Bytes before the arrays of an MSH file: four numbers.
@@ -38,9 +37,7 @@ impl Meshes {
     /// When one is of a class that is not there, or has neither a name nor a file.
     pub(super) fn of(root: &Element, settings: &Settings) -> Result<Self, ImportError> {
         let mut elements = BTreeMap::new();
-        for mesh in root.all("asset").flat_map(|asset| asset.all("mesh")) {
-            let mesh = settings.complete(mesh, None)?;
-            let name = mesh.text("name").map(str::to_string).or_else(|| mesh.text("file").map(stem));
+        for (name, mesh) in settings.assets(root, "mesh")? {
             elements.insert(name.ok_or_else(|| mesh.wrong("a mesh needs a name or a file".into()))?, mesh);
         }
         Ok(Self { elements, known: BTreeMap::new() })
@@ -84,10 +81,6 @@ fn transform(element: &Element) -> Result<DAffine3, ImportError> {
     let position = element.vector("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
     let rotation = element.vector::<4>("refquat")?.and_then(|q| quaternion(&q)).unwrap_or(DQuat::IDENTITY);
     Ok(DAffine3::from_scale(scale) * DAffine3::from_quat(rotation.inverse()) * DAffine3::from_translation(-position))
-}
-
-pub(super) fn stem(path: &str) -> String {
-    Path::new(&path.replace('\\', "/")).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
 fn read(path: &str, a: &mut Assembly) -> Result<Mesh, ImportError> {

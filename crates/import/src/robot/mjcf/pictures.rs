@@ -50,9 +50,7 @@ impl Pictures {
     /// When one is of a class that is not there.
     pub(super) fn of(root: &Element, settings: &Settings) -> Result<Self, ImportError> {
         let mut elements = BTreeMap::new();
-        for texture in root.all("asset").flat_map(|asset| asset.all("texture")) {
-            let texture = settings.complete(texture, None)?;
-            let name = texture.text("name").map(str::to_string).or_else(|| texture.text("file").map(super::meshes::stem));
+        for (name, texture) in settings.assets(root, "texture")? {
             elements.insert(name.unwrap_or_default(), texture);
         }
         Ok(Self { elements, known: BTreeMap::new() })

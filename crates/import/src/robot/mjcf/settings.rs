@@ -5,6 +5,7 @@ use crate::ImportError;
 use crate::robot::joints::quaternion;
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Attributes of which an element may give the first numbers alone; the others are those of its class.
 const PARTIAL: [&str; 1] = ["size"];
@@ -27,6 +28,22 @@ pub(super) struct Settings {
 type Class = BTreeMap<String, Vec<(String, String)>>;
 
 impl Settings {
+    /// The assets of a kind, with what their classes give them, and their names: those of their files where they state none.
+    ///
+    /// # Errors
+    /// When one is of a class that is not there.
+    pub(super) fn assets(&self, root: &Element, tag: &str) -> Result<Vec<(Option<String>, Element)>, ImportError> {
+        let stem = |path: &str| {
+            Path::new(&path.replace('\\', "/")).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+        };
+        let asset = |asset: &Element| {
+            let asset = self.complete(asset, None)?;
+            let name = asset.text("name").map(str::to_string).or_else(|| asset.text("file").map(stem));
+            Ok((name, asset))
+        };
+        root.all("asset").flat_map(|assets| assets.all(tag)).map(asset).collect()
+    }
+
     /// The settings of a model.
     ///
     /// # Errors
