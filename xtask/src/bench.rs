@@ -32,10 +32,11 @@ const BENCHES: [Bench; 8] = [
 ];
 
 /// Measurements that run only when they are named, and what they measure; `main` starts them.
-const ALONE: [(&str, &str); 7] = [
+const ALONE: [(&str, &str); 8] = [
     ("render", "what pictures of rooms and homes cost, rendered and denoised, against Mitsuba 3"),
     ("cycles", "what pictures of homes cost, rendered and denoised, against Blender's Cycles"),
     ("bop", "heaps of models as BOP: lines, time and memory, against BlenderProc's published recipe"),
+    ("mujoco", "depth and segmentation of a run of MuJoCo, against its own renderer"),
     ("homes", "cost and contents of 200 generated homes, beside published numbers"),
     ("products", "what each kind of ground truth costs, in the demo's room, with a picture"),
     ("loader", "layers as arrays by the Python module, against h5py"),

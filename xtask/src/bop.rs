@@ -13,15 +13,23 @@ use std::path::PathBuf;
 /// # Errors
 /// When something cannot be built, installed or made.
 pub fn run(house: &House, words: &[&str]) -> Result<(), String> {
-    let (program, words) = match words {
-        ["--program", path, words @ ..] => (PathBuf::from(path), words),
-        ["--program"] => return Err("--program names no file".into()),
-        words => (built(house)?, words),
-    };
+    let (program, words) = with_program(house, words)?;
     let mut command = house.command(python::with_blenderproc(house)?, &["xtask/python/bench_bop.py"]);
     command.arg("--program").arg(program).arg("--work").arg(house.target()?.join("bop"));
     command.args(["--docs", "docs/benchmarks"]).args(words);
     finish(command).map(|_| ())
+}
+
+/// The binary that `--program PATH` names before the other words, else the release binary, which is built.
+///
+/// # Errors
+/// When it cannot be built.
+pub fn with_program<'a>(house: &House, words: &'a [&'a str]) -> Result<(PathBuf, &'a [&'a str]), String> {
+    match words {
+        ["--program", path, words @ ..] => Ok((PathBuf::from(path), words)),
+        ["--program"] => Err("--program names no file".into()),
+        words => Ok((built(house)?, words)),
+    }
 }
 
 /// The release binary.

@@ -22,6 +22,7 @@ mod fuzz;
 mod homes;
 mod house;
 mod loader;
+mod mujoco;
 mod peers;
 mod pictures;
 mod products;
@@ -56,6 +57,7 @@ usage: cargo xtask check [--no-tests] [STEP...]   format, lints, import directio
        cargo xtask bench render [CASE...]         what pictures of rooms and homes cost, against Mitsuba 3
        cargo xtask bench cycles [CASE...]         what pictures of homes cost, against Blender's Cycles
        cargo xtask bench bop [--program PATH] [SCENE...]   heaps of models as BOP: lines and time, against BlenderProc
+       cargo xtask bench mujoco [--program PATH]   depth and segmentation of a run of MuJoCo, against its own renderer
        cargo xtask bench storage [DATASET...]     size and reading time of the files, against Hypersim's
        cargo xtask bench products                 what each kind of ground truth costs, with a picture
        cargo xtask bench loader [DATASET...]      the Python module's reading of layers, against h5py
@@ -78,6 +80,7 @@ fn main() -> ExitCode {
         ["bench", "render", rest @ ..] => peers::run(&house, "bench_render", rest),
         ["bench", "cycles", rest @ ..] => cycles::run(&house, rest),
         ["bench", "bop", rest @ ..] => bop::run(&house, rest),
+        ["bench", "mujoco", rest @ ..] => mujoco::run(&house, rest),
         ["bench", "homes", rest @ ..] => homes::run(&house, rest),
         ["bench", "loader", rest @ ..] => loader::run(&house, rest),
         ["bench", "products"] => products::run(&house),
@@ -104,7 +107,7 @@ fn main() -> ExitCode {
 fn asks_for_usage(words: &[&str]) -> bool {
     match words {
         [] | ["help"] => true,
-        ["oracle", ..] | ["bench", "render" | "cycles" | "bop", ..] => false,
+        ["oracle", ..] | ["bench", "render" | "cycles" | "bop" | "mujoco", ..] => false,
         words => words.iter().any(|word| matches!(*word, "--help" | "-h")),
     }
 }

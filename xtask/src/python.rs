@@ -114,6 +114,16 @@ pub fn with_blenderproc(house: &House) -> Result<PathBuf, String> {
     in_blender(house, BLENDERPROC_VARIABLE, "venv-blenderproc", IMPORTS, &[&[BLENDER][..], &BLENDERPROC].concat())
 }
 
+/// The Python that [`VARIABLE`] names if it has MuJoCo, else one with it made below the target folder.
+///
+/// # Errors
+/// When there is no Python, or no network to install from.
+pub fn with_mujoco(house: &House) -> Result<PathBuf, String> {
+    const IMPORTS: &str = "import mujoco, h5py, numpy, PIL";
+    let named = std::env::var_os(VARIABLE).map(PathBuf::from).filter(|python| succeeds(house, python, IMPORTS));
+    named.map_or_else(|| made(house, "venv-mujoco", IMPORTS, &["mujoco==4.0.0", "h5py", "numpy", "pillow"]), Ok)
+}
+
 /// The Python that `variable` names, else the one in `folder` below the target folder, made unless `imports` succeeds there.
 fn in_blender(house: &House, variable: &str, folder: &str, imports: &str, packages: &[&str]) -> Result<PathBuf, String> {
     if let Some(python) = named(house, variable, imports)? {
