@@ -99,6 +99,8 @@ pub enum Mode {
     Video(VideoConfig),
     /// Pictures that keep a distance from each other, over all the space within reach.
     Stills(StillsConfig),
+    /// Views as people take them of a room.
+    Photos(PhotosConfig),
     /// Every surface seen a number of times from different angles.
     Coverage(CoverageConfig),
     /// Views of objects from above and around them.
@@ -173,6 +175,27 @@ impl Default for StillsConfig {
     }
 }
 
+/// Views as people take them. The defaults are those of NYUv2's 795 training photographs (Silberman et al. 2012): heights and pitches above
+/// the floor that a plane fits, of the 624 in which enough floor is in view.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PhotosConfig {
+    /// Mean and standard deviation of the camera's height above the floor, metres.
+    pub height_m: [f64; 2],
+    /// Mean and standard deviation of the angle of the view above the horizon, degrees.
+    pub pitch_deg: [f64; 2],
+    /// Two photos are at least this far apart, metres, or their cameras are turned by `min_angle_deg` from each other.
+    pub min_distance_m: f64,
+    /// Photos that are nearer are turned by at least this from each other, degrees.
+    pub min_angle_deg: f64,
+}
+
+impl Default for PhotosConfig {
+    fn default() -> Self {
+        Self { height_m: [1.34, 0.1], pitch_deg: [-13.3, 6.9], min_distance_m: 0.3, min_angle_deg: 25.0 }
+    }
+}
+
 /// Every surface seen a number of times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -232,6 +255,7 @@ impl Mode {
             Self::Walk(_) => "walk",
             Self::Video(_) => "video",
             Self::Stills(_) => "stills",
+            Self::Photos(_) => "photos",
             Self::Coverage(_) => "coverage",
             Self::Objects(_) => "objects",
             Self::Keyframes(_) => "keyframes",
@@ -254,6 +278,7 @@ impl Mode {
                 above_0("min_distance_m", s.min_distance_m)?;
                 require((0.0..=180.0).contains(&s.min_angle_deg), "min_angle_deg", s.min_angle_deg, "an angle from 0 to 180 degrees")
             }
+            Self::Photos(photos) => photos.validate(),
             Self::Coverage(c) => {
                 for (field, n) in [("views", c.views), ("poses", c.poses), ("samples", c.samples)] {
                     require(n >= 1, field, n, "1 or more")?;
@@ -268,6 +293,20 @@ impl Mode {
                 require(!k.files.is_empty(), "files", "[]", "at least one file of poses, as in files = [\"kitchen.csv\"]")
             }
         }
+    }
+}
+
+impl PhotosConfig {
+    fn validate(&self) -> Result<(), ExploreError> {
+        let shown = |[mean, deviation]: [f64; 2]| format!("[{mean}, {deviation}]");
+        let [height, deviation] = self.height_m;
+        let ok = height > 0.0 && height.is_finite() && deviation >= 0.0 && deviation.is_finite();
+        require(ok, "height_m", shown(self.height_m), "a mean above 0 and a standard deviation in metres")?;
+        let [pitch, deviation] = self.pitch_deg;
+        let ok = pitch.abs() <= STEEPEST_ELEVATION_DEG && (0.0..=STEEPEST_ELEVATION_DEG).contains(&deviation);
+        require(ok, "pitch_deg", shown(self.pitch_deg), "a mean from -84 to 84 and a standard deviation in degrees")?;
+        require(self.min_distance_m >= 0.0, "min_distance_m", self.min_distance_m, "a length of 0 or more")?;
+        require((0.0..=180.0).contains(&self.min_angle_deg), "min_angle_deg", self.min_angle_deg, "an angle from 0 to 180 degrees")
     }
 }
 

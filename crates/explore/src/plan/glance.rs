@@ -73,6 +73,14 @@ impl<'a> Glancer<'a> {
         (0.0..f64::from(self.pinhole.width)).contains(&x) && (0.0..f64::from(self.pinhole.height)).contains(&y)
     }
 
+    /// Where in the picture of a pose a point before the camera is, as shares of its width and height from the upper left corner, and its
+    /// planar depth in metres.
+    pub fn placed(&self, pose: &Pose, p_world: DVec3) -> ([f64; 2], f64) {
+        let p_camera = pose.world_from_camera.transpose() * (p_world - pose.position);
+        let (x, y) = self.pinhole.project(p_camera);
+        ([x / f64::from(self.pinhole.width), y / f64::from(self.pinhole.height)], -p_camera.z)
+    }
+
     /// Whether nothing is between a point and a point of a surface.
     pub fn reaches(&self, from: DVec3, p_surface: DVec3) -> bool {
         let Some(direction) = (p_surface - from).try_normalize() else { return true };

@@ -1,5 +1,6 @@
 //! Trajectories: where the pictures of a scene are taken from. One file per mode, all of them under the same rules.
 
+mod composition;
 mod config;
 mod coverage;
 mod first;
@@ -12,6 +13,7 @@ mod measure;
 mod objects;
 mod paper;
 mod patches;
+mod photos;
 mod places;
 mod planner;
 mod report;
@@ -34,7 +36,9 @@ use planner::{Draft, Planner};
 use rules::Rules;
 use targets::Targets;
 
-pub use config::{CoverageConfig, KeyframesConfig, Mode, ObjectsConfig, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig};
+pub use config::{
+    CoverageConfig, KeyframesConfig, Mode, ObjectsConfig, PhotosConfig, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig,
+};
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{
     CoverageReport, Fault, FrameValues, ObjectVisibility, PartCoverage, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts,
@@ -88,10 +92,11 @@ pub fn plan_accepted(
     plan_objects(world, bvh, space, start, name, trajectory_index, config, &[], accepts, cx)
 }
 
-/// Plans a trajectory as [`plan_accepted`] does, with the objects that the mode `objects` looks at; other modes have no use for them.
+/// Plans a trajectory as [`plan_accepted`] does, with the objects that the mode `objects` looks at. The mode `photos` takes their parts for
+/// what is a thing in a picture, and without any objects all parts shorter than 2.4 m; other modes have no use for them.
 ///
-/// The mode's first pose is not the start camera's. Its cameras may be nearer to what they look at than `min_look_distance_m`: as near as
-/// half of the least `radius_m`.
+/// The first pose of the mode `objects` is not the start camera's. Its cameras may be nearer to what they look at than
+/// `min_look_distance_m`: as near as half of the least `radius_m`.
 ///
 /// # Errors
 /// As [`plan`]; also when the mode has no objects, or no camera around them is in free space.
@@ -137,6 +142,7 @@ pub fn plan_objects(
         Mode::Walk(_) => walk::walk(&planner, first, &rng),
         Mode::Video(video) => video::video(&planner, first, video, &rng),
         Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),
+        Mode::Photos(photos) => photos::photos(&planner, first, photos, objects, &rng),
         Mode::Coverage(coverage) => coverage::cover(&planner, first, coverage, &rng),
         Mode::Objects(_) | Mode::Keyframes(_) => Err(ExploreError::Config {
             field: "mode",

@@ -77,7 +77,7 @@ impl Config {
     /// When an override is out of its range.
     pub fn demo(overrides: &Overrides) -> Result<Self, Error> {
         let text = format!(
-            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\n[[scene]]\nname = \"{}\"\nhome = {}\ncameras = [\"{}\"]\n",
+            "name = \"demo\"\nseed = {}\nframes = {}\nrender.size = {:?}\nrender.samples = {}\nplan.mode.kind = \"walk\"\n[[scene]]\nname = \"{}\"\nhome = {}\ncameras = [\"{}\"]\n",
             demo::SEED,
             demo::FRAMES,
             demo::SIZE,

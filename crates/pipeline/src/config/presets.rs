@@ -6,7 +6,7 @@
 use super::document::LevelKeys;
 use super::settings::SceneConfig;
 use enfilade_dataset::LOADER_SIZE;
-use enfilade_explore::Preset;
+use enfilade_explore::{Mode, PhotosConfig, PlanConfig, Preset};
 use enfilade_verify::view_gates::GateAction;
 use std::ops::Range;
 
@@ -42,6 +42,17 @@ pub(super) fn lay_over(preset: Preset, scene: &mut SceneConfig) {
     scene.gate.action = GateAction::Report;
     if preset == Preset::Paper {
         scene.plan.clearance_m = 0.0;
+    }
+}
+
+/// Keys of `[plan]` that only modes other than photos take.
+const OF_OTHER_MODES: [&str; 5] = ["queries", "step_m", "height_range_m", "overlap", "saliency"];
+
+/// Views of homes are photos by default: where no level has a key that photos do not take, and no preset says that they are walks.
+pub(super) fn photograph(plan: &mut PlanConfig, levels: &[&LevelKeys]) {
+    let takes_others = |level: &&LevelKeys| OF_OTHER_MODES.iter().any(|key| level.plan.span(key).is_some());
+    if plan.preset == Preset::Default && !levels.iter().any(takes_others) {
+        plan.mode = Mode::Photos(PhotosConfig::default());
     }
 }
 

@@ -221,6 +221,9 @@ impl Resolver<'_> {
         scene.render.samples = QUALITY.samples();
         presets::lay_over(keys.level.preset.or(document.preset).unwrap_or_default(), &mut scene);
         self.check_preset(keys)?;
+        if matches!(scene.source, Source::Home(_)) {
+            presets::photograph(&mut scene.plan, &[document, &keys.level]);
+        }
 
         // The file over them, the scene's own keys over that, and the command line over all.
         self.lay_over(&mut scene, document, QUALITY)?;

@@ -2,7 +2,7 @@
 
 use super::kept::{Plan, remove_frames_of_other_poses};
 use super::planned::Made;
-use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, targets, variation};
+use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, imported, targets, variation};
 use crate::error::Error;
 use crate::gatekeeper::Gatekeeper;
 use crate::report::StageCx;
@@ -51,6 +51,7 @@ pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {
         Mode::Objects(_) if !job.scene.objects.is_empty() => {
             inputs.push(job.input_from(Stage::Import, &job.dataset.layout().placed_objects(&job.scene.name))?);
         }
+        Mode::Photos(_) => inputs.push(job.input_from(Stage::Import, &job.work_file(imported::LABELS)?)?),
         _ => {}
     }
     Ok(Some(inputs))

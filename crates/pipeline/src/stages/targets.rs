@@ -1,16 +1,24 @@
 //! The objects that plans look at: those that `[[object]]` placed, and those that the mode names.
 
-use super::Job;
+use super::{Job, imported};
 use crate::error::Error;
+use crate::workdir::read_json;
 use enfilade_explore::{Mode, TargetObject};
-use enfilade_scene::{PartId, Scene};
+use enfilade_scene::{Labels, PartId, Scene};
+
+/// NYU40's classes that are no things: walls, floors, doors, windows, blinds, curtains, ceilings.
+const SURROUNDINGS: [i16; 7] = [1, 2, 8, 9, 13, 16, 22];
 
 /// Most names that an error lists.
 const NAMED: usize = 30;
 
-/// The objects to look at; none for other modes.
+/// The objects to look at, or the things of photos; none for other modes.
 pub(super) fn targets(job: &Job, mode: &Mode, scene: &Scene) -> Result<Vec<TargetObject>, Error> {
-    let Mode::Objects(mode) = mode else { return Ok(Vec::new()) };
+    let mode = match mode {
+        Mode::Objects(mode) => mode,
+        Mode::Photos(_) => return Ok(things(read_json(&job.work_file(imported::LABELS)?).flatten().as_ref())),
+        _ => return Ok(Vec::new()),
+    };
     let placed =
         if job.scene.objects.is_empty() { None } else { job.dataset.read_placed_objects(&job.scene.name).map_err(Error::stage)? };
     let mut wanted: Vec<(String, f64)> = Vec::new();
@@ -27,6 +35,14 @@ pub(super) fn targets(job: &Job, mode: &Mode, scene: &Scene) -> Result<Vec<Targe
         if parts.is_empty() { Err(unknown(scene, &name)) } else { Ok(TargetObject { name, parts, visible_share }) }
     };
     wanted.into_iter().map(target).collect()
+}
+
+/// All things by the labels that a scene came with, as one object; none without such labels.
+fn things(labels: Option<&Labels>) -> Vec<TargetObject> {
+    let is_thing = |semantic: i16| semantic >= 1 && !SURROUNDINGS.contains(&semantic);
+    let parts: Vec<PartId> =
+        labels.iter().flat_map(|labels| (0..).zip(&labels.parts)).filter(|(_, label)| is_thing(label.semantic)).map(|(id, _)| id).collect();
+    if parts.is_empty() { Vec::new() } else { vec![TargetObject { name: "things".into(), parts, visible_share: 0.0 }] }
 }
 
 /// The parts with this name, or of the object with this name.

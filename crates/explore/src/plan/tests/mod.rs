@@ -4,6 +4,7 @@ mod gates;
 mod keyframes;
 mod modes;
 mod objects;
+mod photos;
 mod supplement;
 mod walk;
 
@@ -57,12 +58,13 @@ fn with_planner<T>(room: &Room, space: &FreeSpace, config: &PlanConfig, test: im
 }
 
 /// Every mode that finds poses, small.
-fn modes() -> [Mode; 4] {
+fn modes() -> [Mode; 5] {
     let coverage = CoverageConfig { poses: 150, samples: 1000, views: 2, ..CoverageConfig::default() };
     [
         Mode::default(),
         Mode::Video(VideoConfig::default()),
         Mode::Stills(StillsConfig { min_distance_m: 0.5, ..StillsConfig::default() }),
+        Mode::Photos(PhotosConfig { min_distance_m: 0.2, ..PhotosConfig::default() }),
         Mode::Coverage(coverage),
     ]
 }
