@@ -55,6 +55,7 @@ pub fn covisibility(
     config: CovisibilityConfig,
     cx: &dyn Cx,
 ) -> Result<Covisibility, MultiviewError> {
+    filmed.warn_of_deforming(cx);
     let n = filmed.len();
     let counted = Counted::new(cx, "grids", n);
     let grid = |frame: usize| counted.unit(|| read_grid(filmed, frame, config));

@@ -51,6 +51,7 @@ pub fn tracks(
     config: TracksConfig,
     cx: &dyn Cx,
 ) -> Result<Tracks, MultiviewError> {
+    filmed.warn_of_deforming(cx);
     let counted = Counted::new(cx, "frames", frames.len());
     let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
     let seeds: Vec<Vec<Seed>> = enfilade_parallel::try_map_up_to(frames.len(), seeds)?;

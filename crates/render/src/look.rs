@@ -153,9 +153,11 @@ impl<'s> Lookout<'s> {
     }
 
     /// The scene as another moment has it, for flow that leads there. `carried` has by part the map of the world to itself from its place at
-    /// the first moment to that at this one; `None` of parts that stay.
+    /// the first moment to that at this one; `None` of parts that stay. Points of parts that deform stay on their triangle, with the weights
+    /// of its corners.
     pub fn moved(self, carried: Vec<Option<DAffine3>>) -> Moved<'s> {
-        Moved { scene: self.scene, carried }
+        let deforming = self.scene.scene.deforming_parts();
+        Moved { scene: self.scene, carried, deforming }
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

@@ -119,12 +119,13 @@ impl<'a> Listed<'a> {
         self.moving.as_ref().map_or_else(BodyPlaces::default, |(_, places)| *places)
     }
 
-    /// The surface points of a grid of pixels, world, metres, with their parts.
+    /// The surface points of a grid of pixels, world, metres, with their parts; those of parts that deform do not count.
     fn points(&self, step_px: u32) -> Vec<(i64, DVec3)> {
         let [width, height] = self.view.camera().size();
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
-            Some((self.part(pixel), self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
+            let part = Some(self.part(pixel)).filter(|part| !self.places().deforms(*part))?;
+            Some((part, self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
         };
         CovisibleFrame::grid([width, height], step_px).filter_map(point).collect()
     }
@@ -144,7 +145,7 @@ impl<'a> Listed<'a> {
     /// Numbers of the points that this frame certainly sees, and certainly does not see.
     fn certain(&self, (points, places): (&[(i64, DVec3)], BodyPlaces<'_>)) -> Certain {
         let mut certain = Certain::default();
-        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p))) {
+        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p)?)) {
             *(if seen { &mut certain.seen } else { &mut certain.unseen }) += 1;
         }
         certain
