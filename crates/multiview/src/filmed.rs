@@ -1,10 +1,11 @@
 //! The finished frames of a scene, of all its cameras side by side.
 
 use crate::MultiviewError;
-use enfilade_dataset::{BodyPlaces, BodyRow, Dataset, DatasetError, FilmedBodies};
+use enfilade_dataset::{BodyPlaces, Dataset, DatasetError, FilmedBodies};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
-use enfilade_scene::{Camera, CameraView, Cx, DEFORM, Pose, Warning};
+use enfilade_render::{Lookout, TrianglePoint};
+use enfilade_scene::{Camera, CameraView, Cx, DEFORM, Pose};
 use std::ops::Range;
 
 /// The cameras of a scene, and its finished frames.
@@ -16,11 +17,6 @@ pub struct Filmed<'d> {
     pub(crate) frames: Vec<(usize, usize)>,
 }
 
-/// The name of a body that deforms.
-fn named(body: &BodyRow) -> Option<String> {
-    (body.joint == DEFORM).then(|| body.name.clone())
-}
-
 /// A point on a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfacePoint {
@@ -28,6 +24,8 @@ pub(crate) struct SurfacePoint {
     pub p_world: DVec3,
     /// The part that it is on, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
     pub part: i16,
+    /// Where it is on a part that deforms.
+    pub on: Option<TrianglePoint>,
 }
 
 /// A camera and its whole trajectory.
@@ -155,12 +153,13 @@ impl<'d> Filmed<'d> {
         }
     }
 
-    /// The surface points that a frame shows in some of its pixels (column, row); pixels that show nothing, or a part that deforms, are left
-    /// out.
+    /// The surface points that a frame shows in some of its pixels (column, row); pixels that show nothing are left out, and without a look at
+    /// the frame's moment those that show parts that deform.
     pub(crate) fn points(
         &self,
         frame: usize,
         (distances_m, parts): (&[f32], &[i16]),
+        lookout: Option<&Lookout<'_>>,
         pixels: impl Iterator<Item = [u32; 2]>,
     ) -> Vec<SurfacePoint> {
         let (view, places) = (self.view(frame), self.places(frame));
@@ -168,25 +167,22 @@ impl<'d> Filmed<'d> {
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
             let (distance, part) = (f64::from(distances_m[pixel]), parts.get(pixel).copied().unwrap_or(-1));
-            let is_followed = distance.is_finite() && !places.deforms(i64::from(part));
-            let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| is_followed)?;
-            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part })
+            let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| distance.is_finite())?;
+            let on = if places.deforms(i64::from(part)) { Some(lookout?.touch(&view, [column, row])?) } else { None };
+            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part, on })
         };
         pixels.filter_map(point).collect()
     }
 
-    /// The place in the frame `to` of a point that the frame `from` shows: of [`Self::points`], none of which is on a part that deforms.
-    pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint) -> DVec3 {
-        self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world).unwrap_or(point.p_world)
+    /// The place in the frame `to`, at whose moment `lookout` looks, of a point that the frame `from` shows.
+    pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint, lookout: Option<&Lookout<'_>>) -> DVec3 {
+        let deformed = lookout.zip(point.on.as_ref()).map(|(lookout, on)| lookout.place(on));
+        let carried = || self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world);
+        deformed.or_else(carried).unwrap_or(point.p_world)
     }
 
-    /// Says that points of parts that deform are left out, if there are such.
-    pub(crate) fn warn_of_deforming(&self, cx: &dyn Cx) {
-        let names = |track: &Track| track.bodies.as_ref().map_or(Vec::new(), |bodies| bodies.bodies.iter().map(named).collect::<Vec<_>>());
-        let named: Vec<String> = self.tracks.first().map_or(Vec::new(), names).into_iter().flatten().collect();
-        if let Some(first) = named.first() {
-            let message = format!("{} things deform, the first is {first:?}; their points are not followed and were left out", named.len());
-            cx.warn(Warning { place: format!("scene {:?}", self.scene), message });
-        }
+    /// True if a part of the scene deforms.
+    pub(crate) fn deforms(&self) -> bool {
+        self.tracks.iter().flat_map(|track| &track.bodies).any(|bodies| bodies.bodies.iter().any(|body| body.joint == DEFORM))
     }
 }

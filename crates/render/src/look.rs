@@ -3,7 +3,7 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{FlowTo, Moved, add_flow, flow};
+use crate::extra::{FlowTo, Moved, TrianglePoint, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
@@ -131,6 +131,17 @@ impl<'s> Lookout<'s> {
     /// distance. Panes and half-transparent surfaces hide it, as in the geometry layers.
     pub fn shows(&self, view: &CameraView<'_>, p_world: DVec3) -> bool {
         view.project(p_world).is_some_and(|at| flow::shows(&self.scene, view, at, p_world))
+    }
+
+    /// The point that the ray through the centre of a pixel (column, row) meets first; `None` where it meets nothing.
+    pub fn touch(&self, view: &CameraView<'_>, [column, row]: [u32; 2]) -> Option<TrianglePoint> {
+        let found = sighting(&self.scene, view, (f64::from(column) + 0.5, f64::from(row) + 0.5))?;
+        Some(TrianglePoint::of(&self.scene, found.triangle, found.p_world))
+    }
+
+    /// The place at this moment, world, metres, of a point that was touched at another moment of the same scene.
+    pub fn place(&self, point: &TrianglePoint) -> DVec3 {
+        point.place(&self.scene)
     }
 
     /// `optical_flow`, `scene_flow` and `flow_visibility` from every pixel of the view `from` to the view `to`: of any two views, of

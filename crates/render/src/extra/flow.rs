@@ -1,7 +1,6 @@
 //! Position of a surface point in another frame: the next one, or any.
 
 use crate::prepared::{AlphaTest, RenderScene};
-use crate::triangle::Triangle;
 use enfilade_math::{DAffine3, DVec3, Ray};
 use enfilade_scene::{CameraRay, CameraView};
 
@@ -38,26 +37,36 @@ impl<'a> FlowTo<'a> {
         let Some(moved) = self.moved else { return p_world };
         let part = scene.triangles.part_of(triangle) as usize;
         if moved.deforming.get(part) == Some(&true) {
-            let [here, there] = [scene, &moved.scene].map(|scene| scene.triangles.get(triangle));
-            return weighted(&there, weights(&here, p_world));
+            return TrianglePoint::of(scene, triangle, p_world).place(&moved.scene);
         }
         moved.carried.get(part).copied().flatten().map_or(p_world, |carried| carried.transform_point3(p_world))
     }
 }
 
-/// The weights of a triangle's corners at a point in its plane: they add up to one.
-fn weights(triangle: &Triangle, p_world: DVec3) -> [f64; 3] {
-    let [a, b, c] = triangle.corners.map(|corner| corner.as_dvec3());
-    let (ab, ac, ap) = (b - a, c - a, p_world - a);
-    let normal = ab.cross(ac);
-    let area2 = normal.length_squared();
-    let [to_b, to_c] = [ap.cross(ac).dot(normal) / area2, ab.cross(ap).dot(normal) / area2];
-    [1.0 - to_b - to_c, to_b, to_c]
+/// A point on a triangle of a scene, whatever shape the scene's parts have at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrianglePoint {
+    triangle: u32,
+    /// Of the corners; they add up to one.
+    weights: [f64; 3],
 }
 
-/// The point of a triangle with these weights of its corners.
-fn weighted(triangle: &Triangle, weights: [f64; 3]) -> DVec3 {
-    triangle.corners.iter().zip(weights).map(|(corner, weight)| corner.as_dvec3() * weight).sum()
+impl TrianglePoint {
+    /// A world point in the plane of a triangle.
+    pub(crate) fn of(scene: &RenderScene<'_>, triangle: u32, p_world: DVec3) -> Self {
+        let [a, b, c] = scene.triangles.get(triangle).corners.map(|corner| corner.as_dvec3());
+        let (ab, ac, ap) = (b - a, c - a, p_world - a);
+        let normal = ab.cross(ac);
+        let area2 = normal.length_squared();
+        let [to_b, to_c] = [ap.cross(ac).dot(normal) / area2, ab.cross(ap).dot(normal) / area2];
+        Self { triangle, weights: [1.0 - to_b - to_c, to_b, to_c] }
+    }
+
+    /// Its place in the scene at a moment.
+    pub(crate) fn place(&self, scene: &RenderScene<'_>) -> DVec3 {
+        let corners = scene.triangles.get(self.triangle).corners;
+        corners.iter().zip(self.weights).map(|(corner, weight)| corner.as_dvec3() * weight).sum()
+    }
 }
 
 /// The motion of one surface point as the camera sees it.
