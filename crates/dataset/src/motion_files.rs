@@ -5,7 +5,7 @@ use crate::atomic::remove_if_there;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_math::{DAffine3, DVec3};
-use enfilade_scene::PartLabel;
+use enfilade_scene::{DEFORM, PartLabel};
 use std::collections::BTreeMap;
 
 /// The columns of a joint's axis.
@@ -26,7 +26,7 @@ pub struct BodyRow {
     pub name: String,
     /// Id of the body that bears it.
     pub parent: Option<u32>,
-    /// `free`, `hinge` or `slide`.
+    /// `free`, `hinge` or `slide`; `deform` of a part that changes its shape.
     pub joint: String,
     /// Direction of the joint's axis, world, at rest; unit length. `None` of free bodies.
     pub axis: Option<[f64; 3]>,
@@ -69,29 +69,36 @@ pub struct FilmedBodies {
 /// use enfilade_dataset::BodyPlaces;
 /// use enfilade_math::DVec3;
 /// // In scenes where nothing moves every point stays.
-/// assert_eq!(BodyPlaces::default().carry(&BodyPlaces::default(), 7, DVec3::X), DVec3::X);
+/// assert_eq!(BodyPlaces::default().carry(&BodyPlaces::default(), 7, DVec3::X), Some(DVec3::X));
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BodyPlaces<'a> {
     body_of_node: &'a [Option<u32>],
+    bodies: &'a [BodyRow],
     world_from_rest: &'a [DAffine3],
 }
 
 impl BodyPlaces<'_> {
+    /// Whether a part, by its `render_entity_id`, changes its shape over time, so that no map takes its points along.
+    pub fn deforms(&self, entity: i64) -> bool {
+        let body = usize::try_from(entity - 1).ok().and_then(|node| self.body_of_node.get(node).copied().flatten());
+        body.and_then(|body| self.bodies.get(body as usize)).is_some_and(|body| body.joint == DEFORM)
+    }
+
     /// The map that takes a part, by its `render_entity_id`, from rest to its place; `None` of parts that never move.
     pub fn world_from_rest(&self, entity: i64) -> Option<&DAffine3> {
         let body = self.body_of_node.get(usize::try_from(entity - 1).ok()?).copied().flatten()?;
         self.world_from_rest.get(body as usize)
     }
 
-    /// The maps that take instances from rest to their places, by their numbers: of those that move. `None` of instances whose parts go
-    /// different ways, so that no single pose is theirs. `labels` has a row per part, in the order of `render_entity_id`.
+    /// The maps that take instances from rest to their places, by their numbers: of those that move. `None` of instances whose parts deform or
+    /// go different ways, so that no single pose is theirs. `labels` has a row per part, in the order of `render_entity_id`.
     pub fn instances(&self, labels: &[PartLabel]) -> BTreeMap<i16, Option<DAffine3>> {
         let mut maps: BTreeMap<i16, Option<DAffine3>> = BTreeMap::new();
         for (label, entity) in labels.iter().zip(1..).filter(|(label, _)| label.instance > 0) {
             let own = self.world_from_rest(entity).copied().unwrap_or(DAffine3::IDENTITY);
             let map = maps.entry(label.instance).or_insert(Some(own));
-            if *map != Some(own) {
+            if *map != Some(own) || self.deforms(entity) {
                 *map = None;
             }
         }
@@ -99,17 +106,22 @@ impl BodyPlaces<'_> {
         maps
     }
 
-    /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`.
-    pub fn carry(&self, to: &BodyPlaces<'_>, entity: i64, p_world: DVec3) -> DVec3 {
-        match (self.world_from_rest(entity), to.world_from_rest(entity)) {
+    /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`; `None` of parts that
+    /// deform.
+    pub fn carry(&self, to: &BodyPlaces<'_>, entity: i64, p_world: DVec3) -> Option<DVec3> {
+        if self.deforms(entity) || to.deforms(entity) {
+            return None;
+        }
+        Some(match (self.world_from_rest(entity), to.world_from_rest(entity)) {
             (Some(here), Some(there)) if here != there => there.transform_point3(here.inverse().transform_point3(p_world)),
             _ => p_world,
-        }
+        })
     }
 
-    /// The place at rest of a point on a part.
-    pub fn at_rest(&self, entity: i64, p_world: DVec3) -> DVec3 {
-        self.world_from_rest(entity).map_or(p_world, |here| here.inverse().transform_point3(p_world))
+    /// The place at rest of a point on a part; `None` of parts that deform.
+    pub fn at_rest(&self, entity: i64, p_world: DVec3) -> Option<DVec3> {
+        let rest = || self.world_from_rest(entity).map_or(p_world, |here| here.inverse().transform_point3(p_world));
+        (!self.deforms(entity)).then(rest)
     }
 }
 
@@ -126,7 +138,7 @@ impl FilmedBodies {
     /// Where the parts are in a frame; at rest in one that is not listed.
     pub fn at(&self, frame: u32) -> BodyPlaces<'_> {
         let world_from_rest = self.frames.get(&frame).map_or(&[][..], |frame| &frame.world_from_rest);
-        BodyPlaces { body_of_node: &self.body_of_node, world_from_rest }
+        BodyPlaces { body_of_node: &self.body_of_node, bodies: &self.bodies, world_from_rest }
     }
 
     /// The frames that are listed, in their order.
@@ -340,10 +352,10 @@ mod tests {
         assert_eq!((filmed.bodies.as_slice(), filmed.frames().cloned().collect::<Vec<_>>().as_slice()), (&bodies[..], &frames[..]));
         let p = DVec3::new(1.0, 2.0, 3.0);
         let (first, later) = (filmed.at(0), filmed.at(7));
-        assert_eq!(first.carry(&later, 5, p), turn.transform_point3(p));
-        assert!(later.carry(&first, 2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
-        assert!(later.at_rest(2, turn.transform_point3(p)).abs_diff_eq(p, 1e-15));
-        assert_eq!([1, 3, 6, -1, 0].map(|still| first.carry(&later, still, p)), [p; 5]);
+        assert_eq!(first.carry(&later, 5, p), Some(turn.transform_point3(p)));
+        assert!(later.carry(&first, 2, turn.transform_point3(p)).unwrap().abs_diff_eq(p, 1e-15));
+        assert!(later.at_rest(2, turn.transform_point3(p)).unwrap().abs_diff_eq(p, 1e-15));
+        assert_eq!([1, 3, 6, -1, 0].map(|still| first.carry(&later, still, p)), [Some(p); 5]);
 
         // Parts 2 and 5 move, part 1 does not: instance 7 goes apart, 8 moves, 9 stays.
         let labels = [9, 7, 7, -1, 8].map(|instance| PartLabel { semantic: 5, instance });
@@ -357,6 +369,16 @@ mod tests {
         dataset.write_bodies("room", &[]).unwrap();
         dataset.write_body_poses("room", "cam_00", &[]).unwrap();
         assert_eq!(dataset.read_bodies("room").unwrap(), []);
+
+        // No map takes along what deforms.
+        let deforming = [BodyRow { joint: DEFORM.into(), axis: None, point: None, limits: None, ..row(1, None, &[2]) }];
+        dataset.write_bodies("room", &deforming).unwrap();
+        let at_rest = FrameBodies { frame: 0, time_s: 0.0, world_from_rest: vec![DAffine3::IDENTITY], states: vec![None] };
+        dataset.write_body_poses("room", "cam_00", &[at_rest]).unwrap();
+        let filmed = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+        let places = filmed.at(0);
+        assert_eq!([1, 2].map(|part| (places.deforms(part), places.at_rest(part, p))), [(false, Some(p)), (true, None)]);
+        assert_eq!((places.carry(&places, 2, p), places.instances(&labels)), (None, BTreeMap::from([(7, None)])));
 
         // Joints that stay have no poses.
         let still = BodyRow { moves: false, ..row(1, None, &[1]) };

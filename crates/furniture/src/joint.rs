@@ -166,7 +166,7 @@ mod tests {
         let states = match joint.at_rest(&DAffine3::IDENTITY) {
             BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point, axis, angles_rad: vec![wide] },
             BodyStates::Slide { axis, .. } => BodyStates::Slide { axis, distances_m: vec![wide] },
-            free @ BodyStates::Free { .. } => free,
+            other @ (BodyStates::Free { .. } | BodyStates::Deform { .. }) => other,
         };
         BodyMotion { times_s: vec![0.0], states }.world_from_rest(0.0).transform_point3(point)
     }

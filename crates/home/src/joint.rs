@@ -37,7 +37,7 @@ pub(crate) fn listed(joints: &[HomeJoint], scene: &Scene, labels: &Labels) -> Ve
         let (axis, point) = match &body.motion.states {
             BodyStates::Hinge { axis, point, .. } => (axis, Some(point.to_array())),
             BodyStates::Slide { axis, .. } => (axis, None),
-            BodyStates::Free { .. } => return None,
+            BodyStates::Free { .. } | BodyStates::Deform { .. } => return None,
         };
         Some(RoomJoint {
             name: joint.body.clone(),

@@ -39,8 +39,9 @@
 //!   so that nothing is lost on the way.
 //! - A scene has no colours of vertices. If a file has them, their mean colours the part (glTF, OBJ, PLY, USD's display
 //!   colour, `mesh_attribute` of Mitsuba) or they are dropped (FBX, pbrt); the report says so.
-//! - A scene does not move. Skins and morph targets have the pose that the file states (glTF, FBX) or stay at rest (USD); animations
-//!   are replaced by their first moment, in glTF by the pose of the nodes; the report says so.
+//! - Animations of nodes (glTF, FBX, USD, COLLADA) are rigid motion of bodies, those of skins, morph targets and scales of glTF shapes over
+//!   time. Skins and morph targets of FBX have the pose that the file states, those of USD and COLLADA stay at rest; the report says so, and
+//!   what else of an animation was left out.
 //!
 //! # Formats
 //!
@@ -68,6 +69,7 @@ mod kinds;
 mod load;
 mod mesh;
 pub mod mitsuba;
+mod motion;
 pub mod obj;
 mod options;
 mod others;

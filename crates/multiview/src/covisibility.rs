@@ -11,7 +11,7 @@ use crate::{Filmed, MultiviewError, ScenePackage};
 use enfilade_dataset::{Covisibility, CovisibleFrame, HiddenBy};
 use enfilade_math::DVec3;
 use enfilade_render::Lookout;
-use enfilade_scene::{Counted, Cx};
+use enfilade_scene::{Counted, Cx, Warning};
 
 /// How covisibility is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,9 +55,13 @@ pub fn covisibility(
     config: CovisibilityConfig,
     cx: &dyn Cx,
 ) -> Result<Covisibility, MultiviewError> {
+    if package.is_none() && filmed.deforms() {
+        let message = "parts of it deform, and without its package their points cannot be followed; they were left out";
+        cx.warn(Warning { place: filmed.scene.clone(), message: message.into() });
+    }
     let n = filmed.len();
     let counted = Counted::new(cx, "grids", n);
-    let grid = |frame: usize| counted.unit(|| read_grid(filmed, frame, config));
+    let grid = |frame: usize| counted.unit(|| read_grid(filmed, package, frame, config));
     let grids: Vec<Grid> = enfilade_parallel::try_map_up_to(n, grid)?;
     // Of a scene that moves each frame has its own.
     let lookout = package.filter(|package| package.scene.is_still()).map(ScenePackage::lookout).transpose()?;
@@ -77,11 +81,19 @@ pub fn covisibility(
     })
 }
 
-fn read_grid(filmed: &Filmed<'_>, frame: usize, config: CovisibilityConfig) -> Result<Grid, MultiviewError> {
+fn read_grid(
+    filmed: &Filmed<'_>,
+    package: Option<&ScenePackage>,
+    frame: usize,
+    config: CovisibilityConfig,
+) -> Result<Grid, MultiviewError> {
     let size = filmed.view(frame).camera().size();
     let step_px = config.step_px(size);
     let shown = (&*filmed.distances_m(frame)?, &*filmed.parts(frame)?);
-    let points = filmed.points(frame, shown, CovisibleFrame::grid(size, step_px));
+    let deforming = package.filter(|_| filmed.deforms());
+    let moment = deforming.map(|package| package.scene.at(filmed.moment_s(frame)));
+    let lookout = deforming.zip(moment.as_ref()).map(|(package, moment)| package.ready(moment)).transpose()?;
+    let points = filmed.points(frame, shown, lookout.as_ref(), CovisibleFrame::grid(size, step_px));
     Ok(Grid { step_px, points })
 }
 
@@ -99,7 +111,7 @@ fn column(
     let surroundings = Surroundings::new(filmed.view(by), filmed.distances_m(by)?);
     let share = |(of, grid): (usize, &Grid)| {
         // A frame sees what it shows.
-        let is_seen = |point: &&SurfacePoint| is_seen(&surroundings, lookout, filmed.carry([of, by], point));
+        let is_seen = |point: &&SurfacePoint| is_seen(&surroundings, lookout, filmed.carry([of, by], point, lookout));
         let seen = if of == by { grid.points.len() } else { grid.points.iter().filter(is_seen).count() };
         (seen as f64 / grid.points.len() as f64) as f32
     };

@@ -4,7 +4,8 @@ use crate::MultiviewError;
 use enfilade_dataset::{BodyPlaces, Dataset, DatasetError, FilmedBodies};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
-use enfilade_scene::{Camera, CameraView, Cx, Pose};
+use enfilade_render::{Lookout, TrianglePoint};
+use enfilade_scene::{Camera, CameraView, Cx, DEFORM, Pose};
 use std::ops::Range;
 
 /// The cameras of a scene, and its finished frames.
@@ -23,6 +24,8 @@ pub(crate) struct SurfacePoint {
     pub p_world: DVec3,
     /// The part that it is on, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
     pub part: i16,
+    /// Where it is on a part that deforms.
+    pub on: Option<TrianglePoint>,
 }
 
 /// A camera and its whole trajectory.
@@ -150,26 +153,36 @@ impl<'d> Filmed<'d> {
         }
     }
 
-    /// The surface points that a frame shows in some of its pixels (column, row); pixels that show nothing are left out.
+    /// The surface points that a frame shows in some of its pixels (column, row); pixels that show nothing are left out, and without a look at
+    /// the frame's moment those that show parts that deform.
     pub(crate) fn points(
         &self,
         frame: usize,
         (distances_m, parts): (&[f32], &[i16]),
+        lookout: Option<&Lookout<'_>>,
         pixels: impl Iterator<Item = [u32; 2]>,
     ) -> Vec<SurfacePoint> {
-        let view = self.view(frame);
+        let (view, places) = (self.view(frame), self.places(frame));
         let width = view.camera().size()[0];
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
-            let distance = f64::from(distances_m[pixel]);
+            let (distance, part) = (f64::from(distances_m[pixel]), parts.get(pixel).copied().unwrap_or(-1));
             let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| distance.is_finite())?;
-            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part: parts.get(pixel).copied().unwrap_or(-1) })
+            let on = if places.deforms(i64::from(part)) { Some(lookout?.touch(&view, [column, row])?) } else { None };
+            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part, on })
         };
         pixels.filter_map(point).collect()
     }
 
-    /// The place in the frame `to` of a point that the frame `from` shows.
-    pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint) -> DVec3 {
-        self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world)
+    /// The place in the frame `to`, at whose moment `lookout` looks, of a point that the frame `from` shows.
+    pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint, lookout: Option<&Lookout<'_>>) -> DVec3 {
+        let deformed = lookout.zip(point.on.as_ref()).map(|(lookout, on)| lookout.place(on));
+        let carried = || self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world);
+        deformed.or_else(carried).unwrap_or(point.p_world)
+    }
+
+    /// True if a part of the scene deforms.
+    pub(crate) fn deforms(&self) -> bool {
+        self.tracks.iter().flat_map(|track| &track.bodies).any(|bodies| bodies.bodies.iter().any(|body| body.joint == DEFORM))
     }
 }

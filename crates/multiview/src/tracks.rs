@@ -52,7 +52,7 @@ pub fn tracks(
     cx: &dyn Cx,
 ) -> Result<Tracks, MultiviewError> {
     let counted = Counted::new(cx, "frames", frames.len());
-    let seeds = |place: usize| counted.unit(|| seeds(filmed, frames, place, config));
+    let seeds = |place: usize| counted.unit(|| seeds(filmed, package, frames, place, config));
     let seeds: Vec<Vec<Seed>> = enfilade_parallel::try_map_up_to(frames.len(), seeds)?;
     let seeds: Vec<Seed> = seeds.into_iter().flatten().collect();
     // By frame, then point: a scene that moves is another one in each frame.
@@ -64,7 +64,7 @@ pub fn tracks(
         let own = moment.as_ref().map(|moment| package.ready(moment)).transpose()?;
         let Some(lookout) = still.as_ref().or(own.as_ref()) else { unreachable!("one of the two is there") };
         let image = |seed: &Seed| {
-            let p_world = filmed.carry([frames[seed.frame as usize], frame], &seed.point);
+            let p_world = filmed.carry([frames[seed.frame as usize], frame], &seed.point, Some(lookout));
             image(lookout, &view, (seed, p_world), place == seed.frame as usize)
         };
         followed.push(enfilade_parallel::map::<_, ([f32; 2], bool)>(&seeds, image));
@@ -81,7 +81,13 @@ pub fn tracks(
 }
 
 /// The points that are seeded in a frame.
-fn seeds(filmed: &Filmed<'_>, frames: &[usize], place: usize, config: TracksConfig) -> Result<Vec<Seed>, MultiviewError> {
+fn seeds(
+    filmed: &Filmed<'_>,
+    package: &ScenePackage,
+    frames: &[usize],
+    place: usize,
+    config: TracksConfig,
+) -> Result<Vec<Seed>, MultiviewError> {
     let (n, t) = (u64::from(config.points), frames.len() as u64);
     // The points seeded in this frame: i T / N rounded down.
     let own = (place as u64 * n).div_ceil(t)..((place as u64 + 1) * n).div_ceil(t);
@@ -90,10 +96,12 @@ fn seeds(filmed: &Filmed<'_>, frames: &[usize], place: usize, config: TracksConf
     }
     let frame = frames[place];
     let (distances_m, parts, size) = (filmed.distances_m(frame)?, filmed.parts(frame)?, filmed.view(frame).camera().size());
+    let moment = filmed.deforms().then(|| package.scene.at(filmed.moment_s(frame)));
+    let lookout = moment.as_ref().map(|moment| package.ready(moment)).transpose()?;
+    let shown_at = |pixel| filmed.points(frame, (&distances_m, &parts), lookout.as_ref(), std::iter::once(pixel)).pop();
     let seed = |point: u64| {
         let pixels = (0..TRIES).map(|attempt| pixel(size, point + n * attempt, config.seed));
-        let mut shown =
-            pixels.filter_map(|pixel| Some((pixel, filmed.points(frame, (&distances_m, &parts), std::iter::once(pixel)).pop()?)));
+        let mut shown = pixels.filter_map(|pixel| Some((pixel, shown_at(pixel)?)));
         shown.next().map(|(pixel, point)| Seed { frame: place as u32, pixel, point })
     };
     Ok(own.filter_map(seed).collect())

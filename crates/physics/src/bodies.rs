@@ -65,7 +65,9 @@ pub(crate) struct Group {
 
 /// The groups of a scene, parents first, and notes.
 pub(crate) fn groups(scene: &Scene, labels: &Labels) -> Result<(Vec<Group>, Vec<String>), PhysicsError> {
-    let of_body = scene.body_of_parts();
+    let mut of_body = scene.body_of_parts();
+    let soft = scene.deforming_parts();
+    of_body.iter_mut().zip(&soft).filter(|(_, soft)| **soft).for_each(|(body, _)| *body = None);
     let label = |part: u32| labels.parts.get(part as usize).filter(|label| label.instance > 0);
     let loose = || (0..scene.parts.len() as u32).filter(|part| of_body[*part as usize].is_none());
     let mut instances: BTreeMap<i16, Vec<PartId>> = BTreeMap::new();
@@ -93,6 +95,8 @@ pub(crate) fn groups(scene: &Scene, labels: &Labels) -> Result<(Vec<Group>, Vec<
         groups.push(group);
     }
     let mut notes = Vec::new();
+    let soft = scene.bodies.iter().filter(|body| is_soft(body));
+    notes.extend(soft.map(|body| format!("body {:?} deforms; it is a rigid thing in its shape of rest", body.name)));
     if groups.len() == 1 && scene.bodies.is_empty() {
         notes.push("nothing tells things apart, so everything is fixed; label instances with `enfilade annotate`".into());
     }
@@ -106,7 +110,7 @@ fn add_bodies(scene: &Scene, groups: &mut Vec<Group>, instance: impl Fn(PartId) 
     let mut numbers = Vec::new();
     let bears: BTreeSet<u32> = scene.bodies.iter().filter_map(|body| body.parent).collect();
     for (body, id) in scene.bodies.iter().zip(0..) {
-        if body.parts.is_empty() && !bears.contains(&id) {
+        if body.parts.is_empty() && !bears.contains(&id) || is_soft(body) {
             numbers.push(None);
             continue;
         }
@@ -133,9 +137,14 @@ fn add_bodies(scene: &Scene, groups: &mut Vec<Group>, instance: impl Fn(PartId) 
     Ok(())
 }
 
+/// True for bodies that deform: simulators get their parts as they are at rest.
+fn is_soft(body: &Body) -> bool {
+    matches!(body.motion.states, BodyStates::Deform { .. })
+}
+
 fn hold(body: &Body) -> Hold {
     match body.motion.states {
-        BodyStates::Free { .. } => Hold::Free,
+        BodyStates::Free { .. } | BodyStates::Deform { .. } => Hold::Free,
         BodyStates::Hinge { point, axis, .. } => Hold::Hinge { point, axis, limits: body.limits },
         BodyStates::Slide { axis, .. } => Hold::Slide { axis, limits: body.limits },
     }

@@ -298,7 +298,7 @@ impl Scene {
     }
 
     /// What moves or can move, in the order of numbers: dictionaries with `name`, `parent` (the name of the body that bears it, or None), `joint` ("hinge",
-    /// "slide" or "free"), `limits` (radians or metres from rest, or None), `moves` and `parts` (names).
+    /// "slide", "free" or "deform"), `limits` (radians or metres from rest, or None), `moves` and `parts` (names).
     #[getter]
     fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let scene = self.0.scene();

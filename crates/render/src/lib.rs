@@ -81,7 +81,7 @@ mod walk;
 pub use config::{Filter, RenderConfig, RenderKeys};
 pub use error::RenderError;
 pub use extra::surfaces::{Bent, RaySurfaces};
-pub use extra::{FlowTo, Moved, add_extra_layers};
+pub use extra::{FlowTo, Moved, TrianglePoint, add_extra_layers};
 pub use guide::Guide;
 pub use light::{Fixture, FixtureKind};
 pub use look::{Look, Lookout};

@@ -3,7 +3,7 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{FlowTo, Moved, add_flow, flow};
+use crate::extra::{FlowTo, Moved, TrianglePoint, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
@@ -133,6 +133,17 @@ impl<'s> Lookout<'s> {
         view.project(p_world).is_some_and(|at| flow::shows(&self.scene, view, at, p_world))
     }
 
+    /// The point that the ray through the centre of a pixel (column, row) meets first; `None` where it meets nothing.
+    pub fn touch(&self, view: &CameraView<'_>, [column, row]: [u32; 2]) -> Option<TrianglePoint> {
+        let found = sighting(&self.scene, view, (f64::from(column) + 0.5, f64::from(row) + 0.5))?;
+        Some(TrianglePoint::of(&self.scene, found.triangle, found.p_world))
+    }
+
+    /// The place at this moment, world, metres, of a point that was touched at another moment of the same scene.
+    pub fn place(&self, point: &TrianglePoint) -> DVec3 {
+        point.place(&self.scene)
+    }
+
     /// `optical_flow`, `scene_flow` and `flow_visibility` from every pixel of the view `from` to the view `to`: of any two views, of
     /// different cameras too, forward and backward in time. To the next frame of a trajectory they are the numbers of its layers.
     pub fn flow(&self, from: &CameraView<'_>, to: FlowTo<'_>) -> Frame {
@@ -153,9 +164,11 @@ impl<'s> Lookout<'s> {
     }
 
     /// The scene as another moment has it, for flow that leads there. `carried` has by part the map of the world to itself from its place at
-    /// the first moment to that at this one; `None` of parts that stay.
+    /// the first moment to that at this one; `None` of parts that stay. Points of parts that deform stay on their triangle, with the weights
+    /// of its corners.
     pub fn moved(self, carried: Vec<Option<DAffine3>>) -> Moved<'s> {
-        Moved { scene: self.scene, carried }
+        let deforming = self.scene.scene.deforming_parts();
+        Moved { scene: self.scene, carried, deforming }
     }
 
     fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {

@@ -1,6 +1,6 @@
 //! Scenes that move: their state at a moment, and edits that keep bodies right.
 
-use crate::{BodyId, PartId, Scene, SceneError};
+use crate::{Body, BodyId, BodyStates, PartId, Scene, SceneError};
 use enfilade_math::DAffine3;
 use std::collections::BTreeSet;
 
@@ -36,6 +36,20 @@ impl Scene {
         self.body_of_parts().into_iter().map(|body| body.map(|body| carried[body as usize])).collect()
     }
 
+    /// By part: whether its mesh changes its shape over time.
+    pub fn deforming_parts(&self) -> Vec<bool> {
+        let mut deforming = vec![false; self.parts.len()];
+        let bodies = self.bodies.iter().filter(|body| matches!(body.motion.states, BodyStates::Deform { .. }));
+        bodies.flat_map(|body| &body.parts).for_each(|&part| deforming[part as usize] = true);
+        deforming
+    }
+
+    /// The parts whose meshes have one shape at one moment and another at another.
+    pub fn deformed(&self, from_s: f64, to_s: f64) -> Vec<PartId> {
+        let changes = |body: &&Body| body.motion.shape_at(from_s) != body.motion.shape_at(to_s);
+        self.bodies.iter().filter(changes).flat_map(|body| body.parts.iter().copied()).collect()
+    }
+
     /// The body of each part.
     pub fn body_of_parts(&self) -> Vec<Option<BodyId>> {
         let mut bodies = vec![None; self.parts.len()];
@@ -45,7 +59,8 @@ impl Scene {
         bodies
     }
 
-    /// The scene as it is at a moment. It shares meshes and pictures, has the same bodies, and is the scene itself where nothing moves.
+    /// The scene as it is at a moment. It shares meshes and pictures, has the same bodies, and is the scene itself where nothing moves. Parts
+    /// that deform have meshes of their own, with the same triangles.
     ///
     /// ```
     /// use enfilade_geometry::Mesh;
@@ -79,6 +94,13 @@ impl Scene {
     pub fn at(&self, time_s: f64) -> Self {
         let mut scene = self.clone();
         for (body, map) in self.bodies.iter().zip(self.world_from_rest(time_s)) {
+            if let Some(shape) = body.motion.shape_at(time_s) {
+                for &part in &body.parts {
+                    let part = &mut scene.parts[part as usize];
+                    scene.meshes.push(shape.on(&scene.meshes[part.mesh as usize]).into());
+                    part.mesh = scene.meshes.len() as u32 - 1;
+                }
+            }
             if map == DAffine3::IDENTITY {
                 continue;
             }
@@ -107,6 +129,9 @@ impl Scene {
             body.limits = was.limits.map(|ends| ends.map(|end| end - state));
         }
         scene.hold_still();
+        if scene.meshes.len() > self.meshes.len() {
+            scene.remove_unused_meshes();
+        }
         scene
     }
 
@@ -169,11 +194,23 @@ impl Scene {
                     return wrong(format!("its {kind}s are not in ascending order"));
                 }
             }
-            if let Some(problem) = body.problem() {
+            if let Some(problem) = body.problem().or_else(|| self.shape_problem(body)) {
                 return wrong(problem);
             }
         }
         Ok(())
+    }
+
+    /// What is wrong with the shapes of a body, if anything.
+    fn shape_problem(&self, body: &Body) -> Option<String> {
+        let BodyStates::Deform { shapes } = &body.motion.states else { return None };
+        if body.parts.len() > 1 || !body.lights.is_empty() {
+            let [parts, lights] = [body.parts.len(), body.lights.len()];
+            return Some(format!("{parts} parts and {lights} lights; expected one part, which deforms"));
+        }
+        let mesh = &self.meshes.get(self.parts[*body.parts.first()? as usize].mesh as usize)?;
+        let problems = shapes.iter().enumerate().find_map(|(at, shape)| shape.problem(mesh).map(|problem| (at, problem)));
+        problems.map(|(at, problem)| format!("shape {at} (at {} s) has {problem}", body.motion.times_s[at]))
     }
 }
 
@@ -186,7 +223,7 @@ fn drop_numbers(list: &mut Vec<u32>, gone: &BTreeSet<u32>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyMotion, BodyStates, Light, Material, Part, RigidPose};
+    use crate::{Body, BodyMotion, BodyStates, Light, Material, Part, RigidPose, Shape};
     use enfilade_geometry::Mesh;
     use enfilade_math::{DQuat, DVec3, Rgb, Vec3};
     use std::f64::consts::{FRAC_PI_2, PI};
@@ -309,6 +346,47 @@ mod tests {
         scene.bodies[1].limits = None;
         scene.hold_still();
         assert_eq!(scene.bodies, []);
+    }
+
+    /// The door deforms: its last corner goes from y = 1 to y = 3.
+    fn deforming() -> Scene {
+        let mut scene = scene();
+        let tall = |y: f32| std::sync::Arc::new(Shape { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y * y], normals: Vec::new() });
+        scene.bodies[1] = body("door, itself", Some(0), vec![1], BodyStates::Deform { shapes: vec![tall(1.0), tall(3.0)] });
+        scene.bodies[0].parts.clear();
+        scene
+    }
+
+    #[test]
+    fn parts_that_deform_have_meshes_of_their_own_and_ride_on_their_bearer() {
+        let scene = deforming();
+        assert_eq!((scene.validate(), scene.is_still(), scene.deforming_parts()), (Ok(()), false, vec![false, true, false]));
+        let there = scene.at(0.5);
+        // Twice as tall, at a place that has turned by an eighth about (1, 0).
+        let corner = there.world_corners(&there.parts[1], 0)[2];
+        let root = 0.5f32.sqrt();
+        assert!(corner.distance(Vec3::new(1.0 + 2.0 * root - 2.0 * root, 2.0 * root + 2.0 * root, 0.0)) < 1e-6, "{corner}");
+        assert_eq!(there.world_corners(&there.parts[0], 0)[2], Vec3::new(2.0, 1.0, 0.0), "the others keep the mesh");
+        assert_eq!((scene.deformed(0.2, 0.3), scene.deformed(1.0, 7.0)), (vec![1], Vec::new()));
+        let still = scene.still_at(0.5);
+        assert_eq!((still.validate(), still.is_still(), still.meshes.len()), (Ok(()), true, 2));
+        assert_eq!(still.world_corners(&still.parts[1], 0), there.world_corners(&there.parts[1], 0));
+    }
+
+    #[test]
+    fn shapes_of_another_mesh_are_refused_by_body_and_moment() {
+        let refused = |change: &dyn Fn(&mut Body), told: &str| {
+            let mut scene = deforming();
+            change(&mut scene.bodies[1]);
+            let message = scene.validate().unwrap_err().to_string();
+            assert!(message.contains("door, itself") && message.contains(told), "{message}");
+        };
+        let other = |shape: Shape| BodyStates::Deform { shapes: vec![Shape::of(&scene().meshes[0]).into(), shape.into()] };
+        refused(&|body| body.motion.states = other(Shape::default()), "shape 1 (at 1 s) has 0 positions, but its mesh has 3");
+        let bad = Shape { positions: vec![Vec3::X, Vec3::NAN, Vec3::Y], normals: Vec::new() };
+        refused(&|body| body.motion.states = other(bad.clone()), "shape 1 (at 1 s) has vertex 1 that is not finite");
+        refused(&|body| body.parts = vec![1, 2], "2 parts and 0 lights; expected one part");
+        refused(&|body| body.limits = Some([0.0, 1.0]), "has no limits");
     }
 
     #[test]

@@ -3,11 +3,16 @@
 //! A scene's placements are its rest: where everything is while nothing has moved. The motion of a body is a map of the world to itself,
 //! relative to that rest, and is carried on to the bodies that it bears: a drawer moves with its cupboard.
 
+use crate::deform::{Shape, mixed};
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Index into [`Scene::bodies`](crate::Scene::bodies).
 pub type BodyId = u32;
+
+/// The word for bodies whose part deforms, in place of that for their joint.
+pub const DEFORM: &str = "deform";
 
 /// By how much an axis or a rotation may differ from unit length, and axes of a similarity from one length.
 const UNIT: f64 = 1e-6;
@@ -69,6 +74,12 @@ pub enum BodyStates {
         /// Distances; 0 is rest.
         distances_m: Vec<f64>,
     },
+    /// Stays where it is, and its only part changes its shape: every vertex goes straight from one shape to the next. What it bears does not
+    /// follow.
+    Deform {
+        /// Shapes of the part's mesh, which has that of rest itself.
+        shapes: Vec<Arc<Shape>>,
+    },
 }
 
 /// A rotation, then a translation.
@@ -90,10 +101,10 @@ impl RigidPose {
 }
 
 impl BodyStates {
-    /// The same joint in other states, radians of a hinge or metres of a slide; `None` of free bodies.
+    /// The same joint in other states, radians of a hinge or metres of a slide; `None` of free bodies and such that deform.
     pub fn with_values(&self, values: Vec<f64>) -> Option<Self> {
         match self {
-            Self::Free { .. } => None,
+            Self::Free { .. } | Self::Deform { .. } => None,
             Self::Hinge { point, axis, .. } => Some(Self::Hinge { point: *point, axis: *axis, angles_rad: values }),
             Self::Slide { axis, .. } => Some(Self::Slide { axis: *axis, distances_m: values }),
         }
@@ -105,6 +116,7 @@ impl BodyStates {
             Self::Free { .. } => "free",
             Self::Hinge { .. } => "hinge",
             Self::Slide { .. } => "slide",
+            Self::Deform { .. } => DEFORM,
         }
     }
 }
@@ -132,16 +144,25 @@ impl BodyMotion {
     pub fn is_rest(&self) -> bool {
         match &self.states {
             BodyStates::Free { poses, .. } => poses.iter().all(|pose| *pose == RigidPose::IDENTITY),
+            BodyStates::Deform { .. } => false,
             BodyStates::Hinge { angles_rad: values, .. } | BodyStates::Slide { distances_m: values, .. } => {
                 values.iter().all(|&value| value == 0.0)
             }
         }
     }
 
-    /// The state at a moment: radians of a hinge, metres of a slide; `None` of free bodies.
+    /// The shape of its part at a moment; `None` of bodies that do not deform.
+    pub fn shape_at(&self, time_s: f64) -> Option<Arc<Shape>> {
+        match &self.states {
+            BodyStates::Deform { shapes } => Some(mixed(shapes, self.between(time_s))),
+            _ => None,
+        }
+    }
+
+    /// The state at a moment: radians of a hinge, metres of a slide; `None` of free bodies and such that deform.
     pub fn state_at(&self, time_s: f64) -> Option<f64> {
         match &self.states {
-            BodyStates::Free { .. } => None,
+            BodyStates::Free { .. } | BodyStates::Deform { .. } => None,
             BodyStates::Hinge { angles_rad: values, .. } | BodyStates::Slide { distances_m: values, .. } => {
                 Some(self.mixed(values, time_s))
             }
@@ -156,6 +177,7 @@ impl BodyMotion {
     /// The map of the world to itself that takes the body from rest to its place at a moment, while its parent rests.
     pub fn world_from_rest(&self, time_s: f64) -> DAffine3 {
         match &self.states {
+            BodyStates::Deform { .. } => DAffine3::IDENTITY,
             BodyStates::Slide { axis, distances_m } => DAffine3::from_translation(*axis * self.mixed(distances_m, time_s)),
             BodyStates::Hinge { point, axis, angles_rad } => {
                 let matrix3 = DMat3::from_axis_angle(*axis, self.mixed(angles_rad, time_s));
@@ -189,12 +211,15 @@ impl BodyMotion {
             BodyStates::Free { poses, .. } => poses.len(),
             BodyStates::Hinge { angles_rad, .. } => angles_rad.len(),
             BodyStates::Slide { distances_m, .. } => distances_m.len(),
+            BodyStates::Deform { shapes } => shapes.len(),
         }
     }
 
     /// The motion after the world was carried away by a similarity.
     fn carried(&self, by: &Similarity) -> Self {
         let states = match &self.states {
+            // In the mesh's own space.
+            deform @ BodyStates::Deform { .. } => deform.clone(),
             BodyStates::Slide { axis, distances_m } => BodyStates::Slide {
                 axis: by.rotation * *axis,
                 distances_m: distances_m.iter().map(|distance| by.scale * distance).collect(),
@@ -235,6 +260,8 @@ impl BodyMotion {
             BodyStates::Free { position, rotation, .. } if !position.is_finite() || off(rotation.length()) => {
                 Some(format!("no frame: {rotation} at {position}"))
             }
+            // With its part, by the scene.
+            BodyStates::Deform { .. } => None,
             BodyStates::Free { poses, .. } => {
                 let wrong = |pose: &RigidPose| !pose.translation.is_finite() || off(pose.rotation.length());
                 let at = poses.iter().position(wrong)?;
@@ -276,7 +303,9 @@ impl Body {
     /// What is wrong with the joint, if anything.
     pub(crate) fn problem(&self) -> Option<String> {
         match (self.limits, &self.motion.states) {
-            (Some(_), BodyStates::Free { .. }) => Some("a free body has no limits; expected a hinge or a slide".into()),
+            (Some(_), BodyStates::Free { .. } | BodyStates::Deform { .. }) => {
+                Some("a free body has no limits, nor has one that deforms; expected a hinge or a slide".into())
+            }
             (Some([least, greatest]), _) if !least.is_finite() || !greatest.is_finite() || least > greatest => {
                 Some(format!("limits {least} to {greatest}; expected two finite numbers, the least first"))
             }

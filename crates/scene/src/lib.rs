@@ -9,6 +9,7 @@ mod body;
 mod camera;
 mod contrast;
 mod cx;
+mod deform;
 mod drawn_plan;
 mod edit;
 mod environment;
@@ -37,12 +38,13 @@ mod texture;
 mod trajectory;
 mod world;
 
-pub use body::{Body, BodyId, BodyMotion, BodyStates, RigidPose};
+pub use body::{Body, BodyId, BodyMotion, BodyStates, DEFORM, RigidPose};
 pub use camera::{
     Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
     TiltedPinhole,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
+pub use deform::Shape;
 pub use drawn_plan::{DrawnOpening, DrawnPlan, DrawnRoom};
 pub use edit::{EditError, LabelledScene, MaterialChoice, NewPart, NewThing, printable};
 pub use environment::{Environment, MapRows, direction_from_uv, uv_from_direction};

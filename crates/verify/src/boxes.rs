@@ -64,7 +64,8 @@ pub(super) fn check_positions(
         let beyond = |pixel: usize| {
             let instance = instances.get(pixel);
             let shown: DVec3 = vector(positions, pixel);
-            let p = entities.map_or(shown, |entities| places.at_rest(entities.get(pixel) as i64, shown));
+            // The boxes are those of the shapes at rest.
+            let p = entities.map_or(Some(shown), |entities| places.at_rest(entities.get(pixel) as i64, shown))?;
             let shape = (instance >= 1.0).then(|| boxes.get(instance as usize).copied().flatten());
             let open = view.rounding.of_position(shown).length();
             shape.map(|shape| shape.map_or(f64::INFINITY, |shape| beyond(shape.distance_beyond(p), open) / shown.distance(center).max(1.0)))

@@ -7,7 +7,7 @@
 
 use super::card::Card;
 use super::law::Law;
-use enfilade_dataset::{BodyPlaces, Covisibility, CovisibleFrame};
+use enfilade_dataset::{BodyPlaces, Covisibility, CovisibleFrame, HiddenBy};
 use enfilade_frame::Values;
 use enfilade_math::DVec3;
 use enfilade_scene::CameraView;
@@ -53,7 +53,7 @@ struct Certain {
 /// Checks the matrix of a scene; `read` returns a listed frame, or `None` if it no longer exists.
 pub(super) fn check<'a>(scene: &str, stored: &Covisibility, read: impl Fn(&CovisibleFrame) -> Option<Listed<'a>> + Sync, card: &mut Card) {
     check_range(scene, stored, card);
-    let grid = |frame: &CovisibleFrame| read(frame).map(|listed| (listed.points(frame.grid_step_px), listed.places()));
+    let grid = |frame: &CovisibleFrame| read(frame).map(|listed| (listed.points(frame.grid_step_px, stored.hidden_by), listed.places()));
     let grids: Vec<Option<Grid<'a>>> = enfilade_parallel::map(&stored.frames, grid);
     for (frame, (points, _)) in stored.frames.iter().zip(&grids).filter_map(|(frame, points)| Some((frame, points.as_ref()?))) {
         let off = points.len().abs_diff(frame.surface_pixels as usize) as f64 / f64::from(frame.surface_pixels.max(1));
@@ -119,12 +119,15 @@ impl<'a> Listed<'a> {
         self.moving.as_ref().map_or_else(BodyPlaces::default, |(_, places)| *places)
     }
 
-    /// The surface points of a grid of pixels, world, metres, with their parts.
-    fn points(&self, step_px: u32) -> Vec<(i64, DVec3)> {
+    /// The surface points of a grid of pixels, world, metres, with their parts. Where distances alone tell what hides them, those of parts that
+    /// deform do not count.
+    fn points(&self, step_px: u32, hidden_by: HiddenBy) -> Vec<(i64, DVec3)> {
         let [width, height] = self.view.camera().size();
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
-            Some((self.part(pixel), self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
+            let is_followed = |part: &i64| hidden_by == HiddenBy::Scene || !self.places().deforms(*part);
+            let part = Some(self.part(pixel)).filter(is_followed)?;
+            Some((part, self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
         };
         CovisibleFrame::grid([width, height], step_px).filter_map(point).collect()
     }
@@ -144,7 +147,7 @@ impl<'a> Listed<'a> {
     /// Numbers of the points that this frame certainly sees, and certainly does not see.
     fn certain(&self, (points, places): (&[(i64, DVec3)], BodyPlaces<'_>)) -> Certain {
         let mut certain = Certain::default();
-        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p))) {
+        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p)?)) {
             *(if seen { &mut certain.seen } else { &mut certain.unseen }) += 1;
         }
         certain
@@ -233,7 +236,7 @@ mod tests {
         let of = |frame: &enfilade_frame::Frame, scale: f64| {
             let listed = Listed::new(CameraView::still(&camera, &pose), frame.get(Layer::DepthMeters).unwrap().clone());
             let points: Vec<(i64, DVec3)> =
-                listed.points(8).iter().map(|(part, p)| (*part, pose.position + (*p - pose.position) * scale)).collect();
+                listed.points(8, HiddenBy::Scene).iter().map(|(part, p)| (*part, pose.position + (*p - pose.position) * scale)).collect();
             let certain = listed.certain((&points, BodyPlaces::default()));
             [certain.seen, certain.unseen, points.len()].map(|n| n as f64)
         };

@@ -25,7 +25,7 @@ pub(super) fn check(
     let number = tracks.frames[place];
     for (point, &seeded) in tracks.positions.iter().enumerate() {
         let part = tracks.node_ids.get(point).map_or(0, |&part| i64::from(part));
-        let p = places[tracks.seeds[point].0 as usize].carry(&places[place], part, seeded);
+        let Some(p) = places[tracks.seeds[point].0 as usize].carry(&places[place], part, seeded) else { continue };
         let at = point * tracks.frames.len() + place;
         let [x, y] = tracks.points[at].map(f64::from);
         let stored = DVec2::new(x * width, y * height);

@@ -51,7 +51,9 @@ impl Bodies {
             if let Some(parent) = body.parent {
                 adopt(document, bodies.nodes[parent as usize].0, node);
             }
-            if !body.motion.is_rest() {
+            if matches!(body.motion.states, BodyStates::Deform { .. }) {
+                document.notes.push(format!("body {:?}: it deforms, which is not written; it has the shape of rest", body.name));
+            } else if !body.motion.is_rest() {
                 channels.push((node, keys(body, &parent_from_frame)));
             }
             if body.limits.is_some() {
@@ -95,7 +97,7 @@ fn frame(body: &Body) -> DAffine3 {
     match &body.motion.states {
         BodyStates::Free { position, rotation, .. } => DAffine3::from_rotation_translation(*rotation, *position),
         BodyStates::Hinge { point, .. } => DAffine3::from_translation(*point),
-        BodyStates::Slide { .. } => DAffine3::IDENTITY,
+        BodyStates::Slide { .. } | BodyStates::Deform { .. } => DAffine3::IDENTITY,
     }
 }
 
@@ -125,6 +127,7 @@ fn moments(body: &Body) -> Vec<(f64, RigidPose)> {
     let slid = |axis: DVec3, way| RigidPose { rotation: DQuat::IDENTITY, translation: axis * way };
     let times = &body.motion.times_s;
     let mut found: Vec<(f64, RigidPose)> = match &body.motion.states {
+        BodyStates::Deform { .. } => Vec::new(),
         BodyStates::Free { poses, .. } => times.iter().copied().zip(poses.iter().copied()).collect(),
         BodyStates::Slide { axis, distances_m } => times.iter().zip(distances_m).map(|(&t, &way)| (t, slid(*axis, way))).collect(),
         BodyStates::Hinge { axis, angles_rad, .. } => {

@@ -2,10 +2,15 @@
 
 use super::Assembly;
 use enfilade_math::{DAffine3, DQuat, DVec3};
-use enfilade_scene::{Body, BodyId, BodyMotion, BodyStates, RigidPose};
+use enfilade_scene::{Body, BodyId, BodyMotion, BodyStates, PartId, RigidPose, Shape};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Moments, seconds, and the pose at each.
 pub(crate) type TimedPoses = (Vec<f64>, Vec<RigidPose>);
+
+/// Moments, seconds, and the shape of a mesh at each.
+pub(crate) type TimedShapes = (Vec<f64>, Vec<Arc<Shape>>);
 
 /// Numbers of parts and lights that were there at a moment of the import.
 #[derive(Clone, Copy)]
@@ -42,10 +47,7 @@ impl Assembly<'_> {
         motion: BodyMotion,
         limits: Option<[f64; 2]>,
     ) -> Option<BodyId> {
-        let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);
-        let numbered = (2..).map(|number| format!("{name}_{number}"));
-        let unique = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default();
-        let body = Body { name: unique, parent, parts: Vec::new(), lights: Vec::new(), limits, motion };
+        let body = Body { name: self.unique_body(name), parent, parts: Vec::new(), lights: Vec::new(), limits, motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(
                 format!("node {name:?}"),
@@ -57,6 +59,27 @@ impl Assembly<'_> {
         Some(self.scene.bodies.len() as BodyId - 1)
     }
 
+    /// Makes a part deform in its own mesh's space, borne by a body if there is one. False, with a warning, if the mesh that the part has
+    /// became another one than that of the shapes.
+    pub(crate) fn deform(&mut self, part: PartId, parent: Option<BodyId>, (times_s, shapes): TimedShapes) -> bool {
+        let placed = &self.scene.parts[part as usize];
+        let (name, vertices) = (placed.name.clone(), self.scene.meshes[placed.mesh as usize].positions.len());
+        if shapes.iter().any(|shape| shape.positions.len() != vertices) {
+            self.warn(format!("part {name:?}"), "its shape changes, but its mesh was repaired or painted; it keeps its shape of rest");
+            return false;
+        }
+        let (name, motion) = (self.unique_body(&name), BodyMotion { times_s, states: BodyStates::Deform { shapes } });
+        self.scene.bodies.push(Body { name, parent, parts: vec![part], lights: Vec::new(), limits: None, motion });
+        true
+    }
+
+    /// A name that no body has, made from `name`.
+    fn unique_body(&self, name: &str) -> String {
+        let taken = |name: &str| self.scene.bodies.iter().any(|body| body.name == name);
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        std::iter::once(name.to_string()).chain(numbered).find(|name| !taken(name)).unwrap_or_default()
+    }
+
     /// Gives a body another motion, which is stated in a frame of the file as in [`Assembly::push_jointed`].
     pub(crate) fn move_body(&mut self, body: Option<BodyId>, file_from_frame: DAffine3, motion: BodyMotion) {
         let Some(body) = body.map(|body| &mut self.scene.bodies[body as usize]) else { return };
@@ -65,12 +88,19 @@ impl Assembly<'_> {
         *body = Body { limits, ..moved.unwrap_or_else(|| body.clone()) };
     }
 
-    /// Gives a body the parts and lights that came after `before`.
+    /// Gives a body the parts and lights that came after `before`, but those that deform.
     pub(crate) fn carry(&mut self, body: BodyId, before: Contents) {
         let now = self.contents();
+        let deform = |body: &&Body| matches!(body.motion.states, BodyStates::Deform { .. });
+        let taken: BTreeSet<PartId> = self.scene.bodies.iter().filter(deform).flat_map(|body| body.parts.iter().copied()).collect();
         let body = &mut self.scene.bodies[body as usize];
-        body.parts.extend(before.parts..now.parts);
+        body.parts.extend((before.parts..now.parts).filter(|part| !taken.contains(part)));
         body.lights.extend(before.lights..now.lights);
+    }
+
+    /// Makes a moment of the bodies' time, seconds, the first one of the scene.
+    pub(crate) fn begin_at(&mut self, start_s: f64) {
+        self.scene.bodies.iter_mut().flat_map(|body| &mut body.motion.times_s).for_each(|time_s| *time_s -= start_s);
     }
 
     /// Number of the bodies that carry something, themselves or by others.

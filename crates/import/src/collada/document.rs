@@ -86,6 +86,14 @@ pub(super) fn exactly<const N: usize>(node: Node) -> Option<[f64; N]> {
     found.get(..N).filter(|_| odd == 0)?.try_into().ok()
 }
 
+/// As [`exactly`], as many as `count`.
+pub(super) fn several(node: Node, count: usize) -> Option<Vec<f64>> {
+    let (mut found, odd) = numbers(node);
+    let is_enough = odd == 0 && found.len() >= count;
+    found.truncate(count);
+    is_enough.then_some(found)
+}
+
 /// Whole numbers of an element; `None` where something else is among them.
 pub(super) fn indices(node: Node) -> Option<Vec<u32>> {
     let texts = node.children().filter_map(|n| n.text().filter(|_| n.is_text()));

@@ -14,15 +14,19 @@
 //! | textures | by `sampler2D` and `surface`, or by the picture's own id; wrapping |
 //! | cameras | perspective |
 //! | lights | point, spot and directional ones. COLLADA states no unit: strengths are W/sr and W/m² (Blender's are its watts and are divided by 4π); attenuation is that of light. Ambient light is left out |
-//! | left out, with a warning | animations, bump maps, reflections, other profiles, physics, files that a file refers to |
+//! | `library_animations` | all channels of the transforms of nodes, on their own clock: whole transforms, single numbers, elements of matrices; steps, lines, Bézier's and Hermite's curves. Matrices turn the shortest way between two moments; scales and shears stay those of the scene |
+//! | left out, with a warning | animations of all else, bump maps, reflections, other profiles, physics, files that a file refers to |
 //!
 //! Surfaces have two sides and emit on both.
 
+mod animation;
+mod curve;
 mod document;
 mod geometry;
 mod light;
 mod material;
 mod node;
+mod transform;
 
 use crate::assembly::Assembly;
 use crate::xml::xml_text;
@@ -46,9 +50,6 @@ pub(crate) fn load(mut a: Assembly) -> Result<Imported, ImportError> {
     }
     let dae = Dae::new(root);
     state_space(&dae, &mut a);
-    if child(root, "library_animations").is_some_and(|library| library.children().any(|n| n.is_element())) {
-        a.warn("library_animations", "animations were left out; everything stays where the scene has it");
-    }
     node::place_scene(&dae, &mut a)?;
     a.finish()
 }

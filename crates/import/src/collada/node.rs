@@ -1,12 +1,15 @@
 //! The nodes of the visual scene: transforms, and what they place.
 
+use super::animation::Animations;
 use super::document::{Dae, Node, at, called, child, children, exactly};
 use super::material::Materials;
+use super::transform::{Transforms, affine};
 use super::{geometry, light};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use enfilade_math::{DAffine3, DMat3, DMat4, DVec3};
-use enfilade_scene::{ObjectId, PartLabel};
+use crate::motion::Changing;
+use enfilade_math::DAffine3;
+use enfilade_scene::{BodyId, ObjectId, PartLabel};
 use std::collections::HashMap;
 
 /// Nodes within nodes deeper than this are taken for a cycle.
@@ -18,13 +21,14 @@ const MAX_VISITS: usize = 1_000_000;
 pub(super) fn place_scene(dae: &Dae, a: &mut Assembly) -> Result<(), ImportError> {
     let named = at(dae.root, &["scene", "instance_visual_scene"]).and_then(|i| dae.target(i.attribute("url")?));
     let first = || at(dae.root, &["library_visual_scenes", "visual_scene"]);
-    let mut placer = Placer { dae, materials: Materials::new(dae), meshes: HashMap::new(), visits: 0 };
+    let animations = Animations::read(dae, a);
+    let mut placer = Placer { dae, animations: &animations, materials: Materials::new(dae), meshes: HashMap::new(), visits: 0 };
     match named.filter(|n| n.tag_name().name() == "visual_scene").or_else(first) {
         Some(scene) => {
             let nodes: Vec<Node> = children(scene, "node").collect();
             for (i, node) in nodes.iter().enumerate() {
                 a.progress(i + 1, nodes.len());
-                placer.node(*node, DAffine3::IDENTITY, None, 0, a)?;
+                placer.node(*node, Within { file_from_parent: DAffine3::IDENTITY, object: None, body: None, depth: 0 }, a)?;
             }
         }
         None => {
@@ -35,11 +39,23 @@ pub(super) fn place_scene(dae: &Dae, a: &mut Assembly) -> Result<(), ImportError
             }
         }
     }
+    animations.report(a);
     Ok(())
+}
+
+/// What a node is in.
+#[derive(Clone, Copy)]
+struct Within {
+    file_from_parent: DAffine3,
+    object: Option<ObjectId>,
+    /// The body that bears it.
+    body: Option<BodyId>,
+    depth: usize,
 }
 
 struct Placer<'p, 'd> {
     dae: &'p Dae<'d>,
+    animations: &'p Animations,
     materials: Materials,
     /// By primitive and the set of its texture coordinates; `None` for those without faces.
     meshes: HashMap<(roxmltree::NodeId, Option<String>), Option<u32>>,
@@ -47,29 +63,25 @@ struct Placer<'p, 'd> {
 }
 
 impl<'d> Placer<'_, 'd> {
-    fn node(
-        &mut self,
-        node: Node<'d>,
-        file_from_parent: DAffine3,
-        parent: Option<ObjectId>,
-        depth: usize,
-        a: &mut Assembly,
-    ) -> Result<(), ImportError> {
+    fn node(&mut self, node: Node<'d>, within: Within, a: &mut Assembly) -> Result<(), ImportError> {
         self.visits += 1;
-        if depth > MAX_DEPTH || self.visits > MAX_VISITS {
+        if within.depth > MAX_DEPTH || self.visits > MAX_VISITS {
             return Err(a.malformed(
                 called(node),
                 format!("nodes are nested more than {MAX_DEPTH} deep, or more than {MAX_VISITS}; check its instances"),
             ));
         }
         let name = node.attribute("name").or(node.attribute("id")).filter(|n| !n.trim().is_empty()).unwrap_or("node");
-        let file_from_node = file_from_parent * transform(node, a)?;
-        let object = a.push_object(name, parent);
+        let transforms = Transforms::of(node, self.animations, a)?;
+        let file_from_node = within.file_from_parent * transforms.rest();
+        let object = a.push_object(name, within.object);
+        let body = moving(node, name, &transforms, &within, a).or(within.body);
+        let inner = Within { file_from_parent: file_from_node, object: Some(object), body, depth: within.depth + 1 };
         for child_node in node.children().filter(roxmltree::Node::is_element) {
             let url = child_node.attribute("url").unwrap_or_default();
             let tag = child_node.tag_name().name();
             if tag == "node" {
-                self.node(child_node, file_from_node, Some(object), depth + 1, a)?;
+                self.node(child_node, inner, a)?;
             }
             if !tag.starts_with("instance_") {
                 continue;
@@ -78,13 +90,22 @@ impl<'d> Placer<'_, 'd> {
                 a.warn(called(node), format!("it refers to {url:?}, which is not in the file; export the scene with all of it"));
                 continue;
             };
+            let before = a.contents();
             match tag {
-                "instance_node" => self.node(target, file_from_node, Some(object), depth + 1, a)?,
+                "instance_node" => {
+                    self.node(target, inner, a)?;
+                    continue;
+                }
                 "instance_geometry" => self.geometry(target, child_node, name, file_from_node, Some(object), a)?,
                 "instance_controller" => self.controller(target, child_node, name, file_from_node, object, a)?,
                 "instance_light" => light::add_light(self.dae, target, name, file_from_node, a),
                 "instance_camera" => light::add_camera(target, name, file_from_node, a),
                 other => a.warn(called(node), format!("{other} is not supported and was left out")),
+            }
+            // Joints place a skin by themselves.
+            let is_skin = tag == "instance_controller" && child(target, "skin").is_some();
+            if let Some(body) = body.filter(|_| !is_skin) {
+                a.carry(body, before);
             }
         }
         Ok(())
@@ -142,7 +163,8 @@ impl<'d> Placer<'_, 'd> {
             return Ok(());
         };
         a.warn("library_controllers", "skins are in their bind pose, morphs are their base meshes");
-        let bound = skin.and_then(|skin| child(skin, "bind_shape_matrix")).and_then(exactly::<16>).map_or(DAffine3::IDENTITY, affine);
+        let bound =
+            skin.and_then(|skin| child(skin, "bind_shape_matrix")).and_then(exactly::<16>).map_or(DAffine3::IDENTITY, |m| affine(&m));
         // Joints place a skin by themselves, whatever the position of its node.
         let placement = if skin.is_some() { bound } else { file_from_node };
         self.geometry(source, instance, name, placement, Some(object), a)
@@ -157,74 +179,13 @@ impl<'d> Placer<'_, 'd> {
     }
 }
 
-/// Sixteen numbers row by row as a placement; the last row is not used.
-fn affine(m: [f64; 16]) -> DAffine3 {
-    let m = DMat4::from_cols_array(&m).transpose();
-    DAffine3::from_mat4(m)
-}
-
-/// The product of a node's transforms, in their order.
-fn transform(node: Node, a: &Assembly) -> Result<DAffine3, ImportError> {
-    let mut whole = DAffine3::IDENTITY;
-    for element in node.children().filter(roxmltree::Node::is_element) {
-        let tag = element.tag_name().name();
-        let next = match tag {
-            "matrix" => exactly::<16>(element).map(affine),
-            "translate" => exactly::<3>(element).map(|v| DAffine3::from_translation(v.into())),
-            "scale" => exactly::<3>(element).map(|v| DAffine3::from_scale(v.into())),
-            "rotate" => exactly::<4>(element).map(|[x, y, z, degrees]| {
-                let axis = DVec3::new(x, y, z).try_normalize();
-                axis.map_or(DAffine3::IDENTITY, |axis| DAffine3::from_axis_angle(axis, degrees.to_radians()))
-            }),
-            "lookat" => exactly::<9>(element).and_then(looking),
-            "skew" => exactly::<7>(element).and_then(skewed),
-            _ => continue,
-        };
-        let problem =
-            || format!("found a <{tag}> that is no transform; expected as many finite numbers as COLLADA has; export the file again");
-        whole *= next.ok_or_else(|| a.malformed(called(node), problem()))?;
+/// The body that a node is, if it moves by itself.
+fn moving(node: Node, name: &str, transforms: &Transforms, within: &Within, a: &mut Assembly) -> Option<BodyId> {
+    let moments = transforms.moments();
+    if moments.is_empty() {
+        return None;
     }
-    Ok(whole)
-}
-
-/// A place from which −z looks at another, by eye, target and up.
-fn looking(v: [f64; 9]) -> Option<DAffine3> {
-    let [eye, target, up] = [0, 3, 6].map(|i| DVec3::new(v[i], v[i + 1], v[i + 2]));
-    let axes = crate::assembly::orthonormal(up, eye - target)?;
-    Some(DAffine3::from_mat3_translation(axes, eye))
-}
-
-/// RenderMan's skew: by an angle in degrees, the axis `from` is turned towards `to`.
-fn skewed(v: [f64; 7]) -> Option<DAffine3> {
-    let [angle, rest @ ..] = v;
-    let (from, to) = (DVec3::new(rest[0], rest[1], rest[2]).try_normalize()?, DVec3::new(rest[3], rest[4], rest[5]).try_normalize()?);
-    // The component of `from` at a right angle to `to`.
-    let across = (from - to * from.dot(to)).try_normalize()?;
-    let (along, over) = (from.dot(to), from.dot(across));
-    let turned = (along.atan2(over) + angle.to_radians()).tan();
-    let shear = turned - along / over;
-    let outer = |column: f64| to * (shear * column);
-    Some(DAffine3::from_mat3(DMat3::IDENTITY + DMat3::from_cols(outer(across.x), outer(across.y), outer(across.z))))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn skew_keeps_what_lies_along_the_axis_it_turns_to() {
-        // 45° from y towards x: (0, 1, 0) becomes (1, 1, 0).
-        let m = skewed([45.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0]).unwrap();
-        assert!((m.transform_point3(DVec3::Y) - DVec3::new(1.0, 1.0, 0.0)).length() < 1e-12);
-        assert!((m.transform_point3(DVec3::X) - DVec3::X).length() < 1e-12 && (m.transform_point3(DVec3::Z) - DVec3::Z).length() < 1e-12);
-    }
-
-    #[test]
-    fn a_view_looks_from_its_eye_at_its_target() {
-        let m = looking([1.0, 2.0, 3.0, 1.0, 2.0, 0.0, 0.0, 1.0, 0.0]).unwrap();
-        assert_eq!(
-            (m.translation, m.transform_vector3(DVec3::NEG_Z), m.transform_vector3(DVec3::Y)),
-            (DVec3::new(1.0, 2.0, 3.0), DVec3::NEG_Z, DVec3::Y)
-        );
-    }
+    let (local, told) = (|time_s, side| transforms.at(time_s, side), |time_s| format!("{time_s} s"));
+    let node = Changing { place: &called(node), name, rest: transforms.rest(), moments, local: &local, told: &told };
+    node.body((within.file_from_parent, within.body), a)
 }

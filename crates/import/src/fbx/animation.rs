@@ -5,15 +5,11 @@
 
 use super::matrix::affine;
 use crate::assembly::TimedPoses;
+use crate::motion;
 use enfilade_math::{DAffine3, DQuat, DVec3};
 use enfilade_scene::RigidPose;
 use std::collections::BTreeMap;
 use ufbx::{Anim, BakeOpts, BakedNode, InheritMode, Node, Quat, Scene, Vec3};
-
-/// States a second, where a node does not move evenly.
-const RATE_HZ: f64 = 60.0;
-/// Most states of one node.
-const MOST_STATES: usize = 200_000;
 
 /// The motion of the nodes of a file, by number.
 #[derive(Default)]
@@ -29,7 +25,7 @@ impl Animations {
     pub(super) fn sample(scene: &Scene, anim: &Anim, options: BakeOpts) -> Result<Self, Box<ufbx::Error>> {
         let options = BakeOpts {
             trim_start_time: true,
-            resample_rate: RATE_HZ,
+            resample_rate: motion::RATE_HZ,
             key_reduction_enabled: true,
             key_reduction_rotation: true,
             ..options
@@ -69,25 +65,18 @@ fn states(node: &BakedNode) -> Result<TimedPoses, String> {
         return Err("its scale changes, which no rigid motion does".into());
     }
     let (translations, rotations) = (node.translation_keys.as_ref(), node.rotation_keys.as_ref());
-    let mut times_s: Vec<f64> = translations.iter().map(|key| key.time).chain(rotations.iter().map(|key| key.time)).collect();
-    times_s.sort_by(f64::total_cmp);
-    times_s.dedup();
-    if times_s.len() > MOST_STATES {
-        return Err(format!("it has {} states, more than {MOST_STATES}", times_s.len()));
-    }
+    let moments = translations.iter().map(|key| key.time).chain(rotations.iter().map(|key| key.time)).collect();
     let at = |time_s: f64| {
         let translation = vector(&ufbx::evaluate_baked_vec3(translations, time_s));
         (translation, rotation(&ufbx::evaluate_baked_quat(rotations, time_s)))
     };
     let (start, turn) = at(0.0);
     let back = turn.inverse();
-    let pose = |&time_s: &f64| {
+    let states = motion::states(moments, |time_s, _| {
         let (translation, rotation) = at(time_s);
         RigidPose { rotation: (back * rotation).normalize(), translation: back * (translation - start) }
-    };
-    let poses: Vec<RigidPose> = times_s.iter().map(pose).collect();
-    let finite = poses.iter().all(|pose| pose.rotation.is_finite() && pose.translation.is_finite());
-    if finite { Ok((times_s, poses)) } else { Err("a state of it is not finite".into()) }
+    })?;
+    states.ok_or_else(|| "it has no states".into())
 }
 
 fn vector(v: &Vec3) -> DVec3 {

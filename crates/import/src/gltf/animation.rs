@@ -1,22 +1,19 @@
-//! Animations of nodes, as rigid motion over time.
+//! Animations of nodes over time.
 //!
-//! Translations and rotations are used, of all animations together, from their first moment on. Linear channels and steps are exact;
-//! cubic splines are cut into straight pieces of a sixtieth of a second. Scales, weights of morph targets and skins stay as they are.
+//! All animations are used together, on their own clock. Translations and rotations are rigid motion, of which linear channels and steps are
+//! exact, and cubic splines are cut into straight pieces of a sixtieth of a second. Scales, weights of morph targets and joints change shapes
+//! (`deform.rs`).
 
 use super::container::Document;
 use crate::assembly::{Assembly, TimedPoses};
-use enfilade_math::{DQuat, DVec3};
+use crate::motion::{self, Side};
+use enfilade_math::{DAffine3, DQuat, DVec3};
 use enfilade_scene::RigidPose;
-use gltf::json::Index;
-use gltf::json::accessor::Accessor;
 use gltf::json::animation::{Animation, Interpolation, Property, Sampler};
+use gltf::json::scene::UnitQuaternion;
 use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
 
-/// Length of the pieces of cubic splines, seconds.
-const PIECE_S: f64 = 1.0 / 60.0;
-/// Most states of one node.
-const MOST_STATES: usize = 200_000;
 /// Scales that differ by no more are the same.
 const SAME_SCALE: f32 = 1e-5;
 
@@ -30,22 +27,19 @@ pub(super) struct Animations {
 struct NodeMotion {
     translation: Option<Channel<3>>,
     rotation: Option<Channel<4>>,
+    /// Only where it changes.
+    scale: Option<Channel<3>>,
+    /// By morph target.
+    weights: Vec<Channel<1>>,
 }
 
 /// Values over time.
-struct Channel<const N: usize> {
+pub(super) struct Channel<const N: usize> {
     times_s: Vec<f64>,
     values: Vec<[f64; N]>,
     /// Of cubic splines: the tangents before and after each value, per second.
     tangents: Vec<[[f64; N]; 2]>,
     steps: bool,
-}
-
-/// From which side a moment is approached: at a step, values differ.
-#[derive(Clone, Copy)]
-enum Side {
-    Before,
-    After,
 }
 
 impl Animations {
@@ -88,13 +82,25 @@ impl Animations {
             }
             Property::Scale => {
                 let rest = json.scale.unwrap_or([1.0; 3]);
-                let values = channel::<3>(document, sampler)?.values;
+                let values = channel::<3>(document, sampler)?;
                 let same = |value: &[f64; 3]| (0..3).all(|axis| (value[axis] as f32 - rest[axis]).abs() <= SAME_SCALE);
-                if !values.iter().all(same) {
-                    return Err("it changes the scale, which no rigid motion does".into());
+                if values.values.iter().all(same) {
+                    return Ok(());
                 }
+                let motion = self.nodes.entry(node).or_default();
+                if motion.scale.is_some() {
+                    return twice();
+                }
+                motion.scale = Some(values);
             }
-            Property::MorphTargetWeights => return Err("it moves morph targets, which stay as they are at rest".into()),
+            Property::MorphTargetWeights => {
+                let weights = weights(document, sampler)?;
+                let motion = self.nodes.entry(node).or_default();
+                if !motion.weights.is_empty() {
+                    return twice();
+                }
+                motion.weights = weights;
+            }
         }
         Ok(())
     }
@@ -102,7 +108,7 @@ impl Animations {
     /// The states of a node relative to its own rest, in its own axes: moments, and poses. `None` of nodes that stay.
     ///
     /// # Errors
-    /// When there are more states than a scene may have.
+    /// As [`motion::states`].
     pub(super) fn states(&self, document: &Document, node: usize) -> Result<Option<TimedPoses>, String> {
         let Some(motion) = self.nodes.get(&node) else { return Ok(None) };
         let json = &document.root.nodes[node];
@@ -111,37 +117,70 @@ impl Animations {
             rotation: json.rotation.as_ref().map_or(DQuat::IDENTITY, |q| quaternion(q.0.map(f64::from))),
             translation: json.translation.map_or(DVec3::ZERO, vector),
         };
-        let mut times_s: Vec<f64> = [motion.translation.as_ref().map(Channel::moments), motion.rotation.as_ref().map(Channel::moments)]
-            .into_iter()
-            .flatten()
-            .flatten()
-            .collect();
-        times_s.sort_by(f64::total_cmp);
-        times_s.dedup();
-        if times_s.is_empty() {
-            return Ok(None);
-        }
-        if times_s.len() > MOST_STATES {
-            return Err(format!("{} states, more than {MOST_STATES}", times_s.len()));
-        }
-        let at = |time_s: f64, side: Side| {
+        let moments = [motion.translation.as_ref().map(Channel::moments), motion.rotation.as_ref().map(Channel::moments)];
+        motion::states(moments.into_iter().flatten().flatten().collect(), |time_s, side| {
             let translation =
                 motion.translation.as_ref().map_or(rest.translation, |channel| DVec3::from_array(channel.linear(time_s, side)));
             let rotation = motion.rotation.as_ref().map_or(rest.rotation, |channel| channel.slerp(time_s, side));
             let back = rest.rotation.inverse();
             RigidPose { rotation: (back * rotation).normalize(), translation: back * (translation - rest.translation) }
-        };
-        let (mut moments, mut poses) = (Vec::new(), Vec::new());
-        for time_s in times_s {
-            let [before, after] = [at(time_s, Side::Before), at(time_s, Side::After)];
-            let states = if before == after { &[before][..] } else { &[before, after] };
-            for pose in states {
-                moments.push(time_s);
-                poses.push(*pose);
-            }
-        }
-        Ok(Some((moments, poses)))
+        })
     }
+}
+
+impl Animations {
+    /// True if the scale of a node changes.
+    pub(super) fn scales(&self, node: usize) -> bool {
+        self.nodes.get(&node).is_some_and(|motion| motion.scale.is_some())
+    }
+
+    /// True if the weights of the morph targets of a node change.
+    pub(super) fn morphs(&self, node: usize) -> bool {
+        self.nodes.get(&node).is_some_and(|motion| !motion.weights.is_empty())
+    }
+
+    /// The moments at which straight pieces of any channel of a node end; none of nodes that stay.
+    pub(super) fn moments(&self, node: usize) -> Vec<f64> {
+        let Some(motion) = self.nodes.get(&node) else { return Vec::new() };
+        let weights = motion.weights.iter().map(Channel::moments);
+        let [translation, rotation] = [motion.translation.as_ref().map(Channel::moments), motion.rotation.as_ref().map(Channel::moments)];
+        let scale = motion.scale.as_ref().map(Channel::moments);
+        translation.into_iter().chain(rotation).chain(scale).chain(weights).flatten().collect()
+    }
+
+    /// The own transform of a node at a moment.
+    pub(super) fn local(&self, document: &Document, node: usize, (time_s, side): (f64, Side)) -> DAffine3 {
+        let rest = document.local_transform(node);
+        let json = &document.root.nodes[node];
+        let Some(motion) = self.nodes.get(&node).filter(|_| json.matrix.is_none()) else { return rest };
+        let own = |rotation: &UnitQuaternion| quaternion(rotation.0.map(f64::from));
+        let rotation = motion.rotation.as_ref().map(|channel| channel.slerp(time_s, side));
+        let rotation = rotation.unwrap_or_else(|| json.rotation.as_ref().map_or(DQuat::IDENTITY, own));
+        let at = |channel: &Option<Channel<3>>| channel.as_ref().map(|channel| DVec3::from_array(channel.linear(time_s, side)));
+        let scale = at(&motion.scale).unwrap_or_else(|| json.scale.map_or(DVec3::ONE, |s| DVec3::from_array(s.map(f64::from))));
+        DAffine3::from_scale_rotation_translation(scale, rotation, at(&motion.translation).unwrap_or(rest.translation))
+    }
+
+    /// The weights of the morph targets of a node at a moment, where they change.
+    pub(super) fn weights(&self, node: usize, (time_s, side): (f64, Side)) -> Option<Vec<f32>> {
+        let weights = &self.nodes.get(&node).filter(|motion| !motion.weights.is_empty())?.weights;
+        Some(weights.iter().map(|channel| channel.linear(time_s, side)[0] as f32).collect())
+    }
+}
+
+/// The weights of morph targets over time: a channel for each.
+fn weights(document: &Document, sampler: &Sampler) -> Result<Vec<Channel<1>>, String> {
+    let moments = document.vectors::<1>(sampler.input)?.len();
+    let values: Vec<[f32; 1]> = document.vectors::<1>(sampler.output)?;
+    let cubic = matches!(sampler.interpolation, Checked::Valid(Interpolation::CubicSpline));
+    let parts = if cubic { 3 * moments } else { moments };
+    let targets = values.len().checked_div(parts).unwrap_or(0);
+    if targets == 0 || values.len() != targets * parts {
+        return Err(format!("{} weights for {moments} moments, expected as many for each", values.len()));
+    }
+    // Of cubic splines, each moment has the tangents before of all targets, their values, and the tangents after.
+    let of = |target: usize| values.iter().skip(target).step_by(targets).copied().collect();
+    (0..targets).map(|target| channel_of(document, sampler, of(target))).collect()
 }
 
 fn sampler(animation: &Animation, index: usize) -> Result<&Sampler, String> {
@@ -150,13 +189,17 @@ fn sampler(animation: &Animation, index: usize) -> Result<&Sampler, String> {
 }
 
 fn channel<const N: usize>(document: &Document, sampler: &Sampler) -> Result<Channel<N>, String> {
-    let read = |accessor: Index<Accessor>| document.vectors::<N>(accessor);
+    channel_of(document, sampler, document.vectors::<N>(sampler.output)?)
+}
+
+/// The channel of a sampler with these values.
+fn channel_of<const N: usize>(document: &Document, sampler: &Sampler, values: Vec<[f32; N]>) -> Result<Channel<N>, String> {
     let times: Vec<[f32; 1]> = document.vectors::<1>(sampler.input)?;
     let times_s: Vec<f64> = times.into_iter().map(|[time]| f64::from(time)).collect();
     if let Some(at) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
         return Err(format!("moment {} ({} s) does not come after the one ahead of it ({} s)", at + 1, times_s[at + 1], times_s[at]));
     }
-    let values: Vec<[f64; N]> = read(sampler.output)?.into_iter().map(|value| value.map(f64::from)).collect();
+    let values: Vec<[f64; N]> = values.into_iter().map(|value| value.map(f64::from)).collect();
     let cubic = matches!(sampler.interpolation, Checked::Valid(Interpolation::CubicSpline));
     let expected = if cubic { 3 * times_s.len() } else { times_s.len() };
     if times_s.is_empty() || values.len() != expected {
@@ -180,8 +223,7 @@ impl<const N: usize> Channel<N> {
         let mut moments = self.times_s.clone();
         if !self.tangents.is_empty() {
             for pair in self.times_s.windows(2) {
-                let pieces = ((pair[1] - pair[0]) / PIECE_S).ceil().clamp(1.0, MOST_STATES as f64) as usize;
-                moments.extend((1..pieces).map(|piece| pair[0] + (pair[1] - pair[0]) * piece as f64 / pieces as f64));
+                moments.extend(motion::pieces(pair[0], pair[1]));
             }
         }
         moments

@@ -14,10 +14,10 @@
 //! | texture coordinates | one set per primitive: that of the base colour, or of the first texture there is |
 //! | cameras | perspective; orthographic ones are dropped |
 //! | `COLOR_0` | multiplies base colour and opacity; where it varies, as a picture if the material has no textures (see `painted.rs`), else by its mean over the primitive, as opacity always, and the report says so |
-//! | skins | in the pose of the nodes; the transform of the node that bears the mesh does not count |
-//! | morph targets | by the weights of the node, else of the mesh |
+//! | skins | in the pose of the nodes, over time where these are animated; the transform of the node that bears the mesh does not count |
+//! | morph targets | by the weights of the node, else of the mesh, over time where these are animated |
 //! | reported once, not rendered | `KHR_materials_anisotropy`, `_diffuse_transmission`, `_dispersion`, `_iridescence`, `_volume_scatter` (see `unrendered.rs`) |
-//! | animations | translations and rotations of nodes move what is below them; scales, morph targets and skins stay at rest, with a warning |
+//! | animations | translations and rotations of nodes move what is below them; scales, morph targets and skins change the shapes of parts. What cannot be followed stays at rest, with a warning |
 //! | dropped with a warning | further vertex colours, light ranges, other extensions |
 //!
 //! A file that requires an extension outside this list is an error, unless it is one of looks, metadata, sound, behaviour or animation: that
@@ -43,6 +43,7 @@ mod budget;
 mod buffers;
 mod color;
 mod container;
+mod deform;
 mod draco;
 mod environment;
 mod far;

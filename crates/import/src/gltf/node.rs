@@ -56,9 +56,9 @@ struct Visit {
 /// When a mesh or material cannot be read, or an index points at nothing.
 pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembly) -> Result<(), ImportError> {
     let nodes = &document.root.nodes;
-    let mut placer = Placer { document, parts: Parts::new(document) };
     let objects = Objects::new(document, assembly);
     let animations = Animations::new(document, assembly);
+    let mut placer = Placer { document, parts: Parts::new(document, &animations) };
     let visit = |file_from_parent, label, parent, body| move |&node: &usize| Visit { node, file_from_parent, label, parent, body };
     let mut stack: Vec<Visit> = roots.iter().rev().map(visit(DAffine3::IDENTITY, FileLabel::NONE, None, None)).collect();
     let mut seen = vec![false; nodes.len()];
@@ -84,7 +84,7 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
             .and_then(|(name, frame, states)| assembly.push_body(&name, body, frame, states))
             .or(body);
         let before = assembly.contents();
-        placer.node(node, index, file_from_node, (object, parent), label, assembly)?;
+        placer.node((node, index, body), file_from_node, (object, parent), label, assembly)?;
         if let Some(body) = body.filter(|_| node.skin.is_none()) {
             assembly.carry(body, before);
         }
@@ -108,7 +108,7 @@ fn moving(
     let states = match animations.states(document, index) {
         Ok(states) => states?,
         Err(problem) => {
-            a.warn(format!("nodes[{index}]"), format!("its animation has {problem}; it stays"));
+            a.warn(format!("nodes[{index}]"), format!("it is animated, but {problem}; it stays"));
             return None;
         }
     };
@@ -140,12 +140,11 @@ struct Placer<'d> {
 }
 
 impl Placer<'_> {
-    /// Adds the mesh, camera and light of a node. The arguments include its own object and its parent's: if its mesh is placed many times,
-    /// each placement is an object.
+    /// Adds the mesh, camera and light of a node, which belongs to a body. The arguments include its own object and its parent's: if its mesh
+    /// is placed many times, each placement is an object.
     fn node(
         &mut self,
-        node: &Node,
-        index: usize,
+        (node, index, body): (&Node, usize, Option<BodyId>),
         file_from_node: DAffine3,
         (object, parent): (Option<ObjectId>, Option<ObjectId>),
         label: FileLabel,
@@ -162,7 +161,7 @@ impl Placer<'_> {
                 }
                 None => vec![(object.unwrap_or_else(|| a.push_object(&own, parent)), file_from_node)],
             };
-            self.parts.add(mesh.value(), &Stand { node, index, name: own, object, label }, &places, a)?;
+            self.parts.add(mesh.value(), &Stand { node, index, name: own, object, label, body }, &places, a)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.root.cameras.get(camera.value());

@@ -1,7 +1,9 @@
 //! Parts: the primitives of a node's mesh with their materials.
 
+use super::animation::Animations;
 use super::color::{self, Several, Tint};
 use super::container::Document;
+use super::deform::{Bound, Deforms};
 use super::draco;
 use super::file_material::FileMaterial;
 use super::materials::Materials;
@@ -12,7 +14,7 @@ use super::skin::{self, Skins};
 use crate::ImportError;
 use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::{DAffine3, Rgb};
-use enfilade_scene::ObjectId;
+use enfilade_scene::{BodyId, ObjectId};
 use gltf::json::mesh::Primitive;
 use gltf::json::scene::Node;
 use std::collections::{BTreeSet, HashMap};
@@ -25,6 +27,8 @@ pub(super) struct Stand<'n> {
     /// The object that the part belongs to.
     pub object: Option<ObjectId>,
     pub label: FileLabel,
+    /// The body that the node belongs to.
+    pub body: Option<BodyId>,
 }
 
 /// Makes parts of the file's meshes, which share what they can.
@@ -32,6 +36,7 @@ pub(super) struct Parts<'d> {
     document: &'d Document,
     materials: Materials,
     skins: Skins<'d>,
+    deforms: Deforms<'d>,
     /// `None` for those without a surface.
     shapes: HashMap<Key, Option<Shape>>,
     /// Meshes and primitives whose vertices have several colours that show.
@@ -60,8 +65,15 @@ struct Shape {
 }
 
 impl<'d> Parts<'d> {
-    pub(super) fn new(document: &'d Document) -> Self {
-        Self { document, materials: Materials::default(), skins: Skins::new(document), shapes: HashMap::new(), varied: BTreeSet::new() }
+    pub(super) fn new(document: &'d Document, animations: &'d Animations) -> Self {
+        Self {
+            document,
+            materials: Materials::default(),
+            skins: Skins::new(document),
+            deforms: Deforms::new(document, animations),
+            shapes: HashMap::new(),
+            varied: BTreeSet::new(),
+        }
     }
 
     /// Adds mesh `mesh` of the file at every one of `places`, each with the object that it is there.
@@ -97,7 +109,11 @@ impl<'d> Parts<'d> {
                 }
             };
             let Some(shape) = shape else { continue };
+            let uv_set = material.uv_set;
             let material = self.materials.tinted(&material, shape.tint, shape.picture, a);
+            let bound = Bound { node: stand.index, skin, primitive, uv_set, weights, place: &place };
+            let triangles = a.mesh_at(shape.mesh).triangles.clone();
+            let deformed = self.deforms.of(&bound, &triangles, &places.iter().map(|(_, place)| *place).collect::<Vec<_>>(), a)?;
             let part = if json.primitives.len() > 1 { format!("{name}.{i}") } else { name.clone() };
             // Joints place a skinned mesh in the file by themselves.
             for &(object, file_from_mesh) in places.iter().take(if skin.is_some() { 1 } else { places.len() }) {
@@ -105,7 +121,10 @@ impl<'d> Parts<'d> {
                 // A label of the node itself applies to each placement.
                 let is_own = stand.label.whole.is_some() && stand.label.whole == stand.object;
                 let label = FileLabel { whole: if is_own { Some(object) } else { stand.label.whole }, ..stand.label };
-                a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, label);
+                let placed = a.push_part_of(object, &part, shape.mesh, material, file_from_mesh, label);
+                if let (Some(placed), Some(deformed)) = (placed, &deformed) {
+                    a.deform(placed, stand.body.filter(|_| deformed.is_borne), deformed.shapes.clone());
+                }
             }
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! Skins in the pose of their nodes: joints move each vertex, by their weights.
+//! Skins in a pose of their nodes: joints move each vertex, by their weights.
 //!
 //! As the specification has it, the transform of the node with the mesh is ignored.
 
@@ -35,37 +35,51 @@ impl<'d> Skins<'d> {
             return Ok(Rc::clone(known));
         }
         let document = self.document;
-        let skins = &document.root.skins;
-        let Some(json) = skins.get(skin) else {
-            let problem = format!("it refers to skin {skin}, but there are only {}", skins.len());
-            return Err(a.malformed(format!("nodes[{node}]"), problem));
-        };
-        let bad = |what: &str, problem: String| a.malformed(format!("skins[{skin}].{what}"), problem);
-        let inverse_binds = json.inverse_bind_matrices.map(|accessor| document.vectors::<16>(accessor)).transpose();
-        let inverse_binds = inverse_binds.map_err(|problem| bad("inverseBindMatrices", problem))?;
-        if let Some(found) = inverse_binds.as_ref().map(Vec::len).filter(|&found| found < json.joints.len()) {
-            let problem = format!("found {found} matrices, expected {}, one a joint; export the file again", json.joints.len());
-            return Err(bad("inverseBindMatrices", problem));
-        }
-        let file_from_node = self.file_from_node.get_or_insert_with(|| placements(document));
-        let mut joints = Vec::with_capacity(json.joints.len());
-        for (i, joint) in json.joints.iter().map(|joint| joint.value()).enumerate() {
-            let Some(placement) = file_from_node.get(joint) else {
-                return Err(bad("joints", format!("it refers to node {joint}, but there are only {}", file_from_node.len())));
-            };
-            let Some(placement) = placement else {
-                return Err(bad("joints", format!("node {joint} is its own ancestor, so it has no place; export the file again")));
-            };
-            joints.push(*placement * inverse_binds.as_ref().map_or(DAffine3::IDENTITY, |matrices| affine(&matrices[i])));
-        }
-        let joints: Rc<[DAffine3]> = joints.into();
+        let rest = self.file_from_node.get_or_insert_with(|| placements(document, |node| document.local_transform(node)));
+        let joints: Rc<[DAffine3]> = joints(document, skin, node, rest, a)?.into();
         self.known.insert(skin, Rc::clone(&joints));
         Ok(joints)
     }
 }
 
-/// The placements of all nodes; a node with several parents belongs to the first.
-fn placements(document: &Document) -> Vec<Option<DAffine3>> {
+/// The transform of the mesh at a node by each joint of its skin, with the nodes at these placements.
+///
+/// # Errors
+/// As [`Skins::joints`].
+pub(super) fn joints(
+    document: &Document,
+    skin: usize,
+    node: usize,
+    file_from_node: &[Option<DAffine3>],
+    a: &Assembly,
+) -> Result<Vec<DAffine3>, ImportError> {
+    let skins = &document.root.skins;
+    let Some(json) = skins.get(skin) else {
+        let problem = format!("it refers to skin {skin}, but there are only {}", skins.len());
+        return Err(a.malformed(format!("nodes[{node}]"), problem));
+    };
+    let bad = |what: &str, problem: String| a.malformed(format!("skins[{skin}].{what}"), problem);
+    let inverse_binds = json.inverse_bind_matrices.map(|accessor| document.vectors::<16>(accessor)).transpose();
+    let inverse_binds = inverse_binds.map_err(|problem| bad("inverseBindMatrices", problem))?;
+    if let Some(found) = inverse_binds.as_ref().map(Vec::len).filter(|&found| found < json.joints.len()) {
+        let problem = format!("found {found} matrices, expected {}, one a joint; export the file again", json.joints.len());
+        return Err(bad("inverseBindMatrices", problem));
+    }
+    let mut joints = Vec::with_capacity(json.joints.len());
+    for (i, joint) in json.joints.iter().map(|joint| joint.value()).enumerate() {
+        let Some(placement) = file_from_node.get(joint) else {
+            return Err(bad("joints", format!("it refers to node {joint}, but there are only {}", file_from_node.len())));
+        };
+        let Some(placement) = placement else {
+            return Err(bad("joints", format!("node {joint} is its own ancestor, so it has no place; export the file again")));
+        };
+        joints.push(*placement * inverse_binds.as_ref().map_or(DAffine3::IDENTITY, |matrices| affine(&matrices[i])));
+    }
+    Ok(joints)
+}
+
+/// The parents of all nodes; of several the first.
+pub(super) fn parents(document: &Document) -> Vec<Option<usize>> {
     let nodes = &document.root.nodes;
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
     for (parent, node) in nodes.iter().enumerate() {
@@ -75,16 +89,21 @@ fn placements(document: &Document) -> Vec<Option<DAffine3>> {
             }
         }
     }
+    parents
+}
+
+/// The placements of all nodes, by their own transforms; `None` for nodes in a cycle.
+pub(super) fn placements(document: &Document, local: impl Fn(usize) -> DAffine3) -> Vec<Option<DAffine3>> {
+    let (nodes, parents) = (&document.root.nodes, parents(document));
     let mut found = vec![None; nodes.len()];
-    let mut stack: Vec<(usize, DAffine3)> =
-        (0..nodes.len()).filter(|&i| parents[i].is_none()).map(|i| (i, document.local_transform(i))).collect();
+    let mut stack: Vec<(usize, DAffine3)> = (0..nodes.len()).filter(|&i| parents[i].is_none()).map(|i| (i, local(i))).collect();
     while let Some((index, file_from_node)) = stack.pop() {
         if found[index].replace(file_from_node).is_some() {
             continue;
         }
         let children = nodes[index].children.iter().flatten().map(|child| child.value());
         for child in children.filter(|&child| parents.get(child) == Some(&Some(index))) {
-            stack.push((child, file_from_node * document.local_transform(child)));
+            stack.push((child, file_from_node * local(child)));
         }
     }
     found

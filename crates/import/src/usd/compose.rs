@@ -9,6 +9,7 @@
 use super::files::{Files, Unread, is_materialx, resolve};
 use super::layer::{Layer, MAX_PATH, child_path, field, moved, without_variants};
 use super::node::{Arc, Node, Site, Stack, Target};
+use super::time::Retiming;
 use super::value::{Item, Value};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -41,7 +42,8 @@ impl Composer {
         }
         let stack = composer.stack(location, "the scene file", a)?.ok_or_else(|| a.malformed("the scene file", "it is not there"))?;
         let map = Rc::new(vec![("/".to_string(), "/".to_string())]);
-        Ok((composer, Node { stack, path: "/".into(), kind: Arc::Root, depth: 0, map, children: Vec::new() }))
+        let retiming = Retiming::default();
+        Ok((composer, Node { stack, path: "/".into(), kind: Arc::Root, depth: 0, map, retiming, children: Vec::new() }))
     }
 
     /// The layer at a location with its sublayers; `None`, with a warning, where there is none.
@@ -49,20 +51,23 @@ impl Composer {
         if let Some(known) = self.stacks.get(location) {
             return Ok(Some(known.clone()));
         }
-        let mut layers = Vec::new();
-        self.add_layers(location, user, &mut Vec::new(), &mut layers, a)?;
+        let mut found = Vec::new();
+        self.add_layers(location, (user, None), &mut Vec::new(), &mut found, a)?;
+        let (layers, retimings): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         let Some(first) = layers.first() else { return Ok(None) };
-        let stack = Rc::new(Stack { location: first.location.clone(), layers });
+        let stack = Rc::new(Stack { location: first.location.clone(), layers, retimings });
         self.stacks.insert(location.to_string(), stack.clone());
         Ok(Some(stack))
     }
 
+    /// Adds a layer with its sublayers. `above` is the layer that it is a sublayer of, and how the sublayer's time becomes that of the stack,
+    /// if both have the same time codes a second.
     fn add_layers(
         &mut self,
         at: &str,
-        user: &str,
+        (user, above): (&str, Option<(&Layer, Retiming)>),
         open: &mut Vec<String>,
-        out: &mut Vec<Rc<Layer>>,
+        out: &mut Vec<(Rc<Layer>, Retiming)>,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
         let Some(layer) = self.files.find(at, user, a)? else { return Ok(()) };
@@ -74,14 +79,18 @@ impl Composer {
             ));
         }
         // A layer that comes in twice counts where it is strongest.
-        if out.iter().any(|l| l.location == layer.location) {
+        if out.iter().any(|(l, _)| l.location == layer.location) {
             return Ok(());
         }
-        out.push(layer.clone());
+        let retiming = above.map_or(Retiming::default(), |(user, retiming)| retiming.between(user, &layer));
+        out.push((layer.clone(), retiming));
         open.push(layer.location.clone());
-        for sublayer in layer.get("/", field::SUBLAYERS).map(|v| v.as_texts().to_vec()).unwrap_or_default() {
+        let offsets = layer.get("/", field::SUBLAYER_OFFSETS).and_then(|v| v.as_numbers(2)).unwrap_or(&[]).as_chunks::<2>().0;
+        for (i, sublayer) in layer.get("/", field::SUBLAYERS).map_or(&[][..], Value::as_texts).iter().enumerate() {
             let user = format!("subLayers of {}", layer.location);
-            self.add_layers(&resolve(&sublayer, &layer.location), &user, open, out, a)?;
+            let stated = offsets.get(i).map_or(Retiming::default(), |[offset, scale]| Retiming::new(*offset, *scale));
+            let above = Some((&*layer, retiming.after(stated)));
+            self.add_layers(&resolve(sublayer, &layer.location), (&user, above), open, out, a)?;
         }
         open.pop();
         Ok(())
@@ -127,13 +136,15 @@ impl Composer {
         let mut added = Vec::new();
         for (arc, name) in [(Arc::Inherit, field::INHERITS), (Arc::Specialize, field::SPECIALIZES)] {
             for (_, item) in node.items(name) {
-                added.push(node.arc(arc, depth, (node.stack.clone(), item.path), true));
+                added.push(node.arc(arc, depth, (node.stack.clone(), item.path), Retiming::default(), true));
             }
         }
         for (arc, name) in [(Arc::Reference, field::REFERENCES), (Arc::Payload, field::PAYLOAD)] {
             for (layer, item) in node.items(name) {
                 if let Some(target) = self.target(&item, &layer, node, a)? {
-                    added.push(node.arc(arc, depth, target, item.asset.is_empty()));
+                    let introduced = node.stack.retiming(&layer).after(item.retiming);
+                    let retiming = introduced.between(&node.stack.layers[0], &target.0.layers[0]);
+                    added.push(node.arc(arc, depth, target, retiming, item.asset.is_empty()));
                 }
             }
         }

@@ -27,6 +27,7 @@ pub(super) mod field {
     pub const VARIANT_SETS: &str = "variantSetNames";
     pub const VARIANTS: &str = "variantSelection";
     pub const SUBLAYERS: &str = "subLayers";
+    pub const SUBLAYER_OFFSETS: &str = "subLayerOffsets";
     pub const SCHEMAS: &str = "apiSchemas";
 }
 

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | units and axes | `metersPerUnit` (0.01 where none is stated) and `upAxis` (y) of the scene file; [`ImportOptions::meters_per_unit`](crate::ImportOptions::meters_per_unit) multiplies the former, [`ImportOptions::up_axis`](crate::ImportOptions::up_axis) replaces the latter |
 //! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; layers that are not there or on servers (`omniverse://`, `https://`) are left out with a warning; circles of sublayers and a depth of 64 are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
-//! | time | the first sample, else the value without time |
+//! | time | time samples of `xformOp`s move prims with all that is below them, from `startTimeCode` on (else from their first sample), with the layer's `timeCodesPerSecond` (else `framesPerSecond`, else 24) and the offsets of sublayers and references; between two samples as USD has it, but matrices turn the shortest way. Scales and shears stay those of the first sample; of all else the first sample is taken (else the value without time), each with a warning |
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
 //! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out, and with a warning meshes, instancers and primvars whose numbers do not fit each other |
 //! | meshes | polygons with holes, both orientations, normals and texture coordinates of every interpolation with or without indices. Subdivision surfaces are taken as their cages, with smooth normals where none are stated |
@@ -22,6 +22,7 @@
 //! The crate `openusd` reads all encodings and composes, but its releases either need a newer Rust than this workspace (0.7, 0.8) or
 //! reserve memory by counts that a damaged file states and end in `todo!()` for old ones (0.6). LZ4 and zip are read by crates.
 
+mod animation;
 mod archive;
 mod binary;
 mod bind;
@@ -29,6 +30,7 @@ mod camera;
 mod collection;
 mod compose;
 mod constants;
+mod curve;
 mod files;
 mod foreign;
 mod inputs;
@@ -49,6 +51,7 @@ mod surface;
 mod text;
 mod texture;
 mod things;
+mod time;
 mod value;
 mod walk;
 mod xform;

@@ -1,6 +1,7 @@
 //! Nodes of composition: paths in stacks of layers that speak of one prim.
 
 use super::layer::{Layer, child_path, field, moved, without_variants};
+use super::time::Retiming;
 use super::value::{Item, Value};
 use std::rc::Rc;
 
@@ -10,6 +11,16 @@ pub(super) struct Stack {
     /// Location of the first layer.
     pub location: String,
     pub layers: Vec<Rc<Layer>>,
+    /// How the time of each layer becomes that of the first.
+    pub retimings: Vec<Retiming>,
+}
+
+impl Stack {
+    /// How the time of one of its layers becomes that of the first.
+    pub(super) fn retiming(&self, layer: &Rc<Layer>) -> Retiming {
+        let at = self.layers.iter().position(|known| Rc::ptr_eq(known, layer));
+        at.map_or(Retiming::default(), |at| self.retimings[at])
+    }
 }
 
 /// The arc by which a node was added, the strongest first.
@@ -33,6 +44,8 @@ pub(super) struct Node {
     pub depth: usize,
     /// Prefixes of paths in the stack, and what they are on the stage.
     pub map: Rc<Vec<(String, String)>>,
+    /// How the time of the stack's first layer becomes the stage's.
+    pub retiming: Retiming,
     pub children: Vec<Node>,
 }
 
@@ -42,6 +55,8 @@ pub(super) struct Site {
     pub layer: Rc<Layer>,
     pub path: String,
     map: Rc<Vec<(String, String)>>,
+    /// How the layer's time becomes the stage's.
+    pub retiming: Retiming,
 }
 
 impl Site {
@@ -64,6 +79,7 @@ impl Node {
             kind: self.kind,
             depth: self.depth,
             map: self.map.clone(),
+            retiming: self.retiming,
             // Where a path is not there, nothing below it is.
             children: self.children.iter().map(|c| c.below(name)).filter(|c| !c.children.is_empty() || !c.own_sites().is_empty()).collect(),
         }
@@ -75,19 +91,25 @@ impl Node {
         self.map.iter().find_map(|(from, to)| moved(&path, from, to)).unwrap_or(path)
     }
 
-    /// The node that an arc of this node leads to. Within the same layers, paths outside of the target keep their meaning.
-    pub(super) fn arc(&self, kind: Arc, depth: usize, (stack, path): Target, same_layers: bool) -> Self {
+    /// The node that an arc of this node leads to, which shifts time. Within the same layers, paths outside of the target keep their meaning.
+    pub(super) fn arc(&self, kind: Arc, depth: usize, (stack, path): Target, retiming: Retiming, same_layers: bool) -> Self {
         let mut map = vec![(path.clone(), self.stage_path())];
         if same_layers {
             map.extend(self.map.iter().cloned());
         }
-        Self { stack, path, kind, depth, map: Rc::new(map), children: Vec::new() }
+        Self { stack, path, kind, depth, map: Rc::new(map), retiming: self.retiming.after(retiming), children: Vec::new() }
     }
 
     /// The layers of the stack that speak of the path.
     pub(super) fn own_sites(&self) -> Vec<Site> {
-        let has = |l: &&Rc<Layer>| l.specs.contains_key(&self.path);
-        self.stack.layers.iter().filter(has).map(|l| Site { layer: l.clone(), path: self.path.clone(), map: self.map.clone() }).collect()
+        let layers = self.stack.layers.iter().zip(&self.stack.retimings).filter(|(layer, _)| layer.specs.contains_key(&self.path));
+        let site = |(layer, retiming): (&Rc<Layer>, &Retiming)| Site {
+            layer: layer.clone(),
+            path: self.path.clone(),
+            map: self.map.clone(),
+            retiming: self.retiming.after(*retiming),
+        };
+        layers.map(site).collect()
     }
 
     /// The items of a list field over the layers of the stack, each with the layer that names it.
@@ -125,6 +147,7 @@ impl Node {
                     kind: Arc::Variant,
                     depth,
                     map: self.map.clone(),
+                    retiming: self.retiming,
                     children: Vec::new(),
                 });
             }

@@ -1,13 +1,14 @@
 //! The composed scene: prims with their resolved values.
 
 use super::compose::Composer;
-use super::layer::{child_path, field, property_path};
+use super::layer::{Layer, child_path, field, property_path};
 use super::node::{Node, Site};
-use super::value::{Item, Value};
+use super::time::Retiming;
+use super::value::{Item, Samples, Value};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use std::cell::Cell;
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 /// More prims than this are taken for references that multiply without end.
@@ -18,8 +19,8 @@ pub(super) struct Stage {
     composer: Composer,
     root: Rc<Prim>,
     known: HashMap<String, Rc<Prim>>,
-    /// Number of values that were the first of several time samples.
-    pub sampled: Rc<Cell<u64>>,
+    /// Attributes of which the first of several time samples was taken.
+    pub sampled: Rc<RefCell<BTreeSet<String>>>,
 }
 
 /// A prim with all opinions about it.
@@ -29,16 +30,29 @@ pub(super) struct Prim {
     pub path: String,
     node: Node,
     sites: Vec<Site>,
-    sampled: Rc<Cell<u64>>,
+    sampled: Rc<RefCell<BTreeSet<String>>>,
+}
+
+/// The strongest opinion about an attribute, over time.
+pub(super) enum OverTime<'p> {
+    /// One value at all times.
+    Constant(&'p Value),
+    /// Values at times, and how these become the stage's.
+    Sampled(&'p Samples, Retiming),
 }
 
 impl Stage {
     /// Opens a scene file.
     pub(super) fn open(location: &str, a: &mut Assembly) -> Result<Self, ImportError> {
         let (composer, node) = Composer::open(location, a)?;
-        let sampled = Rc::new(Cell::new(0));
-        let root = Rc::new(Prim { path: "/".into(), sites: node.sites(), node, sampled: sampled.clone() });
+        let sampled = Rc::default();
+        let root = Rc::new(Prim { path: "/".into(), sites: node.sites(), node, sampled: Rc::clone(&sampled) });
         Ok(Self { composer, root, known: HashMap::new(), sampled })
+    }
+
+    /// The layer of the scene file, which alone says how fast time runs.
+    pub(super) fn layer(&self) -> &Layer {
+        &self.root.node.stack.layers[0]
     }
 
     /// The prim above all.
@@ -133,25 +147,33 @@ impl Prim {
         self.sites.iter().find_map(|s| s.layer.get(&property_path(&s.path, property), name))
     }
 
-    /// An attribute's value, and the site that states it. In a layer, the first of its time samples has precedence over its value without
-    /// time, as at every time that programs show.
+    /// An attribute's value, and the site that states it: of time samples the first.
     pub(super) fn value_at(&self, attribute: &str) -> Option<(&Value, &Site)> {
-        for site in &self.sites {
-            let path = property_path(&site.path, attribute);
-            let value = match site.layer.get(&path, field::SAMPLES) {
-                Some(Value::Samples(first, count)) => {
-                    self.sampled.set(self.sampled.get() + u64::from(*count > 1));
-                    Some(&**first)
-                }
-                _ => site.layer.get(&path, field::DEFAULT),
-            };
-            match value {
-                Some(Value::Block) => return None,
-                Some(value) => return Some((value, site)),
-                None => (),
-            }
+        let (value, site) = self.opinion(attribute)?;
+        let Value::Samples(samples) = value else { return Some((value, site)) };
+        if samples.vary() {
+            self.sampled.borrow_mut().insert(property_path(&self.path, attribute));
         }
-        None
+        samples.values.first().filter(|first| !matches!(first, Value::Block)).map(|first| (first, site))
+    }
+
+    /// An attribute's values at all times.
+    pub(super) fn over_time(&self, attribute: &str) -> Option<OverTime<'_>> {
+        Some(match self.opinion(attribute)? {
+            (Value::Samples(samples), site) => OverTime::Sampled(samples, site.retiming),
+            (value, _) => OverTime::Constant(value),
+        })
+    }
+
+    /// The strongest opinion about an attribute. In a layer, time samples have precedence over the value without time, as at every time
+    /// that programs show.
+    fn opinion(&self, attribute: &str) -> Option<(&Value, &Site)> {
+        let stated = self.sites.iter().find_map(|site| {
+            let path = property_path(&site.path, attribute);
+            let samples = site.layer.get(&path, field::SAMPLES).filter(|value| matches!(value, Value::Samples(_)));
+            samples.or_else(|| site.layer.get(&path, field::DEFAULT)).map(|value| (value, site))
+        });
+        stated.filter(|(value, _)| !matches!(value, Value::Block))
     }
 
     /// Rank in strength of one of the prim's sites; 0 for the strongest.

@@ -1,5 +1,6 @@
 //! Values of fields and attributes, as in both encodings.
 
+use super::time::Retiming;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -21,8 +22,8 @@ pub(super) enum Value {
     Dictionary(Rc<BTreeMap<String, Value>>),
     /// An edit of a list: of names, paths or references.
     List(Rc<ListEdit>),
-    /// The first of some time samples, and how many there are.
-    Samples(Box<Value>, u64),
+    /// Time samples.
+    Samples(Rc<Samples>),
     /// Something that no importer of rooms needs; its type's name.
     Other(&'static str),
 }
@@ -39,6 +40,15 @@ pub(super) struct Numbers {
     pub array: bool,
 }
 
+/// Values at times, at least one.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Samples {
+    /// Time codes of the layer, ascending.
+    pub codes: Vec<f64>,
+    /// The value at each; only the first where that is an array.
+    pub values: Vec<Value>,
+}
+
 /// An edit of the list that weaker opinions give.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ListEdit {
@@ -53,18 +63,39 @@ pub(super) struct ListEdit {
 }
 
 /// A name, a path, or a reference to a prim of another layer.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Item {
     /// Asset path of a reference or payload; empty for the own layer, and for names and paths.
     pub asset: String,
     /// The name, or the path, which may be empty in references.
     pub path: String,
+    /// How a reference or payload shifts time.
+    pub retiming: Retiming,
 }
 
 impl Item {
     /// A name or path.
     pub(super) fn name(path: impl Into<String>) -> Self {
-        Self { asset: String::new(), path: path.into() }
+        Self { path: path.into(), ..Self::default() }
+    }
+}
+
+impl Samples {
+    /// Samples in any order; of two at one time, the later one. `None` for none.
+    pub(super) fn of(mut all: Vec<(f64, Value)>) -> Option<Self> {
+        all.retain(|(code, _)| code.is_finite());
+        all.reverse();
+        all.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        all.dedup_by(|(later, _), (code, _)| later == code);
+        let kept = if all.first()?.1.is_array() { 1 } else { all.len() };
+        let (codes, mut values): (Vec<f64>, Vec<Value>) = all.into_iter().unzip();
+        values.truncate(kept);
+        Some(Self { codes, values })
+    }
+
+    /// False where all values are known to be the same.
+    pub(super) fn vary(&self) -> bool {
+        self.values.len() < self.codes.len() || self.values.windows(2).any(|pair| pair[0] != pair[1])
     }
 }
 
@@ -143,11 +174,17 @@ impl Value {
         }
     }
 
+    /// True for arrays of anything.
+    pub(super) fn is_array(&self) -> bool {
+        matches!(self, Self::Numbers(Numbers { array: true, .. }) | Self::Texts { array: true, .. })
+    }
+
     /// About how many bytes the value takes.
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Numbers(n) => 64 + 8 * n.data.len() as u64,
             Self::Texts { data, .. } => 64 + 16 * data.len() as u64,
+            Self::Samples(samples) => 64 + 80 * samples.codes.len() as u64,
             _ => 64,
         }
     }

@@ -1,5 +1,6 @@
 //! The walk through the stage: each prim with what it inherits becomes parts, lights and cameras.
 
+use super::animation::Animations;
 use super::bind::{self, Bindings};
 use super::camera;
 use super::constants::Constants;
@@ -10,11 +11,11 @@ use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
 use super::things::{Thing, Things};
-use super::xform;
+use super::xform::Xform;
 use crate::ImportError;
 use crate::assembly::{Assembly, FileLabel};
 use enfilade_math::DAffine3;
-use enfilade_scene::ObjectId;
+use enfilade_scene::{BodyId, ObjectId};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -22,6 +23,8 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub(super) struct State {
     pub file_from_parent: DAffine3,
+    /// The body that it belongs to.
+    pub body: Option<BodyId>,
     pub label: FileLabel,
     pub bindings: Bindings,
     /// Constant primvars, which all prims below inherit.
@@ -65,6 +68,7 @@ pub(super) struct Walk<'s> {
     pub(super) materials: Materials,
     pub(super) pieces: HashMap<String, Shape>,
     pub(super) things: Things,
+    animations: Animations,
     visited: usize,
     pub(super) unknown_labels: Unknown,
     /// Number of notes beyond the first of each kind.
@@ -83,6 +87,7 @@ pub(super) struct Walk<'s> {
 impl<'s> Walk<'s> {
     pub(super) fn new(stage: &'s mut Stage, z_up: bool) -> Self {
         Self {
+            animations: Animations::new(stage.layer()),
             stage,
             z_up,
             materials: Materials::default(),
@@ -104,6 +109,7 @@ impl<'s> Walk<'s> {
         let root = self.stage.root();
         let state = State {
             file_from_parent: DAffine3::IDENTITY,
+            body: None,
             label: FileLabel::NONE,
             bindings: Bindings::default(),
             constants: Constants::default(),
@@ -119,14 +125,14 @@ impl<'s> Walk<'s> {
             self.visit(&prim, &state, a)?;
         }
         std::mem::take(&mut self.things).settle(a);
+        self.animations.finish(a);
         self.report(a);
         Ok(())
     }
 
     fn report(&self, a: &mut Assembly) {
-        let sampled = self.stage.sampled.get();
-        if sampled > 0 {
-            a.warn("timeSamples", format!("{sampled} values change with time; those of the first moment were taken"));
+        for attribute in &*self.stage.sampled.borrow() {
+            a.warn(attribute, "its value changes with time; that of the first moment was taken");
         }
         if self.hidden > 0 {
             a.warn("visibility", format!("{} prims that are invisible, or have the purpose guide or proxy, were left out", self.hidden));
@@ -169,9 +175,11 @@ impl<'s> Walk<'s> {
             return Ok(());
         }
         let object = a.push_object(prim.name(), state.object);
-        let (local, reset) = xform::local(prim, a);
+        let xform = Xform::of(prim, a);
+        let (file_from_parent, bearer) = if xform.resets { (DAffine3::IDENTITY, None) } else { (state.file_from_parent, state.body) };
         let state = State {
-            file_from_parent: if reset { local } else { state.file_from_parent * local },
+            file_from_parent: file_from_parent * xform.rest(),
+            body: self.animations.body(prim, &state.prefix, &xform, (file_from_parent, bearer), a),
             label: label::at(prim, Some(object), state.label, &mut self.unknown_labels),
             bindings: bind::at(prim, &state.bindings, self.stage, a)?,
             constants: state.constants.below(prim),
@@ -180,6 +188,7 @@ impl<'s> Walk<'s> {
             object: Some(object),
             thing: Thing::at(prim, object, state.thing),
         };
+        let before = a.contents();
         match prim.kind() {
             // Their shaders are read where they are bound.
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
@@ -192,6 +201,9 @@ impl<'s> Walk<'s> {
             kind if kind.ends_with("Light") || kind == "DomeLight_1" => {
                 self.panels += usize::from(matches!(kind, "RectLight" | "DiskLight"));
                 self.skies += usize::from(matches!(kind, "DistantLight" | "DomeLight" | "DomeLight_1"));
+                if state.body.is_some() && kind.starts_with("DomeLight") {
+                    a.warn(&prim.path, "it moves with time; surroundings stay as they are at first");
+                }
                 let baked = &mut self.materials.baked;
                 Lamp { prim, file_from_prim: state.file_from_parent, object, label: state.label, baked, z_up: self.z_up }
                     .add(self.stage, a)?;
@@ -201,6 +213,9 @@ impl<'s> Walk<'s> {
                 None if ignored(kind) => (),
                 None => a.warn(&prim.path, format!("prims of type {kind} are not supported; it was left out")),
             },
+        }
+        if let Some(body) = state.body {
+            a.carry(body, before);
         }
         for name in prim.children() {
             let child = self.stage.child(prim, &name, a)?;

@@ -1,82 +1,178 @@
-//! Placement: `xformOpOrder` and its operations.
+//! Placement: `xformOpOrder` and its operations, at rest and over time.
 //!
-//! USD multiplies row vectors from the left, so that the first operation of the list is the outermost.
+//! USD multiplies row vectors from the left, so that the first operation of the list is the outermost. Rest is the first sample of every
+//! operation.
 
+use super::curve::Curve;
 use super::stage::Prim;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3};
 
-/// A prim's own transform, and true when it does not follow its parent (`!resetXformStack!`).
-pub(super) fn local(prim: &Prim, a: &mut Assembly) -> (DAffine3, bool) {
-    let order = prim.value("xformOpOrder").map(|v| v.as_texts().to_vec()).unwrap_or_default();
-    let (mut matrix, mut reset) = (DAffine3::IDENTITY, false);
-    for name in &order {
-        if &**name == "!resetXformStack!" {
-            (matrix, reset) = (DAffine3::IDENTITY, true);
-            continue;
-        }
-        let (inverse, attribute) = name.strip_prefix("!invert!").map_or((false, &**name), |n| (true, n));
-        match operation(prim, attribute) {
-            // An operation without a value is left out, as in USD.
-            None if prim.value(attribute).is_none() => (),
-            None => a.warn(
-                &prim.path,
-                format!("{attribute} is no operation on transforms that is known, or has a wrong value; it was left out"),
-            ),
-            Some(op) if inverse && op.matrix3.determinant() == 0.0 => {
-                a.warn(&prim.path, format!("{attribute} cannot be inverted and was left out"));
+/// A prim's own transform.
+pub(super) struct Xform {
+    operations: Vec<Operation>,
+    /// True when it does not follow its parent (`!resetXformStack!`).
+    pub resets: bool,
+}
+
+struct Operation {
+    kind: Kind,
+    inverse: bool,
+    curve: Curve,
+}
+
+/// What an operation's numbers mean.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Kind {
+    Translate,
+    /// Along one axis.
+    TranslateAlong(DVec3),
+    Scale,
+    /// Along one axis.
+    ScaleAlong(DVec3),
+    /// About one axis.
+    RotateAbout(DVec3),
+    /// About three axes, the first one first.
+    Rotate([DVec3; 3]),
+    /// A quaternion, its real part first.
+    Orient,
+    /// A matrix for row vectors, row by row.
+    Matrix,
+}
+
+impl Xform {
+    /// The transform of a prim. What makes no sense is reported and left out.
+    pub(super) fn of(prim: &Prim, a: &mut Assembly) -> Self {
+        let order = prim.value("xformOpOrder").map(|v| v.as_texts().to_vec()).unwrap_or_default();
+        let mut found = Self { operations: Vec::new(), resets: false };
+        for name in &order {
+            if &**name == "!resetXformStack!" {
+                found = Self { operations: Vec::new(), resets: true };
+                continue;
             }
-            Some(op) => matrix *= if inverse { op.inverse() } else { op },
+            let (inverse, attribute) = name.strip_prefix("!invert!").map_or((false, &**name), |n| (true, n));
+            // An operation without a value is left out, as in USD.
+            let Some(values) = prim.over_time(attribute) else {
+                if prim.property(attribute, "spline").is_some() {
+                    let problem = "is a spline, which is not read, and was left out; bake it to time samples";
+                    a.warn(&prim.path, format!("{attribute} {problem}"));
+                }
+                continue;
+            };
+            let operation = Kind::named(attribute).and_then(|kind| Some(Operation { kind, inverse, curve: Curve::read(&values, kind)? }));
+            match operation {
+                None => a.warn(
+                    &prim.path,
+                    format!("{attribute} is no operation on transforms that is known, or has a wrong value; it was left out"),
+                ),
+                Some(operation) if operation.is_singular() => {
+                    a.warn(&prim.path, format!("{attribute} cannot be inverted and was left out"));
+                }
+                Some(operation) => found.operations.push(operation),
+            }
         }
+        found
     }
-    (matrix, reset)
+
+    /// The transform at rest.
+    pub(super) fn rest(&self) -> DAffine3 {
+        self.operations.iter().fold(DAffine3::IDENTITY, |all, operation| all * operation.at(None))
+    }
+
+    /// The transform at a time code of the stage.
+    pub(super) fn at(&self, code: f64) -> DAffine3 {
+        self.operations.iter().fold(DAffine3::IDENTITY, |all, operation| all * operation.at(Some(code)))
+    }
+
+    /// The time codes between which no operation bends: those of all samples, and as many more as turns need to be told from shorter ones.
+    /// Empty where nothing changes.
+    pub(super) fn codes(&self) -> Vec<f64> {
+        self.operations.iter().flat_map(|operation| operation.curve.codes(operation.kind)).collect()
+    }
 }
 
-fn operation(prim: &Prim, attribute: &str) -> Option<DAffine3> {
-    let kind = attribute.strip_prefix("xformOp:")?.split(':').next()?;
-    let value = prim.value(attribute)?;
-    let vector = || value.as_tuple::<3>().map(DVec3::from_array);
-    let axis = |letter: &str| match letter {
-        "X" => Some(DVec3::X),
-        "Y" => Some(DVec3::Y),
-        "Z" => Some(DVec3::Z),
-        _ => None,
-    };
-    if let Some(letters) = kind.strip_prefix("rotate") {
-        if let Some(about) = axis(letters) {
-            return Some(DAffine3::from_axis_angle(about, value.as_number()?.to_radians()));
+impl Operation {
+    fn at(&self, code: Option<f64>) -> DAffine3 {
+        let matrix = self.curve.at(code, self.kind);
+        match self.inverse {
+            true if matrix.matrix3.determinant() != 0.0 => matrix.inverse(),
+            true => DAffine3::IDENTITY,
+            false => matrix,
         }
-        let angles = vector()?;
-        // The first letter turns first.
-        return letters.split("").filter(|l| !l.is_empty()).try_fold(DAffine3::IDENTITY, |matrix, letter| {
-            let about = axis(letter)?;
-            Some(DAffine3::from_axis_angle(about, angles.dot(about).to_radians()) * matrix)
-        });
     }
-    if let Some(letter) = kind.strip_prefix("translate").filter(|l| !l.is_empty()) {
-        return Some(DAffine3::from_translation(axis(letter)? * value.as_number()?));
-    }
-    if let Some(letter) = kind.strip_prefix("scale").filter(|l| !l.is_empty()) {
-        let axis = axis(letter)?;
-        return Some(DAffine3::from_scale(DVec3::ONE - axis + axis * value.as_number()?));
-    }
-    match kind {
-        "translate" => Some(DAffine3::from_translation(vector()?)),
-        "scale" => Some(DAffine3::from_scale(vector()?)),
-        "orient" => value.as_tuple().map(|q| DAffine3::from_mat3(rotation(q))),
-        "transform" => value.as_tuple().map(matrix),
-        _ => None,
+
+    fn is_singular(&self) -> bool {
+        self.inverse && self.curve.at(None, self.kind).matrix3.determinant() == 0.0
     }
 }
 
-/// A matrix of 16 numbers for row vectors, row by row.
-fn matrix(m: [f64; 16]) -> DAffine3 {
-    let row = |i: usize| DVec3::new(m[i], m[i + 1], m[i + 2]);
-    DAffine3::from_mat3_translation(DMat3::from_cols(row(0), row(4), row(8)), row(12))
+impl Kind {
+    /// The kind of an operation's attribute.
+    fn named(attribute: &str) -> Option<Self> {
+        let kind = attribute.strip_prefix("xformOp:")?.split(':').next()?;
+        let axis = |letter: &str| match letter {
+            "X" => Some(DVec3::X),
+            "Y" => Some(DVec3::Y),
+            "Z" => Some(DVec3::Z),
+            _ => None,
+        };
+        match kind {
+            "translate" => return Some(Self::Translate),
+            "scale" => return Some(Self::Scale),
+            "orient" => return Some(Self::Orient),
+            "transform" => return Some(Self::Matrix),
+            _ => (),
+        }
+        if let Some(letter) = kind.strip_prefix("translate") {
+            return Some(Self::TranslateAlong(axis(letter)?));
+        }
+        if let Some(letter) = kind.strip_prefix("scale") {
+            return Some(Self::ScaleAlong(axis(letter)?));
+        }
+        let letters = kind.strip_prefix("rotate")?;
+        if letters.len() == 1 {
+            return Some(Self::RotateAbout(axis(letters)?));
+        }
+        let axes: Vec<DVec3> = letters.split("").filter(|l| !l.is_empty()).map(axis).collect::<Option<_>>()?;
+        axes.try_into().ok().map(Self::Rotate)
+    }
+
+    /// Numbers that it takes.
+    pub(super) fn width(self) -> usize {
+        match self {
+            Self::TranslateAlong(_) | Self::ScaleAlong(_) | Self::RotateAbout(_) => 1,
+            Self::Translate | Self::Scale | Self::Rotate(_) => 3,
+            Self::Orient => 4,
+            Self::Matrix => 16,
+        }
+    }
+
+    /// The transform of as many numbers as it takes.
+    pub(super) fn matrix(self, v: &[f64]) -> DAffine3 {
+        let vector = |at: usize| DVec3::new(v[at], v[at + 1], v[at + 2]);
+        match self {
+            Self::Translate => DAffine3::from_translation(vector(0)),
+            Self::TranslateAlong(axis) => DAffine3::from_translation(axis * v[0]),
+            Self::Scale => DAffine3::from_scale(vector(0)),
+            Self::ScaleAlong(axis) => DAffine3::from_scale(DVec3::ONE - axis + axis * v[0]),
+            Self::RotateAbout(axis) => DAffine3::from_axis_angle(axis, v[0].to_radians()),
+            // The first letter turns first.
+            Self::Rotate(axes) => axes
+                .into_iter()
+                .fold(DAffine3::IDENTITY, |matrix, about| DAffine3::from_axis_angle(about, vector(0).dot(about).to_radians()) * matrix),
+            Self::Orient => DAffine3::from_mat3(rotation([v[0], v[1], v[2], v[3]])),
+            Self::Matrix => DAffine3::from_mat3_translation(DMat3::from_cols(vector(0), vector(4), vector(8)), vector(12)),
+        }
+    }
 }
 
 /// The rotation of a quaternion, its real part first, which need not be of unit length; a zero one turns nothing.
-pub(super) fn rotation([w, x, y, z]: [f64; 4]) -> DMat3 {
+pub(super) fn rotation(q: [f64; 4]) -> DMat3 {
+    DMat3::from_quat(quaternion(q))
+}
+
+/// The quaternion of unit length that turns as one of any length does.
+pub(super) fn quaternion([w, x, y, z]: [f64; 4]) -> DQuat {
     let q = DQuat::from_xyzw(x, y, z, w);
-    if q.length_squared() > 0.0 && q.is_finite() { DMat3::from_quat(q.normalize()) } else { DMat3::IDENTITY }
+    if q.length_squared() > 0.0 && q.is_finite() { q.normalize() } else { DQuat::IDENTITY }
 }

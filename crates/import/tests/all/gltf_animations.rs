@@ -91,7 +91,6 @@ fn channels_that_cannot_be_used_are_told_and_the_rest_moves() {
     for (input, output, path, told) in [
         (2, 1, "translation", "moment 1 (0.5 s) does not come after the one ahead of it (1 s)"),
         (0, 3, "translation", "value 0 is not finite"),
-        (0, 1, "scale", "it changes the scale"),
         (0, 0, "translation", "left out"),
     ] {
         let g = animated(&accessors, json!([{"input": input, "output": output}]), json!([channel(0, path)]));

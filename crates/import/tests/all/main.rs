@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod collada;
+mod collada_motion;
 mod common;
 mod disguises;
 mod downloads;
@@ -12,6 +13,7 @@ mod gltf;
 mod gltf_animations;
 mod gltf_colors;
 mod gltf_compressed;
+mod gltf_deforming;
 mod gltf_gloss;
 mod gltf_poses;
 mod gltf_textures;
@@ -42,6 +44,7 @@ mod usd;
 mod usd_binary;
 mod usd_lights;
 mod usd_looks;
+mod usd_motion;
 mod vray;
 mod vray_bad_input;
 mod vray_materials;

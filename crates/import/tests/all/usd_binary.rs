@@ -123,7 +123,7 @@ fn instances_subsets_labels_and_lights_arrive() {
     assert!((radiance.g - 16.0 / 10_000.0).abs() < 1e-8, "{radiance:?}");
     let [a, b, c] = scene.world_corners(panel, 0);
     assert!((b - a).cross(c - a).z < 0.0);
-    assert!(warnings(&imported).contains("values change with time"));
+    assert!(warnings(&imported).contains("1 things move by them"));
 }
 
 /// Bytes cut off and flipped at every place: an error or a scene, never a panic.

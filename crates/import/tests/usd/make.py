@@ -1,8 +1,9 @@
 """Makes the fixtures of tests/usd_binary.rs with Pixar's own library: `pip install usd-core`, then `python make.py` here.
 
-room.usda is written by hand; this makes room.usdc and room.usdz of it, and room.json with what the library itself computes from it:
+room.usda and moving.usda are written by hand; this makes room.usdc and room.usdz of it, and room.json with what the library itself computes from it:
 world points of meshes, in metres with z up, the field of view and place of the camera, and the colours bound. reference.usdc has a
-reference that names no prim, to the layer `box.usda`, and a sublayer, empty.usdc, that is empty.
+reference that names no prim, to the layer `box.usda`, and a sublayer, empty.usdc, that is empty. moving.usdc is moving.usda, and
+moving.json has the matrices of its cubes, row by row for row vectors, at time codes.
 """
 
 import json
@@ -40,6 +41,22 @@ def bare():
     stage.Save()
 
 
+def moving():
+    stage = Usd.Stage.Open("moving.usda")
+    stage.GetRootLayer().Export("moving.usdc")
+    expected = {}
+    for code in [0, 10, 11, 13.7, 15, 20, 22.5, 25, 30, 33.25, 38, 40, 47, 50, 55.5, 60, 66, 70, 80, 111]:
+        cache = UsdGeom.XformCache(code)
+        for prim in stage.Traverse():
+            if prim.IsA(UsdGeom.Cube):
+                matrix = cache.GetLocalToWorldTransform(prim)
+                places = expected.setdefault(str(prim.GetPath())[1:], [])
+                places.append({"code": code, "matrix": [list(matrix.GetRow(i)) for i in range(4)]})
+    with open("moving.json", "w") as f:
+        json.dump(expected, f)
+        f.write("\n")
+
+
 def main():
     png("color.png")
     stage = Usd.Stage.Open("room.usda")
@@ -73,4 +90,5 @@ def main():
 
 
 bare()
+moving()
 main()

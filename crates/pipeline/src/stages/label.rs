@@ -93,7 +93,17 @@ pub(super) fn known(job: &Job, cx: &StageCx) -> Result<(Known, serde_json::Value
     };
     write_tables(&files, &scene, &annotation, &classes).map_err(Error::stage)?;
     let split = Pieces::read(&files, &scene).map_err(Error::stage)?;
+    refuse_cut_deforming(split.as_ref(), &scene)?;
     Ok((Known { labels: annotation.labels, split, is_annotated }, report))
+}
+
+/// Refuses pieces of parts that deform: which piece a point is on is only known at rest.
+fn refuse_cut_deforming(split: Option<&Pieces>, scene: &Scene) -> Result<(), Error> {
+    let deforming = scene.deforming_parts();
+    let cut = split.and_then(|split| split.pieces_of_faces().map(|(part, _)| part).find(|&part| deforming[part as usize]));
+    let Some(part) = cut else { return Ok(()) };
+    let message = format!("part {:?} was cut into pieces, but its shape changes over time", scene.parts[part as usize].name);
+    Err(Error::scene(message, "undo the cut in `enfilade annotate`, or import the scene with still = true".to_string()))
 }
 
 /// Writes the tables of labels and their colours, and of objects: parts, and the pieces of those that people split.
@@ -218,7 +228,11 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
 
 /// The places at rest of what the pixels of a frame show: people cut parts at rest.
 fn at_rest(ids: &[i16], positions: &Values, places: BodyPlaces<'_>) -> Values {
-    let point = |(pixel, &id): (usize, &i16)| places.at_rest(i64::from(id), vector(positions, pixel)).as_vec3().to_array();
+    let point = |(pixel, &id): (usize, &i16)| {
+        let seen = vector(positions, pixel);
+        // Parts that deform are not cut.
+        places.at_rest(i64::from(id), seen).unwrap_or(seen).as_vec3().to_array()
+    };
     Values::F32(ids.iter().enumerate().flat_map(point).collect())
 }
 

@@ -66,12 +66,16 @@ impl Moment {
         let at = |index: usize| poses.get(index).map(|pose| pose.moment_s(frame_time_s));
         let now = poses[index].moment_s(frame_time_s);
         let next = at(index + 1).map(|then| (scene.at(then), scene.carried(now, then)));
-        let before = index.checked_sub(1).and_then(at).map(|then| scene.carried(now, then));
+        let before_s = index.checked_sub(1).and_then(at);
+        let before = before_s.map(|then| scene.carried(now, then));
         let mut moving = vec![false; scene.parts.len()];
         for carried in [next.as_ref().map(|(_, carried)| carried), before.as_ref()].into_iter().flatten() {
             for (moves, carried) in moving.iter_mut().zip(carried) {
                 *moves |= carried.is_some_and(|carried| carried != DAffine3::IDENTITY);
             }
+        }
+        for then in at(index + 1).into_iter().chain(before_s) {
+            scene.deformed(now, then).into_iter().for_each(|part| moving[part as usize] = true);
         }
         Self { scene: scene.at(now), next, moving, exposed: exposure::stretches(scene, view, now) }
     }
@@ -119,7 +123,7 @@ pub(super) fn write_tables(job: &Job, scene: Option<&Scene>) -> Result<(), Error
 /// The row of a body; `bodies` are all of its scene.
 fn row(bodies: &[Body], body: &Body, id: u32) -> BodyRow {
     let (axis, point) = match &body.motion.states {
-        BodyStates::Free { .. } => (None, None),
+        BodyStates::Free { .. } | BodyStates::Deform { .. } => (None, None),
         BodyStates::Hinge { axis, point, .. } => (Some(axis.to_array()), Some(point.to_array())),
         BodyStates::Slide { axis, .. } => (Some(axis.to_array()), None),
     };

@@ -4,6 +4,7 @@ mod cameras;
 mod changes;
 mod common;
 mod damage;
+mod deforming;
 mod demo;
 mod fitted_rooms;
 mod gates;

@@ -2,7 +2,7 @@
 
 use crate::prepared::{AlphaTest, RenderScene};
 use enfilade_math::{DAffine3, DVec3, Ray};
-use enfilade_scene::{CameraRay, CameraView, PartId};
+use enfilade_scene::{CameraRay, CameraView};
 
 /// A point is seen when the ray to it is free up to this fraction of its length.
 const REACH: f64 = 0.999;
@@ -22,6 +22,8 @@ pub struct Moved<'s> {
     pub(crate) scene: RenderScene<'s>,
     /// By part: the map of the world to itself from its place at the first moment to that at the other one; `None` of parts that stay.
     pub(crate) carried: Vec<Option<DAffine3>>,
+    /// By part: whether its mesh has another shape at each moment, with the same triangles.
+    pub(crate) deforming: Vec<bool>,
 }
 
 impl<'a> FlowTo<'a> {
@@ -30,10 +32,40 @@ impl<'a> FlowTo<'a> {
         Self { view, moved: None }
     }
 
-    /// Where a point of a part is then.
-    fn place(&self, part: PartId, p_world: DVec3) -> DVec3 {
-        let carried = self.moved.and_then(|moved| moved.carried.get(part as usize)?.as_ref());
-        carried.map_or(p_world, |carried| carried.transform_point3(p_world))
+    /// Where a point of a triangle of the scene is then.
+    fn place(&self, scene: &RenderScene<'_>, triangle: u32, p_world: DVec3) -> DVec3 {
+        let Some(moved) = self.moved else { return p_world };
+        let part = scene.triangles.part_of(triangle) as usize;
+        if moved.deforming.get(part) == Some(&true) {
+            return TrianglePoint::of(scene, triangle, p_world).place(&moved.scene);
+        }
+        moved.carried.get(part).copied().flatten().map_or(p_world, |carried| carried.transform_point3(p_world))
+    }
+}
+
+/// A point on a triangle of a scene, whatever shape the scene's parts have at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrianglePoint {
+    triangle: u32,
+    /// Of the corners; they add up to one.
+    weights: [f64; 3],
+}
+
+impl TrianglePoint {
+    /// A world point in the plane of a triangle.
+    pub(crate) fn of(scene: &RenderScene<'_>, triangle: u32, p_world: DVec3) -> Self {
+        let [a, b, c] = scene.triangles.get(triangle).corners.map(|corner| corner.as_dvec3());
+        let (ab, ac, ap) = (b - a, c - a, p_world - a);
+        let normal = ab.cross(ac);
+        let area2 = normal.length_squared();
+        let [to_b, to_c] = [ap.cross(ac).dot(normal) / area2, ab.cross(ap).dot(normal) / area2];
+        Self { triangle, weights: [1.0 - to_b - to_c, to_b, to_c] }
+    }
+
+    /// Its place in the scene at a moment.
+    pub(crate) fn place(&self, scene: &RenderScene<'_>) -> DVec3 {
+        let corners = scene.triangles.get(self.triangle).corners;
+        corners.iter().zip(self.weights).map(|(corner, weight)| corner.as_dvec3() * weight).sum()
     }
 }
 
@@ -48,19 +80,19 @@ pub(crate) struct Flow {
     pub visible: bool,
 }
 
-/// From the image point of `view` that shows `p_world` of a part to the image point of `to`. `None` for points that are not finite.
+/// From the image point of `view` that shows `p_world` of a triangle to the image point of `to`. `None` for points that are not finite.
 pub(super) fn flow(
     scene: &RenderScene<'_>,
     view: &CameraView<'_>,
     to: FlowTo<'_>,
     (x, y): (f64, f64),
-    (part, p_world): (PartId, DVec3),
+    (triangle, p_world): (u32, DVec3),
 ) -> Option<Flow> {
     if !p_world.is_finite() {
         return None;
     }
     let next = to.view;
-    let p_then = to.place(part, p_world);
+    let p_then = to.place(scene, triangle, p_world);
     let there = next.project(p_then);
     let row = there.map_or(y, |(_, row)| row.clamp(0.0, f64::from(next.camera().size()[1])));
     let in_camera = |view: &CameraView, p: DVec3, row: f64| {

@@ -16,7 +16,7 @@ use enfilade_math::{Ray, Rgb, Vec3};
 use enfilade_parallel::map_up_to;
 use enfilade_scene::{CameraRay, CameraView};
 use flow::Flow;
-pub use flow::{FlowTo, Moved};
+pub use flow::{FlowTo, Moved, TrianglePoint};
 
 /// Metals below this GGX alpha show a reflection that can be made out.
 const MIRROR_ALPHA: f32 = 0.01;
@@ -64,7 +64,7 @@ pub(crate) fn add_flow(scene: &RenderScene<'_>, from: &CameraView<'_>, to: FlowT
     let pixel = |index: u32| {
         let centre = (f64::from(index % frame.width) + 0.5, f64::from(index / frame.width) + 0.5);
         let found = sighting(scene, from, centre)?;
-        flow::flow(scene, from, to, centre, (scene.triangles.part_of(found.triangle), found.p_world))
+        flow::flow(scene, from, to, centre, (found.triangle, found.p_world))
     };
     let flows: Vec<Option<Flow>> = map_up_to((frame.width * frame.height) as usize, |index| pixel(index as u32));
     insert_flow(frame, &flows);
@@ -96,8 +96,8 @@ struct Extra {
 
 fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let Sighting { surface, triangle, direction, distance_m, p_world } = sighting(scene, view, centre)?;
-    let triangle = scene.triangles.get(triangle);
+    let Sighting { surface, triangle: number, direction, distance_m, p_world } = sighting(scene, view, centre)?;
+    let triangle = scene.triangles.get(number);
     let appearance = surface.appearance(scene);
     let (behind_m, entity_behind) = match appearance.transmission {
         0.0 => (distance_m as f32, (triangle.part + 1) as i16),
@@ -123,7 +123,7 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<FlowTo<'_>
         traits: bits,
         behind_m,
         entity_behind,
-        flow: next.and_then(|next| flow::flow(scene, view, next, centre, (triangle.part, p_world))),
+        flow: next.and_then(|next| flow::flow(scene, view, next, centre, (number, p_world))),
     })
 }
 

@@ -10,6 +10,8 @@ pub(super) const VERSION: u32 = 4;
 const JOINTED: u32 = 6;
 /// The number of packages of scenes that move: the bodies as well.
 const MOVING: u32 = 7;
+/// The number of packages of scenes in which parts deform: bodies of a kind that earlier versions do not know.
+const DEFORMING: u32 = 8;
 /// Behind the number in the first line of packages that lack what another one has.
 pub(super) const CHANGES: &str = " changes";
 /// Name of the package beside one that lacks what this has.
@@ -72,6 +74,7 @@ pub(super) fn headed(kind: &str, scene: &Scene, body: &[u8]) -> Vec<u8> {
     let version = match (scene.bodies.is_empty(), scene.is_still()) {
         (true, _) => VERSION,
         (false, true) => JOINTED,
+        (false, false) if scene.deforming_parts().contains(&true) => DEFORMING,
         (false, false) => MOVING,
     };
     [format!("{NAME}{version}{kind}\n").as_bytes(), blake3::hash(body).as_bytes(), body].concat()
@@ -95,8 +98,9 @@ pub(super) fn split_head(bytes: &[u8]) -> Result<(Kind, &[u8]), PackageError> {
     let text = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok());
     let number = text.map(|text| text.strip_suffix(CHANGES).map_or((false, text), |number| (true, number)));
     match number.and_then(|(lacks, number)| Some((lacks, number.parse().ok()?))) {
-        Some((lacks, version @ (VERSION | JOINTED | MOVING))) => {
-            Ok((Kind { lacks, bodies: version != VERSION, moves: version == MOVING }, &bytes[line.len()..]))
+        Some((lacks, version @ (VERSION | JOINTED | MOVING | DEFORMING))) => {
+            let moves = matches!(version, MOVING | DEFORMING);
+            Ok((Kind { lacks, bodies: version != VERSION, moves }, &bytes[line.len()..]))
         }
         Some((_, found)) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
@@ -111,7 +115,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<(Kind, [u8; 32], &[u8]), PackageErro
 }
 
 fn age(found: u32) -> &'static str {
-    if found > MOVING { "a newer enfilade" } else { "an earlier enfilade" }
+    if found > DEFORMING { "a newer enfilade" } else { "an earlier enfilade" }
 }
 
 /// The scene and the labels in the body of a package that lacks nothing.

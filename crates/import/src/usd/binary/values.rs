@@ -2,7 +2,8 @@
 
 use super::cursor::{Checked, Cursor, index, unpacked_limit};
 use super::numbers::{Kind, SHORTEST_PACKED, layout, packed_numbers, plain_numbers};
-use crate::usd::value::{Item, ListEdit, Numbers, Value};
+use crate::usd::time::Retiming;
+use crate::usd::value::{Item, ListEdit, Numbers, Samples, Value};
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
@@ -180,6 +181,11 @@ impl<'a> Values<'a> {
                 let count = c.count(8)? as u64;
                 Value::Numbers(Numbers { width: 1, data: Rc::new(plain_numbers(&mut c, count, Kind::F64)?), array: true })
             }
+            // Offset and scale of the time of each sublayer.
+            49 => {
+                let count = c.count(16)? as u64;
+                Value::Numbers(Numbers { width: 2, data: Rc::new(plain_numbers(&mut c, 2 * count, Kind::F64)?), array: true })
+            }
             _ => Value::Other("an unknown type"),
         })
     }
@@ -192,18 +198,28 @@ impl<'a> Values<'a> {
         self.nested(rep, depth + 1)
     }
 
-    /// Time samples: their times, and the values, of which the first is read.
+    /// Time samples: their times, and the values; of arrays the first is read.
     fn samples(&mut self, c: &mut Cursor, depth: usize) -> Checked<Value> {
         let mut times = c.jump()?;
-        times.u64()?;
+        let times_rep = times.u64()?;
+        let codes = self.nested(times_rep, depth + 1)?;
+        let codes = codes.as_numbers(1).unwrap_or(&[]);
         let mut values = times.jump()?;
+        let here = values;
         let count = values.count(8)?;
         if count == 0 {
             return Ok(Value::Block);
         }
-        let rep = values.u64()?;
-        let first = self.nested(rep, depth + 1)?;
-        Ok(Value::Samples(Box::new(first), count as u64))
+        if codes.len() != count {
+            return here.error(format!("found {count} time samples at {} times; the file is damaged, so export it again", codes.len()));
+        }
+        let mut all = Vec::with_capacity(count);
+        for code in codes {
+            let rep = values.u64()?;
+            let is_read = all.is_empty() || rep & IS_ARRAY == 0;
+            all.push((*code, if is_read { self.nested(rep, depth + 1)? } else { Value::texts([]) }));
+        }
+        Ok(Samples::of(all).map_or(Value::Block, |samples| Value::Samples(Rc::new(samples))))
     }
 
     fn list(&self, kind: u8, c: &mut Cursor) -> Checked<ListEdit> {
@@ -242,9 +258,9 @@ impl<'a> Values<'a> {
     /// A reference, or a payload, which has no custom data and until 0.8 no offset of time.
     fn reference(&self, c: &mut Cursor, has_data: bool) -> Checked<Item> {
         let (asset, path) = (self.string(c)?, self.path(c)?);
+        let mut retiming = Retiming::default();
         if has_data || self.version >= [0, 8, 0] {
-            c.f64()?;
-            c.f64()?;
+            retiming = Retiming::new(c.f64()?, c.f64()?);
         }
         if has_data {
             for _ in 0..c.count(12)? {
@@ -256,7 +272,7 @@ impl<'a> Values<'a> {
         }
         // The layer's root means "no path" in references to the default prim.
         let path = if &*path == "/" { "" } else { &*path };
-        Ok(Item { asset: asset.to_string(), path: path.to_string() })
+        Ok(Item { asset: asset.to_string(), path: path.to_string(), retiming })
     }
 
     fn many(&self, c: &mut Cursor, one: fn(&Self, &mut Cursor) -> Checked<Rc<str>>) -> Checked<Vec<Rc<str>>> {

@@ -3,7 +3,7 @@
 use super::lexer::Token;
 use super::parser::{Parsed, Parser, add_edit};
 use crate::usd::layer::{Fields, field};
-use crate::usd::value::{Item, Value};
+use crate::usd::value::{Item, Numbers, Value};
 use std::rc::Rc;
 
 impl Parser<'_> {
@@ -47,6 +47,9 @@ impl Parser<'_> {
                 self.skip_brackets()?;
             }
             if list == field::SUBLAYERS {
+                let offsets = items.iter().flat_map(|i| [i.retiming.offset, i.retiming.scale]).collect();
+                let offsets = Numbers { width: 2, data: Rc::new(offsets), array: true };
+                fields.push((field::SUBLAYER_OFFSETS.into(), Value::Numbers(offsets)));
                 fields.push((list.into(), Value::texts(items.into_iter().map(|i| Rc::from(i.asset)))));
             } else {
                 add_edit(fields, list, edit, items);

@@ -68,8 +68,8 @@ def Xform "World" (
         assert_eq!(references.prepended[1].path, "/Y");
         assert_eq!(get("/World", field::INHERITS).as_list().deleted[0].path, "/_class");
         assert_eq!(get("/World.xformOp:translate", field::DEFAULT).as_tuple(), Some([1.0, 2.0, 3.0]));
-        let super::super::value::Value::Samples(first, 2) = get("/World.xformOp:translate", field::SAMPLES) else { panic!("no samples") };
-        assert_eq!(first.as_tuple(), Some([7.0, 8.0, 9.0]));
+        let super::super::value::Value::Samples(samples) = get("/World.xformOp:translate", field::SAMPLES) else { panic!("no samples") };
+        assert_eq!((samples.codes.as_slice(), samples.values[0].as_tuple()), (&[1.0, 2.0][..], Some([7.0, 8.0, 9.0])));
         assert_eq!(get("/World.m", field::DEFAULT).as_tuple::<16>().unwrap()[12..15], [5.0, 6.0, 7.0]);
         assert_eq!(get("/World.material:binding", "bindMaterialAs").as_text(), Some("strongerThanDescendants"));
         assert_eq!(get("/World.outputs:surface", field::CONNECTIONS).as_list().explicit.unwrap()[0].path, "/World/Looks/M.outputs:surface");

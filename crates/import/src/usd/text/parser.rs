@@ -2,7 +2,8 @@
 
 use super::lexer::{Lexer, Token};
 use crate::usd::layer::{Fields, Layer, MAX_DEPTH, MAX_PATH, child_path, field, property_path};
-use crate::usd::value::{Item, ListEdit, Value};
+use crate::usd::time::Retiming;
+use crate::usd::value::{Item, ListEdit, Samples, Value};
 use std::rc::Rc;
 
 /// Reads tokens into the specs of a layer.
@@ -255,24 +256,44 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// `{ time: value, … }`: the value of the earliest time.
+    /// `{ time: value, … }`.
     fn samples(&mut self) -> Parsed<Value> {
         self.expect(b'{')?;
-        let mut first: Option<(f64, Value)> = None;
-        let mut count = 0;
+        let mut all = Vec::new();
         while !self.at_sign(b'}')? {
             let Token::Number(time) = self.token else { return Err(self.unexpected("the time of a sample")) };
             self.advance()?;
             self.expect(b':')?;
-            let value = self.value()?;
-            count += 1;
-            if first.as_ref().is_none_or(|(t, _)| time < *t) {
-                first = Some((time, value));
-            }
+            all.push((time, self.value()?));
             self.comma(b'}')?;
         }
         self.advance()?;
-        Ok(first.map_or(Value::Block, |(_, value)| Value::Samples(Box::new(value), count)))
+        Ok(Samples::of(all).map_or(Value::Block, |samples| Value::Samples(Rc::new(samples))))
+    }
+
+    /// The offset and scale of time in the brackets behind an asset path, which are passed over.
+    pub(super) fn retiming(&mut self) -> Parsed<Retiming> {
+        let (mut offset, mut scale, mut open) = (0.0, 1.0, 0usize);
+        loop {
+            let mut word = None;
+            match self.token {
+                Token::Sign(b'(' | b'[' | b'{') => open += 1,
+                Token::Sign(b')' | b']' | b'}') => open = open.saturating_sub(1),
+                Token::Word(name @ ("offset" | "scale")) if open == 1 => word = Some(name),
+                Token::End => return Err("the file ends within brackets: it is cut short, so copy or export it again".into()),
+                _ => (),
+            }
+            self.advance()?;
+            if let (Some(name), Token::Sign(b'=')) = (word, &self.token) {
+                self.advance()?;
+                let Token::Number(number) = self.token else { return Err(self.unexpected("a number")) };
+                *(if name == "offset" { &mut offset } else { &mut scale }) = number;
+                self.advance()?;
+            }
+            if open == 0 {
+                return Ok(Retiming::new(offset, scale));
+            }
+        }
     }
 }
 

@@ -142,7 +142,7 @@ impl Parser<'_> {
 
     fn item(&mut self) -> Result<Item, String> {
         let mut item = match &self.token {
-            Token::Asset(asset) => Item { asset: (*asset).to_string(), path: String::new() },
+            Token::Asset(asset) => Item { asset: (*asset).to_string(), ..Item::default() },
             Token::Path(path) => Item::name(absolute(path, &self.prim)),
             Token::Text(text) => Item::name(text.clone()),
             Token::Word(word) => Item::name(*word),
@@ -157,7 +157,7 @@ impl Parser<'_> {
         }
         // Offset and scale of time, and custom data. Behind a path it is the metadata of a relationship.
         if self.token == Token::Sign(b'(') && !item.asset.is_empty() {
-            self.skip_brackets()?;
+            item.retiming = self.retiming()?;
         }
         Ok(item)
     }

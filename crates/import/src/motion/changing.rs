@@ -1,0 +1,45 @@
+//! Nodes whose placement in their parent changes with time.
+
+use super::rigid::rigid;
+use super::{LENGTH_M, Side};
+use crate::assembly::Assembly;
+use enfilade_math::DAffine3;
+use enfilade_scene::BodyId;
+
+/// A node whose placement changes.
+pub(crate) struct Changing<'c> {
+    /// Its place in messages.
+    pub place: &'c str,
+    /// The name of its body.
+    pub name: &'c str,
+    /// Its placement in its parent at rest.
+    pub rest: DAffine3,
+    /// The moments between which it moves evenly, or smoothly: seconds.
+    pub moments: Vec<f64>,
+    /// Its placement in its parent at a moment.
+    pub local: &'c dyn Fn(f64, Side) -> DAffine3,
+    /// A moment in messages.
+    pub told: &'c dyn Fn(f64) -> String,
+}
+
+impl Changing<'_> {
+    /// The body that the node is; `None` where it stays, with a warning if it should not.
+    pub(crate) fn body(self, (file_from_parent, bearer): (DAffine3, Option<BodyId>), a: &mut Assembly) -> Option<BodyId> {
+        let length = LENGTH_M / (a.meters_per_unit() * file_from_parent.matrix3.determinant().abs().cbrt());
+        let motion = match rigid(self.rest, self.moments, length, self.local) {
+            Ok(motion) => motion,
+            Err(problem) => {
+                a.warn(self.place, format!("it is animated, but {problem}; it stays"));
+                return None;
+            }
+        };
+        if let Some(time_s) = motion.distorted_at_s {
+            let what = "it changes its scale or shear, which no rigid motion does, and keeps those of rest; for the first time at";
+            a.warn(self.place, format!("{what} {}", (self.told)(time_s)));
+        }
+        if motion.is_rest() {
+            return None;
+        }
+        a.push_body(self.name, bearer, file_from_parent * motion.parent_from_frame, motion.states)
+    }
+}
