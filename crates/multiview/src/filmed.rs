@@ -4,7 +4,8 @@ use crate::MultiviewError;
 use enfilade_dataset::{BodyPlaces, Dataset, DatasetError, FilmedBodies};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
-use enfilade_scene::{Camera, CameraView, Cx, Pose};
+use enfilade_render::Ways;
+use enfilade_scene::{Camera, CameraView, Cx, Pose, Scene};
 use std::ops::Range;
 
 /// The cameras of a scene, and its finished frames.
@@ -23,6 +24,8 @@ pub(crate) struct SurfacePoint {
     pub p_world: DVec3,
     /// The part that it is on, as `render_entity_id` numbers it; −1 where nothing in the scene moves.
     pub part: i16,
+    /// Image coordinate of the row that shows it.
+    pub y: f64,
 }
 
 /// A camera and its whole trajectory.
@@ -93,9 +96,28 @@ impl<'d> Filmed<'d> {
     }
 
     /// The moment of the scene that a frame shows, seconds.
-    pub(crate) fn moment_s(&self, frame: usize) -> f64 {
+    fn moment_s(&self, frame: usize) -> f64 {
         let (track, index) = self.frames[frame];
         self.tracks[track].poses[index].moment_s(self.tracks[track].frame_time_s)
+    }
+
+    /// The scene as the rows of a frame show it: bands of rows with their first rows, mostly one.
+    pub(crate) fn moments(&self, scene: &Scene, frame: usize) -> Vec<(u32, Scene)> {
+        self.times(frame).into_iter().map(|(row, time_s)| (row, scene.at(time_s))).collect()
+    }
+
+    /// The first row of each band of rows of a frame, and the moment of the scene that it shows, seconds.
+    fn times(&self, frame: usize) -> Vec<(u32, f64)> {
+        let (track, _) = self.frames[frame];
+        let bands = self.tracks[track].bodies.as_ref().map_or(&[][..], |bodies| bodies.bands(self.name(frame).1));
+        let times: Vec<(u32, f64)> = bands.iter().map(|band| (band.first_row, band.time_s)).collect();
+        if times.is_empty() { vec![(0, self.moment_s(frame))] } else { times }
+    }
+
+    /// Where the bodies of a scene are in two frames.
+    pub(crate) fn ways(&self, scene: &Scene, frames: [usize; 2]) -> Ways {
+        let maps = |frame: usize| self.times(frame).into_iter().map(|(_, time_s)| scene.world_from_rest(time_s)).collect();
+        Ways { body_of_parts: scene.body_of_parts(), here: maps(frames[0]), there: maps(frames[1]) }
     }
 
     /// Where the parts of the scene are in a frame.
@@ -162,14 +184,15 @@ impl<'d> Filmed<'d> {
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
             let distance = f64::from(distances_m[pixel]);
-            let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| distance.is_finite())?;
-            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part: parts.get(pixel).copied().unwrap_or(-1) })
+            let y = f64::from(row) + 0.5;
+            let ray = view.centre_ray(f64::from(column) + 0.5, y).filter(|_| distance.is_finite())?;
+            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part: parts.get(pixel).copied().unwrap_or(-1), y })
         };
         pixels.filter_map(point).collect()
     }
 
-    /// The place in the frame `to` of a point that the frame `from` shows.
+    /// The place of a point that the frame `from` shows when the frame `to` does.
     pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint) -> DVec3 {
-        self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world)
+        self.places(from).carry_to(point.y, (&self.places(to), &self.view(to)), i64::from(point.part), point.p_world)
     }
 }

@@ -40,7 +40,7 @@ mod world;
 pub use body::{Body, BodyId, BodyMotion, BodyStates, RigidPose};
 pub use camera::{
     Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
-    TiltedPinhole,
+    TiltedPinhole, band_of_row,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
 pub use drawn_plan::{DrawnOpening, DrawnPlan, DrawnRoom};

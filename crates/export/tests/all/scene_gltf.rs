@@ -325,6 +325,7 @@ fn motion_comes_back_at_every_moment() {
         parent,
         parts: vec![part],
         lights: Vec::new(),
+        cameras: Vec::new(),
         limits: None,
         motion: BodyMotion { times_s: times_s.into(), states },
     };

@@ -3,6 +3,7 @@
 use super::bind::{self, Bindings};
 use super::camera;
 use super::constants::Constants;
+use super::joints::Joints;
 use super::label::{self, Unknown};
 use super::light::Lamp;
 use super::material::Materials;
@@ -78,6 +79,7 @@ pub(super) struct Walk<'s> {
     panels: usize,
     /// Suns and surroundings.
     skies: usize,
+    joints: Joints,
 }
 
 impl<'s> Walk<'s> {
@@ -96,6 +98,7 @@ impl<'s> Walk<'s> {
             colored: HashMap::new(),
             panels: 0,
             skies: 0,
+            joints: Joints::default(),
         }
     }
 
@@ -119,6 +122,7 @@ impl<'s> Walk<'s> {
             self.visit(&prim, &state, a)?;
         }
         std::mem::take(&mut self.things).settle(a);
+        std::mem::take(&mut self.joints).add(self.stage, a)?;
         self.report(a);
         Ok(())
     }
@@ -168,6 +172,7 @@ impl<'s> Walk<'s> {
         if is_invisible {
             return Ok(());
         }
+        let before = a.contents();
         let object = a.push_object(prim.name(), state.object);
         let (local, reset) = xform::local(prim, a);
         let state = State {
@@ -206,6 +211,7 @@ impl<'s> Walk<'s> {
             let child = self.stage.child(prim, &name, a)?;
             self.visit(&child, &state, a)?;
         }
+        self.joints.met(prim, state.file_from_parent, before, a);
         Ok(())
     }
 }
