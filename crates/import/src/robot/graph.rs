@@ -3,7 +3,7 @@
 use super::joints::{Joint, Link};
 use crate::assembly::{Assembly, Contents};
 use enfilade_math::DAffine3;
-use std::collections::VecDeque;
+use std::collections::BTreeSet;
 
 /// A joint between two links.
 pub(crate) struct Edge {
@@ -42,8 +42,8 @@ impl Trees {
         let mut trees = Self { joints: Vec::new(), links: vec![world], movers: vec![None], pieces: vec![None] };
         let mut edges: Vec<Option<Edge>> = edges.into_iter().map(Some).collect();
         let mut at: Vec<Option<usize>> = vec![None; pieces.len()];
-        let is_borne = |piece: usize| edges.iter().flatten().any(|edge| edge.ends[1] == Some(piece));
-        let free: Vec<usize> = (0..pieces.len()).filter(|piece| !is_borne(*piece)).collect();
+        let borne: BTreeSet<usize> = edges.iter().flatten().filter_map(|edge| edge.ends[1]).collect();
+        let free: Vec<usize> = (0..pieces.len()).filter(|piece| !borne.contains(piece)).collect();
         trees.hang(pieces, &mut edges, &mut at, 0, None);
         for root in free.into_iter().chain(0..pieces.len()) {
             if at[root].is_none() {
@@ -56,29 +56,40 @@ impl Trees {
         (trees, left)
     }
 
-    /// Hangs on a link all that joints lead to from there, breadth first.
-    fn hang(&mut self, pieces: &[Piece], edges: &mut [Option<Edge>], at: &mut [Option<usize>], link: usize, piece: Option<usize>) {
-        let mut queue = VecDeque::from([(link, piece)]);
-        while let Some((link, piece)) = queue.pop_front() {
-            for slot in edges.iter_mut() {
-                let Some(edge) = slot.as_ref().filter(|edge| edge.ends.contains(&piece)) else { continue };
-                let turned = edge.ends[0] != piece;
-                let Some(other) = edge.ends[usize::from(!turned)] else { continue };
-                if at[other].is_some() {
-                    continue;
+    /// Hangs on a link all that joints lead to from there: along them first, breadth first, and only where that ends against them.
+    fn hang(
+        &mut self,
+        pieces: &[Piece],
+        edges: &mut [Option<Edge>],
+        at: &mut [Option<usize>],
+        link: usize,
+        piece: Option<usize>,
+    ) {
+        let mut reached = vec![(link, piece)];
+        let mut done = 0;
+        loop {
+            let next = match reached.get(done) {
+                Some(&from) => next_edge(edges, at, from, false).map(|(edge, other)| (from, edge, other, false)),
+                None => reached.iter().find_map(|&from| next_edge(edges, at, from, true).map(|(edge, other)| (from, edge, other, true))),
+            };
+            let Some(((link, _), edge, other, turned)) = next else {
+                if done >= reached.len() {
+                    return;
                 }
-                let Some(Edge { mut joint, is_fixed, .. }) = slot.take() else { continue };
-                if turned {
-                    joint.axis = -joint.axis;
-                }
-                let mover = (!is_fixed).then(|| {
-                    self.joints.push(joint);
-                    self.joints.len() - 1
-                });
-                let own = self.push(pieces, other, link, mover);
-                at[other] = Some(own);
-                queue.push_back((own, Some(other)));
+                done += 1;
+                continue;
+            };
+            let Some(Edge { mut joint, is_fixed, .. }) = edges[edge].take() else { continue };
+            if turned {
+                joint.axis = -joint.axis;
             }
+            let mover = (!is_fixed).then(|| {
+                self.joints.push(joint);
+                self.joints.len() - 1
+            });
+            let own = self.push(pieces, other, link, mover);
+            at[other] = Some(own);
+            reached.push((own, Some(other)));
         }
     }
 
@@ -100,6 +111,17 @@ impl Trees {
         }
         a.sort_bodies();
     }
+}
+
+/// The first joint that leads from a link to one that hangs nowhere yet, along its direction or against it, and that link.
+fn next_edge(edges: &[Option<Edge>], at: &[Option<usize>], from: (usize, Option<usize>), turned: bool) -> Option<(usize, usize)> {
+    let leads = |(number, edge): (usize, &Option<Edge>)| {
+        let [near, far] = if turned { [1, 0] } else { [0, 1] };
+        let edge = edge.as_ref().filter(|edge| edge.ends[near] == from.1)?;
+        let other = edge.ends[far].filter(|other| at[*other].is_none())?;
+        Some((number, other))
+    };
+    edges.iter().enumerate().find_map(leads)
 }
 
 /// Adds the bodies of joints to the scene; `movers` has the joint that moves each link, and links without one move with that around them.

@@ -31,6 +31,8 @@ const DOOR: &str = r#"
 
 fn load(world: &str, states: Option<&str>) -> Result<Imported, String> {
     let folder = Folder::new();
+    // Each statement has a line of its own in USD.
+    let world = world.replace("  ", "\n").replace(" }", "\n}\n");
     folder.write("a.usda", format!("#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Z\"\n)\ndef Xform \"World\"\n{{{world}}}\n"));
     let states = states.map(|table| folder.write("run.csv", table).path("run.csv"));
     folder.load_with("a.usda", &ImportOptions { states, ..ImportOptions::default() }).map_err(|error| error.to_string())

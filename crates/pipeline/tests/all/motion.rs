@@ -363,7 +363,7 @@ fn cameras_on_bodies_film_as_they_ride() {
     }
 
     // The finger is on the arm as the camera is: it stays where it is in the picture, while the room goes by.
-    let finger = dataset.read_nodes("cell").unwrap().iter().position(|node| node.name == "finger").unwrap() as f64 + 1.0;
+    let finger = dataset.read_nodes("cell").unwrap().iter().position(|node| node.node_name == "finger").unwrap() as f64 + 1.0;
     let (mut on_arm, mut passing) = (0, 0);
     for number in 0..FRAMES - 1 {
         let frame = dataset.read_frame("cell", "cam_00", number, &[Layer::RenderEntityId, Layer::OpticalFlow, Layer::SceneFlow]).unwrap();
