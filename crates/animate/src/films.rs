@@ -169,7 +169,7 @@ impl Shot<'_> {
         let planned = right.map_or(self.camera, |stereo| stereo.partner.as_str());
         let plan = Report::read(&self.dataset.layout().plan_report(self.scene, planned)).filter(|plan| !plan.mode.is_empty());
         let frame_time_s = self.dataset.read_frame_time(self.scene, self.camera)?;
-        let is_video = plan.map_or(frame_time_s < 1.0, |plan| plan.mode == "video");
+        let is_video = plan.map_or(frame_time_s < 1.0, |plan| ["video", "cameras"].contains(&plan.mode.as_str()));
         Ok(if is_video { 1.0 / frame_time_s } else { STILLS_PER_SECOND })
     }
 

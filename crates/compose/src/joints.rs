@@ -86,6 +86,7 @@ mod tests {
             parent: None,
             parts: vec![part],
             lights: Vec::new(),
+            cameras: Vec::new(),
             limits,
             motion: BodyMotion { times_s: vec![0.0], states },
         };

@@ -155,7 +155,7 @@ impl MotionGroup {
         };
         let name = self.name.clone().unwrap_or_else(|| self.of.0[0].clone());
         let motion = BodyMotion { times_s: self.times_s.clone(), states: self.states(scene, &parts) };
-        Ok(Body { name, parent, parts, lights, limits: None, motion })
+        Ok(Body { name, parent, parts, lights, cameras: Vec::new(), limits: None, motion })
     }
 
     fn states(&self, scene: &Scene, parts: &[PartId]) -> BodyStates {

@@ -5,7 +5,7 @@ use crate::atomic::remove_if_there;
 use crate::tables::Table;
 use crate::{Dataset, DatasetError, check_name};
 use enfilade_math::{DAffine3, DVec3};
-use enfilade_scene::{DEFORM, PartLabel};
+use enfilade_scene::{CameraView, DEFORM, PartLabel, band_of_row};
 use std::collections::BTreeMap;
 
 /// The columns of a joint's axis.
@@ -16,6 +16,8 @@ const POINT: [&str; 3] = ["point_x", "point_y", "point_z"];
 const LIMITS: [&str; 2] = ["state_min", "state_max"];
 /// The columns of a map of the world to itself: three rows of the rotation, each with the translation at its end.
 const MATRIX: [&str; 12] = ["r00", "r01", "r02", "t0", "r10", "r11", "r12", "t1", "r20", "r21", "r22", "t2"];
+/// The column of the first row of a band; only of cameras whose rows show several moments.
+const FIRST_ROW: &str = "first_row";
 
 /// Parts that move as one.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,12 +42,14 @@ pub struct BodyRow {
     pub node_ids: Vec<u32>,
 }
 
-/// The places of all bodies in a frame.
+/// The places of all bodies in a frame, or in a band of its rows: a rolling shutter exposes these one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameBodies {
     /// Frame number.
     pub frame: u32,
-    /// The moment of the scene that the frame shows.
+    /// The first row of the band; 0 where all rows show one moment.
+    pub first_row: u32,
+    /// The moment of the scene that it shows.
     pub time_s: f64,
     /// By body: the map of the world to itself that takes it from rest to its place.
     pub world_from_rest: Vec<DAffine3>,
@@ -58,7 +62,8 @@ pub struct FrameBodies {
 pub struct FilmedBodies {
     /// All bodies.
     pub bodies: Vec<BodyRow>,
-    frames: BTreeMap<u32, FrameBodies>,
+    /// By frame: the bands of its rows, from the upper border on.
+    frames: BTreeMap<u32, Vec<FrameBodies>>,
     /// By node: index of its body.
     body_of_node: Vec<Option<u32>>,
 }
@@ -75,20 +80,34 @@ pub struct FilmedBodies {
 pub struct BodyPlaces<'a> {
     body_of_node: &'a [Option<u32>],
     bodies: &'a [BodyRow],
-    world_from_rest: &'a [DAffine3],
+    /// Bands of rows; none of a frame that is not listed.
+    bands: &'a [FrameBodies],
 }
 
-impl BodyPlaces<'_> {
+impl<'a> BodyPlaces<'a> {
     /// Whether a part, by its `render_entity_id`, changes its shape over time, so that no map takes its points along.
     pub fn deforms(&self, entity: i64) -> bool {
-        let body = usize::try_from(entity - 1).ok().and_then(|node| self.body_of_node.get(node).copied().flatten());
-        body.and_then(|body| self.bodies.get(body as usize)).is_some_and(|body| body.joint == DEFORM)
+        self.body(entity).and_then(|body| self.bodies.get(body)).is_some_and(|body| body.joint == DEFORM)
     }
 
-    /// The map that takes a part, by its `render_entity_id`, from rest to its place; `None` of parts that never move.
-    pub fn world_from_rest(&self, entity: i64) -> Option<&DAffine3> {
-        let body = self.body_of_node.get(usize::try_from(entity - 1).ok()?).copied().flatten()?;
-        self.world_from_rest.get(body as usize)
+    /// The map that takes a part, by its `render_entity_id`, from rest to its place at the frame's own moment, that of its middle row; `None`
+    /// of parts that never move.
+    pub fn world_from_rest(&self, entity: i64) -> Option<&'a DAffine3> {
+        self.bands.get(self.bands.len() / 2)?.world_from_rest.get(self.body(entity)?)
+    }
+
+    fn body(&self, entity: i64) -> Option<usize> {
+        self.body_of_node.get(usize::try_from(entity - 1).ok()?).copied().flatten().map(|body| body as usize)
+    }
+
+    /// The places when the row at image coordinate `y` is exposed.
+    #[must_use]
+    pub fn in_row(&self, y: f64) -> Self {
+        if self.bands.len() < 2 { *self } else { self.in_band(band_of_row(self.bands.len(), |band| self.bands[band].first_row, y)) }
+    }
+
+    fn in_band(&self, band: usize) -> Self {
+        Self { bands: &self.bands[band..=band], ..*self }
     }
 
     /// The maps that take instances from rest to their places, by their numbers: of those that move. `None` of instances whose parts deform or
@@ -106,8 +125,20 @@ impl BodyPlaces<'_> {
         maps
     }
 
-    /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`; `None` of parts that
-    /// deform.
+    /// The place in the frame `to`, when its `view` shows it, of a surface point that the row at image coordinate `y` shows here at `p_world`,
+    /// on a part by its `render_entity_id`; `None` of parts that deform.
+    pub fn carry_to(&self, y: f64, (to, view): (&BodyPlaces<'_>, &CameraView<'_>), entity: i64, p_world: DVec3) -> Option<DVec3> {
+        let here = self.in_row(y);
+        if to.bands.len() < 2 || self.body(entity).is_none() {
+            return here.carry(to, entity, p_world);
+        }
+        let place = |band: usize| here.carry(&to.in_band(band), entity, p_world);
+        place(0)?;
+        place(view.band_that_shows(to.bands.len(), |band| to.bands[band].first_row, |band| place(band).unwrap_or(p_world)))
+    }
+
+    /// The place in the frame `to` of a surface point that is here at `p_world`, on a part by its `render_entity_id`, both at the frames' own
+    /// moments; `None` of parts that deform.
     pub fn carry(&self, to: &BodyPlaces<'_>, entity: i64, p_world: DVec3) -> Option<DVec3> {
         if self.deforms(entity) || to.deforms(entity) {
             return None;
@@ -126,7 +157,7 @@ impl BodyPlaces<'_> {
 }
 
 impl FilmedBodies {
-    fn new(bodies: Vec<BodyRow>, frames: BTreeMap<u32, FrameBodies>) -> Self {
+    fn new(bodies: Vec<BodyRow>, frames: BTreeMap<u32, Vec<FrameBodies>>) -> Self {
         let last = bodies.iter().flat_map(|body| &body.node_ids).max().map_or(0, |&id| id as usize);
         let mut body_of_node = vec![None; last];
         for (body, index) in bodies.iter().zip(0..) {
@@ -137,13 +168,17 @@ impl FilmedBodies {
 
     /// Where the parts are in a frame; at rest in one that is not listed.
     pub fn at(&self, frame: u32) -> BodyPlaces<'_> {
-        let world_from_rest = self.frames.get(&frame).map_or(&[][..], |frame| &frame.world_from_rest);
-        BodyPlaces { body_of_node: &self.body_of_node, bodies: &self.bodies, world_from_rest }
+        BodyPlaces { body_of_node: &self.body_of_node, bodies: &self.bodies, bands: self.bands(frame) }
     }
 
-    /// The frames that are listed, in their order.
+    /// The bands of the rows of a frame, from the upper border on: one where all rows show one moment; none of a frame that is not listed.
+    pub fn bands(&self, frame: u32) -> &[FrameBodies] {
+        self.frames.get(&frame).map_or(&[], Vec::as_slice)
+    }
+
+    /// The frames that are listed, in their order, at their own moments: those of their middle rows.
     pub fn frames(&self) -> impl Iterator<Item = &FrameBodies> {
-        self.frames.values()
+        self.frames.values().filter_map(|bands| bands.get(bands.len() / 2))
     }
 }
 
@@ -178,7 +213,7 @@ impl Dataset {
         table.write()
     }
 
-    /// Writes the places of a scene's bodies in the frames of a camera; none remove the table.
+    /// Writes the places of a scene's bodies in the frames of a camera, or in the bands of their rows; none remove the table.
     ///
     /// # Errors
     /// When a name cannot be part of a path, or the file cannot be written.
@@ -189,7 +224,9 @@ impl Dataset {
         if frames.is_empty() {
             return remove_if_there(&path);
         }
-        let header: Vec<&str> = ["frame_id", "time_seconds", "body_id", "state"].into_iter().chain(MATRIX).collect();
+        let rolls = frames.iter().any(|band| band.first_row > 0);
+        let first_row = rolls.then_some(FIRST_ROW);
+        let header: Vec<&str> = ["frame_id", "time_seconds", "body_id", "state"].into_iter().chain(MATRIX).chain(first_row).collect();
         let mut table = Table::new(&path, &header);
         for frame in frames {
             for ((map, state), id) in frame.world_from_rest.iter().zip(&frame.states).zip(1..) {
@@ -197,7 +234,8 @@ impl Dataset {
                 let rows = [x, y, z].into_iter().zip(map.translation.to_array()).flat_map(|([a, b, c], t)| [a, b, c, t]);
                 let begin = [frame.frame.to_string(), frame.time_s.to_string(), i32::to_string(&id)];
                 let begin = begin.into_iter().chain(cells_of(state.map(|state| [state])));
-                table.rows.push(begin.chain(rows.map(|value| value.to_string())).collect());
+                let end = rolls.then(|| frame.first_row.to_string());
+                table.rows.push(begin.chain(rows.map(|value| value.to_string())).chain(end).collect());
             }
         }
         table.write()
@@ -268,12 +306,20 @@ impl Dataset {
         let table = Table::read(&path)?;
         let [frame, time, id, state] = table.columns(["frame_id", "time_seconds", "body_id", "state"])?;
         let matrix = table.columns(MATRIX)?;
-        let mut frames = BTreeMap::new();
+        let first_row = table.header.iter().position(|name| name == FIRST_ROW);
+        let mut frames: BTreeMap<u32, Vec<FrameBodies>> = BTreeMap::new();
         for row in 0..table.rows.len() {
-            let number = table.parse(row, frame)?;
-            let none = || FrameBodies { frame: number, time_s: 0.0, world_from_rest: Vec::new(), states: Vec::new() };
-            let listed = frames.entry(number).or_insert_with(none);
-            listed.time_s = table.parse(row, time)?;
+            let (number, time_s) = (table.parse(row, frame)?, table.parse(row, time)?);
+            let first_row = first_row.map_or(Ok(0), |column| table.parse(row, column))?;
+            let bands = frames.entry(number).or_default();
+            if bands.last().is_none_or(|band| band.first_row != first_row) {
+                if bands.last().map_or(first_row != 0, |band| band.first_row > first_row) {
+                    let problem = format!("line {}: first_row of frame {number} does not ascend from 0; render the scene again", row + 2);
+                    return Err(DatasetError::text(&path, problem));
+                }
+                bands.push(FrameBodies { frame: number, first_row, time_s, world_from_rest: Vec::new(), states: Vec::new() });
+            }
+            let Some(listed) = bands.last_mut() else { continue };
             if table.parse::<usize>(row, id)? != listed.world_from_rest.len() + 1 {
                 let problem = format!("line {}: expected body_id {}; render the scene again", row + 2, listed.world_from_rest.len() + 1);
                 return Err(DatasetError::text(&path, problem));
@@ -286,7 +332,7 @@ impl Dataset {
             let column = |at: usize| DVec3::new(cells[at], cells[at + 4], cells[at + 8]);
             listed.world_from_rest.push(DAffine3::from_cols(column(0), column(1), column(2), column(3)));
         }
-        if let Some(short) = frames.values().find(|listed| listed.world_from_rest.len() != bodies.len()) {
+        if let Some(short) = frames.values().flatten().find(|listed| listed.world_from_rest.len() != bodies.len()) {
             let (found, count) = (short.world_from_rest.len(), bodies.len());
             let problem = format!("frame {} has {found} of {count} bodies; render the scene again", short.frame);
             return Err(DatasetError::text(&path, problem));
@@ -341,6 +387,7 @@ mod tests {
         let turn = DAffine3::from_rotation_translation(DQuat::from_rotation_z(0.3), DVec3::new(0.1, 0.2, -0.7));
         let frame = |frame, maps: [DAffine3; 2]| FrameBodies {
             frame,
+            first_row: 0,
             time_s: f64::from(frame) / 30.0,
             world_from_rest: maps.into(),
             states: vec![Some(0.3), None],
@@ -360,6 +407,20 @@ mod tests {
         // Parts 2 and 5 move, part 1 does not: instance 7 goes apart, 8 moves, 9 stays.
         let labels = [9, 7, 7, -1, 8].map(|instance| PartLabel { semantic: 5, instance });
         assert_eq!(later.instances(&labels), BTreeMap::from([(7, None), (8, Some(turn))]));
+
+        // Of a rolling shutter, bands of rows have places of their own; the frame's is that of the middle.
+        let band = |first_row, map| FrameBodies { first_row, ..frame(3, [map, DAffine3::IDENTITY]) };
+        let up = DAffine3::from_translation(DVec3::Z);
+        let rolled = [band(0, DAffine3::IDENTITY), band(10, up), band(30, turn)];
+        dataset.write_body_poses("room", "cam_00", &rolled).unwrap();
+        let read = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+        assert_eq!((read.bands(3), read.frames().collect::<Vec<_>>()), (&rolled[..], vec![&rolled[1]]));
+        let places = read.at(3);
+        let at = |y: f64| places.in_row(y).world_from_rest(2).copied();
+        assert_eq!([at(-3.0), at(9.9), at(10.5), at(99.0)], [Some(DAffine3::IDENTITY), Some(DAffine3::IDENTITY), Some(up), Some(turn)]);
+        assert_eq!((places.world_from_rest(2), places.world_from_rest(3)), (Some(&up), None));
+        dataset.write_body_poses("room", "cam_00", &[band(0, up), band(10, up), band(4, up)]).unwrap();
+        assert!(dataset.read_filmed_bodies("room", "cam_00").unwrap_err().to_string().contains("first_row of frame 3 does not ascend"));
 
         dataset.write_body_poses("room", "cam_00", &[frame(0, [turn; 2])]).unwrap();
         dataset.write_bodies("room", &bodies[..1]).unwrap();

@@ -83,9 +83,10 @@ pub use error::ExploreError;
 pub use find_starts::{StartsConfig, find_starts};
 pub use findings::{Backs, Findings, Overlap, doubled_faces, findings};
 pub use plan::{
-    CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, ObjectVisibility, ObjectsConfig, PartCoverage,
-    PhotosConfig, PlanConfig, PlanKeys, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame, Spread,
-    StillsConfig, TargetObject, VideoConfig, WalkBox, WalkBoxes, WalkConfig, follow, parse_keyframes, plan, plan_accepted, plan_objects,
+    CamerasConfig, CoverageConfig, CoverageReport, Fault, FrameValues, Keyframe, KeyframesConfig, Mode, ObjectVisibility, ObjectsConfig,
+    PartCoverage, PhotosConfig, PlanConfig, PlanKeys, PlanReport, PlanStatistics, Planned, PlannedStart, RejectedCounts, RelaxedFrame,
+    Spread, StillsConfig, TargetObject, VideoConfig, WalkBox, WalkBoxes, WalkConfig, film, follow, parse_keyframes, plan, plan_accepted,
+    plan_objects,
 };
 pub use preset::Preset;
 pub use saliency::Saliency;

@@ -134,7 +134,7 @@ impl Builder {
         let motion = BodyMotion { times_s: vec![0.0], states: joint.at_rest(&object.pose) };
         let parts = parts.into_iter().map(|part| part as u32).collect();
         let limits = Some(joint.limits);
-        self.scene.bodies.push(enfilade_scene::Body { name: body, parent: None, parts, lights: Vec::new(), motion, limits });
+        self.scene.bodies.push(enfilade_scene::Body { name: body, parent: None, parts, lights: vec![], cameras: vec![], motion, limits });
     }
 
     /// The joints of the things built so far, one for each body of the scene.

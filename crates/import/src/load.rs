@@ -44,7 +44,7 @@ fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<Others>)>, ImportE
 
 /// Imports by the importer of a format.
 fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
-    let moves = matches!(format, Format::Mjcf | Format::Urdf | Format::Zip);
+    let moves = matches!(format, Format::Mjcf | Format::Urdf | Format::Sdf | Format::Usd | Format::Zip);
     if let Some(states) = assembly.options().states.as_ref().filter(|_| !moves) {
         return Err(robot::states::refuse(states, format.words()));
     }

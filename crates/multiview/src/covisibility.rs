@@ -105,7 +105,7 @@ fn column(
     by: usize,
 ) -> Result<Vec<f32>, MultiviewError> {
     let moving = package.filter(|_| still.is_none());
-    let moment = moving.map(|package| package.scene.at(filmed.moment_s(by)));
+    let moment = moving.map(|package| filmed.moments(&package.scene, by));
     let own = moving.zip(moment.as_ref()).map(|(package, moment)| package.ready(moment)).transpose()?;
     let lookout = still.or(own.as_ref());
     let surroundings = Surroundings::new(filmed.view(by), filmed.distances_m(by)?);

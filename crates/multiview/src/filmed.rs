@@ -4,8 +4,8 @@ use crate::MultiviewError;
 use enfilade_dataset::{BodyPlaces, Dataset, DatasetError, FilmedBodies};
 use enfilade_frame::{Frame, Layer, Values};
 use enfilade_math::DVec3;
-use enfilade_render::{Lookout, TrianglePoint};
-use enfilade_scene::{Camera, CameraView, Cx, DEFORM, Pose};
+use enfilade_render::{Lookout, TrianglePoint, Ways};
+use enfilade_scene::{Camera, CameraView, Cx, DEFORM, Pose, Scene};
 use std::ops::Range;
 
 /// The cameras of a scene, and its finished frames.
@@ -26,6 +26,8 @@ pub(crate) struct SurfacePoint {
     pub part: i16,
     /// Where it is on a part that deforms.
     pub on: Option<TrianglePoint>,
+    /// Image coordinate of the row that shows it.
+    pub y: f64,
 }
 
 /// A camera and its whole trajectory.
@@ -96,9 +98,28 @@ impl<'d> Filmed<'d> {
     }
 
     /// The moment of the scene that a frame shows, seconds.
-    pub(crate) fn moment_s(&self, frame: usize) -> f64 {
+    fn moment_s(&self, frame: usize) -> f64 {
         let (track, index) = self.frames[frame];
         self.tracks[track].poses[index].moment_s(self.tracks[track].frame_time_s)
+    }
+
+    /// The scene as the rows of a frame show it: bands of rows with their first rows, mostly one.
+    pub(crate) fn moments(&self, scene: &Scene, frame: usize) -> Vec<(u32, Scene)> {
+        self.times(frame).into_iter().map(|(row, time_s)| (row, scene.at(time_s))).collect()
+    }
+
+    /// The first row of each band of rows of a frame, and the moment of the scene that it shows, seconds.
+    fn times(&self, frame: usize) -> Vec<(u32, f64)> {
+        let (track, _) = self.frames[frame];
+        let bands = self.tracks[track].bodies.as_ref().map_or(&[][..], |bodies| bodies.bands(self.name(frame).1));
+        let times: Vec<(u32, f64)> = bands.iter().map(|band| (band.first_row, band.time_s)).collect();
+        if times.is_empty() { vec![(0, self.moment_s(frame))] } else { times }
+    }
+
+    /// Where the bodies of a scene are in two frames.
+    pub(crate) fn ways(&self, scene: &Scene, frames: [usize; 2]) -> Ways {
+        let maps = |frame: usize| self.times(frame).into_iter().map(|(_, time_s)| scene.world_from_rest(time_s)).collect();
+        Ways { body_of_parts: scene.body_of_parts(), here: maps(frames[0]), there: maps(frames[1]) }
     }
 
     /// Where the parts of the scene are in a frame.
@@ -167,17 +188,19 @@ impl<'d> Filmed<'d> {
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
             let (distance, part) = (f64::from(distances_m[pixel]), parts.get(pixel).copied().unwrap_or(-1));
-            let ray = view.centre_ray(f64::from(column) + 0.5, f64::from(row) + 0.5).filter(|_| distance.is_finite())?;
+            let y = f64::from(row) + 0.5;
+            let ray = view.centre_ray(f64::from(column) + 0.5, y).filter(|_| distance.is_finite())?;
             let on = if places.deforms(i64::from(part)) { Some(lookout?.touch(&view, [column, row])?) } else { None };
-            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part, on })
+            Some(SurfacePoint { p_world: ray.origin + ray.direction * distance, part, on, y })
         };
         pixels.filter_map(point).collect()
     }
 
-    /// The place in the frame `to`, at whose moment `lookout` looks, of a point that the frame `from` shows.
+    /// The place of a point that the frame `from` shows when the frame `to`, at whose moment `lookout` looks, does.
     pub(crate) fn carry(&self, [from, to]: [usize; 2], point: &SurfacePoint, lookout: Option<&Lookout<'_>>) -> DVec3 {
-        let deformed = lookout.zip(point.on.as_ref()).map(|(lookout, on)| lookout.place(on));
-        let carried = || self.places(from).carry(&self.places(to), i64::from(point.part), point.p_world);
+        let view = self.view(to);
+        let deformed = lookout.zip(point.on.as_ref()).map(|(lookout, on)| lookout.place(&view, on));
+        let carried = || self.places(from).carry_to(point.y, (&self.places(to), &view), i64::from(point.part), point.p_world);
         deformed.or_else(carried).unwrap_or(point.p_world)
     }
 

@@ -45,10 +45,9 @@ pub fn write_flow(filmed: &Filmed<'_>, package: &ScenePackage, pairs: &[[usize; 
         let layers = match &still {
             Some(lookout) => lookout.flow(&from, FlowTo::still(&to)),
             None => {
-                let [here, there] = [first, second].map(|frame| filmed.moment_s(frame));
-                let (scene, then) = (package.scene.at(here), package.scene.at(there));
-                let moved = package.ready(&then)?.moved(package.scene.carried(here, there));
-                package.ready(&scene)?.flow(&from, FlowTo { view: &to, moved: Some(&moved) })
+                let [here, there] = [first, second].map(|frame| filmed.moments(&package.scene, frame));
+                let moved = package.ready(&there)?.moved(filmed.ways(&package.scene, [first, second]));
+                package.ready(&here)?.flow(&from, FlowTo { view: &to, moved: Some(&moved) })
             }
         };
         filmed.dataset.write_pair_layers(&filmed.pair([first, second]), &layers)?;

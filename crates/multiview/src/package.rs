@@ -43,23 +43,31 @@ impl ScenePackage {
     /// # Errors
     /// When the scene cannot be used.
     pub(crate) fn lookout(&self) -> Result<Lookout<'_>, MultiviewError> {
-        self.ready(&self.scene)
+        Lookout::new(&self.scene).map_err(|error| self.wrong(&error))
     }
 
-    /// A moment of the scene prepared for rays.
+    /// The scene prepared for rays that look through surfaces.
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn ready<'s>(&self, moment: &'s Scene) -> Result<Lookout<'s>, MultiviewError> {
-        Lookout::new(moment).map_err(|error| self.wrong(&error))
+    pub(crate) fn lookout_through_surfaces(&self) -> Result<Lookout<'_>, MultiviewError> {
+        Lookout::through_surfaces(&self.scene).map_err(|error| self.wrong(&error))
     }
 
-    /// A moment of the scene prepared for rays that look through surfaces.
+    /// The scene as the rows of a frame show it, [`Filmed::moments`], prepared for rays.
     ///
     /// # Errors
     /// As there.
-    pub(crate) fn ready_through_surfaces<'s>(&self, moment: &'s Scene) -> Result<Lookout<'s>, MultiviewError> {
-        Lookout::through_surfaces(moment).map_err(|error| self.wrong(&error))
+    pub(crate) fn ready<'s>(&self, moments: &'s [(u32, Scene)]) -> Result<Lookout<'s>, MultiviewError> {
+        Lookout::of_rows(moments).map_err(|error| self.wrong(&error))
+    }
+
+    /// [`ScenePackage::ready`] for rays that look through surfaces.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn ready_through_surfaces<'s>(&self, moments: &'s [(u32, Scene)]) -> Result<Lookout<'s>, MultiviewError> {
+        Lookout::through_surfaces_of_rows(moments).map_err(|error| self.wrong(&error))
     }
 
     fn wrong(&self, error: &RenderError) -> MultiviewError {

@@ -17,7 +17,7 @@ pub fn write_surfaces(
     cx: &dyn Cx,
 ) -> Result<(), MultiviewError> {
     let classes = classes(filmed, package.scene.parts.len())?;
-    let still = package.scene.is_still().then(|| package.ready_through_surfaces(&package.scene)).transpose()?;
+    let still = package.scene.is_still().then(|| package.lookout_through_surfaces()).transpose()?;
     let total = frames.len() as u64;
     for (done, &frame) in frames.iter().enumerate() {
         cx.progress("frames", done as u64, total);
@@ -25,7 +25,7 @@ pub fn write_surfaces(
         let [width, height] = view.camera().size().map(|side| side as usize);
         let found = match &still {
             Some(lookout) => lookout.surfaces(&view, count as usize),
-            None => package.ready_through_surfaces(&package.scene.at(filmed.moment_s(frame)))?.surfaces(&view, count as usize),
+            None => package.ready_through_surfaces(&filmed.moments(&package.scene, frame))?.surfaces(&view, count as usize),
         };
         let RaySurfaces { count, distance_m, entity, side, normal_world, bent } = found;
         let class = |&entity: &i16| usize::try_from(entity - 1).ok().and_then(|part| classes.get(part)).copied().unwrap_or(-1);

@@ -60,7 +60,7 @@ pub fn tracks(
     let mut followed = Vec::with_capacity(frames.len());
     for (place, &frame) in frames.iter().enumerate() {
         let view = filmed.view(frame);
-        let moment = still.is_none().then(|| package.scene.at(filmed.moment_s(frame)));
+        let moment = still.is_none().then(|| filmed.moments(&package.scene, frame));
         let own = moment.as_ref().map(|moment| package.ready(moment)).transpose()?;
         let Some(lookout) = still.as_ref().or(own.as_ref()) else { unreachable!("one of the two is there") };
         let image = |seed: &Seed| {

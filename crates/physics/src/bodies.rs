@@ -108,7 +108,13 @@ pub(crate) fn groups(scene: &Scene, labels: &Labels) -> Result<(Vec<Group>, Vec<
 /// Adds the bodies of the scene. What bears one of a hinge or slide stands fixed.
 fn add_bodies(scene: &Scene, groups: &mut Vec<Group>, instance: impl Fn(PartId) -> Option<usize>) -> Result<(), PhysicsError> {
     let mut numbers = Vec::new();
-    let bears: BTreeSet<u32> = scene.bodies.iter().filter_map(|body| body.parent).collect();
+    // Those on which something with parts stands; lights and cameras alone are nothing to a simulator.
+    let mut bears: BTreeSet<u32> = BTreeSet::new();
+    for (body, id) in scene.bodies.iter().zip(0..).rev() {
+        if !body.parts.is_empty() || bears.contains(&id) {
+            bears.extend(body.parent);
+        }
+    }
     for (body, id) in scene.bodies.iter().zip(0..) {
         if body.parts.is_empty() && !bears.contains(&id) || is_soft(body) {
             numbers.push(None);

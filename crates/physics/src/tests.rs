@@ -38,7 +38,8 @@ impl Room {
     fn with_joint(mut self, part: u32, states: BodyStates, limits: [f64; 2]) -> Self {
         let name = self.scene.parts[part as usize].name.clone();
         let motion = BodyMotion { times_s: vec![0.0], states };
-        self.scene.bodies.push(Body { name, parent: None, parts: vec![part], lights: Vec::new(), limits: Some(limits), motion });
+        let (lights, cameras) = (Vec::new(), Vec::new());
+        self.scene.bodies.push(Body { name, parent: None, parts: vec![part], lights, cameras, limits: Some(limits), motion });
         self
     }
 }
@@ -204,6 +205,7 @@ fn what_moves_without_a_volume_is_refused() {
         parent: None,
         parts: vec![0],
         lights: Vec::new(),
+        cameras: Vec::new(),
         limits: None,
         motion: BodyMotion::rest(),
     });

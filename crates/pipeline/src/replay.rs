@@ -174,7 +174,7 @@ fn render(source: &Source, cx: &dyn Cx) -> Result<Frame, Error> {
     let Source { record, config, scene, camera, trajectory, index, .. } = source;
     let views = views(camera, trajectory);
     if let Some(frame_time_s) = source.frame_time_s {
-        let moment = Moment::new(scene, &views[*index], &trajectory.poses, *index, frame_time_s);
+        let moment = Moment::new(scene, &views, &trajectory.poses, *index, frame_time_s);
         return Ok(take_at(&moment, &views, *index, config, |rendering| Ok((taken(record, rendering, cx), ())))?.0);
     }
     let scene = RenderScene::new(scene, cx).map_err(Error::stage)?.settled(config);

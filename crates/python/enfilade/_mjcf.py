@@ -9,9 +9,10 @@ import numpy
 _GEOMS = ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"]
 _JOINTS = ["free", "ball", "slide", "hinge"]
 _LIGHTS = ["spot", "directional", "point"]
+# Of cameras, by the numbers of mjtCamLight.
+_MODES = ["fixed", "track", "trackcom", "targetbody", "targetbodycom"]
 # Roles of textures: mjTEXROLE_RGB and mjTEXROLE_RGBA.
 _COLORS = [1, 9]
-
 
 def write(model, folder):
     """Writes the model to a folder, and gives the path of its scene file."""
@@ -76,8 +77,11 @@ def _views(model, elements):
         element = ElementTree.SubElement(elements[int(model.cam_bodyid[camera])], "camera", _named(name))
         element.attrib |= {"pos": _numbers(model.cam_pos[camera]), "quat": _numbers(model.cam_quat[camera])}
         element.attrib |= {"fovy": repr(float(model.cam_fovy[camera])), "resolution": "{} {}".format(*map(int, model.cam_resolution[camera]))}
-        if int(model.cam_mode[camera]) >= 3:
-            element.attrib |= {"mode": "targetbody", "target": bodies[int(model.cam_targetbodyid[camera])]}
+        mode = _MODES[int(model.cam_mode[camera])]
+        if mode.startswith("target"):
+            element.attrib |= {"mode": mode, "target": bodies[int(model.cam_targetbodyid[camera])]}
+        elif mode != "fixed":
+            element.set("mode", mode)
     for light, name in enumerate(names(model, "light", model.nlight)):
         kinds = getattr(model, "light_type", None)
         kind = int(model.light_directional[light]) if kinds is None else int(kinds[light])

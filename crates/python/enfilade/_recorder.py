@@ -1,6 +1,5 @@
 """Runs of MuJoCo as scenes that move: `MujocoRecorder`. MuJoCo itself is not imported; the model's arrays are read as they are."""
 
-import json
 import math
 import pathlib
 import tempfile
@@ -22,7 +21,8 @@ class MujocoRecorder:
 
     model: a `mujoco.MjModel`, or what has its arrays: bodies, joints, geoms, meshes, materials, textures, lights and cameras are taken from it.
 
-    Joints keep their axes and limits. `enfilade.import_scene` says what geoms and lights become; the files that it reads are the recorder's own, so
+    Joints keep their axes and limits, and cameras ride on their bodies: `mode = { kind = "cameras" }` of a dataset films with them.
+    `enfilade.import_scene` says what geoms and lights become; the files that it reads are the recorder's own, so
     the scene does not depend on those that the model was made of.
     """
 
@@ -31,10 +31,9 @@ class MujocoRecorder:
         self._times = []
         self._qpos = []
         self._mocap = []
-        self._cameras = []
 
     def step(self, data):
-        """Keeps the state of a `mujoco.MjData`: the joints, the bodies that a program moves (mocap), the cameras, and the time, which must not descend."""
+        """Keeps the state of a `mujoco.MjData`: the joints, the bodies that a program moves (mocap), and the time, which must not descend."""
         qpos = numpy.array(data.qpos, numpy.float64)
         if qpos.shape != (self._model.nq,):
             raise ValueError(f"data.qpos has {qpos.size} values, but the model of this recorder has {self._model.nq}: it is of another model")
@@ -46,7 +45,6 @@ class MujocoRecorder:
         self._times.append(time)
         self._qpos.append(qpos)
         self._mocap.append((numpy.array(data.mocap_pos, numpy.float64), numpy.array(data.mocap_quat, numpy.float64)))
-        self._cameras.append((numpy.array(data.cam_xpos, numpy.float64), numpy.array(data.cam_xmat, numpy.float64)))
 
     @explained("FileSource")
     def save(self, file, **options):
@@ -65,27 +63,6 @@ class MujocoRecorder:
                 arrays["mocap_pos"], arrays["mocap_quat"] = map(numpy.stack, zip(*self._mocap))
             numpy.savez(folder / "run.npz", **arrays)
             return import_scene(scene, file, states=folder / "run.npz", **options)
-
-    def save_camera(self, name, file, fps=30.0):
-        """Writes the poses of a camera of the model, which may ride on a body, as a file of `mode = { kind = "keyframes", files = [...] }`.
-
-        Frame n is at n / fps seconds, as it is in a dataset whose shutter has `frame_time_s` of 1 / fps.
-
-        name: of the camera. file: the file to write (.json).
-        """
-        self._require_steps()
-        names = _mjcf.names(self._model, "cam", self._model.ncam)
-        if name not in names:
-            raise ValueError(f"the model has no camera {name!r}; it has {', '.join(map(repr, names)) or 'none'}")
-        camera = names.index(name)
-        frames = math.floor(self._times[-1] * fps + 1e-9) + 1
-        nearest = numpy.searchsorted((numpy.array(self._times[1:]) + self._times[:-1]) / 2, numpy.arange(frames) / fps)
-        rows = []
-        for frame, step in enumerate(nearest):
-            position, axes = self._cameras[step][0][camera], self._cameras[step][1][camera].reshape(3, 3)
-            look_at, up = position - axes[:, 2], axes[:, 1]
-            rows.append({"frame": frame, "position": position.tolist(), "look_at": look_at.tolist(), "up": up.tolist()})
-        pathlib.Path(file).write_text(json.dumps(rows))
 
     def _require_steps(self):
         if not self._times:

@@ -3,16 +3,17 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{FlowTo, Moved, TrianglePoint, add_flow, flow};
+use crate::extra::{FlowTo, TrianglePoint, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
 use crate::prepared::RenderScene;
+use crate::rows::{Moved, Rows, Ways};
 use crate::texture::Textures;
 use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
-use enfilade_math::{DAffine3, DVec3};
-use enfilade_scene::{Alpha, CameraView, Scene};
+use enfilade_math::DVec3;
+use enfilade_scene::{Alpha, CameraView, Scene, band_of_row};
 use std::sync::OnceLock;
 
 /// A scene ready to be looked at: rays and cut-outs, without its light.
@@ -40,8 +41,9 @@ use std::sync::OnceLock;
 /// # Ok::<(), enfilade_render::RenderError>(())
 /// ```
 pub struct Lookout<'s> {
-    /// Has no lights and no tables, since no light is computed.
-    scene: RenderScene<'s>,
+    /// The first row of each band of rows and what it shows, mostly one for all rows. Has no lights and no tables, since no light is
+    /// computed.
+    bands: Vec<(u32, RenderScene<'s>)>,
     /// Rays ask about every surface that they meet, not only about those with an opacity.
     asks_always: bool,
 }
@@ -70,7 +72,19 @@ impl<'s> Lookout<'s> {
     /// # Errors
     /// When the scene has more parts than ids.
     pub fn new(scene: &'s Scene) -> Result<Self, RenderError> {
-        Self::with(scene, false)
+        Self::with([(0, scene)], false)
+    }
+
+    /// Builds what rays need for pictures whose rows show scenes of several moments: bands of rows from the upper border on, each with its
+    /// first row.
+    ///
+    /// # Errors
+    /// As [`Lookout::new`].
+    ///
+    /// # Panics
+    /// When there is none.
+    pub fn of_rows(bands: &'s [(u32, Scene)]) -> Result<Self, RenderError> {
+        Self::with(bands.iter().map(|(row, scene)| (*row, scene)), false)
     }
 
     /// Prepares a scene for [`Lookout::surfaces`] too: rays ask about every surface that they meet, which makes the other ones slower.
@@ -78,28 +92,37 @@ impl<'s> Lookout<'s> {
     /// # Errors
     /// As there.
     pub fn through_surfaces(scene: &'s Scene) -> Result<Self, RenderError> {
-        Self::with(scene, true)
+        Self::with([(0, scene)], true)
     }
 
-    fn with(scene: &'s Scene, asks_always: bool) -> Result<Self, RenderError> {
-        RenderScene::check_parts(scene)?;
-        let triangles = Triangles::new(scene);
-        let bvh = triangles.hierarchy(|material| asks_always || material.alpha != Alpha::Opaque);
-        // Pictures are read at points only, so they need no pyramids.
-        let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
-        Ok(Self {
-            asks_always,
-            scene: RenderScene {
-                scene,
-                textures,
-                triangles,
-                bvh,
-                lights,
-                tables: Vec::new(),
-                bodies: Bodies::default(),
-                fixtures: OnceLock::new(),
-            },
-        })
+    /// Prepares the scenes of the rows of pictures for [`Lookout::surfaces`] too.
+    ///
+    /// # Errors
+    /// As [`Lookout::new`].
+    ///
+    /// # Panics
+    /// When there is none.
+    pub fn through_surfaces_of_rows(bands: &'s [(u32, Scene)]) -> Result<Self, RenderError> {
+        Self::with(bands.iter().map(|(row, scene)| (*row, scene)), true)
+    }
+
+    fn with(bands: impl IntoIterator<Item = (u32, &'s Scene)>, asks_always: bool) -> Result<Self, RenderError> {
+        let ready = |(row, scene): (u32, &'s Scene)| {
+            RenderScene::check_parts(scene)?;
+            let triangles = Triangles::new(scene);
+            let bvh = triangles.hierarchy(|material| asks_always || material.alpha != Alpha::Opaque);
+            // Pictures are read at points only, so they need no pyramids.
+            let (textures, lights) = (Textures::new(&scene.images, &[]), Lights::default());
+            let (tables, bodies, fixtures) = (Vec::new(), Bodies::default(), OnceLock::new());
+            Ok((row, RenderScene { scene, textures, triangles, bvh, lights, tables, bodies, fixtures }))
+        };
+        let bands: Vec<(u32, RenderScene<'s>)> = bands.into_iter().map(ready).collect::<Result<_, RenderError>>()?;
+        assert!(!bands.is_empty(), "a picture has rows");
+        Ok(Self { asks_always, bands })
+    }
+
+    fn rows(&self) -> Rows<'_, 's> {
+        Rows::bands(self.bands.iter().map(|(row, scene)| (*row, scene)))
     }
 
     /// Looks through the centres of the view's pixels, or of every `step`-th of them in both directions.
@@ -111,7 +134,8 @@ impl<'s> Lookout<'s> {
         let last = view.camera().size().map(|side| side - 1);
         // In the middle of each cell of the grid, which the border may cut.
         let at = |cell: u32, axis: usize| (cell * step + step / 2).min(last[axis]);
-        let pixel = |i: u32| self.pixel(view, at(i % width, 0), at(i / width, 1));
+        let rows = self.rows();
+        let pixel = |i: u32| pixel(&rows, view, at(i % width, 0), at(i / width, 1));
         let pixels: Vec<Pixel> = enfilade_parallel::map_up_to((width * height) as usize, |i| pixel(i as u32));
         let single = |f: fn(&PixelGeometry) -> f32| Values::F32(pixels.iter().map(|p| p.geometry.as_ref().map_or(f32::NAN, f)).collect());
         let mut frame = Frame::new(width, height);
@@ -130,18 +154,23 @@ impl<'s> Lookout<'s> {
     /// Whether the picture of `view` shows the world point: it is inside the image, and nothing is in front of it up to a thousandth of its
     /// distance. Panes and half-transparent surfaces hide it, as in the geometry layers.
     pub fn shows(&self, view: &CameraView<'_>, p_world: DVec3) -> bool {
-        view.project(p_world).is_some_and(|at| flow::shows(&self.scene, view, at, p_world))
+        let scene = |y: f64| &self.bands[band_of_row(self.bands.len(), |band| self.bands[band].0, y)].1;
+        view.project(p_world).is_some_and(|at| flow::shows(scene(at.1), view, at, p_world))
     }
 
     /// The point that the ray through the centre of a pixel (column, row) meets first; `None` where it meets nothing.
     pub fn touch(&self, view: &CameraView<'_>, [column, row]: [u32; 2]) -> Option<TrianglePoint> {
-        let found = sighting(&self.scene, view, (f64::from(column) + 0.5, f64::from(row) + 0.5))?;
-        Some(TrianglePoint::of(&self.scene, found.triangle, found.p_world))
+        let centre = (f64::from(column) + 0.5, f64::from(row) + 0.5);
+        let scene = self.rows().at(centre.1);
+        let found = sighting(scene, view, centre)?;
+        Some(TrianglePoint::of(scene, found.triangle, found.p_world))
     }
 
-    /// The place at this moment, world, metres, of a point that was touched at another moment of the same scene.
-    pub fn place(&self, point: &TrianglePoint) -> DVec3 {
-        point.place(&self.scene)
+    /// The place, world, metres, of a point that was touched at another moment of the same scene, when the row that shows it in the picture
+    /// of `view` is exposed.
+    pub fn place(&self, view: &CameraView<'_>, point: &TrianglePoint) -> DVec3 {
+        let place = |band: usize| point.place(&self.bands[band].1);
+        place(view.band_that_shows(self.bands.len(), |band| self.bands[band].0, place))
     }
 
     /// `optical_flow`, `scene_flow` and `flow_visibility` from every pixel of the view `from` to the view `to`: of any two views, of
@@ -149,7 +178,7 @@ impl<'s> Lookout<'s> {
     pub fn flow(&self, from: &CameraView<'_>, to: FlowTo<'_>) -> Frame {
         let [width, height] = from.camera().size();
         let mut frame = Frame::new(width, height);
-        add_flow(&self.scene, from, to, &mut frame);
+        add_flow(&self.rows(), from, to, &mut frame);
         frame
     }
 
@@ -160,24 +189,28 @@ impl<'s> Lookout<'s> {
     /// When this was not made by [`Lookout::through_surfaces`].
     pub fn surfaces(&self, view: &CameraView<'_>, count: usize) -> RaySurfaces {
         assert!(self.asks_always, "made by Lookout::through_surfaces");
-        surfaces(&self.scene, view, count)
+        surfaces(&self.rows(), view, count)
     }
 
-    /// The scene as another moment has it, for flow that leads there. `carried` has by part the map of the world to itself from its place at
-    /// the first moment to that at this one; `None` of parts that stay. Points of parts that deform stay on their triangle, with the weights
-    /// of its corners.
-    pub fn moved(self, carried: Vec<Option<DAffine3>>) -> Moved<'s> {
-        let deforming = self.scene.scene.deforming_parts();
-        Moved { scene: self.scene, carried, deforming }
+    /// The scene as another moment has it, for flow that leads there from a picture; `ways` says where bodies are in both. Points of parts that
+    /// deform stay on their triangle, with the weights of its corners.
+    ///
+    /// # Panics
+    /// When `ways` has not as many bands of the second picture as this.
+    pub fn moved(self, ways: Ways) -> Moved<'s> {
+        assert_eq!(ways.there.len(), self.bands.len(), "each band of rows has its own places of bodies");
+        let deforming = self.bands[0].1.scene.deforming_parts();
+        Moved { bands: self.bands, ways, deforming }
     }
+}
 
-    fn pixel(&self, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {
-        let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let Some(found) = sighting(&self.scene, view, centre) else {
-            let seeing = view.camera().projection.ray(centre.0, centre.1).is_some();
-            return Pixel { seeing, behind: false, geometry: None };
-        };
-        let winding = self.scene.triangles.get(found.triangle).cross().as_dvec3();
-        Pixel { seeing: true, behind: winding.dot(found.direction) > 0.0, geometry: Some(geometry_of(&self.scene, view, centre.1, &found)) }
-    }
+fn pixel(rows: &Rows<'_, '_>, view: &CameraView<'_>, x: u32, y: u32) -> Pixel {
+    let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let scene = rows.at(centre.1);
+    let Some(found) = sighting(scene, view, centre) else {
+        let seeing = view.camera().projection.ray(centre.0, centre.1).is_some();
+        return Pixel { seeing, behind: false, geometry: None };
+    };
+    let winding = scene.triangles.get(found.triangle).cross().as_dvec3();
+    Pixel { seeing: true, behind: winding.dot(found.direction) > 0.0, geometry: Some(geometry_of(scene, view, centre.1, &found)) }
 }

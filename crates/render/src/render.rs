@@ -15,6 +15,7 @@ use crate::layers::{Pixel, add_fixture, add_light_parts, layers};
 use crate::light_parts::LightParts;
 use crate::partial::{self, Header, PartialError};
 use crate::prepared::RenderScene;
+use crate::rows::Rows;
 use crate::sampling::add_samples;
 use crate::tile_film::TileFilm;
 use crate::tiles::Tiles;
@@ -92,6 +93,8 @@ pub struct FrameRender<'a, 's> {
     integrator: Integrator<'a, 's>,
     /// For equal stretches of the exposure, if something moves in it.
     exposed: Vec<Integrator<'a, 's>>,
+    /// What the geometry layers show.
+    rows: Rows<'a, 's>,
     view: CameraView<'a>,
     tiles: Tiles,
     /// Per tile, what its pixels have gathered.
@@ -163,16 +166,23 @@ impl<'a, 's> FrameRender<'a, 's> {
         let schedule = Schedule::new(config);
         let wanted = vec![schedule.first; width as usize * height as usize];
         let integrator = integrator(scene, guide, view, config);
-        Ok(Self { integrator, exposed: Vec::new(), view: *view, tiles, film, wanted, schedule, done: 0 })
+        Ok(Self { integrator, exposed: Vec::new(), rows: scene.into(), view: *view, tiles, film, wanted, schedule, done: 0 })
     }
 
     /// The frame with what moves blurred: each sample sees the scene, with its own guide, of the stretch of the exposure that it falls into.
-    /// The stretches are equally long and in the order of time; geometry stays that of the frame's own scene. Without a shutter all samples
-    /// see the middle one.
+    /// The stretches are equally long and in the order of time, from the first moment of the upper row to the last of the lower one; geometry
+    /// stays that of the frame's own scene. Without a shutter all samples see the middle one.
     #[must_use]
     pub fn exposed(mut self, stretches: &'a [(RenderScene<'s>, Guide)]) -> Self {
         let config = self.integrator.config;
         self.exposed = stretches.iter().map(|(scene, guide)| integrator(scene, guide, &self.view, config)).collect();
+        self
+    }
+
+    /// The frame whose geometry layers show another scene in each band of rows, as a rolling shutter does of what moves.
+    #[must_use]
+    pub fn in_rows(mut self, rows: Rows<'a, 's>) -> Self {
+        self.rows = rows;
         self
     }
 
@@ -343,9 +353,12 @@ impl<'a, 's> FrameRender<'a, 's> {
     /// The current layers, except the labels and those of [`crate::add_extra_layers`].
     pub fn frame(&self) -> Frame {
         // Resolve the sums of every pixel, and find the geometry at its centre.
-        let (scene, view, tiles) = (self.integrator.scene, &self.view, self.tiles);
+        let (view, tiles) = (&self.view, self.tiles);
         let pixels: Vec<Vec<Pixel>> = map_up_to(self.film.len(), |tile| {
-            let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel { color: sum.resolve(), geometry: pixel_geometry(scene, view, x, y) };
+            let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel {
+                color: sum.resolve(),
+                geometry: pixel_geometry(self.rows.at(f64::from(y) + 0.5), view, x, y),
+            };
             self.film[tile].sums.iter().zip(tiles.pixels(tile as u32)).map(pixel).collect()
         });
 

@@ -10,7 +10,7 @@ use enfilade_scene::CameraView;
 /// Makes the moment within the exposure independent of everything else that is random.
 const SHUTTER_SEED: u64 = 0x5a07_7e12;
 
-/// Adds samples to the pixels of a tile until each has its goal. There is an integrator for each of equal stretches of the exposure.
+/// Adds samples to the pixels of a tile until each has its goal. There is an integrator for each of equal stretches of the whole exposure.
 pub(crate) fn add_samples(
     integrators: &[Integrator<'_, '_>],
     view: &CameraView<'_>,
@@ -20,14 +20,15 @@ pub(crate) fn add_samples(
 ) {
     for (i, &pixel) in pixels.iter().enumerate() {
         for index in film.sums[i].samples()..goals[i] {
-            let (sample, time) = camera_sample(integrators[0].config, view, pixel, index);
-            let integrator = &integrators[(time * integrators.len() as f32) as usize];
+            let (sample, share) = camera_sample(integrators[0].config, view, pixel, index);
+            // Filters reach beyond the borders.
+            let integrator = &integrators[((share * integrators.len() as f32) as usize).min(integrators.len() - 1)];
             film.add(i, &integrator.sample(&sample));
         }
     }
 }
 
-/// Sample number `index` of a pixel, and its moment within the exposure, on [0,1).
+/// Sample number `index` of a pixel, and its moment as a share of the whole exposure, on [0,1).
 fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32), index: u32) -> (CameraSample, f32) {
     let frame = view.pose().frame;
     let sampler = Sampler::new(config.seed, frame, x, y, index);
@@ -37,8 +38,9 @@ fn camera_sample(config: &RenderConfig, view: &CameraView<'_>, (x, y): (u32, u32
         Some(_) => Sampler::new(config.seed ^ SHUTTER_SEED, frame, x, y, index).set(0)[0],
         None => 0.5,
     };
-    let ray = view.ray(f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1], [u[2], u[3]], time);
+    let [x, y] = [f64::from(x) + 0.5 + offset[0], f64::from(y) + 0.5 + offset[1]];
+    let ray = view.ray(x, y, [u[2], u[3]], time);
     // Where the picture shows nothing it is black.
     let ray = ray.map(|ray| Ray::new(ray.origin.as_vec3(), ray.direction.as_vec3().normalize()));
-    (CameraSample { ray, sampler, index }, time)
+    (CameraSample { ray, sampler, index }, view.exposure_share(y, time))
 }

@@ -1,13 +1,32 @@
 //! Scenes that move: their state at a moment, and edits that keep bodies right.
 
-use crate::{Body, BodyId, BodyStates, PartId, Scene, SceneError};
+use crate::{Body, BodyId, BodyStates, PartId, Scene, SceneError, StartCamera};
 use enfilade_math::DAffine3;
 use std::collections::BTreeSet;
 
 impl Scene {
-    /// True when nothing in the scene moves: it may have joints that stay as they are.
+    /// True when no part and no light moves: there may be joints that stay as they are, and cameras that ride through the scene.
     pub fn is_still(&self) -> bool {
-        self.bodies.iter().all(|body| body.motion.is_rest())
+        let carries = |body: &crate::Body| !body.parts.is_empty() || !body.lights.is_empty();
+        self.moving_bodies().iter().zip(&self.bodies).all(|(moves, body)| !moves || !carries(body))
+    }
+
+    /// By body: whether it leaves rest at any moment, by itself or with what bears it.
+    pub fn moving_bodies(&self) -> Vec<bool> {
+        let mut moving: Vec<bool> = Vec::with_capacity(self.bodies.len());
+        for body in &self.bodies {
+            moving.push(!body.motion.is_rest() || body.parent.is_some_and(|parent| moving[parent as usize]));
+        }
+        moving
+    }
+
+    /// The cameras as they are at a moment: those that ride on bodies go with them.
+    pub fn cameras_at(&self, time_s: f64) -> Vec<StartCamera> {
+        let mut cameras = self.cameras.clone();
+        for (body, map) in self.bodies.iter().zip(self.world_from_rest(time_s)).filter(|(_, map)| *map != DAffine3::IDENTITY) {
+            body.cameras.iter().for_each(|&camera| cameras[camera as usize] = self.cameras[camera as usize].moved(&map));
+        }
+        cameras
     }
 
     /// Leaves every joint at rest, and takes out bodies that have none.
@@ -79,6 +98,7 @@ impl Scene {
     ///         parent: None,
     ///         parts: vec![0],
     ///         lights: Vec::new(),
+    ///         cameras: Vec::new(),
     ///         limits: None,
     ///         motion: BodyMotion { times_s: vec![0.0, 2.0], states },
     ///     }],
@@ -110,6 +130,9 @@ impl Scene {
             }
             for &light in &body.lights {
                 scene.lights[light as usize] = self.lights[light as usize].moved(&map);
+            }
+            for &camera in &body.cameras {
+                scene.cameras[camera as usize] = self.cameras[camera as usize].moved(&map);
             }
         }
         scene
@@ -151,9 +174,18 @@ impl Scene {
         self.remove_unused_bodies();
     }
 
+    /// Takes cameras out; those behind them move up.
+    pub(crate) fn remove_cameras(&mut self, gone: &BTreeSet<u32>) {
+        let mut index = 0..;
+        self.cameras.retain(|_| index.next().is_none_or(|camera| !gone.contains(&camera)));
+        self.bodies.iter_mut().for_each(|body| drop_numbers(&mut body.cameras, gone));
+        self.remove_unused_bodies();
+    }
+
     /// Takes out the bodies that neither have nor bear anything.
     pub fn remove_unused_bodies(&mut self) {
-        let mut used: Vec<bool> = self.bodies.iter().map(|body| !body.parts.is_empty() || !body.lights.is_empty()).collect();
+        let has = |body: &crate::Body| !body.parts.is_empty() || !body.lights.is_empty() || !body.cameras.is_empty();
+        let mut used: Vec<bool> = self.bodies.iter().map(has).collect();
         for body in (0..self.bodies.len()).rev() {
             if let Some(parent) = self.bodies[body].parent.filter(|_| used[body]) {
                 used[parent as usize] = true;
@@ -169,7 +201,7 @@ impl Scene {
     /// Checks the bodies.
     pub(crate) fn validate_bodies(&self) -> Result<(), SceneError> {
         let mut names = BTreeSet::new();
-        let [mut parts, mut lights] = [BTreeSet::new(), BTreeSet::new()];
+        let [mut parts, mut lights, mut cameras] = [const { BTreeSet::new() }; 3];
         for (body, id) in self.bodies.iter().zip(0..) {
             let wrong = |problem: String| Err(SceneError::Value { what: format!("body {:?}", body.name), problem });
             let dangling = |kind: &'static str, index: u32, count: usize| {
@@ -181,9 +213,11 @@ impl Scene {
             if let Some(parent) = body.parent.filter(|&parent| parent >= id) {
                 return dangling("the body", parent, id as usize);
             }
-            for (numbers, taken, kind, count) in
-                [(&body.parts, &mut parts, "part", self.parts.len()), (&body.lights, &mut lights, "light", self.lights.len())]
-            {
+            for (numbers, taken, kind, count) in [
+                (&body.parts, &mut parts, "part", self.parts.len()),
+                (&body.lights, &mut lights, "light", self.lights.len()),
+                (&body.cameras, &mut cameras, "camera", self.cameras.len()),
+            ] {
                 if let Some(&index) = numbers.iter().find(|&&index| index as usize >= count) {
                     return dangling(kind, index, count);
                 }
@@ -225,12 +259,12 @@ mod tests {
     use super::*;
     use crate::{Body, BodyMotion, BodyStates, Light, Material, Part, RigidPose, Shape};
     use enfilade_geometry::Mesh;
-    use enfilade_math::{DQuat, DVec3, Rgb, Vec3};
+    use enfilade_math::{DMat3, DQuat, DVec3, Rgb, Vec3};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn body(name: &str, parent: Option<BodyId>, parts: Vec<PartId>, states: BodyStates) -> Body {
         let times_s = (0..count_of(&states)).map(|at| at as f64).collect();
-        Body { name: name.into(), parent, parts, lights: Vec::new(), limits: None, motion: BodyMotion { times_s, states } }
+        Body { name: name.into(), parent, parts, lights: vec![], cameras: vec![], limits: None, motion: BodyMotion { times_s, states } }
     }
 
     fn count_of(states: &BodyStates) -> usize {
@@ -310,6 +344,37 @@ mod tests {
         assert_eq!(scene.bodies.len(), 2, "the light is still there");
         scene.remove_lights(&BTreeSet::from([0]));
         assert_eq!((scene.bodies.len(), scene.validate()), (1, Ok(())));
+    }
+
+    #[test]
+    fn cameras_ride_on_their_body_and_do_not_make_a_scene_move() {
+        let camera = |name: &str, position| StartCamera {
+            name: name.into(),
+            position,
+            world_from_camera: DMat3::IDENTITY,
+            fov_x_rad: 1.0,
+            aspect: 1.5,
+        };
+        let mut scene = scene();
+        scene.cameras = vec![camera("wall", DVec3::ZERO), camera("door", DVec3::new(3.0, 0.0, 1.0))];
+        scene.bodies[0].cameras = vec![1];
+        assert_eq!(scene.validate(), Ok(()));
+        // The door turns by a quarter about the vertical at x = 1.
+        let turned = &scene.cameras_at(1.0)[1];
+        assert!(turned.position.abs_diff_eq(DVec3::new(1.0, 2.0, 1.0), 1e-12), "{}", turned.position);
+        assert!(turned.world_from_camera.abs_diff_eq(DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z), 1e-12));
+        assert_eq!((scene.at(1.0).cameras, scene.cameras_at(0.0)), (scene.cameras_at(1.0), scene.cameras.clone()));
+
+        // What only films moves nothing that is seen; its body stays for its sake.
+        scene.remove_parts(&BTreeSet::from([1, 2]));
+        assert_eq!((scene.is_still(), scene.moving_bodies(), scene.bodies.len()), (true, vec![true], 1));
+        scene.remove_cameras(&BTreeSet::from([0]));
+        assert_eq!((scene.bodies[0].cameras.as_slice(), scene.cameras_at(1.0)[0].position.round()), (&[0][..], DVec3::new(1.0, 2.0, 1.0)));
+        scene.bodies[0].cameras = vec![4];
+        assert!(scene.validate().unwrap_err().to_string().contains("refers to camera 4, but there are only 1"));
+        scene.bodies[0].cameras = vec![0];
+        scene.remove_cameras(&BTreeSet::from([0]));
+        assert_eq!((scene.bodies.len(), scene.validate()), (0, Ok(())));
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub const DEFORM: &str = "deform";
 /// By how much an axis or a rotation may differ from unit length, and axes of a similarity from one length.
 const UNIT: f64 = 1e-6;
 
-/// Parts and lights that move as one.
+/// Parts, lights and cameras that move as one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     /// Unique among the bodies of the scene.
@@ -28,6 +28,9 @@ pub struct Body {
     pub parts: Vec<u32>,
     /// Indices of the body's lights, in ascending order.
     pub lights: Vec<u32>,
+    /// Indices of the cameras of the scene that ride on the body, in ascending order. Packages have them apart from the rest.
+    #[serde(skip)]
+    pub cameras: Vec<u32>,
     /// The least and the greatest state of the joint: radians of a hinge, metres of a slide, from rest. `None` of a joint without end, and of
     /// free bodies. Joints of things that close are closed at the least and open at the greatest. States beyond them are no error: what a
     /// simulator or an animation says is taken.

@@ -41,7 +41,7 @@ mod world;
 pub use body::{Body, BodyId, BodyMotion, BodyStates, DEFORM, RigidPose};
 pub use camera::{
     Camera, CameraError, CameraRay, CameraView, Fisheye, Intrinsics, Projection, RadialTangential, RayGrid, Shutter, StartCamera, ThinLens,
-    TiltedPinhole,
+    TiltedPinhole, band_of_row,
 };
 pub use cx::{Counted, Cx, Heard, Quiet, Warning};
 pub use deform::Shape;

@@ -1,7 +1,7 @@
 //! The scene package: a [`Scene`] as one self-contained run of bytes, pictures included and compressed without loss.
 //!
 //! Layout: the magic line, the BLAKE3 hash of the body (32 bytes), the body in postcard encoding: the scene; in packages of scenes with
-//! bodies, which have numbers of their own, these; and, where the package has them, the labels of its parts. Reading checks the hash, so
+//! bodies, which have numbers of their own, these, and the cameras on them; and, where the package has them, the labels of its parts. Reading checks the hash, so
 //! a truncated or altered package is distinguished from a scene that is wrong.
 //!
 //! The package of a variation has only the meshes and pictures that the package it varies does not have; that one lies beside it, as
@@ -103,9 +103,9 @@ pub fn from_bytes_beside<E: ToString>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyMotion, BodyStates, Material, Part, PartLabel};
+    use crate::{Body, BodyMotion, BodyStates, Material, Part, PartLabel, StartCamera};
     use enfilade_geometry::Mesh;
-    use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
+    use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, Vec3};
 
     fn scene() -> Scene {
         let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
@@ -159,7 +159,8 @@ mod tests {
         assert!(still.starts_with(b"enfilade scene 4\n"));
         let states = BodyStates::Slide { axis: DVec3::X, distances_m: vec![0.0, 1.0] };
         let motion = BodyMotion { times_s: vec![0.0, 1.0], states };
-        let body = Body { name: "it".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: Some([0.0, 1.0]), motion };
+        let (name, limits) = ("it".to_string(), Some([0.0, 1.0]));
+        let body = Body { name, parent: None, parts: vec![0], lights: Vec::new(), cameras: Vec::new(), limits, motion };
         let moving = Scene { bodies: vec![body], ..scene() };
         let mut jointed = moving.clone();
         jointed.hold_still();
@@ -175,7 +176,17 @@ mod tests {
         assert!(is_moving_package(&bytes[..32]) && !is_moving_package(&still[..32]));
         assert_eq!(from_bytes(&bytes).unwrap(), moving);
         let labels = Labels { parts: vec![PartLabel { semantic: 4, instance: 7 }] };
-        assert_eq!(from_bytes_with_labels(&to_bytes_with_labels(&moving, &labels)).unwrap(), (moving, Some(labels)));
+        assert_eq!(from_bytes_with_labels(&to_bytes_with_labels(&moving, &labels)).unwrap(), (moving.clone(), Some(labels.clone())));
+
+        // Cameras that ride on bodies follow these.
+        for (mut filmed, head, moves) in [(jointed, b"enfilade scene 8\n", false), (moving, b"enfilade scene 9\n", true)] {
+            let (position, world_from_camera) = (DVec3::X, DMat3::IDENTITY);
+            filmed.cameras = vec![StartCamera { name: "wrist".into(), position, world_from_camera, fov_x_rad: 1.0, aspect: 1.5 }];
+            filmed.bodies[0].cameras = vec![0];
+            let bytes = to_bytes_with_labels(&filmed, &labels);
+            assert!(bytes.starts_with(head) && is_jointed_package(&bytes[..32]) && is_moving_package(&bytes[..32]) == moves);
+            assert_eq!(from_bytes_with_labels(&bytes).unwrap(), (filmed, Some(labels.clone())));
+        }
     }
 
     #[test]

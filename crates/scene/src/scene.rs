@@ -104,7 +104,7 @@ pub enum SceneError {
     Dangling {
         /// The owner of the index.
         what: String,
-        /// "mesh", "material", "object", "image", "part", "light" or "the body".
+        /// "mesh", "material", "object", "image", "part", "light", "camera" or "the body".
         kind: &'static str,
         /// The index.
         index: u32,

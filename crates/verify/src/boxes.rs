@@ -60,12 +60,13 @@ pub(super) fn check_positions(
     let (Some(positions), Some(instances)) = (frame.get(Layer::Position), frame.get(Layer::SemanticInstance)) else { return };
     let entities = frame.get(Layer::RenderEntityId);
     let center = view.camera.pose().position;
+    let y_of = |pixel: usize| (pixel / frame.width as usize) as f64 + 0.5;
     for (kind, boxes) in boxes {
         let beyond = |pixel: usize| {
             let instance = instances.get(pixel);
             let shown: DVec3 = vector(positions, pixel);
             // The boxes are those of the shapes at rest.
-            let p = entities.map_or(Some(shown), |entities| places.at_rest(entities.get(pixel) as i64, shown))?;
+            let p = entities.map_or(Some(shown), |entities| places.in_row(y_of(pixel)).at_rest(entities.get(pixel) as i64, shown))?;
             let shape = (instance >= 1.0).then(|| boxes.get(instance as usize).copied().flatten());
             let open = view.rounding.of_position(shown).length();
             shape.map(|shape| shape.map_or(f64::INFINITY, |shape| beyond(shape.distance_beyond(p), open) / shown.distance(center).max(1.0)))

@@ -40,8 +40,11 @@ pub(super) struct Listed<'a> {
     shown: OnceLock<Vec<DVec3>>,
 }
 
-/// The surface points of a frame's grid with their parts, and where what moves is.
-type Grid<'a> = (Vec<(i64, DVec3)>, BodyPlaces<'a>);
+/// A surface point: the image coordinate of the row that shows it, its part, its place in the world.
+type Shown = (f64, i64, DVec3);
+
+/// The surface points of a frame's grid, and where what moves is.
+type Grid<'a> = (Vec<Shown>, BodyPlaces<'a>);
 
 /// Numbers of points of a frame that another one certainly sees, and certainly does not see.
 #[derive(Default)]
@@ -119,15 +122,15 @@ impl<'a> Listed<'a> {
         self.moving.as_ref().map_or_else(BodyPlaces::default, |(_, places)| *places)
     }
 
-    /// The surface points of a grid of pixels, world, metres, with their parts. Where distances alone tell what hides them, those of parts that
-    /// deform do not count.
-    fn points(&self, step_px: u32, hidden_by: HiddenBy) -> Vec<(i64, DVec3)> {
+    /// The surface points of a grid of pixels. Where distances alone tell what hides them, those of parts that deform do not count.
+    fn points(&self, step_px: u32, hidden_by: HiddenBy) -> Vec<Shown> {
         let [width, height] = self.view.camera().size();
         let point = |[column, row]: [u32; 2]| {
             let pixel = (row * width + column) as usize;
             let is_followed = |part: &i64| hidden_by == HiddenBy::Scene || !self.places().deforms(*part);
             let part = Some(self.part(pixel)).filter(is_followed)?;
-            Some((part, self.point(f64::from(column) + 0.5, f64::from(row) + 0.5, pixel)?))
+            let y = f64::from(row) + 0.5;
+            Some((y, part, self.point(f64::from(column) + 0.5, y, pixel)?))
         };
         CovisibleFrame::grid([width, height], step_px).filter_map(point).collect()
     }
@@ -145,9 +148,10 @@ impl<'a> Listed<'a> {
     }
 
     /// Numbers of the points that this frame certainly sees, and certainly does not see.
-    fn certain(&self, (points, places): (&[(i64, DVec3)], BodyPlaces<'_>)) -> Certain {
+    fn certain(&self, (points, places): (&[Shown], BodyPlaces<'_>)) -> Certain {
         let mut certain = Certain::default();
-        for seen in points.iter().filter_map(|&(part, p)| self.surely_seen(places.carry(&self.places(), part, p)?)) {
+        let here = |&(y, part, p): &Shown| places.carry_to(y, (&self.places(), &self.view), part, p);
+        for seen in points.iter().filter_map(|shown| self.surely_seen(here(shown)?)) {
             *(if seen { &mut certain.seen } else { &mut certain.unseen }) += 1;
         }
         certain

@@ -32,7 +32,7 @@ pub(super) fn check(pair: &FramePair, layers: &PairLayers, [first, second]: [&Li
             None => is_empty(layers, pixel),
             Some(p) => {
                 // Where parts that deform go is not in the tables.
-                let Some(then) = first.places().carry(&second.places(), first.part(pixel), p) else { continue };
+                let Some(then) = first.places().carry_to(y, (&second.places(), &second.view), first.part(pixel), p) else { continue };
                 pixels += 1;
                 contradictions += usize::from(second.contradicts(then, layers.seen.get(pixel) == 1.0));
                 off(layers, pixel, [&first.view, &second.view], (x, y), [p, then])

@@ -25,7 +25,9 @@ pub(super) fn check(
     let number = tracks.frames[place];
     for (point, &seeded) in tracks.positions.iter().enumerate() {
         let part = tracks.node_ids.get(point).map_or(0, |&part| i64::from(part));
-        let Some(p) = places[tracks.seeds[point].0 as usize].carry(&places[place], part, seeded) else { continue };
+        let (own, seed) = tracks.seeds[point];
+        let carried = places[own as usize].carry_to(f64::from(seed[1]), (&places[place], &frame.view), part, seeded);
+        let Some(p) = carried else { continue };
         let at = point * tracks.frames.len() + place;
         let [x, y] = tracks.points[at].map(f64::from);
         let stored = DVec2::new(x * width, y * height);
@@ -33,7 +35,6 @@ pub(super) fn check(
             (at.x / width).abs().max((at.y / height).abs()) < 1.0 + BEYOND && at.x > -BEYOND * width && at.y > -BEYOND * height
         };
         let expected = frame.view.project(p).map(DVec2::from).filter(is_near);
-        let (own, seed) = tracks.seeds[point];
         let off = match expected {
             Some(expected) if own as usize == place => expected.distance(stored).max(stored.distance(DVec2::from(seed.map(f64::from)))),
             Some(expected) => expected.distance(stored),

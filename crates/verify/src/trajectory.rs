@@ -43,10 +43,10 @@ impl PlanRules {
     }
 
     /// Whether the camera of this frame may be in such a voxel: in a free one, or, for the artist's own camera, also in one that a surface
-    /// touches, which carving treats as free because of the camera. Poses made by hand are kept at any place, and so is the artist's by
+    /// touches, which carving treats as free because of the camera. Poses that are given are kept at any place, and so is the artist's by
     /// Hypersim's preset, which does not check the space for the second camera of a rig either.
     pub(super) fn may_stand_in(&self, voxel: Voxel, frame: u32) -> bool {
-        let anywhere = self.mode == "keyframes" || (self.is_preset() && (self.is_second || frame == 0));
+        let anywhere = ["keyframes", "cameras"].contains(&self.mode.as_str()) || (self.is_preset() && (self.is_second || frame == 0));
         // The second camera of a rig beside the artist's camera may be in any voxel.
         anywhere || voxel == Voxel::Free || (self.is_given(frame) && (self.is_second || voxel == Voxel::Occupied))
     }

@@ -242,7 +242,7 @@ impl<'a> Raster<'a> {
             let distance = self.distance.get(pixel);
             let ray = self.view.centre_ray(x, y).filter(|_| self.ids.get(pixel) != -1.0 && distance.is_finite())?;
             let p = ray.origin + ray.direction * distance;
-            other.see(self.places.carry(&other.places, self.ids.get(pixel) as i64, p)?)
+            other.see(self.places.carry_to(y, (&other.places, &other.view), self.ids.get(pixel) as i64, p)?)
         };
         (0..self.width * self.height).map(image).collect()
     }

@@ -148,6 +148,7 @@ const GROUPS: [Group; 29] = [
     mode("`mode = { kind = \"photos\", … }`", "PhotosConfig", "[plan.mode]\nkind = \"photos\"\n§\n"),
     mode("`mode = { kind = \"coverage\", … }`", "CoverageConfig", "[plan.mode]\nkind = \"coverage\"\n§\n"),
     mode("`mode = { kind = \"objects\", … }`", "ObjectsConfig", "[plan.mode]\nkind = \"objects\"\n§\n"),
+    mode("`mode = { kind = \"cameras\", … }`", "CamerasConfig", "[plan.mode]\nkind = \"cameras\"\n§\n"),
     mode("`mode = { kind = \"keyframes\", … }`", "KeyframesConfig", "[plan.mode]\nkind = \"keyframes\"\nfiles = [\"a.csv\"]\n§\n"),
     Group {
         heading: "`saliency = { kind = \"texture\", … }`",

@@ -107,6 +107,8 @@ pub enum Mode {
     Objects(ObjectsConfig),
     /// Poses made by hand.
     Keyframes(KeyframesConfig),
+    /// The cameras of the scene as they are, frame by frame.
+    Cameras(CamerasConfig),
 }
 
 impl Value for Mode {
@@ -248,7 +250,35 @@ pub struct KeyframesConfig {
     pub files: Vec<String>,
 }
 
+/// The cameras of the scene as they are: those that ride on bodies go with them, others stay.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CamerasConfig {
+    /// Frames per second.
+    pub fps: f64,
+}
+
+impl Default for CamerasConfig {
+    fn default() -> Self {
+        Self { fps: 24.0 }
+    }
+}
+
 impl Mode {
+    /// Frames per second, if the mode says when its frames are taken.
+    pub fn fps(&self) -> Option<f64> {
+        match self {
+            Self::Video(video) => Some(video.fps),
+            Self::Cameras(cameras) => Some(cameras.fps),
+            Self::Walk(_) | Self::Stills(_) | Self::Coverage(_) | Self::Objects(_) | Self::Keyframes(_) => None,
+        }
+    }
+
+    /// True if the mode takes poses that are given, which it does not change.
+    pub fn is_given(&self) -> bool {
+        matches!(self, Self::Keyframes(_) | Self::Cameras(_))
+    }
+
     /// Name of the mode in configurations and reports.
     pub fn name(&self) -> &'static str {
         match self {
@@ -259,6 +289,7 @@ impl Mode {
             Self::Coverage(_) => "coverage",
             Self::Objects(_) => "objects",
             Self::Keyframes(_) => "keyframes",
+            Self::Cameras(_) => "cameras",
         }
     }
 
@@ -289,6 +320,7 @@ impl Mode {
                 require(incidence > 0.0 && incidence < 90.0, "max_incidence_deg", incidence, "an angle between 0 and 90 degrees")
             }
             Self::Objects(o) => o.validate(),
+            Self::Cameras(c) => above_0("fps", c.fps),
             Self::Keyframes(k) => {
                 require(!k.files.is_empty(), "files", "[]", "at least one file of poses, as in files = [\"kitchen.csv\"]")
             }

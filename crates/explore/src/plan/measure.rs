@@ -79,7 +79,7 @@ pub(super) fn finish(planner: &Planner, draft: Draft) -> Planned {
 
 /// The roll limit of poses, if they have one, degrees.
 fn roll_limit_deg(planner: &Planner) -> Option<f64> {
-    let is_held = planner.config.preset != Preset::Hypersim && !matches!(planner.config.mode, Mode::Keyframes(_));
+    let is_held = planner.config.preset != Preset::Hypersim && !planner.config.mode.is_given();
     is_held.then(|| planner.rules.roll_limit_rad().to_degrees())
 }
 

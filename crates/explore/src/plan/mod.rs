@@ -37,7 +37,8 @@ use rules::Rules;
 use targets::Targets;
 
 pub use config::{
-    CoverageConfig, KeyframesConfig, Mode, ObjectsConfig, PhotosConfig, PlanConfig, PlanKeys, StillsConfig, VideoConfig, WalkConfig,
+    CamerasConfig, CoverageConfig, KeyframesConfig, Mode, ObjectsConfig, PhotosConfig, PlanConfig, PlanKeys, StillsConfig, VideoConfig,
+    WalkConfig,
 };
 pub use keyframes::{Keyframe, parse_keyframes};
 pub use report::{
@@ -144,10 +145,10 @@ pub fn plan_objects(
         Mode::Stills(stills) => stills::stills(&planner, first, stills, &rng),
         Mode::Photos(photos) => photos::photos(&planner, first, photos, objects, &rng),
         Mode::Coverage(coverage) => coverage::cover(&planner, first, coverage, &rng),
-        Mode::Objects(_) | Mode::Keyframes(_) => Err(ExploreError::Config {
+        Mode::Objects(_) | Mode::Keyframes(_) | Mode::Cameras(_) => Err(ExploreError::Config {
             field: "mode",
             found: config.mode.name().into(),
-            expected: "a mode that finds poses; poses that are given go to `follow`",
+            expected: "a mode that finds poses; poses that are given go to `follow` and `film`",
         }),
     }?;
 
@@ -178,7 +179,40 @@ pub fn follow(
     cx: &dyn Cx,
 ) -> Result<Planned, ExploreError> {
     config.validate()?;
-    let poses = keyframes::interpolate(keyframes, name)?;
+    given(world, bvh, space, keyframes::interpolate(keyframes, name)?, name, config, cx)
+}
+
+/// The trajectory `name` of poses that are given, one for each frame, of which there is at least one: those of a camera of the scene. As with
+/// [`follow`], nothing is changed, and frames that break a rule are named in a warning and in the report.
+///
+/// # Errors
+/// A configuration out of its domain, or no pose.
+pub fn film(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    space: &FreeSpace,
+    poses: Vec<Pose>,
+    name: &str,
+    config: &PlanConfig,
+    cx: &dyn Cx,
+) -> Result<Planned, ExploreError> {
+    config.validate()?;
+    if poses.is_empty() {
+        return Err(ExploreError::Config { field: "poses", found: "none".into(), expected: "at least one pose" });
+    }
+    given(world, bvh, space, poses, name, config, cx)
+}
+
+/// A trajectory of given poses, measured.
+fn given(
+    world: &WorldMesh,
+    bvh: &Bvh,
+    space: &FreeSpace,
+    poses: Vec<Pose>,
+    name: &str,
+    config: &PlanConfig,
+    cx: &dyn Cx,
+) -> Result<Planned, ExploreError> {
     let first = &poses[0];
     let start = StartCamera {
         name: name.to_string(),

@@ -19,17 +19,19 @@ pub(super) struct Bodies {
     nodes: Vec<(usize, DAffine3)>,
     of_part: Vec<Option<u32>>,
     of_light: Vec<Option<u32>>,
+    of_camera: Vec<Option<u32>>,
 }
 
 impl Bodies {
     /// Adds the nodes of the bodies of a scene that moves, and their animation.
     pub fn add(document: &mut Document, scene: &Scene) -> Self {
-        let mut of_light = vec![None; scene.lights.len()];
+        let (mut of_light, mut of_camera) = (vec![None; scene.lights.len()], vec![None; scene.cameras.len()]);
         for (body, id) in scene.bodies.iter().zip(0..) {
             body.lights.iter().for_each(|&light| of_light[light as usize] = Some(id));
+            body.cameras.iter().for_each(|&camera| of_camera[camera as usize] = Some(id));
         }
-        let mut bodies = Self { nodes: Vec::new(), of_part: scene.body_of_parts(), of_light };
-        if scene.is_still() {
+        let mut bodies = Self { nodes: Vec::new(), of_part: scene.body_of_parts(), of_light, of_camera };
+        if !scene.moving_bodies().contains(&true) {
             if !scene.bodies.is_empty() {
                 document.notes.push("joints that stay as they are have no place in glTF, so they were left out".into());
             }
@@ -72,6 +74,11 @@ impl Bodies {
     /// The node of the body that a light belongs to, and the map from the world to its axes.
     pub fn of_light(&self, light: usize) -> Option<(usize, &DAffine3)> {
         self.of(self.of_light[light])
+    }
+
+    /// The node of the body that a camera rides on, and the map from the world to its axes.
+    pub fn of_camera(&self, camera: usize) -> Option<(usize, &DAffine3)> {
+        self.of(self.of_camera[camera])
     }
 
     fn of(&self, body: Option<u32>) -> Option<(usize, &DAffine3)> {

@@ -41,9 +41,10 @@ pub(super) fn add_all(document: &mut Document, scene: &Scene, labels: &Labels) {
         document.nodes.push(node);
         put(document, &mut children, bearer.map(|(bearer, _)| bearer));
     }
-    for camera in &scene.cameras {
-        add_camera(document, camera);
-        put(document, &mut children, None);
+    for (index, camera) in scene.cameras.iter().enumerate() {
+        let bearer = bodies.of_camera(index);
+        add_camera(document, camera, bearer.map_or(&DAffine3::IDENTITY, |(_, from_world)| from_world));
+        put(document, &mut children, bearer.map(|(bearer, _)| bearer));
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let bearer = bodies.of_light(index);
@@ -115,12 +116,12 @@ fn extras(label: &PartLabel) -> Option<Value> {
     Some(extras)
 }
 
-fn add_camera(document: &mut Document, camera: &StartCamera) {
+fn add_camera(document: &mut Document, camera: &StartCamera, bearer_from_world: &DAffine3) {
     let fov_y = 2.0 * ((0.5 * camera.fov_x_rad).tan() / camera.aspect).atan();
     let perspective = json!({ "yfov": fov_y as f32, "aspectRatio": camera.aspect as f32, "znear": 0.01 });
     document.cameras.push(json!({ "name": camera.name, "type": "perspective", "perspective": perspective }));
     let mut node = json!({ "name": camera.name, "camera": document.cameras.len() - 1 });
-    place(&mut node, &DAffine3::from_mat3_translation(camera.world_from_camera, camera.position));
+    place(&mut node, &(*bearer_from_world * DAffine3::from_mat3_translation(camera.world_from_camera, camera.position)));
     document.nodes.push(node);
 }
 

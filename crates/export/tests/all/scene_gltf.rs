@@ -320,11 +320,14 @@ fn a_turned_sky_keeps_its_directions() {
 fn motion_comes_back_at_every_moment() {
     let mut scene = shelf((0..4).map(|_| Material::diffuse("grey", Rgb::splat(0.5))).collect(), vec![]);
     scene.lights = vec![Light::Point { name: "bulb".into(), position: Vec3::new(3.0, 1.0, 2.0), intensity: Rgb::WHITE }];
+    let (position, world_from_camera) = (DVec3::new(2.0, -1.0, 1.0), DMat3::from_rotation_x(0.4));
+    scene.cameras = vec![StartCamera { name: "eye".into(), position, world_from_camera, fov_x_rad: 1.0, aspect: 1.5 }];
     let body = |name: &str, parent, part, times_s: &[f64], states| Body {
         name: name.into(),
         parent,
         parts: vec![part],
         lights: Vec::new(),
+        cameras: Vec::new(),
         limits: None,
         motion: BodyMotion { times_s: times_s.into(), states },
     };
@@ -339,7 +342,7 @@ fn motion_comes_back_at_every_moment() {
     };
     scene.bodies = vec![
         body("door", None, 0, &[0.5, 2.0], hinge),
-        Body { lights: vec![0], ..body("drawer", Some(0), 1, &[0.0, 1.0, 2.0], slide) },
+        Body { lights: vec![0], cameras: vec![0], ..body("drawer", Some(0), 1, &[0.0, 1.0, 2.0], slide) },
         body("ball", None, 2, &[-1.0, 1.0, 1.0, 2.5], free),
     ];
     let (imported, notes) = round_trip(&scene, &Labels::default());
@@ -357,5 +360,11 @@ fn motion_comes_back_at_every_moment() {
             panic!("{:?}", found.lights)
         };
         assert!(found.abs_diff_eq(*expected, 1e-5), "{found} at {time_s} s, expected {expected}");
+    }
+    // The camera rides on the drawer.
+    for time_s in [0.0, 0.7, 1.6, 3.0] {
+        let [expected, found] = [&scene, &found].map(|scene| scene.cameras_at(time_s).remove(0));
+        assert!(found.position.distance(expected.position) < 1e-5, "{} at {time_s} s, expected {}", found.position, expected.position);
+        assert!(found.world_from_camera.abs_diff_eq(expected.world_from_camera, 1e-5));
     }
 }

@@ -12,17 +12,39 @@ pub(crate) type TimedPoses = (Vec<f64>, Vec<RigidPose>);
 /// Moments, seconds, and the shape of a mesh at each.
 pub(crate) type TimedShapes = (Vec<f64>, Vec<Arc<Shape>>);
 
-/// Numbers of parts and lights that were there at a moment of the import.
+/// Numbers of parts, lights and cameras that were there at a moment of the import.
 #[derive(Clone, Copy)]
 pub(crate) struct Contents {
     parts: u32,
     lights: u32,
+    cameras: u32,
+}
+
+impl Contents {
+    /// What remains of a span when spans within it, in their order, are taken out.
+    pub(crate) fn without([mut begin, end]: [Self; 2], holes: &[[Self; 2]]) -> Vec<[Self; 2]> {
+        let mut kept = Vec::new();
+        for [from, to] in holes {
+            let is_within = begin.is_before(from) && from.is_before(to) && to.is_before(&end);
+            if is_within {
+                kept.push([begin, *from]);
+                begin = *to;
+            }
+        }
+        kept.push([begin, end]);
+        kept
+    }
+
+    fn is_before(&self, other: &Self) -> bool {
+        self.parts <= other.parts && self.lights <= other.lights && self.cameras <= other.cameras
+    }
 }
 
 impl Assembly<'_> {
-    /// The parts and lights that are there so far.
+    /// The parts, lights and cameras that are there so far.
     pub(crate) fn contents(&self) -> Contents {
-        Contents { parts: self.scene.parts.len() as u32, lights: self.scene.lights.len() as u32 }
+        let [parts, lights, cameras] = [self.scene.parts.len(), self.scene.lights.len(), self.scene.cameras.len()].map(|n| n as u32);
+        Contents { parts, lights, cameras }
     }
 
     /// A body that moves by `poses` in a frame of the file: the identity is rest. `None`, with a warning, if the frame is distorted or
@@ -47,7 +69,8 @@ impl Assembly<'_> {
         motion: BodyMotion,
         limits: Option<[f64; 2]>,
     ) -> Option<BodyId> {
-        let body = Body { name: self.unique_body(name), parent, parts: Vec::new(), lights: Vec::new(), limits, motion };
+        let body =
+            Body { name: self.unique_body(name), parent, parts: Vec::new(), lights: Vec::new(), cameras: Vec::new(), limits, motion };
         let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
             self.warn(
                 format!("node {name:?}"),
@@ -88,14 +111,51 @@ impl Assembly<'_> {
         *body = Body { limits, ..moved.unwrap_or_else(|| body.clone()) };
     }
 
-    /// Gives a body the parts and lights that came after `before`, but those that deform.
+    /// Gives a body the parts, lights and cameras that came after `before`, but parts that deform.
     pub(crate) fn carry(&mut self, body: BodyId, before: Contents) {
         let now = self.contents();
+        self.carry_between(body, [before, now]);
+    }
+
+    /// Gives a body the parts, lights and cameras that came between two moments of the import, but parts that deform. After calls that are not
+    /// in this order, [`Assembly::sort_bodies`] has to follow.
+    pub(crate) fn carry_between(&mut self, body: BodyId, [before, after]: [Contents; 2]) {
         let deform = |body: &&Body| matches!(body.motion.states, BodyStates::Deform { .. });
         let taken: BTreeSet<PartId> = self.scene.bodies.iter().filter(deform).flat_map(|body| body.parts.iter().copied()).collect();
         let body = &mut self.scene.bodies[body as usize];
-        body.parts.extend((before.parts..now.parts).filter(|part| !taken.contains(part)));
-        body.lights.extend(before.lights..now.lights);
+        body.parts.extend((before.parts..after.parts).filter(|part| !taken.contains(part)));
+        body.lights.extend(before.lights..after.lights);
+        body.cameras.extend(before.cameras..after.cameras);
+    }
+
+    /// Gives a body a part; [`Assembly::sort_bodies`] has to follow.
+    pub(crate) fn carry_part(&mut self, body: BodyId, part: PartId) {
+        self.scene.bodies[body as usize].parts.push(part);
+    }
+
+    /// Makes the states of bodies at their first moment the rest of the scene.
+    pub(crate) fn settle_bodies(&mut self) {
+        self.drop_unused_bodies();
+        if self.scene.bodies.iter().any(|body| !body.motion.is_rest()) {
+            self.scene = self.scene.still_at(0.0);
+        }
+    }
+
+    /// Puts the contents of bodies in their order.
+    pub(crate) fn sort_bodies(&mut self) {
+        for body in &mut self.scene.bodies {
+            [&mut body.parts, &mut body.lights, &mut body.cameras].into_iter().for_each(|numbers| numbers.sort_unstable());
+        }
+    }
+
+    /// Whether a body has anything that came between two moments of the import.
+    pub(crate) fn is_carried(&self, [before, after]: [Contents; 2]) -> bool {
+        let has = |numbers: &[u32], span: std::ops::Range<u32>| numbers.iter().any(|number| span.contains(number));
+        self.scene.bodies.iter().any(|body| {
+            has(&body.parts, before.parts..after.parts)
+                || has(&body.lights, before.lights..after.lights)
+                || has(&body.cameras, before.cameras..after.cameras)
+        })
     }
 
     /// Makes a moment of the bodies' time, seconds, the first one of the scene.

@@ -6,7 +6,7 @@
 use crate::assembly::{Assembly, Piece};
 use crate::classes::class_of;
 use enfilade_math::DAffine3;
-use enfilade_scene::{PartLabel, is_stuff};
+use enfilade_scene::{PartId, PartLabel, is_stuff};
 use std::collections::{BTreeMap, HashMap};
 
 /// Categories without a class that a warning names.
@@ -102,14 +102,15 @@ impl Objects {
 }
 
 impl Object {
-    /// Adds the parts of the object. Where it has no class, its pieces have those that the model's own file gives them.
-    pub fn place(&self, pieces: &[Piece], file_from_model: DAffine3, a: &mut Assembly) {
+    /// Adds the parts of the object, and gives them by piece. Where it has no class, its pieces have those that the model's own file gives them.
+    pub fn place(&self, pieces: &[Piece], file_from_model: DAffine3, a: &mut Assembly) -> Vec<Option<PartId>> {
         let object = a.push_object(&self.name, None);
-        for piece in pieces {
+        let part = |piece: &Piece| {
             let name = if pieces.len() > 1 { format!("{}/{}", self.name, piece.name) } else { self.name.clone() };
             let label = if self.label == PartLabel::NONE { piece.label_in(object) } else { self.label.into() };
-            a.push_part_of(object, &name, piece.mesh, piece.material, file_from_model * piece.model_from_mesh, label);
-        }
+            a.push_part_of(object, &name, piece.mesh, piece.material, file_from_model * piece.model_from_mesh, label)
+        };
+        pieces.iter().map(part).collect()
     }
 }
 

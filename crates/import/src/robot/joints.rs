@@ -6,7 +6,7 @@ use enfilade_scene::{BodyId, BodyMotion, BodyStates, RigidPose};
 
 /// Kind of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// Turns about an axis; one angle, radians.
     Hinge,
     /// Slides along an axis; one distance, metres.
@@ -18,7 +18,7 @@ pub(super) enum Kind {
 }
 
 /// A joint of a robot.
-pub(super) struct Joint {
+pub(crate) struct Joint {
     pub name: String,
     pub kind: Kind,
     /// Frame at rest: its origin is a point of the axis, or that of the body of a free one.
@@ -27,6 +27,8 @@ pub(super) struct Joint {
     pub axis: DVec3,
     /// The state at rest of hinges and slides.
     pub zero: f64,
+    /// Units of the file in one of the states': a metre of slides. 1 of all else.
+    pub per_metre: f64,
     /// Least and greatest state relative to rest, if it has limits.
     pub limits: Option<[f64; 2]>,
     /// The joint that it follows where it has no states of its own.
@@ -36,14 +38,14 @@ pub(super) struct Joint {
 }
 
 /// A joint that follows another: its state is `multiplier` × the other's + `offset`.
-pub(super) struct Mimic {
+pub(crate) struct Mimic {
     pub of: String,
     pub multiplier: f64,
     pub offset: f64,
 }
 
 /// A body of a robot (a link in URDF).
-pub(super) struct Link {
+pub(crate) struct Link {
     pub name: String,
     /// At rest.
     pub file_from_link: DAffine3,
@@ -59,14 +61,14 @@ pub(super) struct Link {
 
 impl Link {
     /// Whether anything moves it in relation to the body that it is in.
-    pub(super) fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         self.jointed || self.mocap
     }
 }
 
 impl Kind {
     /// Number of values of a state.
-    pub(super) const fn width(self) -> usize {
+    pub(crate) const fn width(self) -> usize {
         match self {
             Self::Hinge | Self::Slide => 1,
             Self::Ball => 4,
@@ -77,12 +79,22 @@ impl Kind {
 
 impl Joint {
     /// A joint of any pose in the world.
-    pub(super) fn free(name: &str, file_from_frame: DAffine3) -> Self {
-        Self { name: name.into(), kind: Kind::Free, file_from_frame, axis: DVec3::Z, zero: 0.0, limits: None, mimic: None, body: None }
+    pub(crate) fn free(name: &str, file_from_frame: DAffine3) -> Self {
+        Self {
+            name: name.into(),
+            kind: Kind::Free,
+            file_from_frame,
+            axis: DVec3::Z,
+            zero: 0.0,
+            per_metre: 1.0,
+            limits: None,
+            mimic: None,
+            body: None,
+        }
     }
 
     /// Adds its body to the scene, at rest.
-    pub(super) fn push(&mut self, body: &str, parent: Option<BodyId>, a: &mut Assembly) {
+    pub(crate) fn push(&mut self, body: &str, parent: Option<BodyId>, a: &mut Assembly) {
         let states = self.states(&[]);
         let motion = BodyMotion { times_s: vec![0.0], states: states.unwrap_or_else(|_| BodyMotion::rest().states) };
         self.body = a.push_jointed(body, parent, self.file_from_frame, motion, self.limits);
@@ -92,9 +104,9 @@ impl Joint {
     ///
     /// # Errors
     /// The step whose quaternion has no length.
-    pub(super) fn states(&self, steps: &[&[f64]]) -> Result<BodyStates, usize> {
+    pub(crate) fn states(&self, steps: &[&[f64]]) -> Result<BodyStates, usize> {
         let single = |values: &[&[f64]]| {
-            let relative: Vec<f64> = values.iter().map(|step| step[0] - self.zero).collect();
+            let relative: Vec<f64> = values.iter().map(|step| step[0] * self.per_metre - self.zero).collect();
             if relative.is_empty() { vec![0.0] } else { relative }
         };
         let poses = |pose: &dyn Fn(&[f64]) -> Option<RigidPose>| {
@@ -115,13 +127,13 @@ impl Joint {
 }
 
 /// The pose within a rigid frame of what the file has at a position and rotation.
-pub(super) fn relative(frame_from_file: DAffine3, position: DVec3, rotation: DQuat) -> RigidPose {
+pub(crate) fn relative(frame_from_file: DAffine3, position: DVec3, rotation: DQuat) -> RigidPose {
     let turn = DQuat::from_mat3(&frame_from_file.matrix3).normalize();
     RigidPose { rotation: (turn * rotation).normalize(), translation: frame_from_file.transform_point3(position) }
 }
 
 /// The rotation of a quaternion (w, x, y, z) of any length; `None` of zero.
-pub(super) fn quaternion(q: &[f64]) -> Option<DQuat> {
+pub(crate) fn quaternion(q: &[f64]) -> Option<DQuat> {
     let turn = DQuat::from_xyzw(q[1], q[2], q[3], q[0]);
     (turn.length() > 1e-12).then(|| turn.normalize())
 }

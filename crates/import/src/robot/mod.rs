@@ -8,19 +8,24 @@
 //! | materials | colours (sRGB) and pictures of URDF; `diffuse`, `emissive` and the maps of `pbr` in SDF. A mesh with materials of its own keeps them |
 //! | `world`, `model` and `include` of SDF | models within models; includes are looked for as mesh files are, as `model.sdf` |
 //! | `light` of SDF | point, spot and directional; SDF states no unit: strengths are W/sr and W/m², by `intensity` |
-//! | joints of URDF | bodies that move, with axis and limits: `revolute`, `continuous`, `prismatic`, `floating`; `mimic` is followed by [`ImportOptions::states`](crate::ImportOptions::states). Those of SDF are without effect |
+//! | joints of URDF | bodies that move, with axis and limits: `revolute`, `continuous`, `prismatic`, `floating`; `mimic` is followed by [`ImportOptions::states`](crate::ImportOptions::states) |
+//! | joints of SDF | the same: `revolute`, `continuous`, `prismatic`, `ball`; `fixed` ones hold together. Axes by `expressed_in`, poses by `relative_to`. Of joints that close a circle one is left out with a warning, and so are screws, gears and universal joints |
 //! | inertias, collisions, sensors, plug-ins | without effect |
 //!
 //! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
 
 mod elements;
-mod joints;
+pub(crate) mod graph;
+pub(crate) mod joints;
 pub(crate) mod mjcf;
+mod partnet;
 mod sdf;
+mod sdf_frames;
+mod sdf_joints;
 mod shapes;
 pub(crate) mod states;
 mod urdf;
-mod urdf_joints;
+pub(crate) mod urdf_joints;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported, UpAxis};

@@ -1,6 +1,9 @@
 //! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links are placed by their poses.
 
-use super::elements::{child, children, name_of, pose};
+use super::elements::{child, children, name_of};
+use super::graph::Piece;
+use super::sdf_frames::{frame_in, own_pose, pose_in, told_from};
+use super::sdf_joints::Joints;
 use super::shapes::{Look, Shape, Shapes, find};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -18,32 +21,36 @@ const PLANE: f64 = 1.0;
 
 /// Places the contents of the worlds or models of a file.
 pub(super) fn place(root: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
-    let mut placer = Placer { shapes, models: 0 };
+    let mut placer = Placer { shapes, models: 0, joints: Joints::default() };
     let worlds: Vec<Node> = children(root, "world").collect();
     if worlds.len() > 1 {
         a.warn("world", format!("{} worlds, of which the first was imported", worlds.len()));
     }
     let scope = worlds.first().copied().unwrap_or(root);
-    placer.content(scope, DAffine3::IDENTITY, None, 0, a)
+    placer.content(scope, &Place { path: String::new(), file_from_here: DAffine3::IDENTITY, object: None, depth: 0 }, a)?;
+    placer.joints.add(a)
 }
 
 struct Placer<'s> {
     shapes: &'s mut Shapes,
     models: usize,
+    joints: Joints,
+}
+
+/// A world or model.
+struct Place {
+    /// What goes before the names of its links: `robot::arm::`.
+    path: String,
+    file_from_here: DAffine3,
+    object: Option<ObjectId>,
+    depth: usize,
 }
 
 impl Placer<'_> {
     /// Adds the models, includes and lights of a world or model.
-    fn content(
-        &mut self,
-        scope: Node,
-        file_from_scope: DAffine3,
-        parent: Option<ObjectId>,
-        depth: usize,
-        a: &mut Assembly,
-    ) -> Result<(), ImportError> {
+    fn content(&mut self, scope: Node, here: &Place, a: &mut Assembly) -> Result<(), ImportError> {
         self.models += 1;
-        if depth > MAX_DEPTH || self.models > MAX_MODELS {
+        if here.depth > MAX_DEPTH || self.models > MAX_MODELS {
             return Err(a.malformed(
                 format!("model {:?}", name_of(scope)),
                 format!("models are nested more than {MAX_DEPTH} deep, or more than {MAX_MODELS}"),
@@ -53,25 +60,36 @@ impl Placer<'_> {
             match element.tag_name().name() {
                 "model" => {
                     let name = if name_of(element).is_empty() { "model" } else { name_of(element) };
-                    let object = a.push_object(name, parent);
-                    let placement = file_from_scope * posed(element, a);
-                    self.links(element, placement, object, a)?;
-                    self.content(element, placement, Some(object), depth + 1, a)?;
+                    let file_from_here = here.file_from_here * pose_in(scope, element, a)?;
+                    self.model(element, name, file_from_here, here, a)?;
                 }
-                "include" => self.include(element, file_from_scope, parent, depth, a)?,
-                "light" => light(element, file_from_scope * posed(element, a), a),
+                "include" => self.include(element, scope, here, a)?,
+                "light" => light(element, here.file_from_here * pose_in(scope, element, a)?, a),
                 _ => (),
             }
         }
         Ok(())
     }
 
-    fn links(&mut self, model: Node, file_from_model: DAffine3, object: ObjectId, a: &mut Assembly) -> Result<(), ImportError> {
+    /// Adds a model, which stands within `around`.
+    fn model(&mut self, model: Node, name: &str, file_from_here: DAffine3, around: &Place, a: &mut Assembly) -> Result<(), ImportError> {
+        let object = a.push_object(name, around.object);
+        let path = format!("{}{name}::", around.path);
+        let here = Place { path, file_from_here, object: Some(object), depth: around.depth + 1 };
+        self.links(model, &here, object, a)?;
+        self.content(model, &here, a)?;
+        self.joints.of_model(model, &here.path, file_from_here, a)
+    }
+
+    fn links(&mut self, model: Node, here: &Place, object: ObjectId, a: &mut Assembly) -> Result<(), ImportError> {
         for link in children(model, "link") {
             let name = if name_of(link).is_empty() { "link" } else { name_of(link) };
             let own = a.push_object(name, Some(object));
-            let file_from_link = file_from_model * posed(link, a);
-            children(link, "light").for_each(|l| light(l, file_from_link * posed(l, a), a));
+            let file_from_link = here.file_from_here * pose_in(model, link, a)?;
+            let before = a.contents();
+            for element in children(link, "light") {
+                light(element, within(element, model, here, file_from_link, a)?, a);
+            }
             for visual in children(link, "visual") {
                 let Some(shape) = child(visual, "geometry").and_then(shape) else {
                     a.warn(format!("link {name:?}"), "a visual has no geometry that is known and was left out");
@@ -79,21 +97,17 @@ impl Placer<'_> {
                 };
                 let look = child(visual, "material").map(|m| look(m, name_of(visual)));
                 let part = format!("{}.{name}", name_of(model));
-                self.shapes.place(&shape, look.as_ref(), &part, file_from_link * posed(visual, a), own, a)?;
+                let placement = within(visual, model, here, file_from_link, a)?;
+                self.shapes.place(&shape, look.as_ref(), &part, placement, own, a)?;
             }
+            let contents = vec![[before, a.contents()]];
+            self.joints.link(&here.path, Piece { name: name.to_string(), file_from_link, contents });
         }
         Ok(())
     }
 
     /// Adds the model of another file.
-    fn include(
-        &mut self,
-        include: Node,
-        file_from_scope: DAffine3,
-        parent: Option<ObjectId>,
-        depth: usize,
-        a: &mut Assembly,
-    ) -> Result<(), ImportError> {
+    fn include(&mut self, include: Node, scope: Node, around: &Place, a: &mut Assembly) -> Result<(), ImportError> {
         let uri = child(include, "uri").and_then(|n| n.text()).unwrap_or_default().trim();
         let named = child(include, "name").and_then(|n| n.text()).map(str::trim);
         let whole = uri.trim_end_matches('/');
@@ -112,35 +126,21 @@ impl Placer<'_> {
             a.warn("include", format!("{} holds no model; it was left out", file.display()));
             return Ok(());
         };
-        let object = a.push_object(named.unwrap_or_else(|| name_of(model)), parent);
         // The pose of an include replaces the model's own.
-        let placement = file_from_scope * if child(include, "pose").is_some() { posed(include, a) } else { posed(model, a) };
+        let told = if child(include, "pose").is_some() { pose_in(scope, include, a)? } else { own_pose(model, a) };
         let from = std::mem::replace(&mut self.shapes.from, file);
-        let done = self.links(model, placement, object, a).and_then(|()| self.content(model, placement, Some(object), depth + 1, a));
+        let name = named.unwrap_or_else(|| name_of(model));
+        let done = self.model(model, name, around.file_from_here * told, around, a);
         self.shapes.from = from;
         done
     }
 }
 
-/// The pose of an element, in its parent's frame.
-fn posed(element: Node, a: &mut Assembly) -> DAffine3 {
-    let Some(node) = child(element, "pose") else { return DAffine3::IDENTITY };
-    if node.attribute("relative_to").or(node.attribute("frame")).is_some_and(|frame| !frame.is_empty()) {
-        a.warn("pose", format!("the pose of {:?} is told from another frame; it was taken from what it lies in", name_of(element)));
-    }
-    let degrees = node.attribute("degrees").is_some_and(|v| matches!(v.trim(), "true" | "1"));
-    let text = node.text().unwrap_or_default();
-    match numbers(text).as_deref() {
-        Some(&[x, y, z, roll, pitch, yaw]) => {
-            let angles = DVec3::new(roll, pitch, yaw) * if degrees { std::f64::consts::PI / 180.0 } else { 1.0 };
-            pose(DVec3::new(x, y, z), angles)
-        }
-        None if text.trim().is_empty() => DAffine3::IDENTITY,
-        _ => {
-            a.warn("pose", format!("found {:?} as the pose of {:?}, expected six numbers; it was not used", text.trim(), name_of(element)));
-            DAffine3::IDENTITY
-        }
-    }
+/// The placement of something in a link.
+fn within(element: Node, model: Node, here: &Place, file_from_link: DAffine3, a: &mut Assembly) -> Result<DAffine3, ImportError> {
+    let frame = told_from(element).map(|frame| frame_in(model, frame, a)).transpose()?.flatten();
+    let base = frame.map_or(file_from_link, |model_from_frame| here.file_from_here * model_from_frame);
+    Ok(base * own_pose(element, a))
 }
 
 fn vector<const N: usize>(node: Node, tag: &str) -> Option<[f64; N]> {

@@ -1,12 +1,12 @@
 //! Shapes of links, with their materials: primitives, and meshes in files of their own.
 
-use crate::assembly::{Assembly, Source, is_absolute};
+use crate::assembly::{Assembly, FileLabel, Source, is_absolute};
 use crate::collections::assets::{Models, unless_odd};
 use crate::images::Use;
 use crate::{ImportError, primitives};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DMat3, DVec3, Rgb, linear_from_srgb};
-use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, ObjectId, PartLabel, ScalarParam, TextureRef};
+use enfilade_scene::{Alpha, Bsdf, ColorParam, Material, ObjectId, ScalarParam, TextureRef};
 use std::collections::HashMap;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -47,6 +47,8 @@ pub(super) struct Shapes {
     materials: Vec<(Look, u32)>,
     /// The file from which files are looked for: the scene's, or one that it includes.
     pub(super) from: PathBuf,
+    /// The label of all parts, if the file's neighbours state one.
+    pub(super) label: Option<FileLabel>,
 }
 
 impl Shapes {
@@ -83,7 +85,8 @@ impl Shapes {
                 }
             };
             if let Some(mesh) = mesh {
-                a.push_part_of(object, name, mesh, material, file_from_shape * shape_from_mesh, PartLabel::NONE);
+                let label = self.label.unwrap_or(FileLabel::NONE);
+                a.push_part_of(object, name, mesh, material, file_from_shape * shape_from_mesh, label);
             }
         }
         Ok(())
@@ -115,7 +118,8 @@ impl Shapes {
             let is_plain = a.material_at(piece.material).name == PLAIN;
             let material = if is_plain && look.is_some() { self.material(look, a)? } else { piece.material };
             let part = if several { format!("{name}.{}", piece.name) } else { name.to_string() };
-            a.push_part_of(object, &part, piece.mesh, material, file_from_model * piece.model_from_mesh, piece.label_in(object));
+            let label = self.label.unwrap_or_else(|| piece.label_in(object));
+            a.push_part_of(object, &part, piece.mesh, material, file_from_model * piece.model_from_mesh, label);
         }
         Ok(())
     }

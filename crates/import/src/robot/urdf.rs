@@ -1,6 +1,7 @@
 //! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that place them.
 
 use super::elements::{child, children, name_of, origin, vector};
+use super::partnet::Semantics;
 use super::shapes::{Look, Shape, Shapes};
 use super::states::{self, States, Tree};
 use super::urdf_joints::Joints;
@@ -14,13 +15,16 @@ use std::collections::HashMap;
 /// Places the links of a robot, and gives them the motion of the states.
 pub(super) fn place(robot: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
     let links: Vec<Node> = children(robot, "link").collect();
+    let semantics = Semantics::read(a)?;
     let mut tree = Joints::of(robot, &links, a)?;
+    tree.links.iter_mut().for_each(|link| link.name = semantics.name(&link.name).to_string());
     let whole = a.push_object(if name_of(robot).is_empty() { "robot" } else { name_of(robot) }, None);
     let looks: HashMap<&str, Look> = children(robot, "material").map(|m| (name_of(m), look(m))).collect();
+    shapes.label = semantics.label(whole);
     tree.push(a);
     let mut loose = Vec::new();
     for link in &links {
-        let name = if name_of(*link).is_empty() { "link" } else { name_of(*link) };
+        let name = if name_of(*link).is_empty() { "link" } else { semantics.name(name_of(*link)) };
         let Some(stand) = tree.stands.get(name_of(*link)).map(|at| &tree.links[*at]) else {
             loose.push(name);
             continue;

@@ -1,6 +1,7 @@
 //! Joints of URDF: where they place the links, and how these move.
 
 use super::elements::{child, children, name_of, origin, vector};
+use super::graph::add_bodies;
 use super::joints::{Joint, Kind, Link, Mimic};
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -9,14 +10,14 @@ use roxmltree::Node;
 use std::collections::{HashMap, HashSet};
 
 /// The links of a robot that its roots lead to, and the joints between them.
-pub(super) struct Joints<'d> {
+pub(crate) struct Joints<'d> {
     pub joints: Vec<Joint>,
     /// Those around a link come before it; the first is the world.
     pub links: Vec<Link>,
     /// The number of a link among them, by its name.
     pub stands: HashMap<&'d str, usize>,
     /// The joint that moves a link, if any.
-    movers: Vec<Option<usize>>,
+    pub movers: Vec<Option<usize>>,
 }
 
 impl<'d> Joints<'d> {
@@ -24,7 +25,7 @@ impl<'d> Joints<'d> {
     ///
     /// # Errors
     /// When a number is none.
-    pub(super) fn of(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &mut Assembly) -> Result<Self, ImportError> {
+    pub(crate) fn of(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &mut Assembly) -> Result<Self, ImportError> {
         let mut below: HashMap<&str, Vec<(&'d str, Node)>> = HashMap::new();
         let mut has_parent: HashSet<&str> = HashSet::new();
         for joint in children(robot, "joint") {
@@ -55,19 +56,20 @@ impl<'d> Joints<'d> {
         Ok(all)
     }
 
-    /// Adds the bodies of the joints to the scene.
-    pub(super) fn push(&mut self, a: &mut Assembly) {
-        for at in 1..self.links.len() {
-            let parent = self.links[self.links[at].parent].body;
-            self.links[at].body = match self.movers[at] {
-                Some(mover) => {
-                    let joint = &mut self.joints[mover];
-                    joint.push(&self.links[at].name, parent, a);
-                    joint.body.or(parent)
-                }
-                None => parent,
-            };
+    /// The joints that move, from the root on, each before those that it bears: in the order of the file (depth first).
+    pub(crate) fn depth_first(&self) -> Vec<usize> {
+        let (mut order, mut stack) = (Vec::new(), vec![0]);
+        while let Some(link) = stack.pop() {
+            order.extend(self.movers[link]);
+            // Links of one parent are listed from the last to the first, and the one that is pushed last comes next.
+            stack.extend((1..self.links.len()).filter(|other| self.links[*other].parent == link));
         }
+        order
+    }
+
+    /// Adds the bodies of the joints to the scene.
+    pub(crate) fn push(&mut self, a: &mut Assembly) {
+        add_bodies(&mut self.links, &mut self.joints, &self.movers, a);
     }
 }
 
@@ -105,5 +107,5 @@ fn read(joint: Node, file_from_frame: DAffine3, a: &mut Assembly) -> Result<Opti
         }),
         None => None,
     };
-    Ok(Some(Joint { name, kind, file_from_frame, axis, zero: 0.0, limits, mimic, body: None }))
+    Ok(Some(Joint { kind, axis, limits, mimic, ..Joint::free(&name, file_from_frame) }))
 }

@@ -15,6 +15,7 @@
 //! | other surfaces | MaterialX, MDL, RenderMan: a UsdPreviewSurface of another context is preferred, and takes transmission and strength of emission from a MaterialX surface beside it, unless it is only a placeholder for that one (it has no textures where the other's base colour has one, or is that of Blender's viewport); else base colour, opacity, roughness, metallic, coat, emission and transmission are guessed by the names of inputs. MaterialX's node of the preview surface is one. Pictures of MaterialX are read where an input leads to one by itself, tiled ones too; documents of MaterialX (`.mtlx`) are not |
 //! | lights | rectangles, disks, spheres and cylinders as emitting parts; spheres as points where they are to be one, or have a cone or a profile (IES); distant lights, domes, meshes that are lights. 6500 K is white. Suns of Blender, which writes a quarter of their strength and half their angle, are as in Blender. Light linking, filters and portals are left out |
 //! | cameras | perspective; shifted apertures are centred; clipping is left out, and focus is the renderer's configuration |
+//! | physics | joints of `UsdPhysics` are bodies that move, with axis and limits: see `joints`; all else is without effect |
 //! | labels | `semantics:labels:*` and `semantic:*:params:semanticData` where they name a class of NYU40, and `customData.Category` (Apple's RoomPlan); each prim with a label is an instance, together with everything below it without one, and so is each instance of a point instancer. Walls, floors and ceilings are not counted |
 //!
 //! # Why the reader is our own
@@ -35,6 +36,7 @@ mod files;
 mod foreign;
 mod inputs;
 mod instancer;
+mod joints;
 mod label;
 mod layer;
 mod light;

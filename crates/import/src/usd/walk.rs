@@ -4,6 +4,7 @@ use super::animation::Animations;
 use super::bind::{self, Bindings};
 use super::camera;
 use super::constants::Constants;
+use super::joints::Joints;
 use super::label::{self, Unknown};
 use super::light::Lamp;
 use super::material::Materials;
@@ -82,6 +83,7 @@ pub(super) struct Walk<'s> {
     panels: usize,
     /// Suns and surroundings.
     skies: usize,
+    joints: Joints,
 }
 
 impl<'s> Walk<'s> {
@@ -101,6 +103,7 @@ impl<'s> Walk<'s> {
             colored: HashMap::new(),
             panels: 0,
             skies: 0,
+            joints: Joints::default(),
         }
     }
 
@@ -125,6 +128,7 @@ impl<'s> Walk<'s> {
             self.visit(&prim, &state, a)?;
         }
         std::mem::take(&mut self.things).settle(a);
+        std::mem::take(&mut self.joints).add(self.stage, a)?;
         self.animations.finish(a);
         self.report(a);
         Ok(())
@@ -174,6 +178,7 @@ impl<'s> Walk<'s> {
         if is_invisible {
             return Ok(());
         }
+        let before = a.contents();
         let object = a.push_object(prim.name(), state.object);
         let xform = Xform::of(prim, a);
         let (file_from_parent, bearer) = if xform.resets { (DAffine3::IDENTITY, None) } else { (state.file_from_parent, state.body) };
@@ -221,6 +226,7 @@ impl<'s> Walk<'s> {
             let child = self.stage.child(prim, &name, a)?;
             self.visit(&child, &state, a)?;
         }
+        self.joints.met(prim, state.file_from_parent, before, a);
         Ok(())
     }
 }

@@ -61,6 +61,24 @@ fn nodes_move_what_is_below_them() {
 }
 
 #[test]
+fn cameras_below_a_node_that_moves_ride_on_it() {
+    let accessors: [(&str, &[f32]); 2] = [("SCALAR", &[0.0, 2.0]), ("VEC3", &[1.0, 0.0, 0.0, 1.0, 4.0, 0.0])];
+    let mut g = animated(&accessors, json!([{"input": 0, "output": 1}]), json!([channel(0, "translation")]));
+    g.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 1.5, "znear": 0.1}}]);
+    g.json["nodes"].as_array_mut().unwrap().push(json!({"name": "eye", "camera": 0, "translation": [0.0, 0.0, 2.0]}));
+    g.json["nodes"][0]["children"] = json!([2]);
+    g.json["scenes"] = json!([{"nodes": [0, 1]}]);
+    let imported = Folder::new().write("a.gltf", g.text()).load("a.gltf").unwrap();
+    // Only the camera moves: y of the file is z of the world.
+    let scene = &imported.scene;
+    assert_eq!((scene.is_still(), scene.bodies.len(), scene.bodies[0].cameras.as_slice()), (true, 1, &[0][..]));
+    for time_s in [0.0, 0.5, 2.0] {
+        let found = scene.cameras_at(time_s)[0].position;
+        assert!(found.distance(DVec3::new(1.0, -2.0, 2.0 * time_s)) < 1e-6, "{found}");
+    }
+}
+
+#[test]
 fn steps_jump_and_splines_follow_their_tangents() {
     let accessors: [(&str, &[f32]); 3] = [
         ("SCALAR", &[0.0, 1.0]),

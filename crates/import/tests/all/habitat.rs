@@ -204,6 +204,38 @@ fn articulated_objects_are_drawn_at_rest() {
 }
 
 #[test]
+fn joints_of_articulated_objects_have_limits_and_the_states_of_their_instances() {
+    let folder = dataset();
+    let visual = r#"<visual><geometry><mesh filename="../../objects/a/ab12.glb"/></geometry></visual>"#;
+    let urdf = format!(
+        r#"<robot name="fridge"><link name="base">{visual}</link><link name="door">{visual}</link><link name="shelf">{visual}</link>
+        <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/>
+          <limit lower="0" upper="2"/></joint>
+        <joint name="rail" type="prismatic"><parent link="base"/><child link="shelf"/><axis xyz="0 0 1"/><limit lower="0" upper="0.5"/></joint></robot>"#
+    );
+    folder.write("urdf/fridge/fridge.urdf", urdf);
+    let all = json!({"articulated_object_instances": [
+        {"template_name": "fridge"},
+        {"template_name": "fridge", "uniform_scale": 2, "initial_joint_pose": [std::f64::consts::FRAC_PI_2, 0.1]},
+        {"template_name": "fridge", "initial_joint_pose": [1.0]}
+    ]});
+    let imported = imported(&folder, json!([]), all);
+    let scene = &imported.scene;
+    assert!(scene.is_still());
+    let near = |limits: Option<[f64; 2]>, expected: [f64; 2]| limits.unwrap().iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9);
+    let body = |name: &str| scene.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("no body {name}"));
+    assert!(near(body("fridge/door").limits, [0.0, 2.0]) && near(body("fridge_3/shelf").limits, [0.0, 0.5]));
+    let open = std::f64::consts::FRAC_PI_2;
+    // Twice as large, slides go twice as far.
+    assert!(near(body("fridge_2/door").limits, [-open, 2.0 - open]) && near(body("fridge_2/shelf").limits, [-0.2, 0.8]));
+    assert_near(&points(&imported, "fridge/door.Chair"), [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 1.0]]);
+    assert_near(&points(&imported, "fridge_2/door.Chair"), [[2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [2.0, 0.0, 2.0]]);
+    assert_near(&points(&imported, "fridge_2/shelf.Chair"), [[0.0, -0.2, 0.0], [2.0, -0.2, 0.0], [0.0, -0.2, 2.0]]);
+    let told = warnings(&imported);
+    assert!(told.contains("initial_joint_pose of \"fridge_3\" is [1.0], expected a list of 2 numbers"), "{told}");
+}
+
+#[test]
 fn vectors_of_urdf_may_have_commas_and_an_odd_model_is_left_out_alone() {
     let folder = dataset();
     // As ReplicaCAD's cabinets are written.

@@ -274,6 +274,44 @@ fn includes_materials_textures_cameras_and_lights() {
     assert_eq!(shells.scene.parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>(), ["shell"]);
 }
 
+const ARM: &str = r#"<mujoco><compiler angle="radian"/><worldbody>
+  <camera name="wall" pos="0 -3 1" xyaxes="1 0 0 0 0 1"/><camera name="watch" mode="targetbody" target="arm" pos="0 -1 0"/>
+  <body name="arm" pos="0 0 1"><joint name="turn" axis="0 0 1" range="-2 2"/><geom type="box" size=".1 .1 .1"/>
+   <camera name="chase" mode="track" pos="0 -1 1"/>
+   <body name="hand" pos=".5 0 0"><joint name="reach" type="slide" axis="1 0 0"/>
+    <camera name="wrist" pos=".1 0 .2" xyaxes="0 -1 0 0 0 1"/></body></body></worldbody></mujoco>"#;
+
+#[test]
+fn cameras_ride_on_the_bodies_that_they_are_in() {
+    let folder = Folder::new();
+    let (angle, way) = (|t: f64| 0.9 * t.sin(), |t: f64| 0.2 * t);
+    let rows: String = (0..=10).map(|step| f64::from(step) * 0.1).map(|t| format!("{t},{},{}\n", angle(t), way(t))).collect();
+    folder.write("arm.xml", ARM).write("run.csv", format!("time,turn,reach\n{rows}"));
+    let imported = with_states(&folder, "arm.xml", "run.csv").unwrap();
+    let scene = &imported.scene;
+    let number = |name: &str| scene.cameras.iter().position(|camera| camera.name == name).unwrap();
+    // The hand has nothing but a camera, and is there for its sake.
+    let riding: Vec<(&str, &[u32])> = scene.bodies.iter().map(|body| (body.name.as_str(), body.cameras.as_slice())).collect();
+    assert_eq!(riding, [("arm", &[][..]), ("hand", &[number("wrist") as u32][..])]);
+    for step in 0..=10 {
+        let t = f64::from(step) * 0.1;
+        let cameras = scene.cameras_at(t);
+        let (sin, cos) = angle(t).sin_cos();
+        let (wrist, reach) = (&cameras[number("wrist")], 0.6 + way(t));
+        assert!(wrist.position.distance(DVec3::new(reach * cos, reach * sin, 1.2)) < 1e-5, "{t} s: {}", wrist.position);
+        let axes = wrist.world_from_camera;
+        assert!(axes.z_axis.distance(-DVec3::new(cos, sin, 0.0)) < 1e-9 && axes.y_axis.distance(DVec3::Z) < 1e-9, "{axes}");
+        for still in ["wall", "watch", "chase"] {
+            assert_eq!(cameras[number(still)], scene.cameras[number(still)]);
+        }
+    }
+    let told = warnings(&imported);
+    assert!(
+        told.contains("(mode track)") && told.contains("(mode targetbody)") && told.matches("it stays as it is at rest").count() == 2,
+        "{told}"
+    );
+}
+
 #[test]
 fn models_that_are_wrong_name_file_line_and_element() {
     let folder = Folder::new();

@@ -168,3 +168,25 @@ fn meshes_of_robots_are_found_in_other_case_and_reported() {
     assert_bounds(&imported, "l", [0.0, 0.0, 1.0], [2.0, 2.0, 1.0]);
     assert!(warnings(&imported).contains("\"Handle.STL\", which differs in case"), "{}", warnings(&imported));
 }
+
+#[test]
+fn semantics_of_partnet_name_the_links_and_meta_the_class_of_the_whole() {
+    let folder = Folder::new();
+    let link = |name: &str| format!(r#"<link name="{name}"><visual name="v-1"><geometry><box size="1 1 1"/></geometry></visual></link>"#);
+    let joint = r#"<joint name="joint_0" type="revolute"><parent link="base"/><child link="link_0"/><axis xyz="0 0 1"/><limit lower="0" upper="1.5"/></joint>"#;
+    folder.write("7/mobility.urdf", format!("<robot name=\"p\">{}{}{joint}</robot>", link("base"), link("link_0")));
+    folder.write("7/semantics.txt", "link_0 hinge door\n\n").write("7/meta.json", r#"{"model_cat": "StorageFurniture", "anno_id": "7"}"#);
+    let imported = folder.load("7").unwrap();
+    assert_eq!(imported.scene.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>(), ["door_link_0"]);
+    assert_eq!(imported.scene.parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>(), ["base.v-1", "door_link_0.v-1"]);
+    // A cabinet, which is one instance with its door.
+    let labels: Vec<_> = imported.labels.iter().flatten().map(|l| (l.label.semantic, l.label.instance)).collect();
+    assert_eq!(labels, [(3, 1), (3, 1)]);
+    assert!(warnings(&imported).contains("have no unit"), "{}", warnings(&imported));
+    assert!(
+        folder
+            .write("7/semantics.txt", "link_0 door\n")
+            .error("7")
+            .contains("semantics.txt: line 1: found \"link_0 door\", expected a link")
+    );
+}

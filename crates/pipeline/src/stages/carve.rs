@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::{Hash, read_json};
 use enfilade_dataset::{counted, take_file, write_json};
-use enfilade_explore::{FreeSpace, StartReport};
+use enfilade_explore::{FreeSpace, Mode, StartReport};
 use enfilade_scene::StartCamera;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -49,7 +49,9 @@ fn read_starts(job: &Job) -> Result<Vec<Start>, Error> {
 }
 
 pub(super) fn settings(job: &Job) -> Hash {
-    Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.finds_cameras, exploring_seed(job)))
+    let usual = Hash::of(&(&job.scene.carve, &job.scene.cameras, job.scene.finds_cameras, exploring_seed(job)));
+    // Cameras that film as they are may be where no trajectory could begin.
+    if let Mode::Cameras(_) = job.scene.plan.mode { Hash::of(&(usual, "cameras")) } else { usual }
 }
 
 pub(super) fn inputs(job: &Job, _previous: Option<&Record>) -> Inputs {

@@ -214,7 +214,7 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
     let joined = match (&known.split, rendered.get(Layer::Position)) {
         (Some(split), Some(positions)) => {
             let bodies = job.dataset.read_filmed_bodies(name, camera).map_err(Error::stage)?;
-            let rest = bodies.map(|bodies| at_rest(ids, positions, bodies.at(frame)));
+            let rest = bodies.map(|bodies| at_rest((ids, rendered.width), positions, bodies.at(frame)));
             split.join(ids, rest.as_ref().unwrap_or(positions), &known.labels)
         }
         _ => join(ids, &known.labels),
@@ -227,11 +227,11 @@ pub(super) fn label_frame(job: &Job, camera: &str, frame: u32, known: &Known, ha
 }
 
 /// The places at rest of what the pixels of a frame show: people cut parts at rest.
-fn at_rest(ids: &[i16], positions: &Values, places: BodyPlaces<'_>) -> Values {
+fn at_rest((ids, width): (&[i16], u32), positions: &Values, places: BodyPlaces<'_>) -> Values {
     let point = |(pixel, &id): (usize, &i16)| {
-        let seen = vector(positions, pixel);
+        let (y, seen) = ((pixel / width as usize) as f64 + 0.5, vector(positions, pixel));
         // Parts that deform are not cut.
-        places.at_rest(i64::from(id), seen).unwrap_or(seen).as_vec3().to_array()
+        places.in_row(y).at_rest(i64::from(id), seen).unwrap_or(seen).as_vec3().to_array()
     };
     Values::F32(ids.iter().enumerate().flat_map(point).collect())
 }

@@ -19,6 +19,7 @@ mod label;
 mod made;
 mod moments;
 mod objects;
+mod own_cameras;
 mod pilot;
 mod plan;
 mod plan_preview;

@@ -1,12 +1,13 @@
 //! Scenes that move: the moment that a frame shows, and the scene as that frame finds it. Frame n of a camera shows the scene n times the
 //! camera's time between frames after its beginning.
 
-use super::{Input, Job, exposure};
+use super::exposure::{self, Stretches};
+use super::{Input, Job, views};
 use crate::error::Error;
 use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
 use enfilade_frame::{Frame, Layer, Values, traits};
 use enfilade_math::DAffine3;
-use enfilade_render::{Lookout, Moved};
+use enfilade_render::{Lookout, Moved, Ways};
 use enfilade_scene::{Body, BodyStates, CameraView, PACKAGE_HEAD_BYTES, Pose, Scene, Trajectory, is_jointed_package, is_moving_package};
 use std::io::Read;
 use std::path::Path;
@@ -52,32 +53,43 @@ pub(crate) fn frame_time(dataset: &Dataset, package: &Path, scene: &str, camera:
 pub(crate) struct Moment {
     /// The scene as the frame finds it.
     pub scene: Scene,
-    /// The scene as the next frame finds it, and the way of each part to there.
-    next: Option<(Scene, Vec<Option<DAffine3>>)>,
+    /// The scene as the rows of the next frame find it: bands of rows with their first rows, mostly one; and the way to there.
+    next: Option<(Vec<(u32, Scene)>, Ways)>,
     /// By part: whether it moves on the way to the next frame, or from the one before.
     moving: Vec<bool>,
     /// The scene in the middle of equal stretches of the exposure, in the order of time; none if nothing moves in it.
     pub exposed: Vec<Scene>,
+    /// Bands of rows with their first rows, whose geometry shows the scene of a stretch; none if all rows show the frame's own moment.
+    pub bands: Vec<(u32, usize)>,
+    /// How far something moves from band to band at most, pixels.
+    pub step_px: f64,
 }
 
 impl Moment {
-    /// The moment of the pose `index` of a trajectory whose frames are `frame_time_s` apart.
-    pub fn new(scene: &Scene, view: &CameraView<'_>, poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
+    /// The moment of the pose `index` of a trajectory whose frames are `frame_time_s` apart; `views` are those of its poses.
+    pub fn new(scene: &Scene, views: &[CameraView<'_>], poses: &[Pose], index: usize, frame_time_s: f64) -> Self {
         let at = |index: usize| poses.get(index).map(|pose| pose.moment_s(frame_time_s));
         let now = poses[index].moment_s(frame_time_s);
-        let next = at(index + 1).map(|then| (scene.at(then), scene.carried(now, then)));
-        let before_s = index.checked_sub(1).and_then(at);
-        let before = before_s.map(|then| scene.carried(now, then));
+        let maps = |moments: &[(u32, f64)]| moments.iter().map(|(_, time_s)| scene.world_from_rest(*time_s)).collect();
+        let next = at(index + 1).map(|then| {
+            let (here, there) = (exposure::moments(scene, &views[index], now), exposure::moments(scene, &views[index + 1], then));
+            let ways = Ways { body_of_parts: scene.body_of_parts(), here: maps(&here), there: maps(&there) };
+            (there.into_iter().map(|(row, time_s)| (row, scene.at(time_s))).collect(), ways)
+        });
+        let carried = [at(index + 1), index.checked_sub(1).and_then(at)].map(|then| then.map(|then| scene.carried(now, then)));
         let mut moving = vec![false; scene.parts.len()];
-        for carried in [next.as_ref().map(|(_, carried)| carried), before.as_ref()].into_iter().flatten() {
+        for carried in carried.iter().flatten() {
             for (moves, carried) in moving.iter_mut().zip(carried) {
                 *moves |= carried.is_some_and(|carried| carried != DAffine3::IDENTITY);
             }
         }
-        for then in at(index + 1).into_iter().chain(before_s) {
+        for then in [at(index + 1), index.checked_sub(1).and_then(at)].into_iter().flatten() {
             scene.deformed(now, then).into_iter().for_each(|part| moving[part as usize] = true);
         }
-        Self { scene: scene.at(now), next, moving, exposed: exposure::stretches(scene, view, now) }
+        let stretches = Stretches::of(scene, &views[index], now);
+        let exposed = stretches.as_ref().map_or_else(Vec::new, |stretches| stretches.scenes(scene));
+        let (bands, step_px) = stretches.map_or((Vec::new(), 0.0), |stretches| (stretches.bands, stretches.step_px));
+        Self { scene: scene.at(now), next, moving, exposed, bands, step_px }
     }
 
     /// The next frame's moment, ready for flow; `None` of the last frame.
@@ -85,8 +97,8 @@ impl Moment {
     /// # Errors
     /// When the scene has more parts than ids.
     pub fn moved(&self) -> Result<Option<Moved<'_>>, Error> {
-        let moved = |(scene, carried)| Ok(Lookout::new(scene).map_err(Error::stage)?.moved(Vec::clone(carried)));
-        self.next.as_ref().map(|(scene, carried)| moved((scene, carried))).transpose()
+        let Some((scenes, ways)) = &self.next else { return Ok(None) };
+        Ok(Some(Lookout::of_rows(scenes).map_err(Error::stage)?.moved(ways.clone())))
     }
 
     /// Marks what moves in `surface_traits`, where the frame has it.
@@ -104,30 +116,36 @@ impl Moment {
 pub(super) fn write_tables(job: &Job, scene: Option<&Scene>) -> Result<(), Error> {
     let name = &job.scene.name;
     let bodies = scene.map_or(&[][..], |scene| &scene.bodies);
-    job.dataset
-        .write_bodies(name, &bodies.iter().zip(1..).map(|(body, id)| row(bodies, body, id)).collect::<Vec<_>>())
-        .map_err(Error::stage)?;
-    for (_, trajectory) in job.filmed()?.iter() {
+    // Of a still scene only cameras move, which have poses of their own.
+    let moving = scene.map_or_else(Vec::new, |scene| if scene.is_still() { vec![false; bodies.len()] } else { scene.moving_bodies() });
+    let rows: Vec<BodyRow> = bodies.iter().zip(&moving).zip(1..).map(|((body, &moves), id)| row(body, id, moves)).collect();
+    job.dataset.write_bodies(name, &rows).map_err(Error::stage)?;
+    for (camera, trajectory) in job.filmed()?.iter() {
         let frame_time_s = job.dataset.read_frame_time(name, &trajectory.name).map_err(Error::stage)?;
-        let frame = |pose: &Pose| {
-            let (scene, time_s) = (scene.filter(|scene| !scene.is_still())?, pose.moment_s(frame_time_s));
-            let states = scene.bodies.iter().map(|body| body.motion.state_at(time_s)).collect();
-            Some(FrameBodies { frame: pose.frame, time_s, world_from_rest: scene.world_from_rest(time_s), states })
+        let views = views(camera, trajectory);
+        let frame = |scene: &Scene, view: &CameraView<'_>| {
+            let band = |(first_row, time_s): (u32, f64)| {
+                let states = scene.bodies.iter().map(|body| body.motion.state_at(time_s)).collect();
+                FrameBodies { frame: view.pose().frame, first_row, time_s, world_from_rest: scene.world_from_rest(time_s), states }
+            };
+            exposure::moments(scene, view, view.pose().moment_s(frame_time_s)).into_iter().map(band).collect::<Vec<_>>()
         };
-        let frames: Vec<FrameBodies> = trajectory.poses.iter().filter_map(frame).collect();
+        let mut frames: Vec<FrameBodies> = Vec::new();
+        if let Some(scene) = scene.filter(|scene| !scene.is_still()) {
+            frames.extend(views.iter().flat_map(|view| frame(scene, view)));
+        }
         job.dataset.write_body_poses(name, &trajectory.name, &frames).map_err(Error::stage)?;
     }
     Ok(())
 }
 
-/// The row of a body; `bodies` are all of its scene.
-fn row(bodies: &[Body], body: &Body, id: u32) -> BodyRow {
+/// The row of a body.
+fn row(body: &Body, id: u32, moves: bool) -> BodyRow {
     let (axis, point) = match &body.motion.states {
         BodyStates::Free { .. } | BodyStates::Deform { .. } => (None, None),
         BodyStates::Hinge { axis, point, .. } => (Some(axis.to_array()), Some(point.to_array())),
         BodyStates::Slide { axis, .. } => (Some(axis.to_array()), None),
     };
-    let bearers = std::iter::successors(Some(body), |body| body.parent.map(|parent| &bodies[parent as usize]));
     BodyRow {
         id,
         name: body.name.clone(),
@@ -136,7 +154,7 @@ fn row(bodies: &[Body], body: &Body, id: u32) -> BodyRow {
         axis,
         point,
         limits: body.limits,
-        moves: bearers.into_iter().any(|body| !body.motion.is_rest()),
+        moves,
         node_ids: body.parts.iter().map(|part| part + 1).collect(),
     }
 }

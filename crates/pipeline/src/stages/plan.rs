@@ -1,6 +1,7 @@
 //! `plan`: free space to one trajectory per start camera.
 
 use super::kept::{Plan, remove_frames_of_other_poses};
+use super::own_cameras::{self, OwnCamera};
 use super::planned::Made;
 use super::{Input, Inputs, Job, Outcome, Record, Stage, camera_files, carve, gate, imported, targets, variation};
 use crate::error::Error;
@@ -10,11 +11,11 @@ use crate::workdir::Hash;
 use crate::world::World;
 use enfilade_dataset::{StereoRecord, StereoSide, counted, counted_as, remove_folder, remove_if_there, write_json};
 use enfilade_explore::{
-    CarveReport, ExploreError, FreeSpace, Keyframe, Mode, ObjectVisibility, PlanConfig, PlanReport, Planned, Preset, Spread,
+    CamerasConfig, CarveReport, ExploreError, FreeSpace, Keyframe, Mode, ObjectVisibility, PlanConfig, PlanReport, Planned, Preset, Spread,
     parse_keyframes, plan_objects,
 };
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Cx, Pose, StartCamera, Trajectory, Warning, decoded_text};
+use enfilade_scene::{Camera, CameraView, Cx, Pose, Scene, StartCamera, Trajectory, Warning, decoded_text};
 use enfilade_show::planview::remove_plan_preview;
 use enfilade_verify::view_gates::GateAction;
 use std::collections::BTreeSet;
@@ -72,8 +73,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     }
     for (trajectory, stereo) in &filmed {
         job.dataset.write_trajectory(name, trajectory, &camera, stereo.as_ref()).map_err(Error::stage)?;
-        if let Mode::Video(video) = &job.scene.plan.mode {
-            job.dataset.write_frame_time(name, &trajectory.name, 1.0 / video.fps).map_err(Error::stage)?;
+        if let Some(fps) = job.scene.plan.mode.fps() {
+            job.dataset.write_frame_time(name, &trajectory.name, 1.0 / fps).map_err(Error::stage)?;
         }
     }
     warn_of_frame_time(job, &camera, cx);
@@ -97,7 +98,8 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
 
 /// Plans the trajectories of a scene.
 fn plan_anew(job: &Job, cx: &StageCx) -> Result<Made, Error> {
-    let starts = carve::starts(job)?;
+    let own = if let Mode::Cameras(_) = job.scene.plan.mode { Some(own_cameras::chosen(job)?) } else { None };
+    let starts = own.as_ref().map_or_else(|| carve::starts(job), |own| Ok(own.iter().map(|own| own.camera.clone()).collect()))?;
     let fov_x_rad = job.scene.fov_x_deg.map_or(starts[0].fov_x_rad, f64::to_radians);
     let camera = job.scene.camera.camera(job.scene.size, fov_x_rad, |path| job.config.path(path))?;
     if job.scene.fov_x_deg.is_none() && job.scene.camera.takes_field_of_view() && !matches!(job.scene.plan.mode, Mode::Keyframes(_)) {
@@ -106,7 +108,7 @@ fn plan_anew(job: &Job, cx: &StageCx) -> Result<Made, Error> {
     let fov_x_rad = camera.projection.fov_x_rad(std::f64::consts::TAU);
     let mut reports = Vec::new();
     let mut filmed: Vec<(Trajectory, Option<StereoRecord>)> = Vec::new();
-    for (number, Planned { trajectory, report }) in plan_all(job, &starts, &camera, cx)?.into_iter().enumerate() {
+    for (number, Planned { trajectory, report }) in plan_all(job, &starts, own.as_deref(), &camera, cx)?.into_iter().enumerate() {
         match job.scene.camera.stereo {
             None => filmed.push((trajectory, None)),
             Some(stereo) => filmed.extend(rig(trajectory, number, stereo.baseline_m)),
@@ -129,9 +131,9 @@ fn write_camera_row(job: &Job, camera: &Camera, cx: &StageCx) -> Result<(), Erro
 
 /// A shutter blurs by the time between frames, so that should be the video's.
 fn warn_of_frame_time(job: &Job, camera: &Camera, cx: &StageCx) {
-    let (Mode::Video(video), Some(shutter)) = (&job.scene.plan.mode, camera.shutter) else { return };
-    if (shutter.frame_time_s * video.fps - 1.0).abs() > 1e-3 {
-        let (found, fps, expected) = (shutter.frame_time_s, video.fps, 1.0 / video.fps);
+    let (Some(fps), Some(shutter)) = (job.scene.plan.mode.fps(), camera.shutter) else { return };
+    if (shutter.frame_time_s * fps - 1.0).abs() > 1e-3 {
+        let (found, expected) = (shutter.frame_time_s, 1.0 / fps);
         let message =
             format!("its shutter counts {found} s between frames, but the video has {fps} a second: set frame_time_s = {expected:.5}");
         cx.warn(Warning { place: "[camera]".into(), message });
@@ -217,9 +219,9 @@ fn plan_config(job: &Job, camera: &Camera) -> Result<PlanConfig, Error> {
     })
 }
 
-/// One trajectory per start camera, or per file of poses made by hand. A camera from which none can begin is left out with a
+/// One trajectory per start camera, per file of poses made by hand, or per camera of the scene that is filmed with as it is. A camera from which none can begin is left out with a
 /// warning, as long as one remains.
-fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
+fn plan_all(job: &Job, starts: &[StartCamera], own: Option<&[OwnCamera]>, camera: &Camera, cx: &StageCx) -> Result<Vec<Planned>, Error> {
     let config = plan_config(job, camera)?;
     config.validate().map_err(Error::stage)?;
     let world = job.load_world()?;
@@ -228,6 +230,9 @@ fn plan_all(job: &Job, starts: &[StartCamera], camera: &Camera, cx: &StageCx) ->
         return follow_all(job, &keyframes.files, &world, &space, &config, cx);
     }
     let scene = job.load_scene()?;
+    if let (Mode::Cameras(cameras), Some(own)) = (&config.mode, own) {
+        return film_all(job, own, &scene, cameras, (&world, &space, &config), cx);
+    }
     let rejects = job.scene.gate.action == GateAction::Reject && config.preset == Preset::Default;
     let gate = gate::config(job)?;
     let keeper = if rejects { Some(Gatekeeper::new(&scene, &world, &carve::standing(job)?, &gate)?) } else { None };
@@ -278,6 +283,23 @@ fn follow_all(
         let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
         let found = enfilade_explore::follow(&world.mesh, &world.bvh, space, &keyframes, &name, config, cx).map_err(Error::stage)?;
         planned.push(found);
+    }
+    Ok(planned)
+}
+
+/// The trajectories of the scene's own cameras.
+fn film_all(
+    job: &Job,
+    own: &[OwnCamera],
+    scene: &Scene,
+    cameras: &CamerasConfig,
+    (world, space, config): (&World, &FreeSpace, &PlanConfig),
+    cx: &StageCx,
+) -> Result<Vec<Planned>, Error> {
+    let mut planned = Vec::new();
+    for (index, poses) in own_cameras::poses(own, scene, cameras, config.frames, cx).into_iter().enumerate() {
+        let name = trajectory_name(job.scene.camera.stereo.is_some(), index, planned.len());
+        planned.push(enfilade_explore::film(&world.mesh, &world.bvh, space, poses, &name, config, cx).map_err(Error::stage)?);
     }
     Ok(planned)
 }

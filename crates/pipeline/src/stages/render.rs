@@ -7,7 +7,7 @@ use crate::report::{StageCx, Stopwatch};
 use crate::workdir::Hash;
 use enfilade_dataset::{CameraRecord, ColorKind, Fixture, FrameInfo, FrameRecord, Recipe, StoppedBy, counted, remove_folder};
 use enfilade_frame::{Frame, Pass};
-use enfilade_render::{FixtureKind, FlowTo, FrameRender, Guide, RenderConfig, RenderScene, add_extra_layers};
+use enfilade_render::{FixtureKind, FlowTo, FrameRender, Guide, RenderConfig, RenderScene, Rows, add_extra_layers};
 use enfilade_scene::{Camera, CameraView, Cx, Pose, Quiet, Scene, Trajectory, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -51,7 +51,7 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     if moments::moves(&job.package()?) {
         job.forget_world();
         let scene = job.load_scene()?;
-        refuse_unfit(job, &filmed, cx)?;
+        refuse_unfit(job)?;
         moments::write_tables(job, Some(&scene))?;
         timed_out = render(job, &Rendered::Moving(&scene), &missing, [total - rendered, total], cx)?;
     } else {
@@ -74,18 +74,11 @@ pub(super) fn run(job: &Job, cx: &StageCx) -> Result<Outcome, Error> {
     Ok(Outcome { summary, outputs: outputs(job)?, ..Outcome::default() })
 }
 
-/// Refuses what cannot be made of scenes that move, and says what their frames lack.
-fn refuse_unfit(job: &Job, filmed: &[(Camera, Trajectory)], cx: &StageCx) -> Result<(), Error> {
+/// Refuses what cannot be made of scenes that move.
+fn refuse_unfit(job: &Job) -> Result<(), Error> {
     if job.scene.render.fixtures {
         let message = "the scene moves, and light is kept apart by lamp and window only of still scenes".to_string();
         return Err(Error::scene(message, "take out fixtures = true, or give the scene still = true and no [[motion]]"));
-    }
-    let rolls = |(camera, _): &&(Camera, Trajectory)| camera.shutter.is_some_and(|shutter| shutter.readout_s > 0.0);
-    if let Some((_, trajectory)) = filmed.iter().find(rolls) {
-        let message = "the camera has a rolling shutter, which shears what it moves past, but not what moves by itself: that is blurred, \
-                       and seen around the frame's own moment in every row"
-            .into();
-        cx.warn(Warning { place: format!("{}/{}", job.scene.name, trajectory.name), message });
     }
     Ok(())
 }
@@ -204,7 +197,7 @@ enum Rendered<'a> {
 
 /// Renders and writes the frames that are `missing`; `kept` of the `total` are there. Returns how many the time limit has ended.
 fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usize; 2], cx: &StageCx) -> Result<usize, Error> {
-    let (mut done, mut timed_out) = (kept, 0);
+    let (mut done, mut timed_out, mut coarsest_px) = (kept, 0, 0.0f64);
     for Missing { camera, trajectory, config, frames } in missing {
         // One guide per trajectory: it learns from all views where light comes from. Of a scene that moves each frame has its own.
         let views = views(camera, trajectory);
@@ -219,7 +212,8 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
             let take = |rendering: FrameRender<'_, '_>| progressive::render(job, &trajectory.name, info, rendering, &frame_cx);
             let (frame, sampling) = match scene {
                 Rendered::Moving(scene) => {
-                    let moment = moments::Moment::new(scene, &views[index], &trajectory.poses, index, frame_time_s);
+                    let moment = moments::Moment::new(scene, &views, &trajectory.poses, index, frame_time_s);
+                    coarsest_px = coarsest_px.max(if moment.bands.is_empty() { 0.0 } else { moment.step_px });
                     take_at(&moment, &views, index, config, take)?
                 }
                 Rendered::Still(scene) => {
@@ -246,6 +240,13 @@ fn render(job: &Job, scene: &Rendered, missing: &[Missing], [kept, total]: [usiz
             timed_out += usize::from(sampling.stopped_by == StoppedBy::TimeLimit);
         }
     }
+    if coarsest_px > COARSE_PX {
+        let message = format!(
+            "the rows of its rolling shutter see what moves in few bands: it is up to {coarsest_px:.1} pixels farther in each, because it is \
+             fast, near, or the scene has too many triangles for more (docs/cameras.md)"
+        );
+        cx.warn(Warning { place: job.scene.name.clone(), message });
+    }
     Ok(timed_out)
 }
 
@@ -261,12 +262,17 @@ pub(crate) fn take_at<T>(
     // What moves while the shutter is open is blurred.
     let stretches = moment.exposed.iter().map(|scene| prepared(scene, &views[index], config, moment.exposed.len()));
     let stretches = stretches.collect::<Result<Vec<_>, _>>()?;
-    let rendering = FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?.exposed(&stretches);
+    let rows = match &moment.bands[..] {
+        [] => Rows::from(&scene),
+        bands => Rows::bands(bands.iter().map(|&(row, stretch)| (row, &stretches[stretch].0))),
+    };
+    let rendering =
+        FrameRender::new(&scene, &guide, &views[index], config).map_err(Error::stage)?.exposed(&stretches).in_rows(rows.clone());
     let (mut frame, taken) = take(rendering)?;
     if config.extra {
         let moved = moment.moved()?;
         let next = views.get(index + 1).map(|view| FlowTo { view, moved: moved.as_ref() });
-        add_extra_layers(&scene, &views[index], next, &mut frame);
+        add_extra_layers(rows, &views[index], next, &mut frame);
         moment.mark(&mut frame);
     }
     Ok((frame, taken))
@@ -307,6 +313,9 @@ pub(crate) fn add_extra(scene: &RenderScene, views: &[CameraView], index: usize,
     }
 }
 
+/// Bands of rows between which things move farther are worth a warning, pixels.
+const COARSE_PX: f64 = 1.0;
+
 /// Units of progress per frame.
 const PER_FRAME: u64 = 1000;
 
@@ -334,6 +343,7 @@ pub(crate) fn config_hash(
     match (timing.frame_s, camera.shutter) {
         (None, _) => Hash::of(&still).0,
         (Some(frame_s), None) => Hash::of(&(&still, frame_s)).0,
+        (Some(frame_s), Some(shutter)) if shutter.readout_s > 0.0 => Hash::of(&(&still, frame_s, "rolling")).0,
         (Some(frame_s), Some(_)) => Hash::of(&(&still, frame_s, "blurred")).0,
     }
 }

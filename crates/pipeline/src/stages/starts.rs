@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::StageCx;
 use crate::world::World;
 use enfilade_dataset::counted_as;
-use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Preset, StartsConfig};
+use enfilade_explore::{CarveConfig, ExploreError, FreeSpace, Mode, Preset, StartsConfig};
 use enfilade_math::DVec3;
 use enfilade_options::closest;
 use enfilade_scene::{Cx, Pose, Quiet, Scene, StartCamera, Warning};
@@ -36,8 +36,14 @@ pub(super) fn carved(job: &Job, world: &World, seed: u64, cx: &StageCx) -> Resul
             space => return Ok((starts, space.map_err(Error::stage)?)),
         }
     };
-    let space = carve(&starts).map_err(Error::stage)?;
-    Ok((starts, space))
+    match carve(&starts) {
+        // What films as it is may be in things: a camera on a hand, or in a cupboard.
+        Err(ExploreError::StartInWall { .. }) if matches!(job.scene.plan.mode, Mode::Cameras(_)) && !job.scene.finds_cameras => {
+            let instead = found(job, world, cx)?;
+            Ok((instead.clone(), carve(&instead).map_err(Error::stage)?))
+        }
+        space => Ok((starts, space.map_err(Error::stage)?)),
+    }
 }
 
 /// Start cameras of the file that are in a building; if there are none, found places, and without any of these the cameras after all: the
@@ -87,7 +93,11 @@ fn found(job: &Job, world: &World, cx: &StageCx) -> Result<Vec<StartCamera>, Err
     Ok(found)
 }
 
-fn chosen(scene: &Scene, index: usize, choice: &CameraChoice, size: [u32; 2]) -> Result<StartCamera, Error> {
+/// The camera that the configuration chooses as its number `index`.
+///
+/// # Errors
+/// When the scene has no camera of the name, or the view has no direction.
+pub(super) fn chosen(scene: &Scene, index: usize, choice: &CameraChoice, size: [u32; 2]) -> Result<StartCamera, Error> {
     match choice {
         CameraChoice::Named(name) => scene.cameras.iter().find(|c| &c.name == name).cloned().ok_or_else(|| {
             let names: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();

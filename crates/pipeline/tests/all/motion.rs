@@ -217,6 +217,89 @@ fn what_moves_while_the_shutter_is_open_is_blurred() {
     assert!(replay(&dataset.layout().frame_record("room", "cam_00", 1), None, &Quiet).unwrap().is_same());
 }
 
+/// A panel passes a camera at rest whose rows are read one after the other: its edges lean by its speed times the time of a row, in the ids, in
+/// the colour and in the places of its body, and every relation between frames holds. A box that falls is seen by each row at its own moment.
+#[test]
+fn rows_of_a_rolling_shutter_see_what_moves_at_their_own_moments() {
+    let (speed, readout_s, frame_s, left, depth) = (3.0, 0.1, 0.2, -0.9, 0.5);
+    let folder = tempfile::tempdir().unwrap();
+    let panel = block("panel", [left, depth, 0.3], [left + 0.5, depth + 0.01, 1.9], [0.1, 0.1, 0.1]);
+    let box_ = block("box", [0.9, 0.9, 1.3], [1.2, 1.2, 1.6], [0.5, 0.2, 0.1]);
+    write_blocks(folder.path(), &[WALL, LAMP, panel, box_]);
+    let path = "frame,position_x,position_y,position_z,look_at_x,look_at_y,look_at_z,roll_deg\n0,0,-1.3,1,0,1,1,0\n1,0,-1.3,1,0,1,1,0\n";
+    std::fs::write(folder.path().join("path.csv"), path).unwrap();
+    let text = format!(
+        "seed = 3\n[render]\nsize = [64, 48]\nsamples = 16\nadaptive = false\nmax_bounces = 1\nfilter = \"box\"\nextra = true\n\
+         [gate]\naction = \"report\"\n[carve]\nrays = 8192\niterations = 2\n[[scene]]\nname = \"room\"\nfile = \"room.obj\"\nup_axis = \"z\"\n\
+         camera = {{ shutter = {{ exposure_s = 0.002, readout_s = {readout_s}, frame_time_s = {frame_s} }} }}\n\
+         [scene.plan]\nmode = {{ kind = \"keyframes\", files = [\"path.csv\"] }}\n\
+         [[scene.motion]]\nof = \"panel\"\ntimes_s = [-1, 1]\nmoved_m = [[{}, 0, 0], [{speed}, 0, 0]]\n\
+         [[scene.motion]]\nof = \"box\"\ntimes_s = [-1, 1]\nmoved_m = [[0, 0, 2], [0, 0, -2]]\n",
+        -speed
+    );
+    std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
+    let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
+    assert!(summary.ok(), "{failures:?}");
+
+    let dataset = Dataset::open(&out).unwrap();
+    let layers = [Layer::RenderEntityId, Layer::DiffuseReflectance];
+    let read = |frame| dataset.read_frame("room", "cam_00", frame, &layers).unwrap();
+    // 60 degrees wide: pixels per metre on the panel's plane.
+    let pixels_per_m = 32.0 / 30f64.to_radians().tan() / (depth + 1.3);
+    for (number, frame) in [0, 1].map(|number| (number, read(number))) {
+        let [ids, colors] = layers.map(|layer| frame.get(layer).unwrap());
+        let edge_x = |row: usize| {
+            let time_s = frame_s * f64::from(number) + readout_s * ((row as f64 + 0.5) / 48.0 - 0.5);
+            32.0 + pixels_per_m * (left + speed * time_s)
+        };
+        let (mut rows, mut off) = (0, 0.0f64);
+        for row in 12..40 {
+            let row_of = |x: usize| row * 64 + x;
+            let Some(first) = (0..64).find(|&x| ids.get(row_of(x)) == 3.0) else { panic!("frame {number} row {row} has no panel") };
+            // The first pixel whose centre is on it; half of a band's step is a quarter of a pixel.
+            let expected = edge_x(row);
+            assert!((first as f64 - expected).abs() < 0.76, "frame {number} row {row}: {first}, expected {expected}");
+            // Its colour ends there too: white outside, dark inside.
+            let covered: f64 = (first.saturating_sub(3)..first + 4).map(|x| (0.7 - colors.get(3 * row_of(x))) / 0.6).sum();
+            off += (first as f64 + 4.0 - covered - expected) / 28.0;
+            rows += 1;
+        }
+        assert!(rows == 28 && off.abs() < 0.1, "frame {number}: the edge of the colour is off by {off} pixels");
+        // Over these rows the edge leans by speed times row time: 5.4 pixels.
+        assert!((edge_x(39) - edge_x(12) - 27.0 / 48.0 * readout_s * speed * pixels_per_m).abs() < 1e-9 && edge_x(39) - edge_x(12) > 5.0);
+    }
+
+    let bodies = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
+    let bands = bodies.bands(1);
+    assert!(bands.len() > 15 && bands.len() % 2 == 1, "{} bands", bands.len());
+    for band in bands {
+        assert!((band.world_from_rest[0].translation.x - speed * band.time_s).abs() < 1e-12);
+    }
+    assert!((bodies.frames().nth(1).unwrap().time_s - frame_s).abs() < 1e-12);
+    let step_s = bands.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).fold(0.0, f64::max);
+    assert!(step_s * speed * pixels_per_m < 0.5 + 1e-9, "a band is {step_s} s long");
+
+    let requests = [
+        Request::Flow { pairs: FlowPairs::Step(1), cameras: None },
+        Request::Flow { pairs: FlowPairs::Step(-1), cameras: None },
+        Request::Tracks { points: 64, seed: 0, of: FrameChoice::default() },
+        Request::Pairs(PairsRequest::default()),
+        Request::Surfaces { layers: 3, of: FrameChoice::default() },
+    ];
+    make(&dataset, &["room".into()], &requests, MakeOptions::default(), &Quiet).unwrap();
+    let report = verify_scene(&dataset, "room", &Quiet).unwrap();
+    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+    assert!(replay(&dataset.layout().frame_record("room", "cam_00", 1), None, &Quiet).unwrap().is_same());
+
+    // One moment for all rows, as of a global shutter, is not what these frames show.
+    let global: Vec<FrameBodies> = bodies.frames().map(|frame| FrameBodies { first_row: 0, ..frame.clone() }).collect();
+    dataset.write_body_poses("room", "cam_00", &global).unwrap();
+    let broken: Vec<Law> = verify_scene(&dataset, "room", &Quiet).unwrap().failures().map(|law| law.law).collect();
+    assert!(broken.contains(&Law::PairFlow), "{broken:?}");
+}
+
 /// A board that comes to stand before the camera hides everything in the second frame; the first one and the third see the room.
 #[test]
 fn views_are_judged_at_their_own_moment() {
@@ -234,4 +317,71 @@ fn views_are_judged_at_their_own_moment() {
     assert!(summary.ok(), "{:?}", summary.scenes);
     let judged = Dataset::open(&out).unwrap().read_view_gates("room", "cam_00").unwrap().unwrap();
     assert_eq!(judged.iter().map(|view| view.verdict == ViewVerdict::Passed).collect::<Vec<_>>(), [true, false, true], "{judged:?}");
+}
+
+const CELL: &str = r#"<mujoco><compiler angle="radian"/><worldbody>
+  <light type="point" pos="0 0 2.3" diffuse="1 1 1"/>
+  <geom name="floor" type="box" size="2 1.5 .05" pos="0 0 -.05"/><geom name="ceiling" type="box" size="2 1.5 .05" pos="0 0 2.55"/>
+  <geom name="east" type="box" size=".05 1.5 1.3" pos="2.05 0 1.25"/><geom name="west" type="box" size=".05 1.5 1.3" pos="-2.05 0 1.25"/>
+  <geom name="north" type="box" size="2 .05 1.3" pos="0 1.55 1.25"/><geom name="south" type="box" size="2 .05 1.3" pos="0 -1.55 1.25"/>
+  <geom name="post" type="box" size=".05 .05 .5" pos="0 0 .5"/><geom name="crate" type="box" size=".2 .2 .2" pos="1.4 .3 .2"/>
+  <camera name="wall" pos="0 -1.3 1.5" xyaxes="1 0 0 0 .4 .9"/>
+  <body name="arm" pos="0 0 1.1"><joint name="turn" axis="0 0 1" range="-3 3"/><geom name="link" type="box" size=".25 .03 .03" pos=".25 0 0"/>
+   <geom name="finger" type="box" size=".02 .02 .02" pos=".75 .05 0"/><camera name="wrist" pos=".5 0 .15" xyaxes="0 -1 0 .3 0 1"/></body>
+  </worldbody></mujoco>"#;
+
+/// A camera on an arm that turns by formula films a room: its poses are the formula's, what turns with it does not move in its pictures, and
+/// every law holds. A camera on the wall films with it and stays.
+#[test]
+fn cameras_on_bodies_film_as_they_ride() {
+    let folder = tempfile::tempdir().unwrap();
+    let angle = |t: f64| 0.8 * (3.0 * t).sin();
+    let rows: String = (0..FRAMES).map(|n| f64::from(n) * (1.0 / 10.0)).map(|t| format!("{t:?},{:?}\n", angle(t))).collect();
+    std::fs::write(folder.path().join("cell.xml"), CELL).unwrap();
+    std::fs::write(folder.path().join("run.csv"), format!("time,turn\n{rows}")).unwrap();
+    let text = format!(
+        "seed = 3\nframes = {FRAMES}\n[render]\nsize = [64, 48]\nsamples = 1\nmax_bounces = 1\nextra = true\n[carve]\nrays = 8192\niterations = 2\n\
+         [gate]\naction = \"report\"\n[plan]\nmode = {{ kind = \"cameras\", fps = 10 }}\n\
+         [[scene]]\nname = \"cell\"\nfile = \"cell.xml\"\nstates = \"run.csv\"\ncameras = [\"wrist\", \"wall\"]\n"
+    );
+    std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
+    let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
+    let summary = run(&config, &out, None, &Silent).unwrap();
+    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
+    assert!(summary.ok(), "{failures:?}");
+
+    let dataset = Dataset::open(&out).unwrap();
+    assert!((dataset.read_frame_time("cell", "cam_00").unwrap() - 0.1).abs() < 1e-12);
+    let [wrist, wall] = ["cam_00", "cam_01"].map(|camera| dataset.read_trajectory("cell", camera).unwrap().poses);
+    assert_eq!((wrist.len(), wall.len()), (FRAMES as usize, FRAMES as usize));
+    for (n, pose) in wrist.iter().enumerate() {
+        let turn = DMat3::from_rotation_z(angle(0.1 * n as f64));
+        let (position, up) = (turn * DVec3::new(0.5, 0.0, 0.15) + DVec3::Z * 1.1, turn * DVec3::new(0.3, 0.0, 1.0).normalize());
+        assert!(pose.position.distance(position) < 1e-5, "frame {n}: {}, expected {position}", pose.position);
+        assert!(pose.world_from_camera.y_axis.distance(up) < 1e-9, "frame {n}: {}", pose.world_from_camera);
+        assert_eq!((wall[n].position, wall[n].world_from_camera), (wall[0].position, wall[0].world_from_camera));
+    }
+
+    // The finger is on the arm as the camera is: it stays where it is in the picture, while the room goes by.
+    let finger = dataset.read_nodes("cell").unwrap().iter().position(|node| node.node_name == "finger").unwrap() as f64 + 1.0;
+    let (mut on_arm, mut passing) = (0, 0);
+    for number in 0..FRAMES - 1 {
+        let frame = dataset.read_frame("cell", "cam_00", number, &[Layer::RenderEntityId, Layer::OpticalFlow, Layer::SceneFlow]).unwrap();
+        let [entities, flow, scene_flow] =
+            [Layer::RenderEntityId, Layer::OpticalFlow, Layer::SceneFlow].map(|layer| frame.get(layer).unwrap());
+        for pixel in 0..frame.pixels() {
+            let way_px = flow.get(2 * pixel).hypot(flow.get(2 * pixel + 1));
+            if entities.get(pixel) == finger {
+                assert!(way_px < 1e-3 && vector(scene_flow, pixel).length() < 1e-5, "frame {number}: {way_px} px");
+                on_arm += 1;
+            } else {
+                passing += u32::from(way_px > 2.0);
+            }
+        }
+    }
+    assert!(on_arm > 20 && passing > 2000, "{on_arm} pixels of the finger, {passing} of what passes by");
+    make(&dataset, &["cell".into()], &[Request::Flow { pairs: FlowPairs::Step(1), cameras: None }], MakeOptions::default(), &Quiet)
+        .unwrap();
+    let report = verify_scene(&dataset, "cell", &Quiet).unwrap();
+    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
 }

@@ -1,7 +1,8 @@
 //! Position of a surface point in another frame: the next one, or any.
 
 use crate::prepared::{AlphaTest, RenderScene};
-use enfilade_math::{DAffine3, DVec3, Ray};
+use crate::rows::Moved;
+use enfilade_math::{DVec3, Ray};
 use enfilade_scene::{CameraRay, CameraView};
 
 /// A point is seen when the ray to it is free up to this fraction of its length.
@@ -16,30 +17,10 @@ pub struct FlowTo<'a> {
     pub moved: Option<&'a Moved<'a>>,
 }
 
-/// A scene at another moment: [`Lookout::moved`](crate::Lookout::moved).
-pub struct Moved<'s> {
-    /// The scene at that moment, without its light.
-    pub(crate) scene: RenderScene<'s>,
-    /// By part: the map of the world to itself from its place at the first moment to that at the other one; `None` of parts that stay.
-    pub(crate) carried: Vec<Option<DAffine3>>,
-    /// By part: whether its mesh has another shape at each moment, with the same triangles.
-    pub(crate) deforming: Vec<bool>,
-}
-
 impl<'a> FlowTo<'a> {
     /// A view of a scene that does not move.
     pub fn still(view: &'a CameraView<'a>) -> Self {
         Self { view, moved: None }
-    }
-
-    /// Where a point of a triangle of the scene is then.
-    fn place(&self, scene: &RenderScene<'_>, triangle: u32, p_world: DVec3) -> DVec3 {
-        let Some(moved) = self.moved else { return p_world };
-        let part = scene.triangles.part_of(triangle) as usize;
-        if moved.deforming.get(part) == Some(&true) {
-            return TrianglePoint::of(scene, triangle, p_world).place(&moved.scene);
-        }
-        moved.carried.get(part).copied().flatten().map_or(p_world, |carried| carried.transform_point3(p_world))
     }
 }
 
@@ -80,9 +61,10 @@ pub(crate) struct Flow {
     pub visible: bool,
 }
 
-/// From the image point of `view` that shows `p_world` of a triangle to the image point of `to`. `None` for points that are not finite.
+/// From the image point of `view` that shows `p_world` of a triangle to the image point of `to`. `None` for points that are not finite. `band`
+/// is that of the image point's row, which shows `scene`.
 pub(super) fn flow(
-    scene: &RenderScene<'_>,
+    (scene, band): (&RenderScene<'_>, usize),
     view: &CameraView<'_>,
     to: FlowTo<'_>,
     (x, y): (f64, f64),
@@ -92,14 +74,13 @@ pub(super) fn flow(
         return None;
     }
     let next = to.view;
-    let p_then = to.place(scene, triangle, p_world);
+    let (p_then, scene) = to.moved.map_or((p_world, scene), |moved| moved.place(next, (scene, triangle), p_world, band));
     let there = next.project(p_then);
     let row = there.map_or(y, |(_, row)| row.clamp(0.0, f64::from(next.camera().size()[1])));
     let in_camera = |view: &CameraView, p: DVec3, row: f64| {
         let (position, world_from_camera) = view.row_placement(row);
         world_from_camera.transpose() * (p - position)
     };
-    let scene = to.moved.map_or(scene, |moved| &moved.scene);
     Some(Flow {
         image: there.map(|(next_x, next_y)| [(next_x - x) as f32, (next_y - y) as f32]),
         camera: (in_camera(next, p_then, row) - in_camera(view, p_world, y)).as_vec3().to_array(),

@@ -8,6 +8,7 @@ pub(crate) mod surfaces;
 
 use crate::geometry_pass::{Sighting, sighting};
 use crate::prepared::{AlphaTest, RenderScene};
+use crate::rows::Rows;
 use crate::surface::Surface;
 use crate::texture::Cone;
 use appearance::Appearance;
@@ -16,7 +17,7 @@ use enfilade_math::{Ray, Rgb, Vec3};
 use enfilade_parallel::map_up_to;
 use enfilade_scene::{CameraRay, CameraView};
 use flow::Flow;
-pub use flow::{FlowTo, Moved, TrianglePoint};
+pub use flow::{FlowTo, TrianglePoint};
 
 /// Metals below this GGX alpha show a reflection that can be made out.
 const MIRROR_ALPHA: f32 = 0.01;
@@ -27,16 +28,17 @@ const MAX_PANES: usize = 64;
 /// Distance of a pixel's corners from its centre, where they are looked at, in pixel widths: just inside, where neighbours do not look.
 const CORNER: f64 = 0.49;
 
-/// Adds the layers of [`enfilade_frame::Pass::Extra`] to a frame of `view`. `next` is the view of the trajectory's next frame; without
-/// one there is no flow. The caller marks what moves in `surface_traits`. The frame must have its geometry layers.
+/// Adds the layers of [`enfilade_frame::Pass::Extra`] to a frame of `view`. `scene` is a scene, or what each row shows. `next` is the view of
+/// the trajectory's next frame; without one there is no flow. The caller marks what moves in `surface_traits`. The frame must have its geometry layers.
 ///
 /// # Panics
 /// When the frame is not of the view's size, or lacks `depth_meters` or `normal_world`.
-pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, frame: &mut Frame) {
+pub fn add_extra_layers<'a, 's: 'a>(scene: impl Into<Rows<'a, 's>>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, frame: &mut Frame) {
+    let rows = scene.into();
     let [width, height] = view.camera().size();
     assert_eq!([frame.width, frame.height], [width, height], "the frame must be of the view's size");
     let at = |index: u32| (index % width, index / width);
-    let pixels: Vec<Option<Extra>> = map_up_to((width * height) as usize, |index| extra(scene, view, next, at(index as u32)));
+    let pixels: Vec<Option<Extra>> = map_up_to((width * height) as usize, |index| extra(&rows, view, next, at(index as u32)));
     let boundary = boundary::boundaries(view, frame);
 
     let half = |f: fn(&Extra) -> f32| Values::F16(pixels.iter().map(|p| f16::from_f32(p.as_ref().map_or(0.0, f))).collect());
@@ -60,11 +62,12 @@ pub fn add_extra_layers(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Op
 
 /// Adds `optical_flow`, `scene_flow` and `flow_visibility` from the view `from` to any other view of the scene to a frame of `from`'s
 /// size, with the same numbers as [`add_extra_layers`] has for the next view.
-pub(crate) fn add_flow(scene: &RenderScene<'_>, from: &CameraView<'_>, to: FlowTo<'_>, frame: &mut Frame) {
+pub(crate) fn add_flow(rows: &Rows<'_, '_>, from: &CameraView<'_>, to: FlowTo<'_>, frame: &mut Frame) {
     let pixel = |index: u32| {
         let centre = (f64::from(index % frame.width) + 0.5, f64::from(index / frame.width) + 0.5);
+        let scene = rows.at(centre.1);
         let found = sighting(scene, from, centre)?;
-        flow::flow(scene, from, to, centre, (found.triangle, found.p_world))
+        flow::flow((scene, rows.band(centre.1)), from, to, centre, (found.triangle, found.p_world))
     };
     let flows: Vec<Option<Flow>> = map_up_to((frame.width * frame.height) as usize, |index| pixel(index as u32));
     insert_flow(frame, &flows);
@@ -94,8 +97,9 @@ struct Extra {
     flow: Option<Flow>,
 }
 
-fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
+fn extra(rows: &Rows<'_, '_>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, (x, y): (u32, u32)) -> Option<Extra> {
     let centre = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let (scene, band) = (rows.at(centre.1), rows.band(centre.1));
     let Sighting { surface, triangle: number, direction, distance_m, p_world } = sighting(scene, view, centre)?;
     let triangle = scene.triangles.get(number);
     let appearance = surface.appearance(scene);
@@ -123,7 +127,7 @@ fn extra(scene: &RenderScene<'_>, view: &CameraView<'_>, next: Option<FlowTo<'_>
         traits: bits,
         behind_m,
         entity_behind,
-        flow: next.and_then(|next| flow::flow(scene, view, next, centre, (number, p_world))),
+        flow: next.and_then(|next| flow::flow((scene, band), view, next, centre, (number, p_world))),
     })
 }
 

@@ -3,6 +3,7 @@
 
 use crate::geometry_pass::{Sighting, exact_distance, sighting};
 use crate::prepared::{AlphaTest, RenderScene};
+use crate::rows::Rows;
 use crate::surface::Surface;
 use crate::texture::Cone;
 use crate::vertex::body;
@@ -72,11 +73,12 @@ impl Met {
 }
 
 /// The first `count` surfaces that the ray through each pixel's centre meets.
-pub(crate) fn surfaces(scene: &RenderScene<'_>, view: &CameraView<'_>, count: usize) -> RaySurfaces {
+pub(crate) fn surfaces(rows: &Rows<'_, '_>, view: &CameraView<'_>, count: usize) -> RaySurfaces {
     let [width, height] = view.camera().size();
     let pixel = |index: u32| {
         let mut met = vec![Met::NONE; count];
         let centre = (f64::from(index % width) + 0.5, f64::from(index / width) + 0.5);
+        let scene = rows.at(centre.1);
         let Some(first) = sighting(scene, view, centre) else { return (met, Bent::NONE) };
         along(scene, &first, &mut met);
         (met, bent(scene, &first))

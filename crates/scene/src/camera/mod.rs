@@ -25,7 +25,7 @@ pub use radial_tangential::RadialTangential;
 pub use ray_grid::RayGrid;
 pub use start::StartCamera;
 pub use tilted::TiltedPinhole;
-pub use view::{CameraRay, CameraView};
+pub use view::{CameraRay, CameraView, band_of_row};
 
 /// A camera that frames are taken with.
 #[derive(Clone, Debug, PartialEq)]

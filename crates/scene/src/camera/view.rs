@@ -158,6 +158,36 @@ impl<'c> CameraView<'c> {
         self.project_in_row(p_world, shown.or_else(above).or_else(below)?)
     }
 
+    /// The band of rows that shows something that moves by itself. The bands are exposed one after the other: `first_row` gives the first
+    /// row of each of `count`, from 0 on and ascending, and `place` where the point is when that band is exposed. A point that falls between
+    /// two bands, so that neither shows it, counts to the upper one.
+    pub fn band_that_shows(&self, count: usize, first_row: impl Fn(usize) -> u32, place: impl Fn(usize) -> DVec3) -> usize {
+        let (mut band, mut before) = (count / 2, None);
+        // A point may jump from band to band at most as often as there are bands.
+        for _ in 0..count.saturating_sub(1) {
+            let Some((_, y)) = self.project(place(band)) else { break };
+            let next = band_of_row(count, &first_row, y);
+            if next == band || before == Some(next) {
+                return next.min(band);
+            }
+            (band, before) = (next, Some(band));
+        }
+        band
+    }
+
+    /// The moment of the ray of [`CameraView::ray`] with this `time`, as a share of the whole exposure: from the first moment of the upper
+    /// border's row to the last of the lower one's.
+    #[inline]
+    pub fn exposure_share(&self, y: f64, time: f32) -> f32 {
+        match &self.camera.shutter {
+            Some(shutter) if shutter.readout_s > 0.0 => {
+                let time_s = self.row_time_s(y) + shutter.exposure_s * (f64::from(time) - 0.5);
+                (time_s / (shutter.readout_s + shutter.exposure_s) + 0.5) as f32
+            }
+            _ => time,
+        }
+    }
+
     fn row(&self, p_world: DVec3, y: f64) -> Row {
         Row { y, off: self.project_in_row(p_world, y).map(|at| at.1 - y).filter(|off| off.is_finite()) }
     }
@@ -205,6 +235,12 @@ impl<'c> CameraView<'c> {
     fn row_time_s(&self, y: f64) -> f64 {
         self.camera.shutter.as_ref().map_or(0.0, |shutter| shutter.row_time_s(y, f64::from(self.camera.size()[1])))
     }
+}
+
+/// The one of `count` bands of rows that the row at image coordinate `y` belongs to: beyond a border that of the border. `first_row` gives the
+/// first row of each.
+pub fn band_of_row(count: usize, first_row: impl Fn(usize) -> u32, y: f64) -> usize {
+    (1..count).rev().find(|&band| f64::from(first_row(band)) <= y).unwrap_or(0)
 }
 
 /// A row of the image, and the image of a point at its moment.

@@ -147,6 +147,8 @@ impl LabelledScene {
                 parent: body.parent.map(|parent| bodies + parent),
                 parts: body.parts.iter().map(|part| parts + part).collect(),
                 lights: body.lights.iter().map(|light| lights + light).collect(),
+                // Cameras of a thing are not added.
+                cameras: Vec::new(),
                 limits: carried.limits,
                 motion: carried.motion,
             });

@@ -23,7 +23,8 @@ impl LabelledScene {
     /// When there is none.
     pub fn without_light(&self, name: &str) -> Result<Self, EditError> {
         let mut edited = self.clone();
-        edited.scene.lights.retain(|light| light.name() != name);
+        let gone = self.scene.lights.iter().zip(0..).filter(|(light, _)| light.name() == name).map(|(_, number)| number);
+        edited.scene.remove_lights(&gone.collect());
         let names: Vec<&str> = self.scene.lights.iter().map(Light::name).collect();
         if edited.scene.lights.len() == names.len() { Err(EditError::unknown("light", name, &names)) } else { Ok(edited) }
     }
@@ -45,7 +46,8 @@ impl LabelledScene {
     /// When there is none.
     pub fn without_camera(&self, name: &str) -> Result<Self, EditError> {
         let mut edited = self.clone();
-        edited.scene.cameras.retain(|camera| camera.name != name);
+        let gone = self.scene.cameras.iter().zip(0..).filter(|(camera, _)| camera.name == name).map(|(_, number)| number);
+        edited.scene.remove_cameras(&gone.collect());
         let names: Vec<&str> = self.scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
         if edited.scene.cameras.len() == names.len() { Err(EditError::unknown("camera", name, &names)) } else { Ok(edited) }
     }

@@ -116,7 +116,7 @@ pub(super) fn check_placement(name: &str, world_from_mesh: DAffine3) -> Result<(
 }
 
 impl Scene {
-    /// Carries the motion of bodies away, where these parts are all that they and the bodies on them have.
+    /// Carries the motion of bodies and the cameras on them away, where these parts are all that they and the bodies on them have.
     fn carry_bodies(&mut self, parts: &BTreeSet<PartId>, map: &DAffine3) -> Result<(), EditError> {
         let mut whole: Vec<bool> = self.bodies.iter().map(|body| body.parts.iter().all(|part| parts.contains(part))).collect();
         let mut moves: Vec<bool> = self.bodies.iter().map(|body| body.parts.iter().any(|part| parts.contains(part))).collect();
@@ -128,6 +128,9 @@ impl Scene {
         }
         for (body, _) in self.bodies.iter_mut().zip(whole.iter().zip(&moves)).filter(|(_, (whole, moves))| **whole && **moves) {
             *body = body.carried(map).ok_or_else(|| not_rigid(&body.name))?;
+            for &camera in &body.cameras {
+                self.cameras[camera as usize] = self.cameras[camera as usize].moved(map);
+            }
         }
         Ok(())
     }

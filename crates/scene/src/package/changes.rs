@@ -4,7 +4,7 @@
 //! picture its number among those of the other package followed by its own, and the scene with its own meshes and pictures alone; in packages
 //! of scenes with bodies these follow.
 
-use super::encoding::{CHANGES, Kind, PackageError, bodies, decoded, encoded, headed, split, split_head, undecoded, whole};
+use super::encoding::{CHANGES, Kind, PackageError, bodies, decoded, encoded, headed, split, split_head, take_bodies, whole};
 use crate::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -68,9 +68,7 @@ fn divided<T>(all: &[Arc<T>], first: &[Arc<T>]) -> (Vec<u32>, Vec<Arc<T>>) {
 impl Changes {
     /// Takes the bodies, which follow.
     pub(super) fn take_bodies(&mut self, kind: Kind, rest: &[u8]) -> Result<(), PackageError> {
-        if kind.bodies {
-            self.own.bodies = postcard::from_bytes(rest).map_err(undecoded)?;
-        }
+        (self.own.bodies, _) = take_bodies(kind, rest)?;
         Ok(())
     }
 
@@ -145,7 +143,8 @@ mod tests {
         assert!(bytes.len() > 19_200 && bytes.len() < 20_200, "{}", bytes.len());
         let read = |name: &str| if name == "first.scene" { Ok(whole.clone()) } else { Err("?") };
         assert_eq!(from_bytes_beside(&bytes, read).unwrap(), (scene.clone(), None));
-        let body = Body { name: "a".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: None, motion: BodyMotion::rest() };
+        let (lights, cameras) = (Vec::new(), Vec::new());
+        let body = Body { name: "a".into(), parent: None, parts: vec![0], lights, cameras, limits: None, motion: BodyMotion::rest() };
         let moving = Scene { bodies: vec![body], ..scene.clone() };
         let of_moving = to_bytes_beside(&moving, &first, &whole).unwrap();
         assert!(of_moving.starts_with(b"enfilade scene 6 changes\n"));

@@ -1,6 +1,6 @@
 //! The bytes of packages: the first line, the hash, the body.
 
-use crate::{Labels, Scene, SceneError};
+use crate::{Body, Labels, Scene, SceneError};
 
 /// First bytes of packages, before their number.
 pub(super) const NAME: &str = "enfilade scene ";
@@ -10,8 +10,12 @@ pub(super) const VERSION: u32 = 4;
 const JOINTED: u32 = 6;
 /// The number of packages of scenes that move: the bodies as well.
 const MOVING: u32 = 7;
-/// The number of packages of scenes in which parts deform: bodies of a kind that earlier versions do not know.
-const DEFORMING: u32 = 8;
+/// The numbers of both where cameras ride on bodies: behind the bodies are, for each, the cameras on it.
+const JOINTED_CAMERAS: u32 = 8;
+const MOVING_CAMERAS: u32 = 9;
+/// The numbers of packages of scenes in which parts deform, without and with such cameras: bodies of a kind that earlier versions do not know.
+const DEFORMING: u32 = 10;
+const DEFORMING_CAMERAS: u32 = 11;
 /// Behind the number in the first line of packages that lack what another one has.
 pub(super) const CHANGES: &str = " changes";
 /// Name of the package beside one that lacks what this has.
@@ -65,17 +69,51 @@ pub(super) fn encoded<T: serde::Serialize>(data: &T) -> Vec<u8> {
     postcard::to_stdvec(data).expect("plain data encodes")
 }
 
-/// The bodies of a scene; nothing of one that has none.
+/// The bodies of a scene, and the cameras on them; nothing of one that has none.
 pub(super) fn bodies(scene: &Scene) -> Vec<u8> {
-    if scene.bodies.is_empty() { Vec::new() } else { encoded(&scene.bodies) }
+    let bodies = if scene.bodies.is_empty() { Vec::new() } else { encoded(&scene.bodies) };
+    let cameras: Vec<&Vec<u32>> = scene.bodies.iter().map(|body| &body.cameras).collect();
+    if bears_cameras(scene) { [bodies, encoded(&cameras)].concat() } else { bodies }
+}
+
+fn bears_cameras(scene: &Scene) -> bool {
+    scene.bodies.iter().any(|body| !body.cameras.is_empty())
+}
+
+/// The bodies at the beginning of some bytes, with the cameras on them, and the rest.
+pub(super) fn take_bodies(kind: Kind, bytes: &[u8]) -> Result<(Vec<Body>, &[u8]), PackageError> {
+    if !kind.bodies {
+        return Ok((Vec::new(), bytes));
+    }
+    let (mut bodies, mut rest): (Vec<Body>, &[u8]) = postcard::take_from_bytes(bytes).map_err(undecoded)?;
+    if kind.cameras {
+        let cameras: Vec<Vec<u32>>;
+        (cameras, rest) = postcard::take_from_bytes(rest).map_err(undecoded)?;
+        bodies.iter_mut().zip(cameras).for_each(|(body, cameras)| body.cameras = cameras);
+    }
+    Ok((bodies, rest))
 }
 
 pub(super) fn headed(kind: &str, scene: &Scene, body: &[u8]) -> Vec<u8> {
-    let version = match (scene.bodies.is_empty(), scene.is_still()) {
-        (true, _) => VERSION,
-        (false, true) => JOINTED,
-        (false, false) if scene.deforming_parts().contains(&true) => DEFORMING,
-        (false, false) => MOVING,
+    let deforms = || scene.deforming_parts().contains(&true);
+    let version = match (scene.bodies.is_empty(), scene.is_still(), bears_cameras(scene)) {
+        (true, ..) => VERSION,
+        (false, true, false) => JOINTED,
+        (false, true, true) => JOINTED_CAMERAS,
+        (false, false, false) => {
+            if deforms() {
+                DEFORMING
+            } else {
+                MOVING
+            }
+        }
+        (false, false, true) => {
+            if deforms() {
+                DEFORMING_CAMERAS
+            } else {
+                MOVING_CAMERAS
+            }
+        }
     };
     [format!("{NAME}{version}{kind}\n").as_bytes(), blake3::hash(body).as_bytes(), body].concat()
 }
@@ -87,6 +125,8 @@ pub(super) struct Kind {
     pub lacks: bool,
     /// True if bodies follow the scene.
     pub bodies: bool,
+    /// True if the cameras on the bodies follow these.
+    pub cameras: bool,
     /// True if the scene moves.
     pub moves: bool,
 }
@@ -98,9 +138,10 @@ pub(super) fn split_head(bytes: &[u8]) -> Result<(Kind, &[u8]), PackageError> {
     let text = line.strip_prefix(NAME.as_bytes()).and_then(|rest| std::str::from_utf8(rest.strip_suffix(b"\n")?).ok());
     let number = text.map(|text| text.strip_suffix(CHANGES).map_or((false, text), |number| (true, number)));
     match number.and_then(|(lacks, number)| Some((lacks, number.parse().ok()?))) {
-        Some((lacks, version @ (VERSION | JOINTED | MOVING | DEFORMING))) => {
-            let moves = matches!(version, MOVING | DEFORMING);
-            Ok((Kind { lacks, bodies: version != VERSION, moves }, &bytes[line.len()..]))
+        Some((lacks, version @ (VERSION | JOINTED | MOVING | JOINTED_CAMERAS | MOVING_CAMERAS | DEFORMING | DEFORMING_CAMERAS))) => {
+            let cameras = matches!(version, JOINTED_CAMERAS | MOVING_CAMERAS | DEFORMING_CAMERAS);
+            let moves = matches!(version, MOVING | MOVING_CAMERAS | DEFORMING | DEFORMING_CAMERAS);
+            Ok((Kind { lacks, bodies: version != VERSION, cameras, moves }, &bytes[line.len()..]))
         }
         Some((_, found)) => Err(PackageError::Version { found }),
         None => Err(PackageError::Magic),
@@ -115,15 +156,14 @@ pub(super) fn split(bytes: &[u8]) -> Result<(Kind, [u8; 32], &[u8]), PackageErro
 }
 
 fn age(found: u32) -> &'static str {
-    if found > DEFORMING { "a newer enfilade" } else { "an earlier enfilade" }
+    if found > DEFORMING_CAMERAS { "a newer enfilade" } else { "an earlier enfilade" }
 }
 
 /// The scene and the labels in the body of a package that lacks nothing.
 pub(super) fn decoded(kind: Kind, body: &[u8]) -> Result<(Scene, Option<Labels>), PackageError> {
-    let (mut scene, mut rest): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(undecoded)?;
-    if kind.bodies {
-        (scene.bodies, rest) = postcard::take_from_bytes(rest).map_err(undecoded)?;
-    }
+    let (mut scene, after): (Scene, &[u8]) = postcard::take_from_bytes(body).map_err(undecoded)?;
+    let (bodies, rest) = take_bodies(kind, after)?;
+    scene.bodies = bodies;
     let labels = if rest.is_empty() { None } else { Some(postcard::from_bytes(rest).map_err(undecoded)?) };
     Ok((scene, labels))
 }

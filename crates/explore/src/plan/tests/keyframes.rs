@@ -110,3 +110,22 @@ fn wrong_tables_say_where_and_what() {
     let both = r#"[{"frame": 0, "position": [0, 0, 1], "look_at": [1, 0, 1], "roll_deg": 2, "up": [0, 0, 1]}]"#;
     assert!(error("p.json", both).contains("both a roll and an up vector; expected one of them"));
 }
+
+#[test]
+fn given_poses_are_kept_even_straight_down_and_faults_are_named() {
+    let room = furnished_room();
+    let space = carved(&room);
+    let config = PlanConfig { mode: Mode::Cameras(CamerasConfig { fps: 10.0 }), ..quick() };
+    assert_eq!((config.mode.fps(), config.validate()), (Some(10.0), Ok(())));
+    // A camera that looks straight down and turns, as one on a hand may.
+    let down = |frame: u32| {
+        let position = DVec3::new(3.0, 2.5, 1.5);
+        let axes = DMat3::from_rotation_z(0.1 * f64::from(frame));
+        Pose { frame, position, look_at: position - DVec3::Z, world_from_camera: axes }
+    };
+    let poses: Vec<Pose> = (0..4).map(down).collect();
+    let planned = film(&room.world, &room.bvh, &space, poses.clone(), "cam_02", &config, &Quiet).unwrap();
+    assert_eq!((planned.trajectory.poses, planned.report.mode.as_str(), planned.report.roll_limit_deg), (poses, "cameras", None));
+    let none = film(&room.world, &room.bvh, &space, Vec::new(), "cam_02", &config, &Quiet).unwrap_err().to_string();
+    assert!(none.contains("expected at least one pose"), "{none}");
+}

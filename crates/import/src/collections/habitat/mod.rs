@@ -11,7 +11,7 @@
 //! | `stage_instance` | the parts of the stage by their own names; those that are called wall, floor or ceiling have these classes. Scale is used, translation and rotation are not, as in habitat-sim |
 //! | `object_instances` | `translation`, `rotation` (w x y z), `uniform_scale`, `non_uniform_scale`, `translation_origin` of each or of all; those that are not visible are left out |
 //! | `*.stage_config.json`, `*.object_config.json` | `render_asset` (or `collision_asset`), `scale`, `up`, `front`, `COM`; a model alone is a template too. Stages from GLB files have z up by default |
-//! | `articulated_object_instances` | the visual meshes of the URDF at rest; primitive shapes are left out, with a warning that counts them |
+//! | `articulated_object_instances` | the visual meshes of the URDF, with its joints as bodies that have limits; primitive shapes are left out, with a warning that counts them. `initial_joint_pose`, a list of states from the base on (depth first, in the order of the file), is their rest |
 //! | `*.lighting_config.json` | point, spot and directional lights of the frame `global`; color × intensity as W/sr or W/m², because Habitat states no unit. Lights of negative intensity, which cannot be, are left out |
 //! | categories | `semantics/objects.csv` by model (`main_category`, else the noun of `wnsynsetkey`), as in HSSD; else `semantic_id` in the dataset's lexicon |
 //! | `units_to_meters`, `origin`, physics, shaders, navigation | not used, as in habitat-sim; a `units_to_meters` other than 1 is reported |

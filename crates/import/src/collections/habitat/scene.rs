@@ -115,7 +115,7 @@ impl<'s> Placer<'s> {
         let placement = object_from_model(&template, stage.scale(), true, &stage.template_name, a);
         for piece in &model.pieces {
             match class_in_stage(&piece.name) {
-                Some(class) => self.objects.of_class(class, &piece.name).place(std::slice::from_ref(piece), placement, a),
+                Some(class) => _ = self.objects.of_class(class, &piece.name).place(std::slice::from_ref(piece), placement, a),
                 None => {
                     let object = piece.object.unwrap_or_else(|| a.push_object(&piece.name, None));
                     a.push_part_of(
@@ -166,7 +166,7 @@ impl<'s> Placer<'s> {
         Ok(())
     }
 
-    /// Adds the articulated objects, at rest.
+    /// Adds the articulated objects, with their joints as bodies, in the states that their instances give them.
     pub fn articulated(&mut self, a: &mut Assembly) -> Result<(), ImportError> {
         let scene = self.scene;
         for instance in &scene.articulated_object_instances {
@@ -182,9 +182,6 @@ impl<'s> Placer<'s> {
                 *self.lost.entry(name).or_default() += 1;
                 continue;
             };
-            if instance.initial_joint_pose.is_some() {
-                a.warn("articulated_object_instances", format!("the joints of {name:?} have a pose, which was not used; it is at rest"));
-            }
             let mut stand = DAffine3::from_rotation_translation(instance.turn(), instance.translation);
             stand *= DAffine3::from_scale(instance.scale() * template.uniform_scale);
             let mut from_base = robot.inertial.inverse();
@@ -193,8 +190,12 @@ impl<'s> Placer<'s> {
             }
             let category = self.categories.of(name, template.semantic_id);
             let id = name.rsplit('/').next().unwrap_or(name);
-            self.objects.next(category, id).place(&robot.pieces, stand * from_base, a);
+            let object = self.objects.next(category, id);
+            let parts = object.place(&robot.pieces, stand * from_base, a);
+            robot.add_bodies(&object.name, stand * from_base, &parts, instance.initial_joint_pose.as_ref(), a);
         }
+        // The states are the scene's rest.
+        a.settle_bodies();
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! Articulated objects in URDF: the visual meshes of their links, with all joints at rest.
+//! Articulated objects in URDF: the visual meshes of their links, and their joints as bodies.
 //!
 //! As <http://wiki.ros.org/urdf/XML> has it: `origin` is a translation `xyz` and the fixed-axis angles `rpy`, radians.
 
@@ -6,9 +6,14 @@ use super::super::assets::Models;
 use super::super::vectors;
 use crate::ImportError;
 use crate::assembly::{Assembly, Piece};
+use crate::robot::graph::add_bodies;
+use crate::robot::joints::{Joint, Kind, Link};
+use crate::robot::urdf_joints::Joints;
 use crate::xml::xml_text;
 use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_scene::{BodyMotion, PartId};
 use roxmltree::{Document, Node};
+use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -18,6 +23,54 @@ pub(super) struct Robot {
     pub pieces: Vec<Piece>,
     /// The frame of the base link's mass in the base link.
     pub inertial: DAffine3,
+    /// By piece: its link.
+    link_of_pieces: Vec<usize>,
+    links: Vec<Link>,
+    joints: Vec<Joint>,
+    /// The joint that moves each link, if any.
+    movers: Vec<Option<usize>>,
+    /// The joints in the order of their states: from the base on, depth first.
+    order: Vec<usize>,
+}
+
+impl Robot {
+    /// Adds the bodies of the joints of an object that was placed, with its parts by piece, in the states that its instance gives them.
+    pub fn add_bodies(mut self, name: &str, file_from_base: DAffine3, parts: &[Option<PartId>], pose: Option<&Value>, a: &mut Assembly) {
+        for joint in &mut self.joints {
+            joint.file_from_frame = file_from_base * joint.file_from_frame;
+        }
+        self.links.iter_mut().for_each(|link| link.name = format!("{name}/{}", link.name));
+        add_bodies(&mut self.links, &mut self.joints, &self.movers, a);
+        for (part, link) in parts.iter().zip(&self.link_of_pieces) {
+            if let (Some(part), Some(body)) = (part, self.links[*link].body) {
+                a.carry_part(body, *part);
+            }
+        }
+        a.sort_bodies();
+        if let Some(pose) = pose {
+            self.pose(name, pose, a);
+        }
+    }
+
+    /// Puts the joints into the states of `initial_joint_pose`: a list of radians and metres.
+    fn pose(&self, name: &str, pose: &Value, a: &mut Assembly) {
+        let stated: Option<Vec<f64>> = pose.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
+        let one_each = self.joints.iter().all(|joint| matches!(joint.kind, Kind::Hinge | Kind::Slide));
+        let Some(stated) = stated.filter(|stated| stated.len() == self.joints.len() && one_each) else {
+            let message = format!(
+                "initial_joint_pose of {name:?} is {pose}, expected a list of {} numbers, one for each joint that moves; it is at rest",
+                self.joints.len()
+            );
+            a.warn("articulated_object_instances", message);
+            return;
+        };
+        for (number, value) in self.order.iter().zip(stated) {
+            let joint = &self.joints[*number];
+            if let Ok(states) = joint.states(&[&[value]]) {
+                a.move_body(joint.body, joint.file_from_frame, BodyMotion { times_s: vec![0.0], states });
+            }
+        }
+    }
 }
 
 /// Reads an articulated object.
@@ -32,11 +85,15 @@ pub(super) fn read(file: &Path, models: &mut Models, a: &mut Assembly) -> Result
     let robot = document.root_element();
     let links: Vec<Node> = robot.children().filter(|n| n.has_tag_name("link")).collect();
     let stands = base_from_link(&robot, &links).map_err(malformed)?;
-    let mut pieces = Vec::new();
+    let tree = Joints::of(robot, &links, a).map_err(|e| malformed(e.to_string()))?;
+    let (mut pieces, mut link_of_pieces) = (Vec::new(), Vec::new());
     let (mut shapes, mut loose) = (0, 0);
     for link in &links {
         match stands.get(name_of(link)) {
-            Some(base_from_link) => shapes += add_visuals(link, *base_from_link, file, models, &mut pieces, a)?,
+            Some(base_from_link) => {
+                shapes += add_visuals(link, *base_from_link, file, models, &mut pieces, a)?;
+                link_of_pieces.resize(pieces.len(), tree.stands.get(name_of(link)).copied().unwrap_or(0));
+            }
             None => loose += 1,
         }
     }
@@ -48,7 +105,9 @@ pub(super) fn read(file: &Path, models: &mut Models, a: &mut Assembly) -> Result
     }
     let base = links.iter().find(|link| stands.get(name_of(link)) == Some(&DAffine3::IDENTITY));
     let inertial = base.and_then(|base| child(base, "inertial")).map_or(Ok(DAffine3::IDENTITY), |i| origin(&i)).map_err(malformed)?;
-    Ok(Robot { pieces, inertial })
+    let order = tree.depth_first();
+    let Joints { joints, links, movers, .. } = tree;
+    Ok(Robot { pieces, inertial, link_of_pieces, links, joints, movers, order })
 }
 
 /// Adds the visual meshes of a link, and returns how many visual shapes it has that are none.

@@ -7,7 +7,7 @@
 //! | geoms | a part each, called after the geom, else after its body and mesh: planes, boxes, spheres, ellipsoids, capsules, cylinders, meshes (OBJ, STL, MSH), smooth across edges of less than 37° where the file has no normals. Groups 0 to 2 as in MuJoCo's viewer, or those of [`ImportOptions::geom_groups`](crate::ImportOptions::geom_groups). Planes without an end are cut at 10 m. Height fields and signed distances are left out with a warning |
 //! | materials | colours (sRGB), textures (2d: by the mesh's coordinates, else from above; cube: on the six sides of the box around the thing), built-in checkers, gradients and edges; `specular`, `shininess` (GGX of Phong's exponent 128 × shininess), `metallic`, `roughness`, `emission` (radiance of the colour), `reflectance` (a clear coat) |
 //! | joints | bodies that move: hinges, slides, balls and free ones, with limits; several joints of one body are a chain. Without states all is at rest (`qpos0`) |
-//! | cameras | where they are at rest, also those that look at a body |
+//! | cameras | those of the mode `fixed` ride on the body that they are in; others are where they are at rest, also those that look at a body |
 //! | lights | directional, point and spot; without a unit, see the warning |
 //! | skies, fog, the headlight, tendons, skins, flexible bodies, sites | without effect |
 

@@ -19,18 +19,34 @@ impl Walk<'_> {
     /// Adds a camera or a light.
     pub(super) fn view(&mut self, element: &Element, at: &Place, a: &mut Assembly) -> Result<(), ImportError> {
         let element = self.settings.complete(element, at.class.as_deref())?;
-        let target = match element.text("mode") {
-            Some("targetbody" | "targetbodycom") => {
+        let mode = element.text("mode").unwrap_or("fixed");
+        let target = match mode {
+            "targetbody" | "targetbodycom" => {
                 let wanted = element.text("target").unwrap_or_default();
                 let link = self.links.iter().find(|link| link.name == wanted);
-                Some(link.ok_or_else(|| element.wrong(format!("there is no body {wanted:?} to look at")))?.file_from_link.translation)
+                Some(link.ok_or_else(|| element.wrong(format!("there is no body {wanted:?} to look at")))?)
             }
             _ => None,
         };
-        if element.tag == "camera" { self.camera(&element, at, target, a) } else { self.light(&element, at, target, a) }
+        let is_led = mode != "fixed" && (at.body.is_some() || target.is_some_and(|link| link.body.is_some()));
+        if is_led && element.tag == "camera" {
+            let message =
+                format!("a body that moves leads it (mode {mode}), so it stays as it is at rest: cameras of the mode fixed ride on bodies");
+            let place = element.place(a);
+            a.warn(place, message);
+        }
+        let target = target.map(|link| link.file_from_link.translation);
+        if element.tag == "camera" { self.camera(&element, at, (target, is_led), a) } else { self.light(&element, at, target, a) }
     }
 
-    fn camera(&mut self, camera: &Element, at: &Place, target: Option<DVec3>, a: &mut Assembly) -> Result<(), ImportError> {
+    /// Adds a camera, which rides on its body unless a body leads it in another way.
+    fn camera(
+        &mut self,
+        camera: &Element,
+        at: &Place,
+        (target, is_led): (Option<DVec3>, bool),
+        a: &mut Assembly,
+    ) -> Result<(), ImportError> {
         let name = if camera.name().is_empty() { "camera" } else { camera.name() };
         if camera.flag("orthographic") == Some(true) || camera.text("projection") == Some("orthographic") {
             let place = camera.place(a);
@@ -40,10 +56,6 @@ impl Walk<'_> {
         let mut placed = at.file_from_here * self.settings.placement(camera)?;
         if let Some(axes) = target.and_then(|target| orthonormal(DVec3::Z, placed.translation - target)) {
             placed = DAffine3 { matrix3: axes, ..placed };
-        }
-        if at.body.is_some() && a.options().states.is_some() {
-            let message = "it rides on a body and stays where that is at rest (MujocoRecorder.save_camera in Python writes its poses)";
-            a.warn(format!("camera {name:?}"), message);
         }
         let aspect = camera.vector::<2>("resolution")?.filter(|[w, h]| *w > 1.0 && *h > 1.0).map_or(DEFAULT_ASPECT, |[w, h]| w / h);
         let sensor = camera.vector::<2>("sensorsize")?.filter(|[w, h]| *w > 0.0 && *h > 0.0);
@@ -56,7 +68,11 @@ impl Walk<'_> {
             (Some([width, _]), Some([x, _])) if x > 0.0 => 0.5 * width / x,
             _ => (0.5 * camera.number("fovy")?.unwrap_or(FOV_Y).to_radians()).tan() * aspect,
         };
+        let before = a.contents();
         a.push_camera(name, placed, 2.0 * tangent.atan(), aspect);
+        if let Some(body) = at.body.filter(|_| !is_led) {
+            a.carry(body, before);
+        }
         Ok(())
     }
 

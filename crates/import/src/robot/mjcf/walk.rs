@@ -225,6 +225,7 @@ impl<'r> Walk<'r> {
             file_from_frame: at.file_from_here * DAffine3::from_translation(anchor),
             axis,
             zero,
+            per_metre: 1.0,
             limits,
             mimic: None,
             body: None,

@@ -14,7 +14,7 @@ const SAME_M: f64 = 2e-3;
 const LISTED: usize = 8;
 
 /// A robot with its bodies and joints, in the order of its file.
-pub(in crate::robot) struct Tree<'t> {
+pub(crate) struct Tree<'t> {
     pub joints: &'t [Joint],
     pub links: &'t [Link],
     /// Whether the order of the joints is that of `qpos`.
@@ -25,7 +25,7 @@ pub(in crate::robot) struct Tree<'t> {
 ///
 /// # Errors
 /// When the states are of another model, or one is no number.
-pub(in crate::robot) fn apply(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportError> {
+pub(crate) fn apply(states: &States, tree: &Tree, a: &mut Assembly) -> Result<(), ImportError> {
     if tree.ordered && states.track("qpos")?.is_some() {
         return qpos(states, tree, a);
     }

@@ -9,7 +9,7 @@
 mod apply;
 mod npz;
 
-pub(super) use apply::{Tree, apply};
+pub(crate) use apply::{Tree, apply};
 
 use crate::ImportError;
 use crate::assembly::Assembly;
@@ -24,7 +24,7 @@ const MOST_STEPS: usize = 200_000;
 const OF_MUJOCO: [&str; 6] = ["time", "qpos", "xpos", "xquat", "mocap_pos", "mocap_quat"];
 
 /// A stored run.
-pub(super) struct States {
+pub(crate) struct States {
     file: PathBuf,
     arrays: BTreeMap<String, Array>,
     times_s: Vec<f64>,
@@ -44,7 +44,7 @@ impl States {
     ///
     /// # Errors
     /// When it cannot be read, its arrays have different numbers of steps, or a moment is no number or comes before the one ahead.
-    pub(super) fn read(step_s: Option<f64>, a: &mut Assembly) -> Result<Option<Self>, ImportError> {
+    pub(crate) fn read(step_s: Option<f64>, a: &mut Assembly) -> Result<Option<Self>, ImportError> {
         let Some(file) = a.options().states.clone() else { return Ok(None) };
         // The path is the caller's, not the scene file's.
         let bytes = std::fs::read(&file).map_err(|source| {
@@ -181,6 +181,9 @@ fn columns(bytes: &[u8]) -> Result<BTreeMap<String, Array>, (String, String)> {
 
 /// The error of a file of states for a scene whose format has no joints.
 pub(crate) fn refuse(file: &Path, format: &str) -> ImportError {
-    let problem = format!("found {}, but the scene is {format}; expected a model of MuJoCo (MJCF) or a robot in URDF", file.display());
+    let problem = format!(
+        "found {}, but the scene is {format}; expected a model of MuJoCo (MJCF), or a file with joints in URDF, SDF or USD",
+        file.display()
+    );
     ImportError::Option { option: "states", problem }
 }
