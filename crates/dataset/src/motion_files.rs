@@ -434,7 +434,7 @@ mod tests {
         // No map takes along what deforms.
         let deforming = [BodyRow { joint: DEFORM.into(), axis: None, point: None, limits: None, ..row(1, None, &[2]) }];
         dataset.write_bodies("room", &deforming).unwrap();
-        let at_rest = FrameBodies { frame: 0, time_s: 0.0, world_from_rest: vec![DAffine3::IDENTITY], states: vec![None] };
+        let at_rest = FrameBodies { frame: 0, first_row: 0, time_s: 0.0, world_from_rest: vec![DAffine3::IDENTITY], states: vec![None] };
         dataset.write_body_poses("room", "cam_00", &[at_rest]).unwrap();
         let filmed = dataset.read_filmed_bodies("room", "cam_00").unwrap().unwrap();
         let places = filmed.at(0);

@@ -91,7 +91,7 @@ fn read_grid(
     let step_px = config.step_px(size);
     let shown = (&*filmed.distances_m(frame)?, &*filmed.parts(frame)?);
     let deforming = package.filter(|_| filmed.deforms());
-    let moment = deforming.map(|package| package.scene.at(filmed.moment_s(frame)));
+    let moment = deforming.map(|package| filmed.moments(&package.scene, frame));
     let lookout = deforming.zip(moment.as_ref()).map(|(package, moment)| package.ready(moment)).transpose()?;
     let points = filmed.points(frame, shown, lookout.as_ref(), CovisibleFrame::grid(size, step_px));
     Ok(Grid { step_px, points })

@@ -96,7 +96,7 @@ fn seeds(
     }
     let frame = frames[place];
     let (distances_m, parts, size) = (filmed.distances_m(frame)?, filmed.parts(frame)?, filmed.view(frame).camera().size());
-    let moment = filmed.deforms().then(|| package.scene.at(filmed.moment_s(frame)));
+    let moment = filmed.deforms().then(|| filmed.moments(&package.scene, frame));
     let lookout = moment.as_ref().map(|moment| package.ready(moment)).transpose()?;
     let shown_at = |pixel| filmed.points(frame, (&distances_m, &parts), lookout.as_ref(), std::iter::once(pixel)).pop();
     let seed = |point: u64| {

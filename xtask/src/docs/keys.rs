@@ -36,7 +36,7 @@ const SCENE: &str = "\n[[scene]]\nname = \"a\"\nfile = \"a.glb\"\n";
 const SECTIONS: [&str; 11] = ["import", "object", "motion", "render", "camera", "plan", "carve", "gate", "vary", "farm", "scene"];
 
 /// All keys.
-const GROUPS: [Group; 29] = [
+const GROUPS: [Group; 31] = [
     Group {
         heading: "At the top of the file",
         about: "All except `name` are also allowed in a `[[scene]]`, for that scene only.",

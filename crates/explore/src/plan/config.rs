@@ -270,7 +270,7 @@ impl Mode {
         match self {
             Self::Video(video) => Some(video.fps),
             Self::Cameras(cameras) => Some(cameras.fps),
-            Self::Walk(_) | Self::Stills(_) | Self::Coverage(_) | Self::Objects(_) | Self::Keyframes(_) => None,
+            Self::Walk(_) | Self::Stills(_) | Self::Photos(_) | Self::Coverage(_) | Self::Objects(_) | Self::Keyframes(_) => None,
         }
     }
 

@@ -92,7 +92,8 @@ impl Assembly<'_> {
             return false;
         }
         let (name, motion) = (self.unique_body(&name), BodyMotion { times_s, states: BodyStates::Deform { shapes } });
-        self.scene.bodies.push(Body { name, parent, parts: vec![part], lights: Vec::new(), limits: None, motion });
+        let (parts, lights, cameras) = (vec![part], Vec::new(), Vec::new());
+        self.scene.bodies.push(Body { name, parent, parts, lights, cameras, limits: None, motion });
         true
     }
 

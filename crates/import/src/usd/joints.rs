@@ -185,8 +185,8 @@ fn stage_placement(stage: &mut Stage, path: &str, a: &mut Assembly) -> Result<DA
     let ends = path.char_indices().filter(|(at, c)| *at > 0 && *c == '/').map(|(at, _)| at).chain([path.len()]);
     for end in ends.collect::<Vec<_>>() {
         let Some(prim) = stage.at(&path[..end], a)? else { break };
-        let (local, reset) = super::xform::local(&prim, a);
-        placement = if reset { local } else { placement * local };
+        let own = super::xform::Xform::of(&prim, a);
+        placement = if own.resets { own.rest() } else { placement * own.rest() };
     }
     Ok(placement)
 }

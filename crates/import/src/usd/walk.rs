@@ -128,8 +128,8 @@ impl<'s> Walk<'s> {
             self.visit(&prim, &state, a)?;
         }
         std::mem::take(&mut self.things).settle(a);
-        std::mem::take(&mut self.joints).add(self.stage, a)?;
         self.animations.finish(a);
+        std::mem::take(&mut self.joints).add(self.stage, a)?;
         self.report(a);
         Ok(())
     }
@@ -193,7 +193,6 @@ impl<'s> Walk<'s> {
             object: Some(object),
             thing: Thing::at(prim, object, state.thing),
         };
-        let before = a.contents();
         match prim.kind() {
             // Their shaders are read where they are bound.
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),

@@ -46,6 +46,7 @@ fn scene(folder: &Path) -> Scene {
         parent,
         parts: vec![part as u32 - 1],
         lights: Vec::new(),
+        cameras: Vec::new(),
         limits: None,
         motion: BodyMotion { times_s: vec![0.0, LAST_S], states },
     };
