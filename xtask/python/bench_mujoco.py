@@ -40,7 +40,6 @@ def main():
 
 
 def options(parser):
-    parser.add_argument("--program", required=True, help="enfilade")
     parser.add_argument("--size", default="640x480", help="WIDTHxHEIGHT of the pictures [640x480]")
     parser.add_argument("--frames", type=int, default=24, help="frames of the video [24]")
 

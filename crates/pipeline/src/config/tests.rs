@@ -563,6 +563,23 @@ fn homes(homes: &[&str], overrides: &Overrides) -> Result<Config, ConfigError> {
 }
 
 #[test]
+fn homes_are_photographed_where_nobody_asks_for_walks() {
+    let mode = |above: &str, keys: &str| {
+        let config = read(&format!("{above}[[scene]]\nname = \"flat\"\nhome = {{}}\n{keys}")).unwrap();
+        config.scenes[0].plan.mode.name()
+    };
+    assert_eq!(mode("", ""), "photos");
+    assert_eq!(mode("[plan]\npitch_limits_deg = [-20, 0]\n", ""), "photos");
+    for walks in ["[plan]\nmode = { kind = \"walk\" }\n", "[plan]\noverlap = [0.3, 0.8]\n", "preset = \"paper\"\n"] {
+        assert_eq!(mode(walks, ""), "walk", "{walks}");
+    }
+    assert_eq!(mode("", "plan.saliency = { kind = \"parts\" }\n"), "walk");
+    assert_eq!(mode("[plan]\nmode = { kind = \"walk\" }\n", "plan.mode = { kind = \"stills\" }\n"), "stills");
+    assert_eq!(read(SCENE).unwrap().scenes[0].plan.mode.name(), "walk", "files keep walks");
+    assert_eq!(Config::demo(&Overrides::default()).unwrap().scenes[0].plan.mode.name(), "walk");
+}
+
+#[test]
 fn homes_keep_their_own_seeds_whatever_the_command_line_says() {
     let overrides = Overrides { seed: Some(9), ..Overrides::default() };
     let config = homes(&["{ seed = 1 }", "{ seed = 2 }", "{}"], &overrides).unwrap();
