@@ -24,7 +24,7 @@ use enfilade_dataset::{
 use enfilade_explore::WalkBoxes;
 use enfilade_frame::{LAYERS, Layer};
 use enfilade_geometry::OccupancyTree;
-use enfilade_scene::{Camera, CameraView, Counted, Cx, NYU40, Pose, Rooms, Trajectory};
+use enfilade_scene::{Camera, CameraView, Counted, Cx, DEFORM, NYU40, Pose, Rooms, Trajectory};
 use std::collections::BTreeMap;
 
 /// Checks every law of a scene; [`join_reports`](super::join_reports) adds the laws of the dataset as a whole. Unreadable files count as
@@ -70,7 +70,13 @@ pub fn verify_listed_scene(
     if facts.released {
         excused.extend(release::excuse(&mut card));
     }
-    let notes = facts.camera_notes().chain(note_of_what_is_gone(dataset, &values)).chain(unchecked).chain(not_judged.note(scene)).collect();
+    let notes = facts
+        .camera_notes()
+        .chain(facts.note_of_deforming())
+        .chain(note_of_what_is_gone(dataset, &values))
+        .chain(unchecked)
+        .chain(not_judged.note(scene))
+        .collect();
     VerifyReport::new(&card, 1, values, pairs, excused).with_notes(notes)
 }
 
@@ -238,6 +244,14 @@ impl SceneFacts {
             }
         }
         worth::check_views(name, planned, &faults, card);
+    }
+
+    /// A note on parts that the laws of two frames leave out; `None` where there are none.
+    fn note_of_deforming(&self) -> Option<String> {
+        let bodies = self.filmed.iter().find_map(|filmed| filmed.bodies.as_ref())?;
+        let deforming: Vec<&str> = bodies.bodies.iter().filter(|body| body.joint == DEFORM).map(|body| body.name.as_str()).collect();
+        let (first, count) = (deforming.first()?, deforming.len());
+        Some(format!("{}: {count} parts deform, the first is {first:?}; their points are not compared between frames", self.name))
     }
 
     /// Notes on how Hypersim's loaders treat the cameras; they expect its own cameras.

@@ -3,7 +3,7 @@
 //! Control points have a time and a value. Those of Hermite's curves are tangents, of which Bézier's points are a third away (COLLADA 1.4.1,
 //! "Curve interpolation").
 
-use crate::motion::{Side, pieces};
+use crate::motion::{MOST_STATES, Side, pieces};
 
 /// A control point: seconds, and the value there.
 pub(super) type Control = [f64; 2];
@@ -69,6 +69,10 @@ impl Curve {
     pub(super) fn moments(&self, turns: Option<usize>) -> Vec<f64> {
         let mut moments = self.times_s.clone();
         for (i, pair) in self.times_s.windows(2).enumerate() {
+            // More than that are refused anyway.
+            if moments.len() > MOST_STATES {
+                break;
+            }
             let (mut turned, is_bent) = (0.0, matches!(self.segments[i], Segment::Bezier(_)));
             if let Some(number) = turns.filter(|_| self.segments[i] != Segment::Step) {
                 let mut way = vec![self.values[i][number]];

@@ -129,6 +129,14 @@ impl Animations {
 }
 
 impl Animations {
+    /// True if anything jumps from one value to another.
+    pub(super) fn jump(&self) -> bool {
+        self.nodes.values().any(|motion| {
+            let vectors = [motion.translation.as_ref(), motion.scale.as_ref()].into_iter().flatten().any(|channel| channel.steps);
+            vectors || motion.rotation.as_ref().is_some_and(|channel| channel.steps) || motion.weights.iter().any(|channel| channel.steps)
+        })
+    }
+
     /// True if the scale of a node changes.
     pub(super) fn scales(&self, node: usize) -> bool {
         self.nodes.get(&node).is_some_and(|motion| motion.scale.is_some())

@@ -3,7 +3,7 @@
 use super::animation::Animations;
 use super::container::Document;
 use super::primitive::{self, Pose};
-use super::skin::{joints, parents, placements};
+use super::skin::{Bindings, joints, parents, placements};
 use crate::ImportError;
 use crate::assembly::{Assembly, TimedShapes};
 use crate::motion::{LENGTH_M, Shapes, Side, shapes};
@@ -72,9 +72,11 @@ impl<'d> Deforms<'d> {
         }
         let length =
             LENGTH_M / (a.meters_per_unit() * if bound.skin.is_some() { 1.0 } else { file_from_mesh.matrix3.determinant().abs().cbrt() });
-        let mut turned = false;
+        let Some(stored) = primitive::unmoved(self.document, bound.primitive, bound.uv_set, bound.place, a)? else { return Ok(None) };
+        let bindings = bound.skin.map(|_| primitive::bindings(self.document, bound.primitive, &stored, bound.place, a)).transpose()?;
+        let (mut turned, jumps) = (false, self.animations.jump());
         let shape = |time_s: f64, side: Side| -> Result<Shape, ImportError> {
-            let mut mesh = self.mesh(bound, (time_s, side), a)?;
+            let mut mesh = self.mesh(bound, (&stored, bindings.as_ref()), (time_s, side), a)?;
             if is_scaled {
                 let now = own
                     .iter()
@@ -85,7 +87,7 @@ impl<'d> Deforms<'d> {
             turned |= mesh.triangles != triangles;
             Ok(Shape { positions: mesh.positions, normals: mesh.normals })
         };
-        let found = shapes(moments, length, shape)?;
+        let found = shapes(moments, jumps, length, shape)?;
         match found {
             Shapes::Constant => Ok(None),
             _ if turned => {
@@ -116,14 +118,19 @@ impl<'d> Deforms<'d> {
         up.take(self.parents.len()).collect()
     }
 
-    /// The mesh of a primitive at a moment: of a skin in the file's space, else in its own.
-    fn mesh(&self, bound: &Bound, at: (f64, Side), a: &mut Assembly) -> Result<Mesh, ImportError> {
+    /// The mesh of a primitive at a moment, from its stored one: of a skin in the file's space, else in its own.
+    fn mesh(
+        &self,
+        bound: &Bound,
+        (stored, bindings): (&Mesh, Option<&Bindings>),
+        at: (f64, Side),
+        a: &mut Assembly,
+    ) -> Result<Mesh, ImportError> {
         let weights = self.animations.weights(bound.node, at).unwrap_or_else(|| bound.weights.to_vec());
         let placed = || placements(self.document, |node| self.animations.local(self.document, node, at));
         let joints = bound.skin.map(|skin| joints(self.document, skin, bound.node, &placed(), a)).transpose()?;
         let pose = Pose { weights: &weights, joints: joints.as_deref() };
-        let mesh = primitive::mesh(self.document, bound.primitive, bound.uv_set, &pose, bound.place, a)?;
-        Ok(mesh.unwrap_or_default())
+        primitive::posed(self.document, (bound.primitive, bindings), stored.clone(), &pose, bound.place, a)
     }
 }
 

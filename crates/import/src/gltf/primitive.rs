@@ -1,7 +1,8 @@
 //! Primitives to triangle meshes in a pose: triangles, strips and fans, with or without indices.
 
 use super::container::Document;
-use super::{morph, skin};
+use super::morph;
+use super::skin::Bindings;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_geometry::Mesh;
@@ -18,11 +19,67 @@ pub(super) struct Pose<'p> {
 }
 
 /// The mesh of a primitive with texture coordinate set `uv_set`; `None` for what has no surface.
+///
+/// # Errors
+/// When something of it cannot be read.
 pub(super) fn mesh(
     document: &Document,
     primitive: &Primitive,
     uv_set: u32,
     pose: &Pose,
+    place: &str,
+    assembly: &mut Assembly,
+) -> Result<Option<Mesh>, ImportError> {
+    let Some(mesh) = unmoved(document, primitive, uv_set, place, assembly)? else { return Ok(None) };
+    let bindings = pose.joints.map(|_| bindings(document, primitive, &mesh, place, assembly)).transpose()?;
+    posed(document, (primitive, bindings.as_ref()), mesh, pose, place, assembly).map(Some)
+}
+
+/// Joints and weights of the vertices of a primitive's mesh.
+///
+/// # Errors
+/// When they cannot be read.
+pub(super) fn bindings(
+    document: &Document,
+    primitive: &Primitive,
+    mesh: &Mesh,
+    place: &str,
+    assembly: &Assembly,
+) -> Result<Bindings, ImportError> {
+    Bindings::read(document, primitive, mesh.positions.len()).map_err(|(what, e)| assembly.malformed(format!("{place}.{what}"), e))
+}
+
+/// The mesh of a primitive that nothing moves yet, in a pose.
+///
+/// # Errors
+/// When targets or joints make no sense.
+pub(super) fn posed(
+    document: &Document,
+    (primitive, bindings): (&Primitive, Option<&Bindings>),
+    mut mesh: Mesh,
+    pose: &Pose,
+    place: &str,
+    assembly: &mut Assembly,
+) -> Result<Mesh, ImportError> {
+    let bad = |(what, e): (String, String), a: &Assembly| a.malformed(format!("{place}.{what}"), e);
+    morph::apply(document, primitive, pose.weights, &mut mesh.positions, &mut mesh.normals).map_err(|e| bad(e, assembly))?;
+    if let Some((bindings, joints)) = bindings.zip(pose.joints) {
+        let unweighted = bindings.apply(joints, &mut mesh).map_err(|e| bad(e, assembly))?;
+        if unweighted > 0 {
+            assembly.warn(place, format!("{unweighted} vertices have no weights; they follow the first joint they name"));
+        }
+    }
+    Ok(mesh)
+}
+
+/// The mesh of a primitive as it is stored; `None` for what has no surface.
+///
+/// # Errors
+/// When something of it cannot be read.
+pub(super) fn unmoved(
+    document: &Document,
+    primitive: &Primitive,
+    uv_set: u32,
     place: &str,
     assembly: &mut Assembly,
 ) -> Result<Option<Mesh>, ImportError> {
@@ -42,20 +99,12 @@ pub(super) fn mesh(
         Some(accessor) => document.indices(accessor).map_err(|e| bad("indices", e))?,
         None => (0..positions.len() as u32).collect(),
     };
-    let mut mesh = Mesh {
+    Ok(Some(Mesh {
         positions: positions.into_iter().map(Vec3::from).collect(),
         normals: normals.unwrap_or_default().into_iter().map(Vec3::from).collect(),
         uvs: uvs.unwrap_or_default().into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect(),
         triangles: triangles(mode, &indices),
-    };
-    morph::apply(document, primitive, pose.weights, &mut mesh.positions, &mut mesh.normals).map_err(|(what, e)| bad(&what, e))?;
-    if let Some(joints) = pose.joints {
-        let unweighted = skin::apply(document, primitive, joints, &mut mesh).map_err(|(what, e)| bad(&what, e))?;
-        if unweighted > 0 {
-            assembly.warn(place, format!("{unweighted} vertices have no weights; they follow the first joint they name"));
-        }
-    }
-    Ok(Some(mesh))
+    }))
 }
 
 /// Triangles of a list, strip or fan; those of strips and fans with a repeated vertex only steer the strip and are left out.

@@ -114,63 +114,76 @@ pub(super) fn is_bound(primitive: &Primitive) -> bool {
     [Semantic::Joints(0), Semantic::Weights(0)].into_iter().any(|s| primitive.attributes.contains_key(&Checked::Valid(s)))
 }
 
-/// Places the vertices of a primitive in the file's space, normals by the inverse transpose; triangles that joints mirror are turned
-/// round. Weights count by their share of their sum. Returns how many vertices have none: these follow the first joint they name.
-///
-/// # Errors
-/// The place within the primitive and the problem, when joints or weights cannot be read or make no sense.
-pub(super) fn apply(document: &Document, primitive: &Primitive, joints: &[DAffine3], mesh: &mut Mesh) -> Result<usize, (String, String)> {
-    let sets = sets(document, primitive, mesh.positions.len())?;
-    let mut unweighted = 0;
-    let mut mirrored = Vec::with_capacity(mesh.positions.len());
-    for vertex in 0..mesh.positions.len() {
-        let joint = |set: usize, k: usize| {
-            let named = sets[set].0[vertex][k];
-            // A cast takes what is no number, or below zero, to zero.
-            joints.get(named as usize).filter(|_| named as usize as f32 == named).ok_or_else(|| {
-                let problem = format!(
-                    "found joint {named} at vertex {vertex}, expected one of the {} of the skin; export the file again",
-                    joints.len()
-                );
-                (format!("attributes.JOINTS_{set}"), problem)
-            })
-        };
-        let (mut turn, mut shift, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
-        for (set, (_, weights)) in sets.iter().enumerate() {
-            for (k, &weight) in weights[vertex].iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                if !(weight > 0.0 && weight.is_finite()) {
-                    let problem = format!("found {weight} at vertex {vertex}, expected 0 to 1; export the file again");
-                    return Err((format!("attributes.WEIGHTS_{set}"), problem));
-                }
-                let (joint, weight) = (joint(set, k)?, f64::from(weight));
-                turn += joint.matrix3 * weight;
-                shift += joint.translation * weight;
-                sum += weight;
-            }
-        }
-        if sum == 0.0 {
-            unweighted += 1;
-            let joint = joint(0, 0)?;
-            (turn, shift, sum) = (joint.matrix3, joint.translation, 1.0);
-        }
-        let place = &mut mesh.positions[vertex];
-        *place = ((turn * place.as_dvec3() + shift) / sum).as_vec3();
-        let is_mirrored = turn.determinant() < 0.0;
-        if let Some(normal) = mesh.normals.get_mut(vertex) {
-            let cofactors =
-                DMat3::from_cols(turn.y_axis.cross(turn.z_axis), turn.z_axis.cross(turn.x_axis), turn.x_axis.cross(turn.y_axis));
-            let turned = (cofactors * normal.as_dvec3()).normalize_or_zero().as_vec3();
-            *normal = if is_mirrored { -turned } else { turned };
-        }
-        mirrored.push(is_mirrored);
-    }
-    let is_mirrored = |triangle: &&mut [u32; 3]| mirrored.get(triangle[0] as usize) == Some(&true);
-    mesh.triangles.iter_mut().filter(is_mirrored).for_each(|triangle| triangle.swap(1, 2));
-    Ok(unweighted)
-}
-
 /// Four joints, or four weights, of each vertex.
 type Fours = Vec<[f32; 4]>;
+
+/// Joints and weights of the vertices of a primitive, set by set.
+pub(super) struct Bindings(Vec<(Fours, Fours)>);
+
+impl Bindings {
+    /// Those of a primitive of so many vertices.
+    ///
+    /// # Errors
+    /// The place within the primitive and the problem, when they cannot be read.
+    pub(super) fn read(document: &Document, primitive: &Primitive, vertices: usize) -> Result<Self, (String, String)> {
+        sets(document, primitive, vertices).map(Self)
+    }
+
+    /// Places the vertices in the file's space, normals by the inverse transpose; triangles that joints mirror are turned round. Weights count
+    /// by their share of their sum. Returns how many vertices have none: these follow the first joint they name.
+    ///
+    /// # Errors
+    /// The place within the primitive and the problem, when joints or weights make no sense.
+    pub(super) fn apply(&self, joints: &[DAffine3], mesh: &mut Mesh) -> Result<usize, (String, String)> {
+        let Self(sets) = self;
+        let mut unweighted = 0;
+        let mut mirrored = Vec::with_capacity(mesh.positions.len());
+        for vertex in 0..mesh.positions.len() {
+            let joint = |set: usize, k: usize| {
+                let named = sets[set].0[vertex][k];
+                // A cast takes what is no number, or below zero, to zero.
+                joints.get(named as usize).filter(|_| named as usize as f32 == named).ok_or_else(|| {
+                    let problem = format!(
+                        "found joint {named} at vertex {vertex}, expected one of the {} of the skin; export the file again",
+                        joints.len()
+                    );
+                    (format!("attributes.JOINTS_{set}"), problem)
+                })
+            };
+            let (mut turn, mut shift, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
+            for (set, (_, weights)) in sets.iter().enumerate() {
+                for (k, &weight) in weights[vertex].iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                    if !(weight > 0.0 && weight.is_finite()) {
+                        let problem = format!("found {weight} at vertex {vertex}, expected 0 to 1; export the file again");
+                        return Err((format!("attributes.WEIGHTS_{set}"), problem));
+                    }
+                    let (joint, weight) = (joint(set, k)?, f64::from(weight));
+                    turn += joint.matrix3 * weight;
+                    shift += joint.translation * weight;
+                    sum += weight;
+                }
+            }
+            if sum == 0.0 {
+                unweighted += 1;
+                let joint = joint(0, 0)?;
+                (turn, shift, sum) = (joint.matrix3, joint.translation, 1.0);
+            }
+            let place = &mut mesh.positions[vertex];
+            *place = ((turn * place.as_dvec3() + shift) / sum).as_vec3();
+            let is_mirrored = turn.determinant() < 0.0;
+            if let Some(normal) = mesh.normals.get_mut(vertex) {
+                let cofactors =
+                    DMat3::from_cols(turn.y_axis.cross(turn.z_axis), turn.z_axis.cross(turn.x_axis), turn.x_axis.cross(turn.y_axis));
+                let turned = (cofactors * normal.as_dvec3()).normalize_or_zero().as_vec3();
+                *normal = if is_mirrored { -turned } else { turned };
+            }
+            mirrored.push(is_mirrored);
+        }
+        let is_mirrored = |triangle: &&mut [u32; 3]| mirrored.get(triangle[0] as usize) == Some(&true);
+        mesh.triangles.iter_mut().filter(is_mirrored).for_each(|triangle| triangle.swap(1, 2));
+        Ok(unweighted)
+    }
+}
 
 /// Joints and weights, set by set; at least one of as many vertices as are `expected`.
 fn sets(document: &Document, primitive: &Primitive, expected: usize) -> Result<Vec<(Fours, Fours)>, (String, String)> {

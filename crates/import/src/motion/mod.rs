@@ -21,7 +21,7 @@ pub(crate) const RATE_HZ: f64 = 60.0;
 /// Length of the pieces that curves are cut into, seconds.
 const PIECE_S: f64 = 1.0 / RATE_HZ;
 /// Most states of one node.
-const MOST_STATES: usize = 200_000;
+pub(crate) const MOST_STATES: usize = 200_000;
 
 /// From which side a moment is approached: at a step, values differ.
 #[derive(Clone, Copy, PartialEq)]

@@ -51,6 +51,9 @@ pub(crate) fn rigid(
     let axes = Axes::of(&rest).ok_or("it is flat where it rests, so that it has no rotation")?;
     moments.sort_by(f64::total_cmp);
     moments.dedup();
+    if moments.len() > MOST_STATES {
+        return Err(format!("it has {} states, more than {MOST_STATES}", moments.len()));
+    }
     let pose = |time_s: f64, side: Side| axes.pose(&local(time_s, side)).0;
     let mut cut = Vec::new();
     for pair in moments.windows(2) {

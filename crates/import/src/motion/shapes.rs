@@ -9,6 +9,8 @@ use std::sync::Arc;
 const SHORTEST_S: f64 = 1.0 / 240.0;
 /// Most vertices of all shapes of a mesh: about half a gigabyte.
 const MOST_VERTICES: usize = 20_000_000;
+/// Most shapes of a mesh: five minutes at sixty a second.
+const MOST_SHAPES: usize = 20_000;
 
 /// What becomes of a mesh whose shape may change.
 pub(crate) enum Shapes {
@@ -20,13 +22,27 @@ pub(crate) enum Shapes {
 }
 
 /// The shapes of a mesh at `moments`, in any order, and at as many more as vertices need to be no farther than `length` from their straight
-/// ways, in the mesh's units, halfway from one to the next.
+/// ways, in the mesh's units, halfway from one to the next. `jumps` is true if shapes before and after a moment may differ.
 ///
 /// # Errors
 /// When a shape cannot be made.
-pub(crate) fn shapes<E>(mut moments: Vec<f64>, length: f64, mut shape: impl FnMut(f64, Side) -> Result<Shape, E>) -> Result<Shapes, E> {
+pub(crate) fn shapes<E>(
+    mut moments: Vec<f64>,
+    jumps: bool,
+    length: f64,
+    mut shape: impl FnMut(f64, Side) -> Result<Shape, E>,
+) -> Result<Shapes, E> {
     moments.sort_by(f64::total_cmp);
     moments.dedup();
+    let too_many = |count: usize, vertices: usize| {
+        let told = || {
+            format!("it has more than {MOST_SHAPES} states, or {MOST_VERTICES} vertices in all of them; export fewer, or simplify the mesh")
+        };
+        (count > MOST_SHAPES || count.saturating_mul(vertices) > MOST_VERTICES).then(told)
+    };
+    if let Some(problem) = too_many(moments.len(), 1) {
+        return Ok(Shapes::Refused(problem));
+    }
     let (mut times_s, mut all): (Vec<f64>, Vec<Arc<Shape>>) = (Vec::new(), Vec::new());
     for (at, &time_s) in moments.iter().enumerate() {
         let before = Arc::new(shape(time_s, Side::Before)?);
@@ -36,7 +52,7 @@ pub(crate) fn shapes<E>(mut moments: Vec<f64>, length: f64, mut shape: impl FnMu
             // From the last shape on, halved until it is straight to the next one.
             while let Some((to_s, to)) = open.last().cloned() {
                 let middle_s = 0.5 * (last.0 + to_s);
-                if to_s - last.0 > SHORTEST_S && (all.len() + open.len()) * to.positions.len() <= MOST_VERTICES {
+                if to_s - last.0 > SHORTEST_S && too_many(all.len() + open.len(), to.positions.len()).is_none() {
                     let middle = shape(middle_s, Side::After)?;
                     if !is_near(&last.1.between(&to, 0.5), &middle, length) {
                         open.push((middle_s, middle.into()));
@@ -52,13 +68,12 @@ pub(crate) fn shapes<E>(mut moments: Vec<f64>, length: f64, mut shape: impl FnMu
             times_s.push(time_s);
             all.push(before.clone());
         }
-        let after = shape(time_s, Side::After)?;
-        if after != *before {
+        let after = if jumps { Some(shape(time_s, Side::After)?) } else { None };
+        if let Some(after) = after.filter(|after| *after != *before) {
             times_s.push(time_s);
             all.push(after.into());
         }
-        if all.len() * before.positions.len() > MOST_VERTICES {
-            let problem = format!("it has more than {MOST_VERTICES} vertices in all of its states; export fewer or simplify the mesh");
+        if let Some(problem) = too_many(all.len(), before.positions.len()) {
             return Ok(Shapes::Refused(problem));
         }
     }
@@ -92,7 +107,7 @@ mod tests {
             let is_after = time_s > 1.0 || time_s == 1.0 && side == Side::After;
             Ok::<_, ()>(if is_after { at(7.0, 0.0) } else { at(angle.cos(), angle.sin()) })
         };
-        let Ok(Shapes::Timed((times_s, all))) = shapes(vec![1.0, 0.0, 2.0], 1e-4, circle) else { panic!() };
+        let Ok(Shapes::Timed((times_s, all))) = shapes(vec![1.0, 0.0, 2.0], true, 1e-4, circle) else { panic!() };
         assert!(times_s.is_sorted() && (40..140).contains(&times_s.len()), "{} states", times_s.len());
         let jump = times_s.iter().position(|t| *t == 1.0).unwrap();
         assert_eq!((times_s[jump + 1], all[jump + 1].positions[0].x), (1.0, 7.0));
@@ -107,9 +122,9 @@ mod tests {
     #[test]
     fn what_keeps_its_shape_does_not_deform_and_what_is_not_finite_is_refused() {
         let still = |_: f64, _: Side| Ok::<_, ()>(Shape { positions: vec![Vec3::X], normals: Vec::new() });
-        assert!(matches!(shapes(vec![0.0, 1.0], 1e-4, still), Ok(Shapes::Constant)));
+        assert!(matches!(shapes(vec![0.0, 1.0], false, 1e-4, still), Ok(Shapes::Constant)));
         let bad = |time_s: f64, _: Side| Ok::<_, ()>(Shape { positions: vec![Vec3::X / (1.0 - time_s as f32)], normals: Vec::new() });
-        let Ok(Shapes::Refused(told)) = shapes(vec![0.0, 1.0], 1e9, bad) else { panic!() };
+        let Ok(Shapes::Refused(told)) = shapes(vec![0.0, 1.0], false, 1e9, bad) else { panic!() };
         assert!(told.contains("at 1 s are not finite"), "{told}");
     }
 }

@@ -70,7 +70,7 @@ impl Animations {
         let message = if moving == 0 {
             "nothing that is seen moves by them; parts stay where the first samples have them".into()
         } else {
-            let span_s = (last - first) / self.codes_per_second;
+            let span_s = ((last - first) / self.codes_per_second * 1e3).round() / 1e3;
             format!("{moving} things move by them, {span_s} s from time code {first} on (still = true leaves motion out)")
         };
         a.warn("timeSamples", message);

@@ -6,7 +6,7 @@
 use super::stage::OverTime;
 use super::value::Value;
 use super::xform::{Kind, quaternion};
-use crate::motion::between_placements;
+use crate::motion::{MOST_STATES, between_placements};
 use enfilade_math::{DAffine3, DMat3};
 
 /// Greatest turn between two moments of which the shortest way is taken, degrees.
@@ -69,6 +69,10 @@ impl Curve {
         let mut codes = self.codes.clone();
         for (at, values) in self.codes.windows(2).zip(self.values.windows(2)) {
             let [Some(a), Some(b)] = values else { continue };
+            // More than that are refused anyway.
+            if codes.len() > MOST_STATES {
+                break;
+            }
             let pieces = (turn_deg(a, b, kind) / TURN_DEG).ceil().clamp(1.0, MOST_TURNS) as usize;
             codes.extend((1..pieces).map(|piece| at[0] + (at[1] - at[0]) * piece as f64 / pieces as f64));
         }

@@ -100,6 +100,9 @@ fn what_no_rigid_motion_does_is_told_by_prim_and_attribute() {
             float3 xformOp:scale.timeSamples = { 4: (1, 1, 1), 9: (1, 1, 1.5) }
             uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
         }
+        def Camera "Eye" { double3 xformOp:translate.timeSamples = { 4: (0, 0, 0), 14: (1, 0, 0) }
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }
         def Cube "Blinks" { token visibility.timeSamples = { 0: "inherited", 5: "invisible" } }
         def Cube "Curve" {
             double xformOp:rotateZ.spline = { bezier, 1: 5, 2: 7, }
@@ -116,6 +119,7 @@ fn what_no_rigid_motion_does_is_told_by_prim_and_attribute() {
     let told = warnings(&imported);
     for expected in [
         "Grows: it changes its scale or shear, which no rigid motion does, and keeps those of rest; for the first time at time code 9",
+        "Eye: the camera moves with time",
         "Blinks.visibility: its value changes with time; that of the first moment was taken",
         "Curve: xformOp:rotateZ is a spline",
         "it moves within something that is stretched or mirrored",

@@ -97,6 +97,7 @@ fn points_of_what_deforms_stay_on_their_triangle_and_every_law_holds() {
     tracks_are_as_expected(&dataset);
     let report = verify_scene(&dataset, "room", &Quiet).unwrap();
     assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+    assert!(report.notes.iter().any(|note| note.starts_with("room: 1 parts deform, the first is \"bag\"")), "{:?}", report.notes);
     assert!(replay(&dataset.layout().frame_record("room", "cam_00", 2), None, &Quiet).unwrap().is_same());
 }
 
