@@ -106,8 +106,8 @@ fn add_bodies(scene: &Scene, groups: &mut Vec<Group>, instance: impl Fn(PartId) 
     let mut numbers = Vec::new();
     // Those on which something with parts stands; lights and cameras alone are nothing to a simulator.
     let mut bears: BTreeSet<u32> = BTreeSet::new();
-    for (body, id) in scene.bodies.iter().zip(0..).rev() {
-        if !body.parts.is_empty() || bears.contains(&id) {
+    for (id, body) in scene.bodies.iter().enumerate().rev() {
+        if !body.parts.is_empty() || bears.contains(&(id as u32)) {
             bears.extend(body.parent);
         }
     }

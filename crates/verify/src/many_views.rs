@@ -237,8 +237,8 @@ mod tests {
         let mut frame = testroom::frame(&pose);
         let of = |frame: &enfilade_frame::Frame, scale: f64| {
             let listed = Listed::new(CameraView::still(&camera, &pose), frame.get(Layer::DepthMeters).unwrap().clone());
-            let points: Vec<(i64, DVec3)> =
-                listed.points(8).iter().map(|(part, p)| (*part, pose.position + (*p - pose.position) * scale)).collect();
+            let points: Vec<Shown> =
+                listed.points(8).iter().map(|(y, part, p)| (*y, *part, pose.position + (*p - pose.position) * scale)).collect();
             let certain = listed.certain((&points, BodyPlaces::default()));
             [certain.seen, certain.unseen, points.len()].map(|n| n as f64)
         };

@@ -57,14 +57,7 @@ impl Trees {
     }
 
     /// Hangs on a link all that joints lead to from there: along them first, breadth first, and only where that ends against them.
-    fn hang(
-        &mut self,
-        pieces: &[Piece],
-        edges: &mut [Option<Edge>],
-        at: &mut [Option<usize>],
-        link: usize,
-        piece: Option<usize>,
-    ) {
+    fn hang(&mut self, pieces: &[Piece], edges: &mut [Option<Edge>], at: &mut [Option<usize>], link: usize, piece: Option<usize>) {
         let mut reached = vec![(link, piece)];
         let mut done = 0;
         loop {

@@ -183,5 +183,10 @@ fn semantics_of_partnet_name_the_links_and_meta_the_class_of_the_whole() {
     let labels: Vec<_> = imported.labels.iter().flatten().map(|l| (l.label.semantic, l.label.instance)).collect();
     assert_eq!(labels, [(3, 1), (3, 1)]);
     assert!(warnings(&imported).contains("have no unit"), "{}", warnings(&imported));
-    assert!(folder.write("7/semantics.txt", "link_0 door\n").error("7").contains("semantics.txt: line 1: found \"link_0 door\", expected a link"));
+    assert!(
+        folder
+            .write("7/semantics.txt", "link_0 door\n")
+            .error("7")
+            .contains("semantics.txt: line 1: found \"link_0 door\", expected a link")
+    );
 }
