@@ -41,11 +41,13 @@ pub use names::{family_of, object_of};
 pub use palette::{DecorConfig, Palette};
 pub use pieces::bedroom::Bed;
 pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
+pub use pieces::gym;
 pub use pieces::kitchen;
 pub use pieces::living::{Blind, BlindKind, CeilingLamp};
 pub use pieces::office;
 pub use pieces::school;
 pub use pieces::shop;
+pub use pieces::store;
 pub use pieces::study;
 pub use pieces::{
     Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES, Family,

@@ -47,24 +47,33 @@ kinds! {
     Laundry = "laundry", wet: true, things: [];
     Office = "office", wet: false, things: [
         "books", "mug", "paper", "pen_cup", "phone", "cable", "tissue_box", "small_plant", "photo_frame", "open_book", "storage_box",
-        "drink_bottle", "wall_clock", "cardboard_box", "coat_stand", "foliage", "backpack",
+        "wall_clock", "cardboard_box", "coat_stand", "foliage", "backpack",
     ];
     OpenOffice = "open_office", wet: false, things: [
-        "books", "mug", "paper", "pen_cup", "phone", "cable", "tissue_box", "small_plant", "photo_frame", "drink_bottle", "wall_clock",
-        "cardboard_box", "backpack", "foliage",
+        "books", "mug", "paper", "pen_cup", "phone", "cable", "tissue_box", "small_plant", "photo_frame", "wall_clock", "cardboard_box",
+        "backpack", "foliage",
     ];
-    Meeting = "meeting", wet: false, things: ["paper", "mug", "glass", "laptop", "pen_cup", "drink_bottle", "tablet", "phone", "wall_clock"];
-    Classroom = "classroom", wet: false, things: ["books", "paper", "pen_cup", "open_book", "drink_bottle", "wall_clock", "backpack"];
-    ComputerLab = "computer_lab", wet: false, things: ["paper", "pen_cup", "cable", "mug", "drink_bottle", "wall_clock", "backpack"];
+    Meeting = "meeting", wet: false, things: ["paper", "mug", "laptop", "pen_cup", "tablet", "phone", "wall_clock"];
+    Classroom = "classroom", wet: false, things: ["books", "paper", "pen_cup", "open_book", "wall_clock", "backpack"];
+    ComputerLab = "computer_lab", wet: false, things: ["paper", "pen_cup", "cable", "mug", "wall_clock", "backpack"];
     Corridor = "corridor", wet: false, things: ["foliage"];
     Cafe = "cafe", wet: false, things: [
         "mug", "glass", "crockery", "flower_vase", "tray", "magazines", "small_plant", "phone", "wall_clock", "foliage",
     ];
     Library = "library", wet: false, things: ["books", "open_book", "paper", "pen_cup", "laptop", "wall_clock"];
-    Bookshop = "bookshop", wet: false, things: ["books", "book_row", "open_book", "magazines", "small_plant", "paper", "wall_clock", "foliage"];
-    Shop = "shop", wet: false, things: ["shopping_bag", "cardboard_box", "paper", "pen_cup", "phone", "storage_box", "wall_clock"];
-    Reception = "reception", wet: false, things: ["magazines", "phone", "paper", "pen_cup", "small_plant", "flower_vase", "wall_clock", "foliage"];
-    HotelRoom = "hotel_room", wet: false, things: ["phone", "glass", "tissue_box", "magazines", "suitcase", "tray", "drink_bottle", "tall_mirror"];
+    Bookshop = "bookshop", wet: false, things: [
+        "books", "book_row", "open_book", "magazines", "small_plant", "paper", "wall_clock", "foliage",
+    ];
+    Shop = "shop", wet: false, things: ["cardboard_box", "paper", "pen_cup", "phone", "storage_box", "wall_clock"];
+    Reception = "reception", wet: false, things: [
+        "magazines", "phone", "paper", "pen_cup", "small_plant", "flower_vase", "wall_clock", "foliage",
+    ];
+    HotelRoom = "hotel_room", wet: false, things: [
+        "phone", "glass", "tissue_box", "magazines", "suitcase", "tray", "drink_bottle", "tall_mirror",
+    ];
+    Gym = "gym", wet: false, things: ["towel", "drink_bottle", "wall_clock", "foliage"];
+    Storeroom = "storeroom", wet: false, things: ["storage_box", "bucket", "cardboard_box", "storage_basket", "vacuum_cleaner"];
+    Workshop = "workshop", wet: false, things: ["paper", "pen_cup", "storage_box", "cable", "mug", "wall_clock", "bucket"];
 }
 
 impl RoomKind {

@@ -26,6 +26,10 @@ words! {
         Library = "library",
         /// A hotel room with its bathroom, or a reception.
         Hotel = "hotel",
+        /// A gym.
+        Gym = "gym",
+        /// A workshop or storeroom.
+        Workshop = "workshop",
     }
 }
 
@@ -67,15 +71,15 @@ pub struct Light {
 }
 
 use RoomKind::{
-    Bathroom, Bedroom, Bookshop, Cafe, Children, Classroom, ComputerLab, Corridor, Dining, Hall, HotelRoom, Kitchen, Laundry, Library,
-    Living, Meeting, Office, OpenOffice, Reception, Shop, Study, Toilet,
+    Bathroom, Bedroom, Bookshop, Cafe, Children, Classroom, ComputerLab, Corridor, Dining, Gym, Hall, HotelRoom, Kitchen, Laundry, Library,
+    Living, Meeting, Office, OpenOffice, Reception, Shop, Storeroom, Study, Toilet, Workshop,
 };
 
 /// Lamps that are lit on most days.
 const MOSTLY_LIT: &[f32] = &[1.0, 1.0, 1.0, 0.0];
 const TOWN: &[Outside] = &[Outside::Street, Outside::Skyline, Outside::Suburb];
 
-static ROWS: [Row; 7] = [
+static ROWS: [Row; 9] = [
     Row {
         building: Building::Home,
         kinds: &[Living, Kitchen, Dining, Bedroom, Children, Study, Bathroom, Toilet, Hall, Laundry],
@@ -143,6 +147,22 @@ static ROWS: [Row; 7] = [
         layout: Layout::Slicing,
         height: [2.5, 2.8],
         light: Some(Light { by_day: &[0.0, 0.5, 1.0], lamps_klx: 0.09, outside: TOWN }),
+    },
+    Row {
+        building: Building::Gym,
+        kinds: &[Gym, Toilet, Reception],
+        programmes: &[&[Gym]],
+        layout: Layout::Slicing,
+        height: [2.7, 3.4],
+        light: Some(Light { by_day: MOSTLY_LIT, lamps_klx: 0.2, outside: TOWN }),
+    },
+    Row {
+        building: Building::Workshop,
+        kinds: &[Workshop, Storeroom, Office, Toilet, Corridor],
+        programmes: &[&[Workshop], &[Storeroom], &[Workshop, Storeroom]],
+        layout: Layout::Slicing,
+        height: [2.6, 3.2],
+        light: Some(Light { by_day: &[1.0, 1.0, 0.0], lamps_klx: 0.2, outside: &[Outside::Suburb, Outside::Street, Outside::Garden] }),
     },
 ];
 

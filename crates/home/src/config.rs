@@ -36,7 +36,7 @@ options! {
         /// The kind of building: its rooms unless these are named, their layout and height, and its light.
         #[serde(skip_serializing_if = "is_home")]
         pub building: Building = Building::Home,
-        /// Kinds of rooms, each as often as it is wanted, 12 in all at most; the usual ones of the building, as the seed decides, unless given.
+        /// Kinds of rooms, each as often as it is wanted, 12 in all at most; usual ones of the building, as the seed decides, unless given.
         ///
         /// A home has four to eight rooms, equally often, of the usual programme of that number; other buildings have one of a few lists.
         /// The most are [`HomeConfig::MOST_ROOMS`].

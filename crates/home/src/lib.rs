@@ -1,4 +1,4 @@
-//! Procedural furnished homes: the embedded default input, and labelled scenes without end.
+//! Procedural furnished homes and public rooms: the embedded default input, and labelled scenes without end.
 //!
 //! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: `plan` lays out rooms, [`room`] and `shell` are their walls;
 //! `place` decides what fits where, `rooms` furnishes each kind of room with things of the crate `enfilade-furniture`. Objects with a fault
@@ -16,7 +16,7 @@
 //! assert_eq!(faults(&made), []);
 //! ```
 
-mod building;
+pub mod building;
 mod cameras;
 pub mod check;
 mod config;

@@ -52,7 +52,7 @@ impl Maker<'_> {
         let palette = self.palette();
         let own = self.seed("carpet tiles", &(palette.rug, palette.sofa));
         let quiet = CARPETS[own as usize % CARPETS.len()];
-        let color = if own % 5 == 0 { quiet.lerp(palette.sofa, 0.25) } else { quiet };
+        let color = if own.is_multiple_of(5) { quiet.lerp(palette.sofa, 0.25) } else { quiet };
         let covers = 2.0 * CARPET_TILE_M;
         let layers = self
             .skin("carpet tiles", &color, [covers, covers], |seed| texture::skin("carpet tiles", [1024, 1024], |uv| pile(uv, color, seed)));
@@ -64,7 +64,7 @@ impl Maker<'_> {
         let palette = self.palette();
         let own = self.seed("vinyl tiles", &(palette.rug, palette.wall)) as usize;
         let [ground, chips] = VINYLS[own % VINYLS.len()];
-        let second = if own / 7 % 4 == 0 { VINYLS[(own / 28) % VINYLS.len()][0] } else { ground };
+        let second = if (own / 7).is_multiple_of(4) { VINYLS[(own / 28) % VINYLS.len()][0] } else { ground };
         let layers = self.skin("vinyl tiles", &(ground, second), [1.22, 1.22], |seed| {
             texture::skin("vinyl tiles", [1024, 1024], |uv| chipped(uv, [ground, second], chips, seed))
         });
@@ -73,7 +73,7 @@ impl Maker<'_> {
 
     /// White fibre with pinholes and short fissures.
     pub(super) fn mineral_tile(&mut self) -> Material {
-        let fissured = self.seed("ceiling tiles", &()) % 3 != 0;
+        let fissured = !self.seed("ceiling tiles", &()).is_multiple_of(3);
         let covers = 2.0 * CEILING_TILE_M;
         let layers = self.skin("ceiling tiles", &fissured, [covers, covers], |seed| {
             texture::skin("ceiling tiles", [1024, 1024], |uv| fibre(uv, fissured, seed))
@@ -119,8 +119,8 @@ fn chipped(uv: Vec2, grounds: [Rgb; 2], chips: Rgb, seed: u32) -> Grain {
     let p = if lattice(cell.x as i32, cell.y as i32, seed ^ 3) < 0.5 { q } else { Vec2::new(q.y, q.x) };
     let own = seed ^ (cell.x as u32 * 31 + cell.y as u32 * 57);
     let near = cells(Vec2::new(p.x * 34.0, p.y * 17.0), [34, 17], own);
-    let is_chip = near.first < 0.24 && near.id % 3 == 0;
-    let shade = if is_chip { if near.id % 2 == 0 { chips } else { ground.lerp(Rgb::splat(0.8), 0.3) } } else { ground };
+    let is_chip = near.first < 0.24 && near.id.is_multiple_of(3);
+    let shade = if is_chip { if near.id.is_multiple_of(2) { chips } else { ground.lerp(Rgb::splat(0.8), 0.3) } } else { ground };
     let cloud = fbm(p, [4, 4], 3, own ^ 1);
     let edge = q.x.min(1.0 - q.x).min(q.y.min(1.0 - q.y));
     let joint = smoothstep(0.004, 0.0015, edge);
@@ -132,7 +132,7 @@ fn fibre(uv: Vec2, fissured: bool, seed: u32) -> Grain {
     let (cell, q) = ((uv * 2.0).floor(), (uv * 2.0).fract());
     let own = seed ^ (cell.x as u32 * 5 + cell.y as u32 * 3);
     let near = cells(q * 96.0, [96, 96], own);
-    let hole = if near.id % 5 == 0 { smoothstep(0.3, 0.14, near.first) } else { 0.0 };
+    let hole = if near.id.is_multiple_of(5) { smoothstep(0.3, 0.14, near.first) } else { 0.0 };
     let worm = noise(Vec2::new(q.x * 40.0 + 1.5 * noise(q * 9.0, [9, 9], own), q.y * 110.0), [40, 110], own ^ 2);
     let fissure = if fissured { smoothstep(0.74, 0.84, worm) } else { 0.0 };
     let deep = hole.max(fissure);

@@ -11,6 +11,7 @@ use super::clutter::{
     ScatterCushion, StorageBasket, Tablet, TissueBox,
 };
 use super::dining::{BarStool, DiningBench, GlassCabinet, LongTable, ShellChair, Sideboard, SpindleChair, UpholsteredChair};
+use super::gym::{DumbbellRack, ExerciseBall, ExerciseBike, ExerciseMat, MirrorWall, Treadmill, WeightBench};
 use super::hall::{
     Backpack, CardboardBox, CoatHooks, CoatStand, Console, Handbag, KeyBoard, ShoeCabinet, Shoes, ShoppingBag, StorageBox, Suitcase,
     TallMirror, UmbrellaStand,
@@ -27,6 +28,7 @@ use super::office::{
 };
 use super::school::{ClassBoard, Lockers, StackingChair, StudentDesk};
 use super::shop::{BistroTable, BookAisle, BottleFridge, CakeCase, ClothesRail, Counter, DisplayTable, EspressoMachine, Gondola, Till};
+use super::store::{SteelRack, StepLadder, ToolBoard, Workbench};
 use super::study::{Desk, DeskLamp, FilingCabinet, Keyboard, Laptop, Monitor, Mouse, OfficeChair, PaperStack, PenCup, Printer, WallBoard};
 use super::tableware::{
     Bottle, Bread, Cookware, Crockery, CuttingBoard, Drinkware, FruitBowl, HerbPot, Jar, KitchenMachine, KitchenRoll, KnifeBlock, Piece,
@@ -40,8 +42,8 @@ use super::{
 use crate::builder::Class;
 use crate::room_kind::RoomKind;
 use crate::room_kind::RoomKind::{
-    Bathroom, Bedroom, Bookshop, Cafe, Children, Classroom, ComputerLab, Corridor, Dining, Hall, Kitchen, Laundry, Library, Living,
-    Meeting, Office, OpenOffice, Reception, Shop, Study,
+    Bathroom, Bedroom, Bookshop, Cafe, Children, Classroom, ComputerLab, Corridor, Dining, Gym, Hall, Kitchen, Laundry, Library, Living,
+    Meeting, Office, OpenOffice, Reception, Shop, Storeroom, Study, Workshop,
 };
 use enfilade_math::{Bounds3, Rng, Vec3};
 
@@ -109,7 +111,8 @@ const DWELLING: &[RoomKind] = &[Living, Dining, Bedroom, Children, Study];
 const ANY: &[RoomKind] = &[Living, Dining, Kitchen, Bedroom, Children, Study, Bathroom, Hall, Laundry];
 
 /// Rooms of offices, schools and shops.
-const WORK: &[RoomKind] = &[Office, OpenOffice, Meeting, Classroom, ComputerLab, Corridor, Library, Bookshop, Shop, Reception];
+const WORK: &[RoomKind] =
+    &[Office, OpenOffice, Meeting, Classroom, ComputerLab, Corridor, Library, Bookshop, Shop, Reception, Gym, Storeroom, Workshop];
 
 /// All families.
 pub static FAMILIES: &[Family] = &[
@@ -331,6 +334,19 @@ pub static FAMILIES: &[Family] = &[
     family::<BottleFridge>("bottle_fridge", Class::Refrigerator, Place::AgainstWall, &[Shop, Cafe]),
     family::<DisplayTable>("display_table", Class::Table, Place::Free, &[Shop, Bookshop]),
     family::<BistroTable>("bistro_table", Class::Table, Place::Free, &[Cafe]),
+    // Gyms.
+    family::<Treadmill>("treadmill", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<ExerciseBike>("exercise_bike", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<WeightBench>("weight_bench", Class::OtherFurniture, Place::Free, &[Gym]),
+    family::<DumbbellRack>("dumbbell_rack", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<ExerciseMat>("exercise_mat", Class::FloorMat, Place::Underfoot, &[Gym]),
+    family::<ExerciseBall>("exercise_ball", Class::OtherProp, Place::Corner, &[Gym]),
+    family::<MirrorWall>("mirror_wall", Class::Mirror, Place::OnWall, &[Gym]),
+    // Storerooms and workshops.
+    family::<SteelRack>("steel_rack", Class::Shelves, Place::AgainstWall, &[Storeroom, Workshop]),
+    family::<Workbench>("workbench", Class::Table, Place::AgainstWall, &[Workshop]),
+    family::<ToolBoard>("tool_board", Class::OtherProp, Place::OnWall, &[Workshop]),
+    family::<StepLadder>("step_ladder", Class::OtherProp, Place::Free, &[Storeroom, Workshop]),
 ];
 
 /// The family of this name.

@@ -22,6 +22,7 @@ mod door;
 mod electric;
 mod foliage;
 pub mod form;
+pub mod gym;
 pub mod hall;
 pub mod joinery;
 #[cfg(test)]
@@ -44,6 +45,7 @@ pub mod shop;
 mod side_table;
 mod sofa;
 pub mod soft;
+pub mod store;
 pub mod study;
 #[cfg(test)]
 mod surface_tests;

@@ -47,7 +47,7 @@ fn bar(f: &mut Furnisher) -> Option<(Wall, f32)> {
     let longest = (0.45 * f.room.size.truncate().max_element()).min(3.0);
     for share in [1.0, 0.8, 0.65] {
         let counter = Counter { width: (share * longest).max(1.5), raised: false, ..Counter::random(&mut f.rng) };
-        let Some(behind) = f.any("sideboard") else { return None };
+        let behind = f.any("sideboard")?;
         let low = behind.size();
         let depth = counter.size().y;
         let parts = [

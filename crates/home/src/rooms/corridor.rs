@@ -2,14 +2,16 @@
 
 use super::Furnisher;
 use super::wishes::{by_door, centred, cornered, in_view, tucked_away};
-use enfilade_furniture::RoomKind;
+use enfilade_furniture::school::Lockers;
+use enfilade_furniture::{Furniture, RoomKind};
 
 /// Furnishes the corridor.
 pub fn furnish(f: &mut Furnisher) {
     let school = f.home_has(RoomKind::Classroom) || f.home_has(RoomKind::ComputerLab);
     if school {
-        for _ in 0..3 {
-            f.furnish("lockers", centred);
+        let usual = Lockers::random(&mut f.rng);
+        for columns in [5, 4, 5, 3] {
+            f.stand(&Lockers { columns, ..usual }, |floor, s| centred(floor, s) + 0.2 * floor.to_corner(s));
         }
     }
     f.perhaps(0.5, "bench", centred);

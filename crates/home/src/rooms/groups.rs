@@ -14,7 +14,7 @@ const SEATED: f32 = 1.5;
 /// Hanging plants keep to corners: this far from both walls, metres.
 const CORNER: f32 = 0.6;
 /// Families that rooms place themselves, and that are not placed at random.
-pub(super) const PLACED: [&str; 26] = [
+pub(super) const PLACED: [&str; 33] = [
     "kitchen_unit",
     "kitchen_island",
     "radiator",
@@ -41,6 +41,13 @@ pub(super) const PLACED: [&str; 26] = [
     "till",
     "espresso_machine",
     "cake_case",
+    "treadmill",
+    "exercise_bike",
+    "weight_bench",
+    "dumbbell_rack",
+    "mirror_wall",
+    "steel_rack",
+    "tool_board",
 ];
 /// Probability that a room has a family that nothing else asks for.
 const SELDOM: f32 = 0.22;

@@ -17,6 +17,7 @@ mod electric;
 mod fittings;
 mod furnisher;
 mod groups;
+mod gym;
 mod hall;
 mod hotel;
 mod kitchen;
@@ -26,6 +27,7 @@ mod office;
 mod reception;
 mod shop;
 mod stations;
+mod store;
 mod study;
 mod table;
 #[cfg(test)]
@@ -91,5 +93,8 @@ fn content(f: &mut Furnisher) {
         RoomKind::Shop => shop::furnish(f),
         RoomKind::Reception => reception::furnish(f),
         RoomKind::HotelRoom => hotel::furnish(f),
+        RoomKind::Gym => gym::furnish(f),
+        RoomKind::Storeroom => store::furnish(f),
+        RoomKind::Workshop => store::furnish_workshop(f),
     }
 }

@@ -54,7 +54,7 @@ impl OfficeCabinet {
 
     fn case(&self, b: &mut Builder, object: &Object) {
         let (x, y, top) = (0.5 * self.width, 0.5 * DEPTH, self.height());
-        let front = if self.front == CabinetFront::Open { y } else { y - 0.022 };
+        let front = if self.front == CabinetFront::Open { y } else { y - 0.032 };
         let mut boards = vec![
             board([-x, -y, PLINTH + 0.0002], [BOARD - x, front, top], 0.002),
             board([x - BOARD, -y, PLINTH + 0.0002], [x, front, top], 0.002),
@@ -72,11 +72,11 @@ impl OfficeCabinet {
         let (x, y, top) = (0.5 * self.width, 0.5 * DEPTH, self.height());
         for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
             let ends = [s * 0.0012, s * (x - 0.001)];
-            let door = board([ends[0].min(ends[1]), y - 0.0218, PLINTH + 0.002], [ends[0].max(ends[1]), y - 0.002, top - 0.002], 0.0015);
+            let door = board([ends[0].min(ends[1]), y - 0.0318, PLINTH + 0.002], [ends[0].max(ends[1]), y - 0.012, top - 0.002], 0.0015);
             b.part(object, &format!("door_{name}"), door, self.finish);
         }
         let z = 0.5 * (top + PLINTH);
-        let handle = rounded_box(Vec3::new(0.05, 0.018, 0.12), 0.006, 2).moved(Vec3::new(-0.04, y - 0.001, z));
+        let handle = rounded_box(Vec3::new(0.05, 0.018, 0.12), 0.006, 2).moved(Vec3::new(-0.04, y - 0.0105, z));
         b.part(object, "handle", handle, Finish::BlackPlastic);
     }
 
@@ -88,7 +88,7 @@ impl OfficeCabinet {
             let from = -x + 2.0 * x * k as f32 / count as f32;
             rounded_box(Vec3::new(2.0 * x / count as f32 - 0.0012, 0.009, top - PLINTH - 0.024), 0.003, 2).moved(Vec3::new(
                 from + x / count as f32,
-                y - 0.0175,
+                y - 0.0275,
                 0.5 * (top + PLINTH),
             ))
         };
@@ -98,7 +98,8 @@ impl OfficeCabinet {
             all((0..count).map(slat)),
             if self.finish == Finish::BlackMetal { Finish::BlackPlastic } else { self.finish },
         );
-        let bars = [-1.0f32, 1.0].map(|s| board([s * 0.014 - 0.012, y - 0.014, PLINTH + 0.02], [s * 0.014 + 0.012, y, top - 0.02], 0.003));
+        let bars =
+            [-1.0f32, 1.0].map(|s| board([s * 0.014 - 0.012, y - 0.024, PLINTH + 0.02], [s * 0.014 + 0.012, y - 0.009, top - 0.02], 0.003));
         b.part(object, "bars", all(bars), Finish::Aluminium);
     }
 
@@ -133,7 +134,7 @@ impl OfficeCabinet {
 
 /// A binder that stands on z = 0 with its back at y = 0, and the label on it.
 fn binder(width: f32) -> [Mesh; 2] {
-    let back = rounded_box(Vec3::new(width - 0.001, 0.285, 0.318), 0.003, 1).moved(Vec3::new(0.0, -0.1425, 0.159));
+    let back = rounded_box(Vec3::new(width - 0.001, 0.285, 0.317), 0.003, 1).moved(Vec3::new(0.0, -0.1425, 0.159));
     let label = board([-0.36 * width, -0.001, 0.12], [0.36 * width, 0.0006, 0.29], 0.0002);
     [back, label]
 }

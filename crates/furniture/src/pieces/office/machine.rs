@@ -23,7 +23,7 @@ impl Furniture for Copier {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.62, 0.66, 1.12)
+        Vec3::new(0.62, 0.66, 1.13)
     }
 
     fn reach(&self) -> f32 {

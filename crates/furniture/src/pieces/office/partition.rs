@@ -23,8 +23,10 @@ pub struct Partition {
 /// Thickness of its frame, and the height of the panel's lower edge above the floor, metres.
 const THICK: f32 = 0.036;
 const BELOW: f32 = 0.04;
-/// Length of its feet across, metres.
+/// Length of its feet across, and half the distance between them, metres: they are where the knees of those who sit at desks are, not below
+/// drawers.
 const FEET: f32 = 0.3;
+const FEET_APART: f32 = 0.17;
 /// Height of its glass, metres.
 const GLASS: f32 = 0.3;
 
@@ -48,7 +50,7 @@ impl Furniture for Partition {
         let middle = Vec3::new(0.0, 0.0, BELOW + 0.5 * h);
         let frame = picture_frame(self.width, h, &[[0.0, -half], [0.0, half], [0.022, half], [0.022, -half]]).moved(middle);
         let feet = [-1.0f32, 1.0].map(|s| {
-            let x = s * (0.5 * self.width - 0.12);
+            let x = s * FEET_APART;
             rounded_box(Vec3::new(0.05, FEET, 0.012), 0.004, 2).moved(Vec3::new(x, 0.0, 0.006)).with(board(
                 [x - 0.012, -0.012, 0.0118],
                 [x + 0.012, 0.012, BELOW + 0.004],

@@ -4,7 +4,7 @@
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, rod, wire};
-use crate::pieces::{Furniture, grained};
+use crate::pieces::{Furniture, grained, standing};
 use crate::shape::{Reshape, padded_box};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec3};
@@ -123,7 +123,7 @@ impl Furniture for StackingChair {
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
         let chair = b.object("stacking_chair", Class::Chair, pose);
         let rails = [0.13f32, -0.12].map(|y| rod([-HALF, y, SEAT], [HALF, y, SEAT], 0.9 * TUBE, 10));
-        let mut frame = all([self.side(-1.0), self.side(1.0)]).with(all(rails));
+        let mut frame = standing(all([self.side(-1.0), self.side(1.0)])).with(all(rails));
         if self.frame == ChairFrame::Cantilever {
             frame = frame.with(rod([-HALF, -0.222, TUBE + 0.0005], [HALF, -0.222, TUBE + 0.0005], TUBE, 10));
         }

@@ -113,7 +113,7 @@ impl Furniture for Till {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(0.58, 0.42, 0.42)
+        Vec3::new(0.62, 0.42, 0.42)
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {

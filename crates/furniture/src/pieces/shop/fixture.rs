@@ -32,7 +32,7 @@ impl Furniture for ClothesRail {
     }
 
     fn size(&self) -> Vec3 {
-        Vec3::new(self.length, 0.6, RAIL + 0.03)
+        Vec3::new(self.length, 0.61, RAIL + 0.03)
     }
 
     fn reach(&self) -> f32 {

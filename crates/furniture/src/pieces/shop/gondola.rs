@@ -28,6 +28,8 @@ const SHELF: f32 = 0.37;
 const BASE: [f32; 2] = [0.45, 0.14];
 /// Thickness of the panel, metres.
 const PANEL: f32 = 0.03;
+/// How far the rails with the prices protrude, metres.
+const RAIL: f32 = 0.004;
 /// From one shelf to the next, at least, metres.
 const STEP: f32 = 0.33;
 
@@ -76,7 +78,7 @@ impl Furniture for Gondola {
     }
 
     fn size(&self) -> Vec3 {
-        let depth = PANEL + BASE[0] * self.sides().len() as f32;
+        let depth = PANEL + (BASE[0] + RAIL) * self.sides().len() as f32;
         Vec3::new(SECTION * self.sections as f32 + 0.03, depth, self.height)
     }
 
@@ -102,7 +104,7 @@ impl Furniture for Gondola {
                     if level > 0 {
                         shelves.push(board([x0, a.min(c), z - 0.028], [x1, a.max(c), z], 0.002));
                     }
-                    let [a, c] = ends(deep - 0.001, deep + 0.004);
+                    let [a, c] = ends(deep - 0.001, deep + RAIL);
                     rails.push(board([x0 + 0.004, a.min(c), z - 0.034], [x1 - 0.004, a.max(c), z + 0.004], 0.001));
                     filled.push((side, x0, z, deep));
                 }

@@ -12,7 +12,9 @@ pub fn kind(word: &str, building: Building, strict: bool) -> Option<RoomKind> {
     let of = |building: Building| rows().filter(move |row| building.row().has(row.kind));
     let is_called = |row: &&Row| row.words.iter().any(|part| plain.contains(part));
     let guessed = || of(building).chain(of(Building::Home)).find(is_called).map(|row| row.kind);
-    RoomKind::from_name(word).or_else(|| if strict { None } else { guessed() })
+    // In files of other programs a library of a home is a study.
+    let is_usual = |kind: &RoomKind| strict || building.row().has(*kind) || Building::Home.row().has(*kind);
+    RoomKind::from_name(word).filter(is_usual).or_else(|| if strict { None } else { guessed() })
 }
 
 /// What is expected in place of an unknown kind, the nearest first.
@@ -42,6 +44,8 @@ mod tests {
         for (word, expected) in office {
             assert_eq!(kind(word, Building::Office, false), Some(expected), "{word}");
         }
+        assert_eq!(["office", "storage"].map(|word| kind(word, Building::Home, false)), [RoomKind::Study, RoomKind::Laundry].map(Some));
+        assert_eq!(kind("office", Building::Home, true), Some(RoomKind::Office));
         assert!(expected("bedrom").starts_with("did you mean `bedroom`?"));
     }
 }

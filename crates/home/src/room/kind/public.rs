@@ -24,7 +24,18 @@ const SHOP_FITTINGS: Fittings = Fittings { blinds: 0.0, on_sill: Some(0.2), radi
 const FIRST: Ways = Ways { through: 0.3, entrance: 1, ..WAYS };
 const SHOWCASE: Windows = Windows { sill: [0.35, 0.6], drawn_sill: 0.5, width: WindowWidth::Ribbon, daylight: Daylight::Wide, ..WINDOWS };
 
-pub(super) static ROWS: [Row; 12] = [
+/// Rooms for work with hands, and for what is stored.
+const PLAIN: Windows = Windows { often: 0.4, width: WindowWidth::Small, sill: [1.3, 1.6], daylight: Daylight::Shuns(0.1), ..WINDOWS };
+const RAW_SHELL: Shell = Shell {
+    boards: 0.0,
+    coverings: &[Finish::Concrete, Finish::Concrete, Finish::Vinyl, Finish::FloorTile],
+    pale: true,
+    ceiling: Ceiling::Concrete,
+    ..SHELL
+};
+const RAW_FITTINGS: Fittings = Fittings { blinds: 0.0, on_sill: Some(0.1), ..FITTINGS };
+
+pub(super) static ROWS: [Row; 15] = [
     Row {
         kind: RoomKind::Office,
         words: &["office", "buro", "büro", "bureau", "study"],
@@ -149,7 +160,7 @@ pub(super) static ROWS: [Row; 12] = [
         fittings: SHOP_FITTINGS,
         views: 4,
         prized: Some((Class::Shelves, 2.2)),
-        needs: &[("shelves", &["gondola"]), ("counter", &["counter"])],
+        needs: &[("shelves or rails", &["gondola", "clothes_rail"]), ("counter", &["counter"])],
     },
     Row {
         kind: Reception,
@@ -179,5 +190,41 @@ pub(super) static ROWS: [Row; 12] = [
         views: 4,
         prized: None,
         needs: &[("bed", &["bed"]), ("desk", &["desk", "dressing_table", "console"])],
+    },
+    Row {
+        kind: RoomKind::Gym,
+        words: &["gym", "fitness", "exercise", "sport", "workout", "turnhalle"],
+        norm: norm_of([40.0, 75.0], 5.2, 1.8, true),
+        ways: FIRST,
+        windows: Windows { daylight: Daylight::Wide, ..RIBBON },
+        shell: Shell { coverings: &[Finish::Rubber, Finish::Vinyl, Finish::ParquetFloor, Finish::CarpetTile], accent: 0.6, ..OFFICE_SHELL },
+        fittings: SHOP_FITTINGS,
+        views: 4,
+        prized: Some((Class::OtherFurniture, 2.0)),
+        needs: &[("machines", &["treadmill", "exercise_bike"])],
+    },
+    Row {
+        kind: RoomKind::Storeroom,
+        words: &["storeroom", "storage", "warehouse", "lager", "depot", "archive", "stock"],
+        norm: norm_of([12.0, 26.0], 2.8, 2.0, false),
+        ways: WAYS,
+        windows: PLAIN,
+        shell: RAW_SHELL,
+        fittings: RAW_FITTINGS,
+        views: 3,
+        prized: Some((Class::Shelves, 2.2)),
+        needs: &[("racks", &["steel_rack"])],
+    },
+    Row {
+        kind: RoomKind::Workshop,
+        words: &["workshop", "werkstatt", "garage", "atelier", "hobby"],
+        norm: norm_of([18.0, 36.0], 3.6, 1.8, true),
+        ways: FIRST,
+        windows: WINDOWS,
+        shell: RAW_SHELL,
+        fittings: RAW_FITTINGS,
+        views: 4,
+        prized: Some((Class::Table, 2.5)),
+        needs: &[("workbench", &["workbench"])],
     },
 ];
