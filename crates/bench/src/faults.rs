@@ -1,10 +1,10 @@
-//! `faults [FIRST] [COUNT] [--rooms a,b,c | --random-rooms] [--joints]` makes homes of consecutive seeds and reports what had to be moved, what had to
+//! `faults [FIRST] [COUNT] [--building NAME] [--rooms a,b,c | --random-rooms] [--joints]` makes homes of consecutive seeds and reports what had to be moved, what had to
 //! be removed and why, which faults remain, how much processor time they took and how large they are. With `--random-rooms` each has one to
 //! twelve rooms of any kinds, which its seed decides. With `--joints` their things can be opened, and what limits that is counted.
 
 use enfilade_furniture::{family_of, object_of};
 use enfilade_home::check::faults;
-use enfilade_home::{HomeConfig, RoomKind, States, home};
+use enfilade_home::{Building, HomeConfig, RoomKind, States, home};
 use enfilade_math::Rng;
 use enfilade_testkit::process_cpu_s;
 use std::collections::BTreeMap;
@@ -22,14 +22,15 @@ pub fn run() -> std::io::Result<()> {
     let numbers: Vec<u64> = args.iter().map_while(|a| a.parse().ok()).collect();
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(20));
     let rooms: Vec<RoomKind> = value("--rooms").iter().flat_map(|text| text.split(',')).filter_map(RoomKind::from_name).collect();
+    let building = crate::arguments::building(value("--building").as_deref())?;
     let random_rooms = args.iter().any(|a| a == "--random-rooms");
     let joints = args.iter().any(|a| a == "--joints");
     let [mut kinds, mut families, mut causes, mut moved, mut limits, mut opened] = [const { Counts::new() }; 6];
     let (mut seconds, mut longest, mut triangles, mut sound) = (0.0, 0.0f64, 0, 0);
     for seed in first..first + count {
-        let rooms = if random_rooms { any_rooms(seed) } else { rooms.clone() };
+        let rooms = if random_rooms { any_rooms(building, seed) } else { rooms.clone() };
         let start = process_cpu_s();
-        let config = HomeConfig { seed, rooms, states: joints.then_some(States::MADE), ..HomeConfig::default() };
+        let config = HomeConfig { seed, building, rooms, states: joints.then_some(States::MADE), ..HomeConfig::default() };
         let Ok(made) = std::panic::catch_unwind(|| home(&config)) else {
             println!("{seed:5}  panics with the rooms {:?}", config.rooms);
             *kinds.entry("panics".into()).or_default() += 1;
@@ -97,9 +98,10 @@ fn show(title: &str, counts: Counts, homes: u64) {
     counts.iter().for_each(|(n, name)| println!("{n:6}  {name}"));
 }
 
-/// One to [`HomeConfig::MOST_ROOMS`] rooms, each of any kind, so that many homes lack what others take for granted.
-fn any_rooms(seed: u64) -> Vec<RoomKind> {
+/// One to [`HomeConfig::MOST_ROOMS`] rooms, each of any kind that the building has, so that many homes lack what others take for granted.
+fn any_rooms(building: Building, seed: u64) -> Vec<RoomKind> {
     let mut rng = Rng::new(seed).fork(0x0063_6865_636b);
     let count = 1 + rng.below(HomeConfig::MOST_ROOMS);
-    (0..count).map(|_| RoomKind::ALL[rng.below(RoomKind::ALL.len())]).collect()
+    let kinds = building.row().kinds;
+    (0..count).map(|_| kinds[rng.below(kinds.len())]).collect()
 }

@@ -1,4 +1,4 @@
-//! `homes [FIRST] [COUNT] -o FOLDER [--rooms a,b,c] [--views N]` writes homes of consecutive seeds as scene packages, and a dataset
+//! `homes [FIRST] [COUNT] -o FOLDER [--building NAME] [--rooms a,b,c] [--views N]` writes homes of consecutive seeds as scene packages, and a dataset
 //! that renders N views of each, one room after the other: `enfilade run FOLDER/dataset.toml`.
 
 use enfilade_home::{HomeConfig, RoomKind, home};
@@ -14,6 +14,7 @@ pub fn run() -> std::io::Result<()> {
     let numbers: Vec<u64> = args.iter().map_while(|a| a.parse().ok()).collect();
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(1));
     let rooms: Vec<RoomKind> = value("--rooms").iter().flat_map(|text| text.split(',')).filter_map(RoomKind::from_name).collect();
+    let building = crate::arguments::building(value("--building").as_deref())?;
     let views: usize = value("--views").and_then(|text| text.parse().ok()).unwrap_or(1);
     let folder = std::path::PathBuf::from(value("-o").unwrap_or_else(|| "homes".into()));
     std::fs::create_dir_all(&folder)?;
@@ -21,7 +22,7 @@ pub fn run() -> std::io::Result<()> {
     for k in 0..count {
         let seed = first + k;
         let start = Instant::now();
-        let made = home(&HomeConfig { seed, rooms: rooms.clone(), ..HomeConfig::default() });
+        let made = home(&HomeConfig { seed, building, rooms: rooms.clone(), ..HomeConfig::default() });
         let seconds = start.elapsed().as_secs_f64();
         let name = format!("home_{seed:03}");
         std::fs::write(folder.join(format!("{name}.scene")), to_bytes_with_labels(&made.scene, &made.labels))?;

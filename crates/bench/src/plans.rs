@@ -1,4 +1,4 @@
-//! `plans [FIRST] [COUNT] -o FILE.svg [--rooms a,b,c]` draws floor plans of consecutive seeds from above, with the furniture in them.
+//! `plans [FIRST] [COUNT] -o FILE.svg [--building NAME] [--rooms a,b,c]` draws floor plans of consecutive seeds from above, with the furniture in them.
 
 use enfilade_home::room::{Filling, Room};
 use enfilade_home::{FloorPlan, Home, HomeConfig, RoomKind, home};
@@ -19,12 +19,13 @@ pub fn run() -> std::io::Result<()> {
     let numbers: Vec<u64> = args.iter().map_while(|a| a.parse().ok()).collect();
     let (first, count) = (numbers.first().copied().unwrap_or(0), numbers.get(1).copied().unwrap_or(12));
     let rooms: Vec<RoomKind> = value("--rooms").iter().flat_map(|text| text.split(',')).filter_map(RoomKind::from_name).collect();
+    let building = crate::arguments::building(value("--building").as_deref())?;
     let rows = (count as usize).div_ceil(COLUMNS);
     let (width, height) = (TILE * SCALE * COLUMNS as f32, TILE * SCALE * rows as f32);
     let mut svg = format!("<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' font-family='sans-serif'>\n");
     svg += &format!("<rect width='{width}' height='{height}' fill='white'/>\n");
     for k in 0..count as usize {
-        let home = home(&HomeConfig { seed: first + k as u64, rooms: rooms.clone(), ..HomeConfig::default() });
+        let home = home(&HomeConfig { seed: first + k as u64, building, rooms: rooms.clone(), ..HomeConfig::default() });
         let at = Vec2::new((k % COLUMNS) as f32 + 0.5, (k / COLUMNS) as f32 + 0.5) * TILE * SCALE;
         let _ = writeln!(svg, "<g transform='translate({},{}) scale({SCALE},-{SCALE})' stroke-width='0.02'>", at.x, at.y);
         draw(&mut svg, &home);

@@ -6,10 +6,25 @@ use enfilade_label::class_name;
 /// Families that are a part of the building or too small to be mentioned.
 const UNSPOKEN: [&str; 8] = ["socket", "switch", "passage", "splashback", "cable", "curtain rod", "worktop", "napkin ring"];
 /// Families for which people have another word.
-const OTHER_WORDS: [(&str, &str); 4] =
-    [("tv bench", "TV bench"), ("built in microwave", "built-in microwave"), ("key board", "key rack"), ("player", "media player")];
+const OTHER_WORDS: [(&str, &str); 15] = [
+    ("tv bench", "TV bench"),
+    ("built in microwave", "built-in microwave"),
+    ("key board", "key rack"),
+    ("player", "media player"),
+    ("class board", "board"),
+    ("student desk", "school desk"),
+    ("stacking chair", "chair"),
+    ("wall display", "display"),
+    ("bottle fridge", "refrigerator"),
+    ("book aisle", "bookshelf"),
+    ("gondola", "goods shelf"),
+    ("goods carton", "cartons"),
+    ("goods tin", "tins"),
+    ("goods bottle", "bottles"),
+    ("goods bag", "bags"),
+];
 /// Words that are already plural.
-const PLURAL: [&str; 14] = [
+const PLURAL: [&str; 21] = [
     "logs",
     "books",
     "magazines",
@@ -24,6 +39,13 @@ const PLURAL: [&str; 14] = [
     "shelves",
     "curtains",
     "stairs",
+    "binders",
+    "lockers",
+    "cups",
+    "cartons",
+    "tins",
+    "bottles",
+    "bags",
 ];
 /// Words without a plural.
 const MASS: [&str; 6] = ["bread", "paper", "toilet paper", "crumpled paper", "sheet music", "kitchen roll"];
@@ -145,6 +167,11 @@ pub fn a_room(kind: &str) -> String {
         "childrens" => "children's room",
         "laundry" => "laundry room",
         "toilet" => "small room",
+        "open_office" => "open office",
+        "meeting" => "meeting room",
+        "computer_lab" => "computer room",
+        "cafe" => "café",
+        "hotel_room" => "hotel room",
         other => other,
     };
     a("", words)

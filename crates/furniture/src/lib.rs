@@ -36,13 +36,19 @@ pub mod touch;
 pub use builder::{Builder, Class, Object, pose};
 pub use joint::{Axis, Joint, JointKind, Jointed};
 pub use lamplight::{Exposure, Glow, LampLight};
-pub use materials::{Finish, Materials, Surfacing};
+pub use materials::{CARPET_TILE_M, CEILING_TILE_M, Finish, Materials, Surfacing};
 pub use names::{family_of, object_of};
 pub use palette::{DecorConfig, Palette};
 pub use pieces::bedroom::Bed;
 pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
+pub use pieces::gym;
 pub use pieces::kitchen;
 pub use pieces::living::{Blind, BlindKind, CeilingLamp};
+pub use pieces::office;
+pub use pieces::school;
+pub use pieces::shop;
+pub use pieces::store;
+pub use pieces::study;
 pub use pieces::{
     Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES, Family,
     FloorLamp, Furniture, Leaf, Magazines, Mirror, Mug, Passage, Pendant, PictureOnWall, Place, Plant, Radiator, Rug, SideTable, Socket,

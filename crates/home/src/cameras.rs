@@ -5,7 +5,7 @@
 //! All are level, so that verticals stay vertical (two-point perspective).
 
 use crate::plan::FloorPlan;
-use crate::room::Room;
+use crate::room::{Room, kind};
 use enfilade_furniture::{Class, RoomKind};
 use enfilade_geometry::Bvh;
 use enfilade_math::{Bounds3, DAffine3, DMat3, DVec3, Ray, Vec2, Vec3};
@@ -52,12 +52,7 @@ pub fn cameras(scene: &Scene, labels: &Labels, plan: &FloorPlan) -> Vec<StartCam
     let mut cameras = Vec::new();
     let mut names = BTreeMap::new();
     for room in &plan.rooms {
-        let count = match room.kind {
-            RoomKind::Living => 4,
-            RoomKind::Toilet | RoomKind::Laundry => 1,
-            RoomKind::Bathroom | RoomKind::Hall => 2,
-            _ => 3,
-        };
+        let count = kind::row(room.kind).views;
         let fov = FOV_X_RAD[usize::from(room.area < SMALL)];
         let eyes = places(&boxes, room);
         let mut views: Vec<View> = enfilade_parallel::flat_map(&eyes, |&eye| home.look_around(room, eye, fov as f32));
@@ -123,8 +118,7 @@ fn interest(class: i16, kind: RoomKind) -> f32 {
         (Class::Floor, 0.0),
     ];
     let named = TABLE.iter().find(|(c, _)| *c as i16 == class).map_or(0.7, |(_, worth)| *worth);
-    let kitchen = kind == RoomKind::Kitchen && class == Class::Cabinet as i16;
-    if kitchen { 2.5 } else { named }
+    kind::row(kind).prized.filter(|(prized, _)| *prized as i16 == class).map_or(named, |(_, worth)| worth)
 }
 
 /// The surfaces that rays can hit.

@@ -1,5 +1,6 @@
 //! The configuration of a home: a seed for everything, seeds for one domain alone, and what a user chooses.
 
+use crate::building::Building;
 use crate::light::Moment;
 use crate::room::kind::usual_programme;
 use crate::states::States;
@@ -32,9 +33,13 @@ options! {
         ///
         /// Zero is the home on the cover, with palette and light chosen by hand.
         pub seed: u64 = 0 => named("SEED"),
-        /// Kinds of rooms, each as often as it is wanted, 12 in all at most; four to eight of the usual ones, as the seed decides, unless given.
+        /// The kind of building: its rooms unless these are named, their layout and height, and its light.
+        #[serde(skip_serializing_if = "is_home")]
+        pub building: Building = Building::Home,
+        /// Kinds of rooms, each as often as it is wanted, 12 in all at most; usual ones of the building, as the seed decides, unless given.
         ///
-        /// Four to eight rooms are equally often, of the usual programme of that number. The most are [`HomeConfig::MOST_ROOMS`].
+        /// A home has four to eight rooms, equally often, of the usual programme of that number; other buildings have one of a few lists.
+        /// The most are [`HomeConfig::MOST_ROOMS`].
         pub rooms: Vec<RoomKind> = Vec::new() => named("KIND,KIND"),
         /// File with the floor plan, in place of one that is made: rooms as polygons with doors and windows.
         ///
@@ -94,6 +99,12 @@ fn is_one(share: &f32) -> bool {
 
 /// As [`is_one`].
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
+fn is_home(building: &Building) -> bool {
+    *building == Building::Home
+}
+
+/// As [`is_one`].
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
 fn is_rectangular(shape: &RoomShape) -> bool {
     *shape == RoomShape::Rectangular
 }
@@ -129,7 +140,11 @@ impl HomeConfig {
 
     /// The rooms to make.
     pub(crate) fn programme(&self) -> Vec<RoomKind> {
-        if self.rooms.is_empty() { usual_programme(4 + self.stream(self.layout, 9).below(5)) } else { self.rooms.clone() }
+        if !self.rooms.is_empty() {
+            return self.rooms.clone();
+        }
+        let (programmes, mut rng) = (self.building.row().programmes, self.stream(self.layout, 9));
+        if programmes.is_empty() { usual_programme(4 + rng.below(5)) } else { programmes[rng.below(programmes.len())].to_vec() }
     }
 
     /// Random numbers for one purpose, from its own seed if that is set.

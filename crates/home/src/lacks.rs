@@ -1,23 +1,10 @@
 //! What rooms of a drawn plan lack: outlines that people draw may have no place for what a room is for.
 
 use crate::Home;
+use crate::room::kind;
 use enfilade_furniture::{RoomKind, family_of, object_of};
 use enfilade_scene::Part;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// What a room of this kind is for: a name, and the families of which it has one.
-fn needs(kind: RoomKind) -> &'static [(&'static str, &'static [&'static str])] {
-    match kind {
-        RoomKind::Living => &[("sofa", &["sofa", "corner_sofa", "chesterfield", "day_bed"])],
-        RoomKind::Kitchen => &[("fitted units", &["kitchen_unit"]), ("refrigerator", &["kitchen_unit", "refrigerator"])],
-        RoomKind::Dining => &[("table", &["dining_table", "long_table"])],
-        RoomKind::Bedroom | RoomKind::Children => &[("bed", &["bed"])],
-        RoomKind::Study => &[("desk", &["desk"])],
-        RoomKind::Bathroom => &[("toilet", &["toilet"]), ("washbasin", &["washbasin"]), ("tub or shower", &["bathtub", "shower"])],
-        RoomKind::Toilet => &[("toilet", &["toilet"])],
-        RoomKind::Hall | RoomKind::Laundry => &[],
-    }
-}
 
 /// A line for each room that has not what it is for, and for each without a camera.
 pub fn lacks(home: &Home) -> Vec<String> {
@@ -30,7 +17,7 @@ pub fn lacks(home: &Home) -> Vec<String> {
         let name = format!("{}_{number}", room.kind.name());
         let within = home.scene.parts.iter().filter(|part| room.contains(place(part), 0.0));
         let families: BTreeSet<&str> = within.map(|part| family_of(object_of(&part.name))).collect();
-        let missing = needs(room.kind).iter().filter(|(_, any)| !any.iter().any(|family| families.contains(family)));
+        let missing = kind::row(room.kind).needs.iter().filter(|(_, any)| !any.iter().any(|family| families.contains(family)));
         let missing: Vec<&str> = missing.map(|(name, _)| *name).collect();
         if !missing.is_empty() {
             lines.push(format!("{name} ({:.1} m2) has no place for: {}", room.area, missing.join(", ")));

@@ -1,4 +1,4 @@
-//! Procedural furnished homes: the embedded default input, and labelled scenes without end.
+//! Procedural furnished homes and public rooms: the embedded default input, and labelled scenes without end.
 //!
 //! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: `plan` lays out rooms, [`room`] and `shell` are their walls;
 //! `place` decides what fits where, `rooms` furnishes each kind of room with things of the crate `enfilade-furniture`. Objects with a fault
@@ -16,6 +16,7 @@
 //! assert_eq!(faults(&made), []);
 //! ```
 
+pub mod building;
 mod cameras;
 pub mod check;
 mod config;
@@ -34,6 +35,7 @@ mod settle;
 mod shell;
 mod states;
 
+pub use building::Building;
 pub use config::{HomeConfig, RoomShape};
 pub use enfilade_furniture::RoomKind;
 pub use home::{Home, Removal, Shift};
@@ -60,7 +62,7 @@ pub fn home(config: &HomeConfig) -> Home {
 /// Models that turn out to be broken are replaced by our own furniture; [`Library::broken`] lists them afterwards. [`HomeConfig::plan`] is
 /// not read: see [`home_on`].
 pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
-    let plan = FloorPlan::new(&config.programme(), &config.stream(config.layout, 1));
+    let plan = FloorPlan::of(config.building, &config.programme(), &config.stream(config.layout, 1));
     let plan = match config.shape {
         RoomShape::Rectangular => plan,
         RoomShape::Varied => plan.varied(&config.stream(config.layout, 7)),
@@ -87,7 +89,7 @@ pub fn home_with(config: &HomeConfig, library: &Library) -> Home {
 /// # Errors
 /// What is wrong with the plan: overlapping rooms, an outline that crosses itself, an unknown kind of room, and so on.
 pub fn home_on(config: &HomeConfig, library: &Library, drawn: &DrawnPlan) -> Result<Home, String> {
-    let (plan, mut notes) = FloorPlan::drawn(&named(drawn, &config.rooms)?, &config.stream(config.layout, 1))?;
+    let (plan, mut notes) = FloorPlan::drawn_in(&named(drawn, &config.rooms)?, config.building, &config.stream(config.layout, 1))?;
     let mut home = furnished(config, library, plan);
     notes.extend(lacks::lacks(&home));
     home.notes = notes;
@@ -180,7 +182,16 @@ fn light_facing(out: Vec2, config: &HomeConfig, rng: &Rng) -> LightConfig {
     } else {
         LightConfig::random(moment, &mut rng.fork(2))
     };
-    light.facing_sun(out, rng.fork(3).range(0.2, 0.8))
+    lit_as(config.building, moment, light, &mut rng.fork(5)).facing_sun(out, rng.fork(3).range(0.2, 0.8))
+}
+
+/// The light with the lamps and the surroundings of a kind of building.
+fn lit_as(building: Building, moment: Moment, light: LightConfig, rng: &mut Rng) -> LightConfig {
+    let Some(own) = building.row().light else { return light };
+    let outside = own.outside[rng.below(own.outside.len())];
+    let by_day = own.by_day[rng.below(own.by_day.len())];
+    let lamps = if moment == Moment::Day { by_day } else { 1.0 };
+    LightConfig { outside, lamps, lamps_klx: own.lamps_klx, ..light }
 }
 
 /// The directions in which windows look out, each once.

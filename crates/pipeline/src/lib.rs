@@ -39,7 +39,7 @@ pub use config::{
 pub use enfilade_compose::MotionGroup;
 pub use enfilade_dataset::{ColorKind, PartitionConfig, WORKDIR};
 pub use enfilade_home::light::Moment;
-pub use enfilade_home::{HomeConfig, RoomKind, State, StateWord, States};
+pub use enfilade_home::{Building, HomeConfig, RoomKind, State, StateWord, States};
 pub use enfilade_import::{EnvironmentOverride, Format as SceneFormat, UpAxis};
 pub use enfilade_verify::view_gates::{GateAction, GateConfig};
 pub use error::{ConfigError, Error, Place};

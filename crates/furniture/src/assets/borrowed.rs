@@ -43,6 +43,7 @@ impl Borrowed {
     /// The light of a whole lamp of its family, as ours give it.
     fn glow(&self) -> Glow {
         match self.family.name {
+            "ceiling_panel" | "tube_lamp" => Glow::WORK,
             "ceiling_lamp" => Glow::CEILING,
             "pendant" | "floor_lamp" | "table_lamp" => Glow::WITH_SHADE,
             _ => Glow::BULB,

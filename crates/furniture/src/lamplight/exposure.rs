@@ -17,8 +17,6 @@ const WALL_RADIANCE: f32 = 0.5;
 const DAYLIGHT_FACTOR: f32 = 0.025;
 /// Share of the sun's own light that falls into such a room and is spread by its floor.
 const SUN_SHARE: f32 = 0.012;
-/// Illuminance of the walls by all lamps of a home, kilo-lux.
-const LAMPS_KLX: f32 = 0.09;
 /// Illuminance of the darkest room that is still shown as bright as others, kilo-lux: a night without lamps stays dark.
 const DARKEST_KLX: f32 = 4e-4;
 /// Reflectance of white walls.
@@ -27,6 +25,9 @@ const WALL_REFLECTANCE: f32 = 0.8;
 const WHITE_MIRED: [f32; 2] = [154.0, 262.0];
 
 impl Exposure {
+    /// Illuminance of the walls by all lamps of a home, kilo-lux.
+    pub const LAMPS_KLX: f32 = 0.09;
+
     /// A given exposure, balanced for daylight.
     pub fn new(per_kcd: f32) -> Self {
         Self { per_kcd, balance: Rgb::WHITE }
@@ -35,9 +36,13 @@ impl Exposure {
     /// The exposure that shows white walls at a radiance of one half.
     ///
     /// `sky_klx` and `sun_klx` are the illuminances outside, of level ground and of what faces the sun, in kilo-lux; `lamps` is the share of
-    /// the lamps that are lit, 0 to 1.
+    /// the lamps of a home that are lit, 0 to 1.
     pub fn of(sky_klx: f32, sun_klx: f32, lamps: f32) -> Self {
-        let lamps_klx = LAMPS_KLX * lamps;
+        Self::with_lamps(sky_klx, sun_klx, Self::LAMPS_KLX * lamps)
+    }
+
+    /// The exposure as [`Exposure::of`] gives it, where lamps light the walls with `lamps_klx` kilo-lux.
+    pub fn with_lamps(sky_klx: f32, sun_klx: f32, lamps_klx: f32) -> Self {
         let inside_klx = (DAYLIGHT_FACTOR * sky_klx + SUN_SHARE * sun_klx + lamps_klx).max(DARKEST_KLX);
         let wall_kcd = WALL_REFLECTANCE * inside_klx / std::f32::consts::PI;
         let mired = WHITE_MIRED[0] + (WHITE_MIRED[1] - WHITE_MIRED[0]) * lamps_klx / inside_klx;

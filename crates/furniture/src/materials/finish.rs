@@ -30,6 +30,12 @@ pub enum Finish {
     Carpet,
     /// A foot mat of coir.
     Coir,
+    /// Carpet in tiles of 50 cm, as in offices: see [`super::CARPET_TILE_M`].
+    CarpetTile,
+    /// Tiles of vinyl with chips, as in schools and shops.
+    Vinyl,
+    /// Tiles of mineral fibre, 60 cm square, of suspended ceilings: see [`super::CEILING_TILE_M`].
+    MineralTile,
 
     // Wood and paint.
     Wood,
@@ -121,6 +127,10 @@ pub enum Finish {
     Cardboard,
     /// A sheet of spines: texture coordinates choose the book, see [`enfilade_textures::BOOK_COLUMNS`].
     BookJackets,
+    /// Fronts of packages: texture coordinates choose one, see [`super::PACKAGE_COLUMNS`].
+    Packages,
+    /// Slate or enamel to write on with chalk: 0 green, 1 black.
+    Chalkboard(u8),
 
     // Screens: texture coordinates run over the unit square.
     Screen,
@@ -166,7 +176,7 @@ impl Finish {
     }
 }
 
-const ALL: [Finish; 84] = [
+const ALL: [Finish; 89] = [
     Finish::WallPaint,
     Finish::AccentWallPaint,
     Finish::Wallpaper,
@@ -181,6 +191,9 @@ const ALL: [Finish; 84] = [
     Finish::Concrete,
     Finish::Carpet,
     Finish::Coir,
+    Finish::CarpetTile,
+    Finish::Vinyl,
+    Finish::MineralTile,
     Finish::Wood,
     Finish::DarkWood,
     Finish::WhitePaint,
@@ -238,6 +251,8 @@ const ALL: [Finish; 84] = [
     Finish::Paper,
     Finish::Cardboard,
     Finish::BookJackets,
+    Finish::Packages,
+    Finish::Chalkboard(0),
     Finish::Screen,
     Finish::ScreenOn(0),
     Finish::Leaf,

@@ -10,12 +10,14 @@ mod luminous;
 mod maker;
 mod metal;
 mod nature;
+mod public;
 mod recipes;
 mod solid;
 mod wall;
 
 pub use finish::{Finish, Surfacing};
 pub use maker::coated;
+pub use public::{CARPET_TILE_M, CEILING_TILE_M, PACKAGE_COLUMNS};
 
 use crate::lamplight::{Glow, LampLight};
 use crate::palette::Palette;

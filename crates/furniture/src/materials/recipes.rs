@@ -24,6 +24,9 @@ impl Maker<'_> {
             Finish::Concrete => self.concrete(),
             Finish::Carpet => self.carpet(),
             Finish::Coir => self.felt("coir", 64, 0.3, Rgb::new(0.25, 0.155, 0.08), 0.004),
+            Finish::CarpetTile => self.carpet_tile(),
+            Finish::Vinyl => self.vinyl(),
+            Finish::MineralTile => self.mineral_tile(),
 
             Finish::Wood => self.veneer("veneer", false),
             Finish::DarkWood => self.veneer("stained wood", true),
@@ -92,6 +95,8 @@ impl Maker<'_> {
             Finish::Paper => rough("paper", Rgb::new(0.78, 0.77, 0.74), 0.2),
             Finish::Cardboard => self.cardboard(),
             Finish::BookJackets => self.book_jackets(),
+            Finish::Packages => self.packages(),
+            Finish::Chalkboard(i) => self.chalkboard(i),
             Finish::Screen => self.screen(),
             Finish::ScreenOn(i) => self.screen_on(i),
 

@@ -51,6 +51,23 @@ pub(super) const WHITE: Rgb = Rgb::new(0.80, 0.785, 0.75);
 /// White of washed cotton: it reflects three quarters of the light.
 pub(crate) const COTTON: Rgb = Rgb::new(0.77, 0.765, 0.745);
 
+/// Luminance that walls of public rooms have at least.
+const PALE: f32 = 0.62;
+
+impl Palette {
+    /// The palette with walls that are pale, as in most public rooms; a dark or colourful wall becomes the accent wall's.
+    #[must_use]
+    pub fn with_pale_walls(self) -> Self {
+        let luminance = self.wall.luminance();
+        if luminance >= PALE {
+            return self;
+        }
+        // Mixed with white just so far that it is pale.
+        let share = (WHITE.luminance() - PALE) / (WHITE.luminance() - luminance);
+        Self { wall: WHITE.lerp(self.wall, share.min(0.2)), accent_wall: self.wall, ..self }
+    }
+}
+
 impl Palette {
     /// A room of a home with this palette: the same woods and whites, other walls, cloth and tiles.
     #[must_use]

@@ -11,6 +11,7 @@ use super::clutter::{
     ScatterCushion, StorageBasket, Tablet, TissueBox,
 };
 use super::dining::{BarStool, DiningBench, GlassCabinet, LongTable, ShellChair, Sideboard, SpindleChair, UpholsteredChair};
+use super::gym::{DumbbellRack, ExerciseBall, ExerciseBike, ExerciseMat, MirrorWall, Treadmill, WeightBench};
 use super::hall::{
     Backpack, CardboardBox, CoatHooks, CoatStand, Console, Handbag, KeyBoard, ShoeCabinet, Shoes, ShoppingBag, StorageBox, Suitcase,
     TallMirror, UmbrellaStand,
@@ -21,6 +22,13 @@ use super::living::{
     Blind, CeilingLamp, Chesterfield, CornerSofa, CubeShelf, DayBed, Fireplace, FloorCushion, GameConsole, Pouf, RecordPlayer, Speaker,
     Stove, WallClock, WallLamp, WallShelf,
 };
+use super::office::{
+    CeilingPanel, ComputerCase, ConferenceTable, Copier, ExitSign, Extinguisher, OfficeCabinet, Partition, ProjectionScreen, Projector,
+    TubeLamp, WallDisplay, WaterDispenser,
+};
+use super::school::{ClassBoard, Lockers, StackingChair, StudentDesk};
+use super::shop::{BistroTable, BookAisle, BottleFridge, CakeCase, ClothesRail, Counter, DisplayTable, EspressoMachine, Gondola, Till};
+use super::store::{SteelRack, StepLadder, ToolBoard, Workbench};
 use super::study::{Desk, DeskLamp, FilingCabinet, Keyboard, Laptop, Monitor, Mouse, OfficeChair, PaperStack, PenCup, Printer, WallBoard};
 use super::tableware::{
     Bottle, Bread, Cookware, Crockery, CuttingBoard, Drinkware, FruitBowl, HerbPot, Jar, KitchenMachine, KitchenRoll, KnifeBlock, Piece,
@@ -33,7 +41,10 @@ use super::{
 };
 use crate::builder::Class;
 use crate::room_kind::RoomKind;
-use crate::room_kind::RoomKind::{Bathroom, Bedroom, Children, Dining, Hall, Kitchen, Laundry, Living, Study};
+use crate::room_kind::RoomKind::{
+    Bathroom, Bedroom, Bookshop, Cafe, Children, Classroom, ComputerLab, Corridor, Dining, Gym, Hall, Kitchen, Laundry, Library, Living,
+    Meeting, Office, OpenOffice, Reception, Shop, Storeroom, Study, Workshop,
+};
 use enfilade_math::{Bounds3, Rng, Vec3};
 
 /// Where a thing stands, hangs or lies.
@@ -78,10 +89,17 @@ pub struct Family {
     pub class: Class,
     /// Place of the thing in a room.
     pub place: Place,
-    /// The rooms in which people expect it.
+    /// The rooms in which people expect it, besides those that name it in [`RoomKind::things`].
     pub rooms: &'static [RoomKind],
     /// Draws a variant of the family.
     pub random: fn(&mut Rng) -> Box<dyn Furniture>,
+}
+
+impl Family {
+    /// True where people expect the family in rooms of this kind.
+    pub fn is_in(&self, kind: RoomKind) -> bool {
+        self.rooms.contains(&kind) || kind.things().contains(&self.name)
+    }
 }
 
 const fn family<F: Furniture + 'static>(name: &'static str, class: Class, place: Place, rooms: &'static [RoomKind]) -> Family {
@@ -91,6 +109,10 @@ const fn family<F: Furniture + 'static>(name: &'static str, class: Class, place:
 /// Rooms in which people sit, sleep or work.
 const DWELLING: &[RoomKind] = &[Living, Dining, Bedroom, Children, Study];
 const ANY: &[RoomKind] = &[Living, Dining, Kitchen, Bedroom, Children, Study, Bathroom, Hall, Laundry];
+
+/// Rooms of offices, schools and shops.
+const WORK: &[RoomKind] =
+    &[Office, OpenOffice, Meeting, Classroom, ComputerLab, Corridor, Library, Bookshop, Shop, Reception, Gym, Storeroom, Workshop];
 
 /// All families.
 pub static FAMILIES: &[Family] = &[
@@ -278,6 +300,53 @@ pub static FAMILIES: &[Family] = &[
     family::<BoardGame>("board_game", Class::Box, Place::OnSurface, &[Living, Children]),
     family::<FoldedBlanket>("folded_blanket", Class::OtherProp, Place::OnSurface, &[Living, Bedroom]),
     family::<ScatterCushion>("cushion", Class::Pillow, Place::OnSurface, &[Living, Bedroom]),
+    // Offices, and what public buildings share.
+    family::<CeilingPanel>("ceiling_panel", Class::Lamp, Place::Ceiling, WORK),
+    family::<TubeLamp>("tube_lamp", Class::Lamp, Place::Ceiling, WORK),
+    family::<Partition>("partition", Class::OtherStructure, Place::Free, &[OpenOffice]),
+    family::<OfficeCabinet>("office_cabinet", Class::Cabinet, Place::AgainstWall, &[Office, OpenOffice, Classroom, Meeting]),
+    Family {
+        random: |rng| Box::new(OfficeCabinet::open(rng)),
+        ..family::<OfficeCabinet>("binder_shelf", Class::Shelves, Place::AgainstWall, &[Office, OpenOffice])
+    },
+    family::<ConferenceTable>("conference_table", Class::Table, Place::Free, &[Meeting]),
+    family::<WallDisplay>("wall_display", Class::Television, Place::OnWall, &[Meeting, Reception]),
+    family::<ProjectionScreen>("projection_screen", Class::OtherStructure, Place::OnWall, &[Meeting, Classroom, ComputerLab]),
+    family::<Projector>("projector", Class::OtherProp, Place::Ceiling, &[Meeting, Classroom, ComputerLab]),
+    family::<Copier>("copier", Class::OtherProp, Place::AgainstWall, &[OpenOffice, Library]),
+    family::<WaterDispenser>("water_dispenser", Class::OtherProp, Place::AgainstWall, &[OpenOffice, Corridor, Reception]),
+    family::<ComputerCase>("computer_case", Class::OtherProp, Place::Free, &[ComputerLab]),
+    family::<Extinguisher>("fire_extinguisher", Class::OtherProp, Place::OnWall, WORK),
+    family::<ExitSign>("exit_sign", Class::OtherProp, Place::OnWall, &[Corridor]),
+    // Schools.
+    family::<StackingChair>("stacking_chair", Class::Chair, Place::Free, &[Classroom, Meeting, Office, Cafe, Library, Reception]),
+    family::<StudentDesk>("student_desk", Class::Desk, Place::Free, &[Classroom, Library]),
+    family::<ClassBoard>("class_board", Class::Whiteboard, Place::OnWall, &[Classroom, Meeting]),
+    family::<Lockers>("lockers", Class::Cabinet, Place::AgainstWall, &[Corridor]),
+    // Shops, cafés and libraries.
+    family::<Gondola>("gondola", Class::Shelves, Place::Free, &[Shop]),
+    family::<BookAisle>("book_aisle", Class::Bookshelf, Place::Free, &[Library, Bookshop]),
+    family::<Counter>("counter", Class::Counter, Place::Free, &[Shop, Cafe, Bookshop, Reception, Library]),
+    family::<Till>("till", Class::OtherProp, Place::OnSurface, &[Shop]),
+    family::<EspressoMachine>("espresso_machine", Class::OtherProp, Place::OnSurface, &[Cafe]),
+    family::<CakeCase>("cake_case", Class::OtherProp, Place::OnSurface, &[Cafe]),
+    family::<ClothesRail>("clothes_rail", Class::OtherFurniture, Place::Free, &[Shop]),
+    family::<BottleFridge>("bottle_fridge", Class::Refrigerator, Place::AgainstWall, &[Shop, Cafe]),
+    family::<DisplayTable>("display_table", Class::Table, Place::Free, &[Shop, Bookshop]),
+    family::<BistroTable>("bistro_table", Class::Table, Place::Free, &[Cafe]),
+    // Gyms.
+    family::<Treadmill>("treadmill", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<ExerciseBike>("exercise_bike", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<WeightBench>("weight_bench", Class::OtherFurniture, Place::Free, &[Gym]),
+    family::<DumbbellRack>("dumbbell_rack", Class::OtherFurniture, Place::AgainstWall, &[Gym]),
+    family::<ExerciseMat>("exercise_mat", Class::FloorMat, Place::Underfoot, &[Gym]),
+    family::<ExerciseBall>("exercise_ball", Class::OtherProp, Place::Corner, &[Gym]),
+    family::<MirrorWall>("mirror_wall", Class::Mirror, Place::OnWall, &[Gym]),
+    // Storerooms and workshops.
+    family::<SteelRack>("steel_rack", Class::Shelves, Place::AgainstWall, &[Storeroom, Workshop]),
+    family::<Workbench>("workbench", Class::Table, Place::AgainstWall, &[Workshop]),
+    family::<ToolBoard>("tool_board", Class::OtherProp, Place::OnWall, &[Workshop]),
+    family::<StepLadder>("step_ladder", Class::OtherProp, Place::Free, &[Storeroom, Workshop]),
 ];
 
 /// The family of this name.

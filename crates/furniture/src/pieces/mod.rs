@@ -22,6 +22,7 @@ mod door;
 mod electric;
 mod foliage;
 pub mod form;
+pub mod gym;
 pub mod hall;
 pub mod joinery;
 #[cfg(test)]
@@ -30,6 +31,7 @@ pub mod kitchen;
 mod lamp;
 pub mod laundry;
 pub mod living;
+pub mod office;
 mod opening;
 mod ornament;
 mod piece;
@@ -38,9 +40,12 @@ mod piece_tests;
 mod plant;
 mod radiator;
 mod rug;
+pub mod school;
+pub mod shop;
 mod side_table;
 mod sofa;
 pub mod soft;
+pub mod store;
 pub mod study;
 #[cfg(test)]
 mod surface_tests;

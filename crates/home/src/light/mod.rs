@@ -52,6 +52,8 @@ pub struct LightConfig {
     pub cloud: f32,
     /// Share of the lamps that are lit, 0 to 1.
     pub lamps: f32,
+    /// Illuminance of the walls when all lamps are lit, kilo-lux.
+    pub lamps_klx: f32,
     /// What is seen from the windows.
     pub outside: Outside,
     /// Decides the houses and trees outside, and which lamps are lit.
@@ -76,6 +78,7 @@ impl Default for LightConfig {
             turbidity: 4.0,
             cloud: 0.0,
             lamps: 0.5,
+            lamps_klx: Exposure::LAMPS_KLX,
             outside: Outside::Garden,
             seed: 0,
         }
@@ -153,7 +156,7 @@ impl LightConfig {
     /// The exposure at which the scene is shown.
     pub fn exposure(&self) -> Exposure {
         let weather = self.weather();
-        Exposure::of(weather.sky_klx(), weather.sun_klx(), self.lamps)
+        Exposure::with_lamps(weather.sky_klx(), weather.sun_klx(), self.lamps_klx * self.lamps)
     }
 
     /// How bright the lamps of the home are, and which of them are lit.

@@ -1,9 +1,11 @@
 //! Floor plans: from a list of rooms and a seed to rooms with walls, doors and windows.
 //!
 //! A home is a rectangle cut into cells (`slicing`); a search looks for cuts whose rooms have the widths, proportions, daylight and
-//! ways that building practice asks for (`room::kind`, `search`). Doors, passages and windows follow (`openings`). Plans that people draw
+//! ways that building practice asks for (`room::kind`, `search`). Rooms of offices and schools are on both sides of a corridor
+//! (`corridor`). Doors, passages and windows follow (`openings`). Plans that people draw
 //! are built as they are (`drawn`); homes of other shapes are such plans too (`varied`, `roof`).
 
+mod corridor;
 mod drawn;
 mod openings;
 mod roof;
@@ -14,7 +16,8 @@ mod varied;
 
 pub use openings::Doorway;
 
-use crate::room::{Room, Side};
+use crate::building::{Building, Layout};
+use crate::room::{Room, Side, kind};
 use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec3};
 use search::{Site, Sketch, on_side, search};
@@ -35,11 +38,19 @@ pub struct FloorPlan {
 const ATTEMPTS: usize = 6;
 
 impl FloorPlan {
-    /// A plan for rooms of these kinds.
+    /// A plan of a home for rooms of these kinds.
     ///
     /// # Panics
     /// When `kinds` is empty.
     pub fn new(kinds: &[RoomKind], rng: &Rng) -> Self {
+        Self::of(Building::Home, kinds, rng)
+    }
+
+    /// A plan of a building for rooms of these kinds.
+    ///
+    /// # Panics
+    /// When `kinds` is empty.
+    pub fn of(building: Building, kinds: &[RoomKind], rng: &Rng) -> Self {
         assert!(!kinds.is_empty(), "a home has at least one room, found none");
         let mut draw = rng.fork(0);
         let entrance = [Side::West, Side::East][draw.below(2)];
@@ -47,6 +58,15 @@ impl FloorPlan {
         open[entrance as usize] = kinds.len() == 1;
         open[entrance.turned(2) as usize] = kinds.len() > 6 || draw.below(3) > 0;
         let site = Site { open, entrance };
+        let building = building.row();
+        let has_corridor = kinds.iter().any(|&kind| kind::row(kind).ways.is_way);
+        if building.layout == Layout::Corridor && has_corridor && kinds.len() > 1 {
+            let sketch = corridor::along(kinds, &mut rng.fork(9));
+            // Rooms of very different sizes, which cannot be equally deep, are laid out around the corridor instead.
+            if sketch.cost < corridor::FINE * kinds.len() as f32 {
+                return Self::build(kinds, &sketch, site, building.height, &mut draw);
+            }
+        }
         let mut best: Option<Sketch> = None;
         for attempt in 0..ATTEMPTS as u64 {
             let found = search(kinds, site, &mut rng.fork(10 + attempt));
@@ -58,12 +78,12 @@ impl FloorPlan {
             }
         }
         let sketch = best.unwrap_or_else(|| search(kinds, site, &mut draw));
-        Self::build(kinds, &sketch, site, &mut draw)
+        Self::build(kinds, &sketch, site, building.height, &mut draw)
     }
 
-    fn build(kinds: &[RoomKind], sketch: &Sketch, site: Site, rng: &mut Rng) -> Self {
+    fn build(kinds: &[RoomKind], sketch: &Sketch, site: Site, heights: [f32; 2], rng: &mut Rng) -> Self {
         let (inner_wall, outer_wall) = (rng.range(0.11, 0.15), rng.range(0.32, 0.4));
-        let height = rng.range(2.5, 2.75);
+        let height = rng.range(heights[0], heights[1]);
         let room = |(&kind, cell): (&RoomKind, &Cell)| {
             let outer = Side::ALL.map(|w| on_side(cell, &sketch.whole, w));
             let inset = |w: Side| if outer[w as usize] { 0.0 } else { 0.5 * inner_wall };

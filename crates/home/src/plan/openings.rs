@@ -5,6 +5,7 @@
 //! rooms, above the worktop in kitchens and above eye level of a bather in bathrooms.
 
 use super::search::{Site, Sketch, shared_wall};
+use crate::room::kind::{WindowWidth, Windows, row};
 use crate::room::{Filling, Opening, Room, Side, Wall};
 use enfilade_furniture::{Leaf, RoomKind};
 use enfilade_math::Rng;
@@ -15,6 +16,10 @@ pub const DOOR_TOP: f32 = 2.06;
 const DOOR_MARGIN: f32 = 0.10;
 /// From a window's opening to a corner of the room.
 const WINDOW_MARGIN: f32 = 0.30;
+/// Windows of a ribbon: from one to the next, the wall between them, and the usual width of a sash, metres.
+const BAY: f32 = 2.7;
+const PIER: f32 = 0.3;
+const SASH: f32 = 1.1;
 /// Width of the opening of the entrance, metres (DIN 18101).
 const ENTRANCE_WIDTH: f32 = 1.01;
 
@@ -61,13 +66,7 @@ pub fn add_doors(rooms: &mut [Room], sketch: &Sketch, kinds: &[RoomKind], site: 
 
 /// Probability that the wall between two kinds of rooms is left open.
 fn may_be_open(a: RoomKind, b: RoomKind) -> f32 {
-    use RoomKind::{Dining, Kitchen, Living};
-    match (a, b) {
-        (Living, Dining) | (Dining, Living) => 0.8,
-        (Kitchen, Dining) | (Dining, Kitchen) => 0.6,
-        (Kitchen, Living) | (Living, Kitchen) => 0.5,
-        _ => 0.0,
-    }
+    row(a).ways.open_to.iter().find(|(kind, _)| *kind == b).map_or(0.0, |(_, often)| *often)
 }
 
 /// A piece of wall between two rooms, along a line.
@@ -118,7 +117,7 @@ pub fn door(rooms: &mut [Room], shared: &Shared, rng: &mut Rng) {
     let Shared { clear, rooms: [_, into], .. } = *shared;
     let kind = rooms[into].kind;
     // The door of a small room swings out of it, so that someone who has fallen behind it can be reached.
-    let (inside, outside) = if kind == RoomKind::Toilet { (0, 1) } else { (1, 0) };
+    let (inside, outside) = if row(kind).ways.swings_out { (0, 1) } else { (1, 0) };
     let width = if kind.wet() { 0.76f32 } else { 0.885 }.min(clear[1] - clear[0] - 2.0 * DOOR_MARGIN);
     let (first, last) = (clear[0] + DOOR_MARGIN, clear[1] - DOOR_MARGIN - width);
     let steps = (((last - first) / 0.1) as usize).min(40);
@@ -166,7 +165,7 @@ fn entrance(rooms: &mut [Room], sketch: &Sketch, site: Site, rng: &mut Rng) -> D
     sides.sort_by_key(|&side| (side != site.entrance, site.open[side as usize]));
     if let Some(wall) = sides.first().map(|side| side.wall()) {
         let free = 0.5 * room.length(wall) - DOOR_MARGIN - 0.5 * ENTRANCE_WIDTH;
-        let middle = if room.kind == RoomKind::Hall { 0.0 } else { free * if rng.below(2) == 0 { -0.9 } else { 0.9 } };
+        let middle = if row(room.kind).ways.is_way { 0.0 } else { free * if rng.below(2) == 0 { -0.9 } else { 0.9 } };
         let hinge = if middle == 0.0 { [-1.0, 1.0][rng.below(2)] } else { middle.signum() };
         hang_entrance(room, wall, middle, hinge);
     }
@@ -183,30 +182,26 @@ pub fn hang_entrance(room: &mut Room, wall: Wall, x: f32, hinge: f32) {
 
 /// Adds windows to walls that look out.
 pub fn add_windows(room: &mut Room, mut walls: Vec<Wall>, rng: &mut Rng) {
-    use RoomKind::{Bathroom, Hall, Kitchen, Laundry, Living, Toilet};
+    let Windows { sill: [low, high], often, width: widths, .. } = row(room.kind).windows;
     walls.sort_by(|&a, &b| room.length(b).total_cmp(&room.length(a)));
     let head = room.size.z - rng.range(0.30, 0.36);
-    let sill = match room.kind {
-        Living => rng.range(0.45, 0.7),
-        Kitchen => rng.range(1.06, 1.14),
-        Bathroom | Toilet | Laundry => rng.range(1.2, 1.45),
-        _ => rng.range(0.7, 0.92),
-    };
+    let sill = rng.range(low, high);
     let mut wanted = 0.125 * room.area * rng.range(1.0, 1.6);
     for (k, wall) in walls.into_iter().enumerate() {
-        let seldom = match room.kind {
-            Hall | Laundry => 0.3,
-            Bathroom | Toilet => 0.8,
-            _ => 1.0,
-        };
-        if rng.next_f32() > seldom || (k > 0 && wanted <= 0.0 && rng.below(2) == 0) {
+        if rng.next_f32() > often || (k > 0 && wanted <= 0.0 && rng.below(2) == 0) {
             continue;
         }
         let Some((low, high)) = free_run(room, wall, head + 0.05, 0.0) else { continue };
         let free = high - low - 2.0 * WINDOW_MARGIN;
-        let width = match room.kind {
-            Bathroom | Toilet | Laundry | Hall => rng.range(0.55, 0.9),
-            Living if k == 0 => (free * rng.range(0.7, 0.85)).clamp(1.4, 3.2),
+        if widths == WindowWidth::Ribbon {
+            if k == 0 || (k == 1 && rng.below(2) == 0) {
+                ribbon(room, wall, [low, high], [sill, head]);
+            }
+            continue;
+        }
+        let width = match widths {
+            WindowWidth::Small => rng.range(0.55, 0.9),
+            WindowWidth::Wide if k == 0 => (free * rng.range(0.7, 0.85)).clamp(1.4, 3.2),
             _ => (wanted / (head - sill)).clamp(1.0, 2.4),
         };
         let width = ((width / 0.125).round() * 0.125).min(free);
@@ -218,6 +213,19 @@ pub fn add_windows(room: &mut Room, mut walls: Vec<Wall>, rng: &mut Rng) {
         let x = [middle - 0.5 * width, middle + 0.5 * width];
         room.openings.push(Opening { wall, x, z: [sill, head], filling: Filling::Window { sashes: sashes.min(4) } });
         wanted -= width * (head - sill);
+    }
+}
+
+/// Windows over all of a piece of wall, with narrow pieces of wall between them.
+fn ribbon(room: &mut Room, wall: Wall, [low, high]: [f32; 2], z: [f32; 2]) {
+    let free = high - low - 2.0 * WINDOW_MARGIN + PIER;
+    let count = (free / BAY).round().max(1.0);
+    let step = free / count;
+    for k in 0..count as usize {
+        let x0 = low + WINDOW_MARGIN + step * k as f32;
+        let x = [x0, x0 + step - PIER];
+        let sashes = (((x[1] - x[0]) / SASH).round() as usize).max(1);
+        room.openings.push(Opening { wall, x, z, filling: Filling::Window { sashes } });
     }
 }
 

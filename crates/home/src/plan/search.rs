@@ -2,7 +2,7 @@
 
 use super::slicing::{Cell, Slicing};
 use crate::room::Side;
-use crate::room::kind::{access, norm};
+use crate::room::kind::{Daylight, Ways, access, norm, row};
 use enfilade_furniture::RoomKind;
 use enfilade_math::{Rng, Vec2};
 
@@ -137,10 +137,10 @@ fn moved(state: &State, kinds: &[RoomKind], rng: &mut Rng) -> State {
     next
 }
 
-/// The room that one enters first: the hall, else the living room, else the first.
+/// The room that one enters first: the hall, else the living room or what is in its place in other buildings, else the first.
 fn hub(kinds: &[RoomKind]) -> usize {
-    let of = |kind| kinds.iter().position(|&k| k == kind);
-    of(RoomKind::Hall).or_else(|| of(RoomKind::Living)).unwrap_or(0)
+    let first = |is_one: fn(&Ways) -> bool| kinds.iter().position(|&kind| is_one(&row(kind).ways));
+    first(|ways| ways.is_way).or_else(|| first(|ways| ways.entrance <= 1)).unwrap_or(0)
 }
 
 fn judge(kinds: &[RoomKind], site: Site, state: &State, wished: &[f32]) -> Sketch {
@@ -171,20 +171,19 @@ fn shape_cost(kind: RoomKind, cell: &Cell) -> f32 {
     let long = (length / width.max(0.1) / norm.aspect - 1.0).max(0.0);
     let broken = if width < norm.width { BROKEN } else { 0.0 };
     // A hall is a way, not a room: as narrow as it may be.
-    let wide = if kind == RoomKind::Hall { 1.2 * (width - 1.75).max(0.0) } else { 0.0 };
+    let wide = if row(kind).ways.is_way { 1.2 * (width - 1.75).max(0.0) } else { 0.0 };
     broken + 40.0 * narrow + 6.0 * long + wide
 }
 
 fn daylight_cost(kind: RoomKind, cell: &Cell, whole: &Cell, site: Site) -> f32 {
     let wall = |w: Side| if site.open[w as usize] && on_side(cell, whole, w) { side_length(cell, w) } else { 0.0 };
     let (longest, all) = Side::ALL.into_iter().map(wall).fold((0.0f32, 0.0f32), |(l, a), w| (l.max(w), a + w));
-    match kind {
+    match row(kind).windows.daylight {
         _ if norm(kind).window && longest < WINDOW_WALL => 1.5 * BROKEN - 2.0 * longest,
-        RoomKind::Living => 0.5 * (4.5 - longest).max(0.0) - 0.05 * all,
+        Daylight::Wide => 0.5 * (4.5 - longest).max(0.0) - 0.05 * all,
         // Halls, stores and toilets leave the façades to others.
-        RoomKind::Hall | RoomKind::Laundry | RoomKind::Toilet => 0.12 * all,
-        RoomKind::Bathroom => 0.04 * all,
-        _ => 0.2 * (2.4 - longest).max(0.0),
+        Daylight::Shuns(cost) => cost * all,
+        Daylight::Usual => 0.2 * (2.4 - longest).max(0.0),
     }
 }
 

@@ -5,7 +5,7 @@
 //! openings are where they were and rooms keep their widths.
 
 use super::FloorPlan;
-use crate::room::kind::norm;
+use crate::room::kind::{norm, row};
 use enfilade_furniture::RoomKind;
 use enfilade_math::{DVec2, Rng};
 use enfilade_scene::{DrawnOpening, DrawnPlan, DrawnRoom, OpeningKind};
@@ -202,7 +202,7 @@ fn insert(room: &mut DrawnRoom, edge: usize, corners: Vec<DVec2>, replaces_start
 
 /// A bay before an outer wall, with the wall's window in its front if there is one.
 fn bay(drawn: &mut DrawnPlan, walls: &Walls, room: usize, rng: &mut Rng) -> Option<()> {
-    if !matches!(RoomKind::from_name(&drawn.rooms[room].kind), Some(RoomKind::Living | RoomKind::Dining | RoomKind::Bedroom)) {
+    if !RoomKind::from_name(&drawn.rooms[room].kind).is_some_and(|kind| row(kind).windows.bay) {
         return None;
     }
     let (depth, splay) = (between(BAY, rng), between(SPLAY, rng));

@@ -2,6 +2,7 @@
 //!
 //! The height is the least of linear functions, so over a rectangle it is least at a corner.
 
+use super::kind::{self, Ceiling};
 use super::{Footprint, Incline, Room, Wall};
 use enfilade_math::{DAffine3, DQuat, DVec3, Vec2};
 use enfilade_scene::Slope;
@@ -15,7 +16,15 @@ const LAMP: [f32; 2] = [0.3, 0.35];
 /// Lamps that would hang closer to each other than this are one, metres.
 const APART: f32 = 1.2;
 
+/// Depth by which the grid of a suspended ceiling is below its tiles, metres.
+pub const GRID_BELOW: f32 = 0.004;
+
 impl Room {
+    /// Whether tiles in a grid are the ceiling. The lines of the grid run through the middle of the box around the room.
+    pub fn has_grid(&self) -> bool {
+        self.slopes.is_empty() && kind::row(self.kind).shell.ceiling == Ceiling::Grid
+    }
+
     /// Puts the room under these planes; those that are above its ceiling everywhere do not count.
     pub fn put_under(&mut self, slopes: impl Iterator<Item = Slope>) {
         let level = self.size.z;

@@ -1,6 +1,6 @@
 //! A room: its place in the home, its walls and what opens in them.
 
-mod ceiling;
+pub mod ceiling;
 mod face;
 mod footprint;
 mod incline;

@@ -1,8 +1,8 @@
 //! Switches by the doors, and sockets.
 
 use super::Furnisher;
-use crate::room::{Filling, Opening};
-use enfilade_furniture::{Furniture, RoomKind, Socket, Switch, on};
+use crate::room::{Filling, Opening, kind};
+use enfilade_furniture::{Furniture, Socket, Switch, on};
 use enfilade_math::Vec3;
 
 /// Height of the middle of switches above the floor, metres (DIN 18015-3).
@@ -52,7 +52,7 @@ impl Furnisher<'_> {
 
     /// Sockets along the walls: near what needs them, then here and there.
     pub fn sockets(&mut self) {
-        if self.room.kind.wet() || self.room.kind == RoomKind::Kitchen {
+        if !kind::row(self.room.kind).fittings.sockets {
             return;
         }
         let mut rng = self.rng.fork(STREAM);

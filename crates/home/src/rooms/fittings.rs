@@ -1,8 +1,8 @@
 //! Things that belong to a room whoever lives in it: radiators, curtains, lamps.
 
 use super::Furnisher;
-use crate::room::{Footprint, Opening};
-use enfilade_furniture::{Candles, CeilingDome, CeilingLamp, Curtains, Furniture, Pendant, Plant, Radiator, RoomKind, Window, on};
+use crate::room::{Footprint, Opening, kind};
+use enfilade_furniture::{Candles, CeilingDome, CeilingLamp, Curtains, Furniture, Pendant, Plant, Radiator, Window, on};
 use enfilade_math::{DAffine3, Vec2, Vec3};
 
 /// Minimum height of a sill with a radiator below it, metres.
@@ -30,8 +30,8 @@ impl Furnisher<'_> {
             self.radiator(window);
             self.curtains(window);
             let free = self.blinds(window, hand.clone());
-            if room.kind != RoomKind::Kitchen && free > ON_SILL {
-                self.on_sill(window);
+            if let Some(often) = kind::row(room.kind).fittings.on_sill.filter(|_| free > ON_SILL) {
+                self.on_sill(window, often);
             }
         }
         for way in room.ways() {
@@ -40,7 +40,7 @@ impl Furnisher<'_> {
     }
 
     fn radiator(&mut self, window: &Opening) {
-        if window.z[0] < RADIATOR_SILL || self.room.kind == RoomKind::Kitchen {
+        if window.z[0] < RADIATOR_SILL || !kind::row(self.room.kind).fittings.radiators {
             return;
         }
         let height = (window.z[0] - 0.24).min(0.6);
@@ -53,13 +53,7 @@ impl Furnisher<'_> {
     }
 
     fn curtains(&mut self, window: &Opening) {
-        let often = match self.room.kind {
-            RoomKind::Living | RoomKind::Bedroom => 1.0,
-            RoomKind::Dining | RoomKind::Children => 0.8,
-            RoomKind::Study => 0.6,
-            _ => 0.0,
-        };
-        if !self.chance(often) {
+        if !self.chance(kind::row(self.room.kind).fittings.curtains) {
             return;
         }
         let half = 0.5 * self.room.length(window.wall);
@@ -90,8 +84,7 @@ impl Furnisher<'_> {
         }
     }
 
-    fn on_sill(&mut self, window: &Opening) {
-        let often = if self.room.kind.wet() { 0.5 } else { 0.9 };
+    fn on_sill(&mut self, window: &Opening, often: f32) {
         let count = if self.chance(often * self.clutter.min(1.0)) { 1 + self.rng.below(3) } else { 0 };
         for k in 0..count {
             let x = window.center_x() + window.size().x * (0.36 - 0.30 * k as f32 + self.rng.range(-0.05, 0.05));
@@ -159,6 +152,7 @@ impl Furnisher<'_> {
 mod tests {
     use super::*;
     use crate::rooms::tests::furnished;
+    use enfilade_furniture::RoomKind;
     use enfilade_furniture::assets::Library;
     use enfilade_furniture::models::{Body, Model};
     use enfilade_furniture::shape::bevelled_box;

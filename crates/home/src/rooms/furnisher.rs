@@ -1,5 +1,6 @@
 //! The hand that furnishes a room: it finds a place for a thing, and builds the thing there.
 
+use super::groups::PLACED;
 use crate::place::{Floor, Piece, Spot, scatter};
 use crate::plan::FloorPlan;
 use crate::room::{Footprint, Room, Wall};
@@ -153,7 +154,8 @@ impl<'a> Furnisher<'a> {
     pub fn litter(&mut self, surfaces: &[Surface], pose: DAffine3, density: f32) {
         let area: f32 = surfaces.iter().map(|s| (s.max - s.min).max(Vec2::ZERO)).map(|e| e.x * e.y).sum();
         let kind = self.room.kind;
-        let fitting: Vec<_> = FAMILIES.iter().filter(|f| f.place == Place::OnSurface && f.rooms.contains(&kind)).collect();
+        let is_scattered = |f: &&Family| f.place == Place::OnSurface && f.is_in(kind) && !PLACED.contains(&f.name);
+        let fitting: Vec<_> = FAMILIES.iter().filter(is_scattered).collect();
         let expected = (DENSITY * area * density * self.clutter).min(40.0);
         let count = (expected * self.rng.range(0.6, 1.4) + self.rng.next_f32()) as usize;
         if fitting.is_empty() {

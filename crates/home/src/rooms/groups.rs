@@ -14,8 +14,41 @@ const SEATED: f32 = 1.5;
 /// Hanging plants keep to corners: this far from both walls, metres.
 const CORNER: f32 = 0.6;
 /// Families that rooms place themselves, and that are not placed at random.
-const PLACED: [&str; 10] =
-    ["kitchen_unit", "kitchen_island", "radiator", "switch", "socket", "blind", "tv_bench", "picture", "plant", "fireplace"];
+pub(super) const PLACED: [&str; 33] = [
+    "kitchen_unit",
+    "kitchen_island",
+    "radiator",
+    "switch",
+    "socket",
+    "blind",
+    "tv_bench",
+    "picture",
+    "plant",
+    "fireplace",
+    "partition",
+    "binder_shelf",
+    "office_cabinet",
+    "wall_display",
+    "projection_screen",
+    "copier",
+    "water_dispenser",
+    "computer_case",
+    "fire_extinguisher",
+    "exit_sign",
+    "class_board",
+    "lockers",
+    "clothes_rail",
+    "till",
+    "espresso_machine",
+    "cake_case",
+    "treadmill",
+    "exercise_bike",
+    "weight_bench",
+    "dumbbell_rack",
+    "mirror_wall",
+    "steel_rack",
+    "tool_board",
+];
 /// Probability that a room has a family that nothing else asks for.
 const SELDOM: f32 = 0.22;
 
@@ -111,7 +144,7 @@ impl Furnisher<'_> {
     /// Adds families that nothing else has asked for: each that people have in this kind of room, with a probability of `SELDOM`.
     pub fn extras(&mut self) {
         let kind = self.room.kind;
-        for family in FAMILIES.iter().filter(|f| f.rooms.contains(&kind)) {
+        for family in FAMILIES.iter().filter(|f| f.is_in(kind)) {
             // A room has its seats, its bed and its sanitary ware already.
             let once = matches!(
                 family.class,
@@ -124,6 +157,7 @@ impl Furnisher<'_> {
                     | Class::Sink
                     | Class::Bathtub
                     | Class::Refrigerator
+                    | Class::Counter
             );
             if once || PLACED.contains(&family.name) || self.known.contains(&family.name) || !self.chance(SELDOM) {
                 continue;

@@ -6,15 +6,28 @@
 mod bathroom;
 mod bedroom;
 mod blinds;
+mod bookshop;
+mod cafe;
+mod ceiling;
 mod childrens;
+mod classroom;
+mod corridor;
 mod dining;
 mod electric;
 mod fittings;
 mod furnisher;
 mod groups;
+mod gym;
 mod hall;
+mod hotel;
 mod kitchen;
 mod living;
+mod meeting;
+mod office;
+mod reception;
+mod shop;
+mod stations;
+mod store;
 mod study;
 mod table;
 #[cfg(test)]
@@ -25,6 +38,7 @@ pub use furnisher::Furnisher;
 
 use crate::HomeConfig;
 use crate::plan::FloorPlan;
+use crate::room::kind;
 use crate::shell::{self, ShellFinish};
 use enfilade_furniture::assets::Library;
 use enfilade_furniture::{Builder, DecorConfig, RoomKind};
@@ -36,6 +50,7 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
     let home = decor.palette();
     for (i, room) in plan.rooms.iter().enumerate() {
         let palette = decor.room(&home, i as u64);
+        let palette = if kind::row(room.kind).shell.pale { palette.with_pale_walls() } else { palette };
         b.enter_room(palette, room.windows().next().is_none());
         let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
         // Things that belong to the room whoever lives in it come first, then the furniture of its kind of room, then extras that still
@@ -66,5 +81,20 @@ fn content(f: &mut Furnisher) {
         RoomKind::Toilet => bathroom::furnish_toilet(f),
         RoomKind::Hall => hall::furnish(f),
         RoomKind::Laundry => bathroom::furnish_laundry(f),
+        RoomKind::Office => office::furnish(f),
+        RoomKind::OpenOffice => office::furnish_open(f),
+        RoomKind::Meeting => meeting::furnish(f),
+        RoomKind::Classroom => classroom::furnish(f),
+        RoomKind::ComputerLab => classroom::furnish_lab(f),
+        RoomKind::Corridor => corridor::furnish(f),
+        RoomKind::Cafe => cafe::furnish(f),
+        RoomKind::Library => bookshop::furnish_library(f),
+        RoomKind::Bookshop => bookshop::furnish(f),
+        RoomKind::Shop => shop::furnish(f),
+        RoomKind::Reception => reception::furnish(f),
+        RoomKind::HotelRoom => hotel::furnish(f),
+        RoomKind::Gym => gym::furnish(f),
+        RoomKind::Storeroom => store::furnish(f),
+        RoomKind::Workshop => store::furnish_workshop(f),
     }
 }

@@ -4,6 +4,7 @@
 //! to the room whole. The halves keep a hair's breadth apart; linings of doors and passages cover it.
 
 mod boards;
+mod ceiling;
 mod clip;
 mod finish;
 mod measures;
@@ -61,7 +62,7 @@ fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng: &m
     let half = 0.5 * room.size.truncate();
     let sheet = |z0: f32, z1: f32| board([-half.x - low.x, -half.y - low.y, z0], [half.x + high.x, half.y + high.y, z1], 0.001);
     let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
-    b.part(&ceiling, "plaster", sheet(room.size.z, room.size.z + 0.2), Finish::CeilingPaint);
+    ceiling::add(b, room, &ceiling, sheet(room.size.z, room.size.z + 0.2), finish.ceiling);
     let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
     if finish.floor == Finish::PlankFloor {
         let half = half + UNDER_WALLS;

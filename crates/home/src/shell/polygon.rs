@@ -4,6 +4,7 @@
 //! the outline, a little wider, so that they end within the walls.
 
 use super::boards::planks;
+use super::ceiling;
 use super::clip::kept_where;
 use super::finish::ShellFinish;
 use super::measures::{AIR, OVERLAP, SKIRTING, THICKNESS, THIN_OVERLAP, UNDER_WALLS, depth, holes};
@@ -82,11 +83,11 @@ pub fn floor_and_ceiling(b: &mut Builder, room: &Room, finish: &ShellFinish, rng
         room.outline.grown(by.min(WITHIN * thinnest)).into_iter().map(|p| turn.rotate(p - room.box_center)).collect()
     };
     let wide = grown(OVERLAP);
-    let ceiling = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
+    let object = b.object(&format!("ceiling_{}", room.kind.name()), Class::Ceiling, at);
     if room.slopes.is_empty() {
-        b.part(&ceiling, "plaster", prism(&wide, [room.size.z, room.size.z + THICKNESS]), Finish::CeilingPaint);
+        ceiling::add(b, room, &object, prism(&wide, [room.size.z, room.size.z + THICKNESS]), finish.ceiling);
     } else {
-        slopes::ceiling(b, room, &ceiling, at, &wide);
+        slopes::ceiling(b, room, &object, at, &wide);
     }
     let floor = b.object(&format!("floor_{}", room.kind.name()), Class::Floor, at);
     let under = grown(UNDER_WALLS);

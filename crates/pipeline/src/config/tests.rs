@@ -758,6 +758,7 @@ fn words_are_written_alike_in_files_and_on_the_command_line() {
     check(&Lamps::ALL, Lamps::name);
     check(&Moment::ALL, Moment::name);
     check(&RoomKind::ALL, RoomKind::name);
+    check(&enfilade_home::Building::ALL, enfilade_home::Building::name);
     check(&enfilade_home::RoomShape::ALL, enfilade_home::RoomShape::name);
     check(&enfilade_render::Filter::ALL, enfilade_render::Filter::name);
     check(&GateAction::ALL, GateAction::name);

@@ -10,7 +10,7 @@ mod garment;
 mod wardrobe;
 
 pub use bed::Bed;
-pub use clothes::FoldedClothes;
+pub use clothes::{FoldedClothes, hang_garment};
 pub use drawers::{Dresser, Nightstand};
 pub use dressing::{Bench, DressingTable, LaundryBasket};
 pub use garment::Garment;

@@ -9,7 +9,7 @@ mod storage;
 mod wall_board;
 
 pub use computer::{Keyboard, Laptop, Monitor, Mouse, Printer};
-pub use desk::Desk;
+pub use desk::{Computer, Desk, DeskStand};
 pub use desk_lamp::DeskLamp;
 pub use office_chair::OfficeChair;
 pub use stationery::{PaperStack, PenCup};

@@ -1,69 +1,20 @@
 //! From what files call rooms to the kinds that are furnished.
 
+use crate::building::Building;
+use crate::room::kind::{Row, rows};
 use enfilade_furniture::RoomKind;
 use enfilade_options::proposal;
 
-/// Words of other programs, in lower case without spaces, and the kind whose furniture is meant; the first that a name contains counts.
-const WORDS: [(&str, RoomKind); 52] = [
-    ("livingdining", RoomKind::Living),
-    ("livingkitchen", RoomKind::Living),
-    ("living", RoomKind::Living),
-    ("lounge", RoomKind::Living),
-    ("wohn", RoomKind::Living),
-    ("salon", RoomKind::Living),
-    ("sejour", RoomKind::Living),
-    ("diningkitchen", RoomKind::Kitchen),
-    ("kitchen", RoomKind::Kitchen),
-    ("kuche", RoomKind::Kitchen),
-    ("kueche", RoomKind::Kitchen),
-    ("küche", RoomKind::Kitchen),
-    ("cuisine", RoomKind::Kitchen),
-    ("dining", RoomKind::Dining),
-    ("esszimmer", RoomKind::Dining),
-    ("kids", RoomKind::Children),
-    ("child", RoomKind::Children),
-    ("kinder", RoomKind::Children),
-    ("nanny", RoomKind::Bedroom),
-    ("elderly", RoomKind::Bedroom),
-    ("bedroom", RoomKind::Bedroom),
-    ("schlaf", RoomKind::Bedroom),
-    ("chambre", RoomKind::Bedroom),
-    ("guestroom", RoomKind::Bedroom),
-    ("bathroom", RoomKind::Bathroom),
-    ("bath", RoomKind::Bathroom),
-    ("shower", RoomKind::Bathroom),
-    ("bad", RoomKind::Bathroom),
-    ("salledebain", RoomKind::Bathroom),
-    ("toilet", RoomKind::Toilet),
-    ("wc", RoomKind::Toilet),
-    ("washroom", RoomKind::Toilet),
-    ("restroom", RoomKind::Toilet),
-    ("laundry", RoomKind::Laundry),
-    ("utility", RoomKind::Laundry),
-    ("storage", RoomKind::Laundry),
-    ("storeroom", RoomKind::Laundry),
-    ("abstell", RoomKind::Laundry),
-    ("study", RoomKind::Study),
-    ("office", RoomKind::Study),
-    ("library", RoomKind::Study),
-    ("arbeits", RoomKind::Study),
-    ("workroom", RoomKind::Study),
-    ("bureau", RoomKind::Study),
-    ("hall", RoomKind::Hall),
-    ("corridor", RoomKind::Hall),
-    ("entr", RoomKind::Hall),
-    ("aisle", RoomKind::Hall),
-    ("foyer", RoomKind::Hall),
-    ("flur", RoomKind::Hall),
-    ("diele", RoomKind::Hall),
-    ("couloir", RoomKind::Hall),
-];
-
-/// The kind of this name; of our own names alone where `strict`, else by the words of other programs.
-pub fn kind(word: &str, strict: bool) -> Option<RoomKind> {
+/// The kind of this name; of our own names alone where `strict`, else by the words of other programs, those for rooms of the `building`
+/// first.
+pub fn kind(word: &str, building: Building, strict: bool) -> Option<RoomKind> {
     let plain: String = word.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
-    let guessed = || WORDS.iter().find(|(part, _)| plain.contains(part)).map(|(_, kind)| *kind);
-    RoomKind::from_name(word).or_else(|| if strict { None } else { guessed() })
+    let of = |building: Building| rows().filter(move |row| building.row().has(row.kind));
+    let is_called = |row: &&Row| row.words.iter().any(|part| plain.contains(part));
+    let guessed = || of(building).chain(of(Building::Home)).find(is_called).map(|row| row.kind);
+    // In files of other programs a library of a home is a study.
+    let is_usual = |kind: &RoomKind| strict || building.row().has(*kind) || Building::Home.row().has(*kind);
+    RoomKind::from_name(word).filter(is_usual).or_else(|| if strict { None } else { guessed() })
 }
 
 /// What is expected in place of an unknown kind, the nearest first.
@@ -85,10 +36,16 @@ mod tests {
             ("Master Bath", RoomKind::Bathroom),
             ("Küche", RoomKind::Kitchen),
         ] {
-            assert_eq!(kind(word, false), Some(expected), "{word}");
-            assert_eq!(kind(word, true), None, "{word}");
+            assert_eq!(kind(word, Building::Home, false), Some(expected), "{word}");
+            assert_eq!(kind(word, Building::Home, true), None, "{word}");
         }
-        assert_eq!((kind("study", true), kind("balcony", false)), (Some(RoomKind::Study), None));
+        assert_eq!((kind("study", Building::Home, true), kind("balcony", Building::Home, false)), (Some(RoomKind::Study), None));
+        let office = [("Corridor 2", RoomKind::Corridor), ("Conference", RoomKind::Meeting), ("WC", RoomKind::Toilet)];
+        for (word, expected) in office {
+            assert_eq!(kind(word, Building::Office, false), Some(expected), "{word}");
+        }
+        assert_eq!(["office", "storage"].map(|word| kind(word, Building::Home, false)), [RoomKind::Study, RoomKind::Laundry].map(Some));
+        assert_eq!(kind("office", Building::Home, true), Some(RoomKind::Office));
         assert!(expected("bedrom").starts_with("did you mean `bedroom`?"));
     }
 }

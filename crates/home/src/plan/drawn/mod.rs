@@ -16,6 +16,7 @@ mod tests;
 
 use super::FloorPlan;
 use super::slicing::Cell;
+use crate::building::Building;
 use crate::room::Room;
 use enfilade_furniture::RoomKind;
 use enfilade_math::{DVec2, Rng, Vec2};
@@ -38,6 +39,14 @@ impl FloorPlan {
     /// # Errors
     /// What is wrong with the plan, where, and what was expected.
     pub fn drawn(plan: &DrawnPlan, rng: &Rng) -> Result<(Self, Vec<String>), String> {
+        Self::drawn_in(plan, Building::Home, rng)
+    }
+
+    /// The plan as [`FloorPlan::drawn`] builds it; words of other programs mean rooms of this kind of building.
+    ///
+    /// # Errors
+    /// What is wrong with the plan, where, and what was expected.
+    pub fn drawn_in(plan: &DrawnPlan, building: Building, rng: &Rng) -> Result<(Self, Vec<String>), String> {
         if plan.rooms.is_empty() || plan.rooms.len() > MOST {
             return Err(format!("the plan has {} rooms, expected 1 to {MOST}", plan.rooms.len()));
         }
@@ -47,7 +56,7 @@ impl FloorPlan {
         if !plan.strict && plan.rooms.len() > 1 {
             outlines::without_slivers(&mut plan.rooms, &mut notes);
         }
-        let kinds = kinds_of(&plan, &mut notes)?;
+        let kinds = kinds_of(&plan, building, &mut notes)?;
         let mut outlines = outlines::cleaned(&plan.rooms)?;
         outlines::check_apart(&outlines, &plan.rooms)?;
         if outlines::thickened(&mut outlines) {
@@ -102,11 +111,11 @@ fn near_origin(plan: &DrawnPlan, notes: &mut Vec<String>) -> DrawnPlan {
     moved
 }
 
-fn kinds_of(plan: &DrawnPlan, notes: &mut Vec<String>) -> Result<Vec<RoomKind>, String> {
+fn kinds_of(plan: &DrawnPlan, building: Building, notes: &mut Vec<String>) -> Result<Vec<RoomKind>, String> {
     let mut guessed: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     let mut kinds = Vec::new();
     for DrawnRoom { name, kind, .. } in &plan.rooms {
-        match kinds::kind(kind, plan.strict) {
+        match kinds::kind(kind, building, plan.strict) {
             Some(known) => kinds.push(known),
             None if plan.strict => return Err(format!("room {name:?} is of the kind {kind:?}; {}", kinds::expected(kind))),
             None => {

@@ -4,6 +4,7 @@ use super::Site;
 use super::outlines::OPPOSITE;
 use crate::plan::Doorway;
 use crate::plan::openings::{DOOR_TOP, Shared};
+use crate::room::kind::row;
 use crate::room::{Filling, Opening, Room, WAY_DEPTH, Wall};
 use enfilade_furniture::{Leaf, RoomKind};
 use enfilade_math::{DVec2, Vec2};
@@ -197,7 +198,7 @@ impl Site {
         let usual = match opening.kind {
             OpeningKind::Door => [0.0, DOOR_TOP.min(height - ABOVE)],
             OpeningKind::Passage => [0.0, height - LINTEL],
-            OpeningKind::Window => [usual_sill(room.kind), height - LINTEL],
+            OpeningKind::Window => [row(room.kind).windows.drawn_sill, height - LINTEL],
         };
         let mut z = opening.z_m.map_or(usual, |z| z.map(|z| z as f32));
         if opening.kind != OpeningKind::Window {
@@ -259,7 +260,7 @@ impl Site {
         // Doors swing into the smaller room, but out of toilets.
         let area = |k: &usize| {
             let room = &self.rooms[places[*k].0.room];
-            if room.kind == RoomKind::Toilet { f32::INFINITY } else { room.area }
+            if row(room.kind).ways.swings_out { f32::INFINITY } else { room.area }
         };
         let inside = into.or_else(|| (0..places.len()).min_by(|a, b| area(a).total_cmp(&area(b)))).unwrap_or(0);
         let wet = kinds.into_iter().any(RoomKind::wet);
@@ -337,14 +338,4 @@ fn longest([low, high]: [f32; 2], taken: impl Iterator<Item = [f32; 2]>) -> Opti
         from = from.max(b);
     }
     runs.into_iter().filter(|run| run[1] > run[0]).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))
-}
-
-/// The usual height of a window's sill, metres.
-fn usual_sill(kind: RoomKind) -> f32 {
-    match kind {
-        RoomKind::Living => 0.6,
-        RoomKind::Kitchen => 1.1,
-        RoomKind::Bathroom | RoomKind::Toilet | RoomKind::Laundry => 1.3,
-        _ => 0.8,
-    }
 }

@@ -3,9 +3,8 @@
 use super::Site;
 use crate::plan::Doorway;
 use crate::plan::openings::{DOOR_TOP, Shared, add_windows, door, free_run, hang_entrance};
-use crate::room::kind::access;
+use crate::room::kind::{access, row};
 use crate::room::{Room, Wall};
-use enfilade_furniture::RoomKind;
 
 /// Free outer wall that the entrance needs, with its casing, metres.
 const ENTRANCE: f32 = 1.21;
@@ -20,20 +19,14 @@ impl Site {
     /// # Errors
     /// If no room has room for one.
     pub fn enter(&mut self) -> Result<(), String> {
-        let order = |room: &Room| match room.kind {
-            RoomKind::Hall => 0,
-            RoomKind::Living => 1,
-            RoomKind::Dining | RoomKind::Kitchen => 2,
-            kind if kind.wet() => 4,
-            _ => 3,
-        };
+        let order = |room: &Room| row(room.kind).ways.entrance;
         let outer = self.doorways.iter().enumerate().filter(|(_, way)| way.from.is_none());
         if let Some((k, _)) = outer.min_by_key(|(_, way)| order(&self.rooms[way.into])) {
             let way = self.doorways.remove(k);
             self.doorways.insert(0, way);
             return Ok(());
         }
-        let mut best: Option<((i32, f32), usize, Wall, f32)> = None;
+        let mut best: Option<((u8, f32), usize, Wall, f32)> = None;
         for (number, room) in self.rooms.iter().enumerate() {
             for wall in room.walls() {
                 let Some((low, high)) = free_run(room, wall, DOOR_TOP + 0.12, ENTRANCE).filter(|(low, high)| high - low >= ENTRANCE) else {
