@@ -565,8 +565,8 @@ fn homes(homes: &[&str], overrides: &Overrides) -> Result<Config, ConfigError> {
 #[test]
 fn homes_are_photographed_where_nobody_asks_for_walks() {
     let mode = |above: &str, keys: &str| {
-        let config = read(&format!("{above}[[scene]]\nname = \"flat\"\nhome = {{}}\n{keys}")).unwrap();
-        config.scenes[0].plan.mode.name()
+        let found = config(&format!("{above}[[scene]]\nname = \"flat\"\nhome = {{}}\n{keys}"));
+        found.scenes[0].plan.mode.name()
     };
     assert_eq!(mode("", ""), "photos");
     assert_eq!(mode("[plan]\npitch_limits_deg = [-20, 0]\n", ""), "photos");
@@ -575,7 +575,7 @@ fn homes_are_photographed_where_nobody_asks_for_walks() {
     }
     assert_eq!(mode("", "plan.saliency = { kind = \"parts\" }\n"), "walk");
     assert_eq!(mode("[plan]\nmode = { kind = \"walk\" }\n", "plan.mode = { kind = \"stills\" }\n"), "stills");
-    assert_eq!(read(SCENE).unwrap().scenes[0].plan.mode.name(), "walk", "files keep walks");
+    assert_eq!(config(SCENE).scenes[0].plan.mode.name(), "walk", "files keep walks");
     assert_eq!(Config::demo(&Overrides::default()).unwrap().scenes[0].plan.mode.name(), "walk");
 }
 
