@@ -19,7 +19,7 @@ from PIL import Image
 FOLDER, SCENE, CAMERA = Path("examples/motion"), "room", "cam_00"
 # Depths are the same to within this share, and pixels are near an edge where MuJoCo's geoms differ within this many pixels.
 SAME_DEPTH, EDGE = 1e-3, 1
-# Of the picture on the page: the frame, and the factor by which it is shown smaller.
+# The frame of the picture on the page.
 SHOWN = 12
 
 
@@ -175,8 +175,7 @@ def strip(count, geoms, depths):
     colors = np.random.default_rng(5).integers(40, 256, (count + 1, 3), dtype=np.uint8)
     shaded = lambda depth: np.repeat((255.0 * np.clip(1.0 - depth / 5.0, 0, 1)).astype(np.uint8)[..., None], 3, axis=2)
     parts = [np.concatenate([colors[geom], shaded(depth)], axis=1) for geom, depth in zip(geoms, depths)]
-    whole = Image.fromarray(np.concatenate(parts))
-    return whole.resize((whole.width // 2, whole.height // 2), Image.Resampling.NEAREST)
+    return Image.fromarray(np.concatenate(parts))
 
 
 def page(told):
