@@ -118,7 +118,7 @@ fn map_to(body: &Moving, share: f64) -> DAffine3 {
     let states = match &body.motion.states {
         BodyStates::Hinge { point, axis, .. } => BodyStates::Hinge { point: *point, axis: *axis, angles_rad: vec![state] },
         BodyStates::Slide { axis, .. } => BodyStates::Slide { axis: *axis, distances_m: vec![state] },
-        free @ BodyStates::Free { .. } => free.clone(),
+        other @ (BodyStates::Free { .. } | BodyStates::Deform { .. }) => other.clone(),
     };
     BodyMotion { times_s: vec![0.0], states }.world_from_rest(0.0)
 }

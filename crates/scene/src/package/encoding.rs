@@ -11,7 +11,7 @@ const JOINTED: u32 = 6;
 /// The number of packages of scenes that move: the bodies as well.
 const MOVING: u32 = 7;
 /// The number of packages of scenes in which parts deform: bodies of a kind that earlier versions do not know.
-const DEFORMING: u32 = 8;
+const DEFORMING: u32 = 10;
 /// Behind the number in the first line of packages that lack what another one has.
 pub(super) const CHANGES: &str = " changes";
 /// Name of the package beside one that lacks what this has.
