@@ -4,7 +4,7 @@ use crate::model::{JointKind, PhysicsError};
 use crate::{mjcf, simulated, urdf, usd};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rgb, Vec3};
-use enfilade_scene::{Body, BodyMotion, BodyStates, Labels, Material, Part, PartLabel, Scene, SceneFiles};
+use enfilade_scene::{Body, BodyMotion, BodyStates, Labels, Material, Part, PartLabel, Scene, SceneFiles, Shape};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -211,6 +211,19 @@ fn what_moves_without_a_volume_is_refused() {
     });
     let error = simulated(&room.scene, &room.labels).unwrap_err();
     assert!(matches!(&error, PhysicsError::NoVolume { body, .. } if body == "cord"), "{error}");
+}
+
+#[test]
+fn what_deforms_is_a_rigid_thing_in_its_shape_of_rest() {
+    let Room { mut scene, labels } = room();
+    let shape = std::sync::Arc::new(Shape::of(&scene.meshes[scene.parts[1].mesh as usize]));
+    let motion = BodyMotion { times_s: vec![0.0], states: BodyStates::Deform { shapes: vec![shape] } };
+    scene.bodies.push(Body { name: "soft".into(), parent: None, parts: vec![1], lights: Vec::new(), limits: None, motion });
+    assert_eq!(scene.validate(), Ok(()));
+    let [soft, rigid] = [&scene, &room().scene].map(|scene| simulated(scene, &labels).unwrap());
+    let names = |model: &crate::model::Model| model.bodies.iter().map(|body| (body.name.clone(), body.joint.kind)).collect::<Vec<_>>();
+    assert_eq!(names(&soft), names(&rigid));
+    assert!(soft.notes.iter().any(|note| note.starts_with("body \"soft\" deforms; it is a rigid thing")), "{:?}", soft.notes);
 }
 
 #[test]

@@ -7,8 +7,8 @@ use enfilade_import::{ImportOptions, Imported, ImportedLabel, load};
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3, Mat3, Rgb, Vec2, Vec3};
 use enfilade_scene::{
     Alpha, Body, BodyMotion, BodyStates, Bsdf, ColorParam, Environment, Image, Labels, Light, MapRows, Material, NormalMap, Object, Part,
-    PartLabel, PictureFile, PictureFiles, Pixels, Principled, Quiet, RigidPose, ScalarParam, Scene, SpotFalloff, StartCamera, TextureRef,
-    Wrap,
+    PartLabel, PictureFile, PictureFiles, Pixels, Principled, Quiet, RigidPose, ScalarParam, Scene, Shape, SpotFalloff, StartCamera,
+    TextureRef, Wrap,
 };
 
 /// The scene, written and read.
@@ -367,4 +367,18 @@ fn motion_comes_back_at_every_moment() {
         assert!(found.position.distance(expected.position) < 1e-5, "{} at {time_s} s, expected {}", found.position, expected.position);
         assert!(found.world_from_camera.abs_diff_eq(expected.world_from_camera, 1e-5));
     }
+}
+
+#[test]
+fn what_deforms_is_written_at_rest_and_that_is_told() {
+    let mut scene = shelf((0..4).map(|_| Material::diffuse("grey", Rgb::splat(0.5))).collect(), vec![]);
+    let rest = Shape::of(&scene.meshes[scene.parts[0].mesh as usize]);
+    let lifted = Shape { positions: rest.positions.iter().map(|p| *p + Vec3::Z).collect(), ..rest.clone() };
+    let motion = BodyMotion { times_s: vec![0.0, 1.0], states: BodyStates::Deform { shapes: vec![rest.into(), lifted.into()] } };
+    scene.bodies = vec![Body { name: "cloth".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: None, motion }];
+    let (imported, notes) = round_trip(&scene, &Labels::default());
+    assert_eq!(notes, ["body \"cloth\": it deforms, which is not written; it has the shape of rest"]);
+    assert!(imported.scene.is_still());
+    let [written, found] = [&scene, &imported.scene].map(|scene| scene.world_corners(&scene.parts[0], 0));
+    assert!(written.iter().zip(found).all(|(a, b)| a.distance(b) < 1e-5), "{found:?}, expected {written:?}");
 }

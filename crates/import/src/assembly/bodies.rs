@@ -164,9 +164,9 @@ impl Assembly<'_> {
         self.scene.bodies.iter_mut().flat_map(|body| &mut body.motion.times_s).for_each(|time_s| *time_s -= start_s);
     }
 
-    /// Number of the bodies that carry something, themselves or by others.
+    /// Takes out the bodies that carry nothing, themselves or by others; the number of those that move.
     pub(crate) fn drop_unused_bodies(&mut self) -> usize {
         self.scene.remove_unused_bodies();
-        self.scene.bodies.len()
+        self.scene.bodies.iter().filter(|body| !body.motion.is_rest()).count()
     }
 }

@@ -36,6 +36,9 @@ impl Channel {
     }
 }
 
+/// The tangents of all numbers at a moment: the time of each, where it is stated, and its value.
+type Tangents = Vec<(Option<f64>, f64)>;
+
 /// What a channel changes.
 struct Target<'d> {
     transform: Node<'d>,
@@ -172,8 +175,8 @@ fn array_of<'d>(dae: &Dae<'d>, source: Node<'d>, tag: &str) -> Option<Node<'d>> 
     named.filter(|array| array.tag_name().name() == tag).or_else(|| child(source, tag))
 }
 
-/// The tangents at a moment, one a number: its time, where it is stated, and its value.
-fn controls_at(all: &[f64], moment: usize, count: usize, width: usize) -> Option<Vec<(Option<f64>, f64)>> {
+/// The tangents at a moment.
+fn controls_at(all: &[f64], moment: usize, count: usize, width: usize) -> Option<Tangents> {
     let at = |stride: usize| all.get(moment * stride..(moment + 1) * stride);
     if all.len() == count * width * 2 {
         return Some(at(2 * width)?.chunks_exact(2).map(|pair| (Some(pair[0]), pair[1])).collect());
@@ -183,7 +186,7 @@ fn controls_at(all: &[f64], moment: usize, count: usize, width: usize) -> Option
 }
 
 /// The curve between two moments by its tangents at both.
-fn bezier(ends: [(f64, &[f64]); 2], tangents: [Option<Vec<(Option<f64>, f64)>>; 2], is_hermite: bool) -> Option<Segment> {
+fn bezier(ends: [(f64, &[f64]); 2], tangents: [Option<Tangents>; 2], is_hermite: bool) -> Option<Segment> {
     let [(from_s, from), (to_s, to)] = ends;
     let [out, into] = tangents;
     let third = (to_s - from_s) / 3.0;

@@ -101,7 +101,7 @@ fn a_skinned_cylinder_bends_by_its_formula() {
         assert_near(&vertices(scene, 0, time_s), cylinder().into_iter().map(at), 1.1e-4, &format!("{time_s} s"));
     }
     assert_eq!(from_bytes(&to_bytes(scene)).unwrap(), *scene);
-    assert!(to_bytes(scene).starts_with(b"enfilade scene 8\n"));
+    assert!(to_bytes(scene).starts_with(b"enfilade scene 10\n"));
     let mut still = scene.clone();
     still.hold_still();
     assert!(still.is_still() && still.bodies.is_empty());
