@@ -118,7 +118,7 @@ impl<'s> Lookout<'s> {
         };
         let bands: Vec<(u32, RenderScene<'s>)> = bands.into_iter().map(ready).collect::<Result<_, RenderError>>()?;
         assert!(!bands.is_empty(), "a picture has rows");
-        Ok(Self { asks_always, bands })
+        Ok(Self { bands, asks_always })
     }
 
     fn rows(&self) -> Rows<'_, 's> {

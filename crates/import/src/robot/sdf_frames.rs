@@ -81,7 +81,7 @@ impl Frames<'_, '_> {
         if let Some(frame) = element.attribute("placement_frame").map(str::trim).filter(|frame| !frame.is_empty()) {
             // The pose is that of this frame within the model.
             let own = Frames { scope: element }.named(frame, depth + 1, a)?;
-            placed = placed * own.unwrap_or(DAffine3::IDENTITY).inverse();
+            placed *= own.unwrap_or(DAffine3::IDENTITY).inverse();
         }
         Ok(placed)
     }

@@ -229,5 +229,5 @@ fn moving(joint: Joint, prim: &Prim, [first, second]: [DAffine3; 2], a: &mut Ass
         _ => None,
     };
     let per_metre = if is_hinge { 1.0 } else { 1.0 / metres_per_unit };
-    Ok(Joint { axis, zero, limits, per_metre, ..joint })
+    Ok(Joint { axis, zero, per_metre, limits, ..joint })
 }

@@ -335,6 +335,35 @@ mod tests {
         assert!((px - 10.0).abs() < 1e-9 && (py - 40.0).abs() < 1e-9);
     }
 
+    #[test]
+    fn a_point_that_moves_is_shown_by_the_band_whose_rows_have_it_when_they_are_exposed() {
+        let camera = camera(Some(SHUTTER), None);
+        let pose = pose(0, 0.0, 0.0);
+        let view = CameraView::still(&camera, &pose);
+        let first_rows = [0, 16, 32];
+        let at = |y: f64| {
+            let ray = view.centre_ray(30.0, y).unwrap();
+            ray.origin + 3.0 * ray.direction
+        };
+        // By band: the row that would show the point.
+        for (rows, band) in [
+            ([20.0, 20.0, 20.0], 1),
+            ([4.0, 12.0, 20.0], 0),
+            ([60.0, 50.0, 40.0], 2),
+            ([-9.0, -9.0, -9.0], 0),
+            // Neither the first nor the second shows it.
+            ([17.0, 15.0, 13.0], 0),
+            ([40.0, 33.0, 31.0], 1),
+        ] {
+            assert_eq!(view.band_that_shows(3, |band| first_rows[band], |band| at(rows[band])), band, "{rows:?}");
+        }
+        assert_eq!(view.band_that_shows(1, |_| 0, |_| at(7.0)), 0);
+        assert_eq!([-1.0, 15.9, 16.0, 47.0].map(|y| band_of_row(3, |band| first_rows[band], y)), [0, 0, 1, 2]);
+        // The whole exposure is from the first moment of the upper border to the last of the lower one.
+        let shares = [(0.0, 0.0), (24.0, 0.5), (48.0, 1.0)].map(|(y, time)| view.exposure_share(y, time));
+        assert!(shares.iter().zip([0.0, 0.5, 1.0]).all(|(found, expected): (&f32, f32)| (found - expected).abs() < 1e-6), "{shares:?}");
+    }
+
     /// A quick turn about the camera's x axis, or its y axis, and the frame in the middle of it.
     fn turning(about_x: bool, rad_per_frame: f64) -> [Pose; 3] {
         [0u32, 1, 2].map(|frame| {
