@@ -25,11 +25,13 @@ fn families(home: &Home) -> BTreeSet<&str> {
 
 #[test]
 fn each_kind_of_room_is_possible_and_has_what_it_is_for() {
-    for building in others() {
+    // Schools and workshops have rooms in the other tests.
+    for building in others().filter(|building| ![Building::School, Building::Workshop].contains(building)) {
         // Rooms of homes have tests of their own.
         let own = building.row().kinds.iter().filter(|kind| !Building::Home.row().has(**kind) && norm(**kind).window);
-        let one = own.clone().nth(building as usize % own.clone().count()).copied();
-        for kind in one {
+        // A kind of each building: `enfilade-bench -- faults --building …` looks at more.
+        let chosen = building as usize % own.clone().count().max(1);
+        if let Some(&kind) = own.clone().nth(chosen) {
             let home = made(building, &[kind], 3);
             assert_eq!(faults(&home), [], "{kind:?}");
             assert_eq!(home.scene.validate(), Ok(()), "{kind:?}");
