@@ -41,6 +41,7 @@ mod light;
 mod material;
 mod mtlx;
 mod node;
+mod operation;
 mod parts;
 mod polygons;
 mod primvar;
