@@ -4,8 +4,7 @@
 //! its numbers by `.X`, `.Y`, `.Z`, `.ANGLE`, `(index)` or, in a matrix, `(column)(row)`, as other programs read it.
 
 use super::curve::{Control, Curve, Segment};
-use super::document::{Dae, Node, at, called, child, children, numbers, text};
-use super::transform::width;
+use super::document::{Dae, Node, at, called, child, children, numbers, text, width};
 use crate::assembly::Assembly;
 use std::collections::HashMap;
 

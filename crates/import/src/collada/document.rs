@@ -94,6 +94,18 @@ pub(super) fn several(node: Node, count: usize) -> Option<Vec<f64>> {
     is_enough.then_some(found)
 }
 
+/// Numbers that an element's transform takes; `None` for elements that are none.
+pub(super) fn width(tag: &str) -> Option<usize> {
+    Some(match tag {
+        "matrix" => 16,
+        "translate" | "scale" => 3,
+        "rotate" => 4,
+        "lookat" => 9,
+        "skew" => 7,
+        _ => return None,
+    })
+}
+
 /// Whole numbers of an element; `None` where something else is among them.
 pub(super) fn indices(node: Node) -> Option<Vec<u32>> {
     let texts = node.children().filter_map(|n| n.text().filter(|_| n.is_text()));

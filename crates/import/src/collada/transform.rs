@@ -2,7 +2,7 @@
 
 use super::animation::{Animations, Channel};
 use super::curve::Segment;
-use super::document::{Node, called, several};
+use super::document::{Node, called, several, width};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::motion::{Side, between_placements};
@@ -17,18 +17,6 @@ struct Transform<'a> {
     tag: &'a str,
     numbers: Vec<f64>,
     channels: &'a [Channel],
-}
-
-/// Numbers that an element's transform takes; `None` for elements that are none.
-pub(super) fn width(tag: &str) -> Option<usize> {
-    Some(match tag {
-        "matrix" => 16,
-        "translate" | "scale" => 3,
-        "rotate" => 4,
-        "lookat" => 9,
-        "skew" => 7,
-        _ => return None,
-    })
 }
 
 impl<'a> Transforms<'a> {

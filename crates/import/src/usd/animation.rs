@@ -6,7 +6,6 @@
 use super::camera::name;
 use super::layer::Layer;
 use super::stage::Prim;
-use super::time::codes_per_second;
 use super::value::Value;
 use super::xform::Xform;
 use crate::assembly::Assembly;
@@ -28,7 +27,7 @@ impl Animations {
     pub(super) fn new(layer: &Layer) -> Self {
         let stated = |name: &str| layer.get("/", name).and_then(Value::as_number).filter(|code| code.is_finite());
         let stated = [stated("startTimeCode"), stated("endTimeCode")];
-        Self { codes_per_second: codes_per_second(layer), stated, sampled: None }
+        Self { codes_per_second: layer.codes_per_second(), stated, sampled: None }
     }
 
     /// The body that a prim is, if it moves by itself, else the one that bears it. `prefix` goes before its name.

@@ -82,7 +82,8 @@ impl Composer {
         if out.iter().any(|(l, _)| l.location == layer.location) {
             return Ok(());
         }
-        let retiming = above.map_or(Retiming::default(), |(user, retiming)| retiming.between(user, &layer));
+        let retiming =
+            above.map_or(Retiming::default(), |(user, retiming)| retiming.between(user.codes_per_second(), layer.codes_per_second()));
         out.push((layer.clone(), retiming));
         open.push(layer.location.clone());
         let offsets = layer.get("/", field::SUBLAYER_OFFSETS).and_then(|v| v.as_numbers(2)).unwrap_or(&[]).as_chunks::<2>().0;
@@ -143,7 +144,7 @@ impl Composer {
             for (layer, item) in node.items(name) {
                 if let Some(target) = self.target(&item, &layer, node, a)? {
                     let introduced = node.stack.retiming(&layer).after(item.retiming);
-                    let retiming = introduced.between(&node.stack.layers[0], &target.0.layers[0]);
+                    let retiming = introduced.between(node.stack.layers[0].codes_per_second(), target.0.layers[0].codes_per_second());
                     added.push(node.arc(arc, depth, target, retiming, item.asset.is_empty()));
                 }
             }

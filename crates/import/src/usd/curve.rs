@@ -3,9 +3,9 @@
 //! USD takes the numbers of matrices one by one, which squeezes what turns between two samples. Where both have the same scale and shear,
 //! the rotation is taken along the shortest way instead.
 
+use super::operation::{Kind, quaternion};
 use super::stage::OverTime;
 use super::value::Value;
-use super::xform::{Kind, quaternion};
 use crate::motion::{MOST_STATES, between_placements};
 use enfilade_math::{DAffine3, DMat3};
 

@@ -10,6 +10,9 @@ pub(super) const MAX_DEPTH: usize = 128;
 /// Longest path, bytes.
 pub(super) const MAX_PATH: usize = 4096;
 
+/// Time codes a second where a layer states none.
+const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
+
 /// Names of fields. Both encodings are brought to those of the binary one.
 pub(super) mod field {
     pub const SPECIFIER: &str = "specifier";
@@ -44,6 +47,12 @@ pub(super) struct Layer {
 }
 
 impl Layer {
+    /// Time codes a second.
+    pub(super) fn codes_per_second(&self) -> f64 {
+        let stated = |name: &str| self.get("/", name).and_then(Value::as_number).filter(|rate| rate.is_finite() && *rate > 0.0);
+        stated("timeCodesPerSecond").or_else(|| stated("framesPerSecond")).unwrap_or(DEFAULT_CODES_PER_SECOND)
+    }
+
     /// A field of a path.
     pub(super) fn get(&self, path: &str, field: &str) -> Option<&Value> {
         self.specs.get(path)?.iter().find(|(name, _)| &**name == field).map(|(_, value)| value)

@@ -43,6 +43,7 @@ mod light;
 mod material;
 mod mtlx;
 mod node;
+mod operation;
 mod parts;
 mod polygons;
 mod primvar;

@@ -1,13 +1,7 @@
-//! Time codes: how those of a layer become the stage's, and these seconds.
+//! Time codes: how those of a layer become those of the stage.
 //!
 //! A layer's time is scaled and shifted by the sublayer, reference or payload that brings it in, and by the ratio of both layers' time codes
 //! a second (OpenUSD, `SdfLayerOffset` and `Pcp`).
-
-use super::layer::Layer;
-use super::value::Value;
-
-/// Time codes a second where a layer states none.
-const DEFAULT_CODES_PER_SECOND: f64 = 24.0;
 
 /// A map from a layer's time codes to those of what uses it: by a scale, then by an offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,14 +33,8 @@ impl Retiming {
         Self { offset: self.of(inner.offset), scale: self.scale * inner.scale }
     }
 
-    /// The map of a layer that another uses by `self`, with the time codes a second of both.
-    pub(super) fn between(self, user: &Layer, used: &Layer) -> Self {
-        Self { scale: self.scale * codes_per_second(user) / codes_per_second(used), ..self }
+    /// The map of a layer that another uses by `self`, with the time codes a second of the user and of the used one.
+    pub(super) fn between(self, user: f64, used: f64) -> Self {
+        Self { scale: self.scale * user / used, ..self }
     }
-}
-
-/// Time codes a second of a layer.
-pub(super) fn codes_per_second(layer: &Layer) -> f64 {
-    let stated = |name: &str| layer.get("/", name).and_then(Value::as_number).filter(|rate| rate.is_finite() && *rate > 0.0);
-    stated("timeCodesPerSecond").or_else(|| stated("framesPerSecond")).unwrap_or(DEFAULT_CODES_PER_SECOND)
 }
