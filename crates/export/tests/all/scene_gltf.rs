@@ -375,7 +375,8 @@ fn what_deforms_is_written_at_rest_and_that_is_told() {
     let rest = Shape::of(&scene.meshes[scene.parts[0].mesh as usize]);
     let lifted = Shape { positions: rest.positions.iter().map(|p| *p + Vec3::Z).collect(), ..rest.clone() };
     let motion = BodyMotion { times_s: vec![0.0, 1.0], states: BodyStates::Deform { shapes: vec![rest.into(), lifted.into()] } };
-    scene.bodies = vec![Body { name: "cloth".into(), parent: None, parts: vec![0], lights: Vec::new(), limits: None, motion }];
+    scene.bodies =
+        vec![Body { name: "cloth".into(), parent: None, parts: vec![0], lights: Vec::new(), cameras: Vec::new(), limits: None, motion }];
     let (imported, notes) = round_trip(&scene, &Labels::default());
     assert_eq!(notes, ["body \"cloth\": it deforms, which is not written; it has the shape of rest"]);
     assert!(imported.scene.is_still());
