@@ -218,7 +218,15 @@ fn what_deforms_is_a_rigid_thing_in_its_shape_of_rest() {
     let Room { mut scene, labels } = room();
     let shape = std::sync::Arc::new(Shape::of(&scene.meshes[scene.parts[1].mesh as usize]));
     let motion = BodyMotion { times_s: vec![0.0], states: BodyStates::Deform { shapes: vec![shape] } };
-    scene.bodies.push(Body { name: "soft".into(), parent: None, parts: vec![1], lights: Vec::new(), limits: None, motion });
+    scene.bodies.push(Body {
+        name: "soft".into(),
+        parent: None,
+        parts: vec![1],
+        lights: Vec::new(),
+        cameras: Vec::new(),
+        limits: None,
+        motion,
+    });
     assert_eq!(scene.validate(), Ok(()));
     let [soft, rigid] = [&scene, &room().scene].map(|scene| simulated(scene, &labels).unwrap());
     let names = |model: &crate::model::Model| model.bodies.iter().map(|body| (body.name.clone(), body.joint.kind)).collect::<Vec<_>>();
