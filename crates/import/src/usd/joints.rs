@@ -11,8 +11,8 @@
 //! | circles | refused, unless a joint of the circle has `physics:excludeFromArticulation`, which is left out |
 
 use super::layer::field;
+use super::operation::rotation;
 use super::stage::{Prim, Stage};
-use super::xform::rotation;
 use crate::ImportError;
 use crate::assembly::{Assembly, Contents, orthonormal};
 use crate::robot::graph::{Edge, Piece, Trees};
