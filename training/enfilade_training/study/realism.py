@@ -51,8 +51,8 @@ class Features:
 
 
 def kernel_distance(ours: torch.Tensor, theirs: torch.Tensor) -> tuple[float, float]:
-    """The squared maximum mean discrepancy of two lists of features with the kernel (a · b / d + 1)³, unbiased, times 1000; mean and standard
-    error over pairs of subsets."""
+    """The squared maximum mean discrepancy of two lists of features with the kernel (a · b / d + 1)³, unbiased; mean and standard error over
+    pairs of subsets."""
     random = np.random.Generator(np.random.PCG64(0))
     size = min(SUBSET, len(ours), len(theirs))
     found = []
@@ -60,7 +60,7 @@ def kernel_distance(ours: torch.Tensor, theirs: torch.Tensor) -> tuple[float, fl
         a, b = (of[torch.from_numpy(random.permutation(len(of))[:size])].double() for of in (ours, theirs))
         within = sum(float(kernel.sum() - kernel.diagonal().sum()) for kernel in (_kernel(a, a), _kernel(b, b)))
         found.append(within / (size * (size - 1)) - 2.0 * float(_kernel(a, b).mean()))
-    return 1000.0 * float(np.mean(found)), 1000.0 * float(np.std(found)) / SUBSETS**0.5
+    return float(np.mean(found)), float(np.std(found)) / SUBSETS**0.5
 
 
 def _kernel(a: torch.Tensor, b: torch.Tensor) -> torch.Tensor:
@@ -118,20 +118,27 @@ def report(homes: Pictures, photographs: Pictures, others: dict[str, torch.Tenso
     features = Features()
     seen = gap.photographed(homes, study)
     maps = {name: features.maps(color) for name, color in {"homes": homes.color, "seen": seen.color, "photographs": photographs.color}.items()}
-    mean = {name: found.mean((2, 3)) for name, found in maps.items()}
+    # Photographs have the mean 0 and the deviation 1 in every feature.
+    center, scale = maps["photographs"].mean((2, 3)).mean(0), maps["photographs"].mean((2, 3)).std(0) + 1e-6
+
+    def standard(found: torch.Tensor) -> torch.Tensor:
+        return (found.mean((2, 3)) - center) / scale
+
+    mean = {name: standard(found) for name, found in maps.items()}
     even, odd = mean["photographs"][::2], mean["photographs"][1::2]
     rows = [("photographs, one half and the other", even, odd), ("homes, as the study's camera takes them", mean["seen"], mean["photographs"])]
     rows.append(("homes, as rendered", mean["homes"], mean["photographs"]))
-    rows += [(name, features.maps(color).mean((2, 3)), mean["photographs"]) for name, color in others.items()]
-    made = ["## Appearance", "", "| pictures | number | kernel distance to photographs, × 1000 |", "|---|---|---|"]
+    rows += [(name, standard(features.maps(color)), mean["photographs"]) for name, color in others.items()]
+    made = ["## Appearance", "", "| pictures | number | kernel distance to photographs |", "|---|---|---|"]
     made += [f"| {name} | {len(of)} | {value:.2f} ± {error:.2f} |" for name, of, to in rows for value, error in [kernel_distance(of, to)]]
 
     made += ["", "## What is in view", "", *views.lines(views.views(homes), views.views(photographs))]
 
     is_home = torch.arange(len(homes) + len(photographs)) < len(homes)
     groups = [name.split(".")[0] for name in homes.names] + photographs.names
-    told = Told(torch.cat([mean["seen"], mean["photographs"]]), is_home, groups)
-    evidence = told.evidence(torch.cat([maps["seen"], maps["photographs"]]))
+    both = torch.cat([maps["seen"], maps["photographs"]])
+    told = Told(both.mean((2, 3)), is_home, groups)
+    evidence = told.evidence(both)
     made += ["", "## What tells them apart", "", f"A linear classifier of the features tells homes from photographs in {100 * told.accuracy:.1f} % of the cases"]
     made += [f"(area under the curve {told.area:.4f}). Evidence for a home, in units of its score, where there is", "", "| class | in homes | in photographs |", "|---|---|---|"]
     by_class = [_by_class(evidence[part], pictures) for part, pictures in ((is_home, homes), (~is_home, photographs))]
@@ -164,7 +171,7 @@ def _sheet(pictures: Pictures, evidence: torch.Tensor, scores: torch.Tensor) -> 
     for index in order[evenly(len(order), SHOWN)]:
         color = pictures.color[index].permute(1, 2, 0).numpy().astype(np.float32)
         value = np.clip(_enlarged(evidence[index], color.shape[:2]) / 4.0, -1.0, 1.0)[..., None]
-        tint = np.where(value > 0, np.float32([255, 40, 20]), np.float32([30, 80, 255]))
+        tint = np.where(value > 0, np.array([255, 40, 20], dtype=np.float32), np.array([30, 80, 255], dtype=np.float32))
         tiles.append(np.concatenate([color, color * (1 - 0.7 * np.abs(value)) + 0.7 * np.abs(value) * tint], axis=1))
     tiles += [np.zeros_like(tiles[0])] * (-len(tiles) % COLUMNS)
     rows = [np.concatenate(tiles[i : i + COLUMNS], axis=1) for i in range(0, len(tiles), COLUMNS)]

@@ -14,7 +14,7 @@ class KernelDistances(unittest.TestCase):
         random = torch.Generator().manual_seed(2)
         a, b = (torch.randn(400, 16, generator=random) for _ in range(2))
         same, error = realism.kernel_distance(a, b)
-        self.assertLess(abs(same), 5 * error + 60.0)
+        self.assertLess(abs(same), 5 * error + 0.06)
         farther = [realism.kernel_distance(a, b + shift)[0] for shift in (0.3, 0.6, 1.2)]
         self.assertEqual(farther, sorted(farther))
         self.assertGreater(farther[0], 3 * abs(same))

@@ -99,12 +99,7 @@ impl<'d> Placer<'_, 'd> {
                 "instance_geometry" => self.geometry(target, child_node, name, file_from_node, Some(object), a)?,
                 "instance_controller" => self.controller(target, child_node, name, file_from_node, object, a)?,
                 "instance_light" => light::add_light(self.dae, target, name, file_from_node, a),
-                "instance_camera" => {
-                    light::add_camera(target, name, file_from_node, a);
-                    if body.is_some() {
-                        a.warn(called(node), "the camera moves with time; it stays where the scene has it");
-                    }
-                }
+                "instance_camera" => light::add_camera(target, name, file_from_node, a),
                 other => a.warn(called(node), format!("{other} is not supported and was left out")),
             }
             // Joints place a skin by themselves.

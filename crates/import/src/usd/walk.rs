@@ -199,12 +199,7 @@ impl<'s> Walk<'s> {
             "PointInstancer" if hidden => return Ok(()),
             _ if hidden => (),
             "Mesh" => self.mesh(prim, &state, a)?,
-            "Camera" => {
-                camera::add(prim, state.file_from_parent, a);
-                if state.body.is_some() {
-                    a.warn(&prim.path, "the camera moves with time; it stays where it is at first");
-                }
-            }
+            "Camera" => camera::add(prim, state.file_from_parent, a),
             "PointInstancer" => return self.instances(prim, &state, a),
             "" | "Xform" | "Scope" | "SkelRoot" => (),
             kind if kind.ends_with("Light") || kind == "DomeLight_1" => {

@@ -119,14 +119,16 @@ fn what_no_rigid_motion_does_is_told_by_prim_and_attribute() {
     let told = warnings(&imported);
     for expected in [
         "Grows: it changes its scale or shear, which no rigid motion does, and keeps those of rest; for the first time at time code 9",
-        "Eye: the camera moves with time",
         "Blinks.visibility: its value changes with time; that of the first moment was taken",
         "Curve: xformOp:rotateZ is a spline",
         "it moves within something that is stretched or mirrored",
         // Nothing says where the stage begins.
-        "1 things move by them, 1 s from time code 4 on",
+        "2 things move by them, 1 s from time code 4 on",
     ] {
         assert!(told.contains(expected), "{told}\nexpected {expected}");
     }
     assert!(placed(&imported.scene, "Grows", 0.5).abs_diff_eq(DAffine3::from_translation(DVec3::X * 0.5), 1e-12));
+    // The camera rides.
+    let [rest, moved] = [0.0, 0.5].map(|time_s| imported.scene.cameras_at(time_s)[0].position);
+    assert!((moved - rest).abs_diff_eq(DVec3::X * 0.5, 1e-12));
 }
