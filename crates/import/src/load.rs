@@ -3,7 +3,9 @@
 use crate::assembly::Assembly;
 use crate::others::Others;
 use crate::{Format, ImportError, ImportOptions, Imported};
-use crate::{collada, collections, disguise, download, fbx, gltf, mitsuba, obj, package, pbrt, ply, robot, stl, sweethome, usd, vray};
+use crate::{
+    collada, collections, disguise, download, fbx, gltf, joints, mitsuba, obj, package, pbrt, ply, robot, stl, sweethome, usd, vray,
+};
 use enfilade_scene::Cx;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +48,7 @@ fn in_folder(folder: &Path) -> Result<Option<(PathBuf, Option<Others>)>, ImportE
 fn by_format(format: Format, assembly: Assembly) -> Result<Imported, ImportError> {
     let moves = matches!(format, Format::Mjcf | Format::Urdf | Format::Sdf | Format::Usd | Format::Zip);
     if let Some(states) = assembly.options().states.as_ref().filter(|_| !moves) {
-        return Err(robot::states::refuse(states, format.words()));
+        return Err(joints::states::refuse(states, format.words()));
     }
     match format {
         Format::Gltf => gltf::load(assembly),

@@ -351,6 +351,7 @@ class Scene:
         *,
         # options: HomeConfig
         seed: int = 0,
+        building: Literal["home", "office", "school", "shop", "cafe", "library", "hotel", "gym", "workshop"] = "home",
         rooms: Names | None = None,
         plan: str | None = None,
         shape: Literal["rectangular", "varied"] = "rectangular",
@@ -556,6 +557,7 @@ def home(
     *,
     # options: HomeConfig
     seed: int = 0,
+    building: Literal["home", "office", "school", "shop", "cafe", "library", "hotel", "gym", "workshop"] = "home",
     rooms: Names | None = None,
     plan: str | None = None,
     shape: Literal["rectangular", "varied"] = "rectangular",

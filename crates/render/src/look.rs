@@ -3,13 +3,14 @@
 
 use crate::error::RenderError;
 use crate::extra::surfaces::{RaySurfaces, surfaces};
-use crate::extra::{FlowTo, TrianglePoint, add_flow, flow};
+use crate::extra::{FlowTo, add_flow, flow};
 use crate::geometry_pass::{PixelGeometry, geometry_of, sighting};
 use crate::glass::Bodies;
 use crate::light::Lights;
 use crate::prepared::RenderScene;
 use crate::rows::{Moved, Rows, Ways};
 use crate::texture::Textures;
+use crate::triangle_point::TrianglePoint;
 use crate::triangles::Triangles;
 use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_math::DVec3;

@@ -1,7 +1,7 @@
 //! What the rows of a picture show of a scene that moves: with a rolling shutter, bands of rows see it at moments of their own.
 
-use crate::extra::TrianglePoint;
 use crate::prepared::RenderScene;
+use crate::triangle_point::TrianglePoint;
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{BodyId, CameraView, PartId, band_of_row};
 

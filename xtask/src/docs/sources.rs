@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use syn::{Expr, Item, ItemEnum, Lit, Macro, Type};
 
 /// Files that declare the contents of `dataset.toml`.
-const FILES: [&str; 23] = [
+const FILES: [&str; 24] = [
     "crates/pipeline/src/config/document.rs",
     "crates/pipeline/src/config/settings.rs",
     "crates/pipeline/src/config/choices.rs",
@@ -23,6 +23,7 @@ const FILES: [&str; 23] = [
     "crates/verify/src/view_gates/config.rs",
     "crates/home/src/config.rs",
     "crates/home/src/states.rs",
+    "crates/home/src/building.rs",
     "crates/furniture/src/room_kind.rs",
     "crates/home/src/light/mod.rs",
     "crates/home/src/light/outside/mod.rs",

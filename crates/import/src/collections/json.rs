@@ -1,8 +1,8 @@
 //! JSON of collections: one file into one description, with errors that name line and column.
 
 use super::lenient::Lenient;
-use super::vectors::numbers;
 use crate::ImportError;
+use crate::vectors::numbers;
 use enfilade_math::DVec3;
 use enfilade_scene::{decoded_text, without_padding};
 use serde::de::DeserializeOwned;

@@ -3,7 +3,7 @@
 //! 3D-FRONT writes the coordinates of some meshes as `"1.00000"`. [`Lenient`] gives a type what it asks for wherever the value can only
 //! mean that.
 
-use super::vectors::numbers;
+use crate::vectors::numbers;
 use serde::de::value::{MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde_json::{Error, Value};

@@ -41,7 +41,6 @@ pub(crate) mod procthor;
 mod replica;
 mod scan;
 pub(crate) mod structured3d;
-pub(crate) mod vectors;
 
 pub(crate) use detect::{no_scene_in_folder, scene_in_folder};
 

@@ -14,18 +14,13 @@
 //!
 //! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
 
-mod elements;
-pub(crate) mod graph;
-pub(crate) mod joints;
 pub(crate) mod mjcf;
 mod partnet;
 mod sdf;
 mod sdf_frames;
 mod sdf_joints;
 mod shapes;
-pub(crate) mod states;
 mod urdf;
-pub(crate) mod urdf_joints;
 
 use crate::assembly::Assembly;
 use crate::{ImportError, Imported, UpAxis};

@@ -1,13 +1,13 @@
 //! SDF, as <http://sdformat.org/spec> has it: worlds of models, whose links are placed by their poses.
 
-use super::elements::{child, children, name_of};
-use super::graph::Piece;
 use super::sdf_frames::{frame_in, own_pose, pose_in, told_from};
 use super::sdf_joints::Joints;
 use super::shapes::{Look, Shape, Shapes, find};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::collections::vectors::numbers;
+use crate::joints::elements::{child, children, name_of};
+use crate::joints::graph::Piece;
+use crate::vectors::numbers;
 use enfilade_math::{DAffine3, DVec3, Rgb, linear_from_srgb};
 use enfilade_scene::{Light, ObjectId, SpotFalloff};
 use roxmltree::{Document, Node};

@@ -1,9 +1,9 @@
 //! Frames of SDF: poses may be told from another frame of their model by its name, <http://sdformat.org/tutorials?tut=pose_frame_semantics>.
 
-use super::elements::{child, name_of, pose};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::collections::vectors::numbers;
+use crate::joints::elements::{child, name_of, pose};
+use crate::vectors::numbers;
 use enfilade_math::{DAffine3, DVec3};
 use roxmltree::Node;
 

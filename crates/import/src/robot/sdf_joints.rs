@@ -1,13 +1,13 @@
 //! Joints of SDF: bodies that move, with axis and limits.
 
-use super::elements::{child, children, name_of};
-use super::graph::{Edge, Piece, Trees};
-use super::joints::{Joint, Kind, Mimic};
 use super::sdf_frames::{frame_in, own_pose, told_from};
-use super::states::{self, States, Tree};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::collections::vectors::numbers;
+use crate::joints::elements::{child, children, name_of};
+use crate::joints::graph::{Edge, Piece, Trees};
+use crate::joints::joint::{Joint, Kind, Mimic};
+use crate::joints::states::{self, States, Tree};
+use crate::vectors::numbers;
 use enfilade_math::{DAffine3, DVec3};
 use roxmltree::Node;
 use std::collections::BTreeMap;

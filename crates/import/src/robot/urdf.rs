@@ -1,13 +1,13 @@
 //! URDF, as <http://wiki.ros.org/urdf/XML> has it: links, and joints that place them.
 
-use super::elements::{child, children, name_of, origin, vector};
 use super::partnet::Semantics;
 use super::shapes::{Look, Shape, Shapes};
-use super::states::{self, States, Tree};
-use super::urdf_joints::Joints;
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::collections::vectors::numbers;
+use crate::joints::elements::{child, children, name_of, origin, vector};
+use crate::joints::states::{self, States, Tree};
+use crate::joints::urdf::Joints;
+use crate::vectors::numbers;
 use enfilade_math::DVec3;
 use roxmltree::Node;
 use std::collections::HashMap;

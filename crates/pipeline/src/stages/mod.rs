@@ -33,6 +33,7 @@ mod starts;
 mod targets;
 mod variation;
 mod verify;
+mod views;
 
 use crate::error::Error;
 use crate::report::StageCx;
@@ -55,9 +56,10 @@ pub(crate) use pilot::pilot;
 pub(crate) use plan_preview::draw_plan;
 pub(crate) use progressive::{FOLDER as PARTIALS, file_name as kept_part};
 pub(crate) use record::{Output, record_key};
-pub(crate) use render::{FrameCx, Timing, add_extra, config_hash, missing_frames, program, render_frames, take_at, views};
+pub(crate) use render::{FrameCx, Timing, add_extra, config_hash, missing_frames, program, render_frames, take_at};
 pub(crate) use shift::Shift;
 pub(crate) use verify::CARD;
+pub(crate) use views::views;
 
 /// The definition of a stage.
 pub struct StageSpec {

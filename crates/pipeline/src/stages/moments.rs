@@ -2,7 +2,8 @@
 //! camera's time between frames after its beginning.
 
 use super::exposure::{self, Stretches};
-use super::{Input, Job, views};
+use super::views::views;
+use super::{Input, Job};
 use crate::error::Error;
 use enfilade_dataset::{BodyRow, Dataset, FrameBodies};
 use enfilade_frame::{Frame, Layer, Values, traits};

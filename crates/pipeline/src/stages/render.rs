@@ -1,6 +1,7 @@
 //! `render`: trajectories to frames. Resumes frame by frame: a frame is not rendered again if its record has the current hash of everything
 //! that its values depend on; for resuming within a frame, see `progressive`.
 
+use super::views::views;
 use super::{FramesByTrajectory, HASHED_AS, Input, Inputs, Job, Outcome, Record, Stage, camera_files, denoise, gate, moments, progressive};
 use crate::error::Error;
 use crate::report::{StageCx, Stopwatch};
@@ -299,11 +300,6 @@ fn list_fixtures(job: &Job, found: &[enfilade_render::Fixture]) -> Result<(), Er
     };
     let listed: Vec<Fixture> = found.iter().zip(1..).map(fixture).collect();
     job.dataset.write_fixtures(&job.scene.name, &listed).map_err(Error::stage)
-}
-
-/// The views of a camera from every pose of a trajectory.
-pub(crate) fn views<'a>(camera: &'a Camera, trajectory: &'a Trajectory) -> Vec<CameraView<'a>> {
-    (0..trajectory.poses.len()).map(|index| CameraView::of_frame(camera, &trajectory.poses, index)).collect()
 }
 
 /// Adds the further layers of a view, if requested; flow leads to the next one.

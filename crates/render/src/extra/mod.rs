@@ -17,7 +17,7 @@ use enfilade_math::{Ray, Rgb, Vec3};
 use enfilade_parallel::map_up_to;
 use enfilade_scene::{CameraRay, CameraView};
 use flow::Flow;
-pub use flow::{FlowTo, TrianglePoint};
+pub use flow::FlowTo;
 
 /// Metals below this GGX alpha show a reflection that can be made out.
 const MIRROR_ALPHA: f32 = 0.01;

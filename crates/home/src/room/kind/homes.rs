@@ -2,7 +2,7 @@
 //!
 //! The order of the rows is that in which names of other programs are tried: a `KidsBedroom` is a children's room.
 
-use super::{Blinds, Ceiling, Daylight, Fittings, Row, Shell, Ways, WindowWidth, Windows, norm_of};
+use super::row::{Blinds, Ceiling, Daylight, Fittings, Row, Shell, Ways, WindowWidth, Windows, norm_of};
 use RoomKind::{Bathroom, Bedroom, Dining, Kitchen, Living};
 use enfilade_furniture::{Class, Finish, RoomKind};
 

@@ -1,7 +1,7 @@
 //! The rooms of offices, schools, shops, cafés, libraries and hotels.
 
 use super::homes::{FITTINGS, SHELL, WAYS, WINDOWS};
-use super::{Blinds, Ceiling, Daylight, Fittings, Row, Shell, Ways, WindowWidth, Windows, norm_of};
+use super::row::{Blinds, Ceiling, Daylight, Fittings, Row, Shell, Ways, WindowWidth, Windows, norm_of};
 use RoomKind::{HotelRoom, OpenOffice, Reception};
 use enfilade_furniture::{Class, Finish, RoomKind};
 

@@ -3,12 +3,12 @@
 //! As <http://wiki.ros.org/urdf/XML> has it: `origin` is a translation `xyz` and the fixed-axis angles `rpy`, radians.
 
 use super::super::assets::Models;
-use super::super::vectors;
 use crate::ImportError;
 use crate::assembly::{Assembly, Piece};
-use crate::robot::graph::add_bodies;
-use crate::robot::joints::{Joint, Kind, Link};
-use crate::robot::urdf_joints::Joints;
+use crate::joints::graph::add_bodies;
+use crate::joints::joint::{Joint, Kind, Link};
+use crate::joints::urdf::Joints;
+use crate::vectors;
 use crate::xml::xml_text;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::{BodyMotion, PartId};

@@ -6,7 +6,7 @@ use super::tree::Element;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use crate::collections::assets;
-use crate::robot::joints::quaternion;
+use crate::joints::joint::quaternion;
 use crate::robot::shapes::find;
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DQuat, DVec3, Vec2, Vec3};

@@ -23,8 +23,8 @@ mod tree;
 mod views;
 mod walk;
 
-use super::states::{self, States, Tree};
 use crate::assembly::Assembly;
+use crate::joints::states::{self, States, Tree};
 use crate::{ImportError, Imported, UpAxis};
 use tree::Element;
 use walk::Walk;

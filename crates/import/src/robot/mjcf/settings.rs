@@ -2,7 +2,7 @@
 
 use super::tree::Element;
 use crate::ImportError;
-use crate::robot::joints::quaternion;
+use crate::joints::joint::quaternion;
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::Path;

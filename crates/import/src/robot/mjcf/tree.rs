@@ -2,7 +2,7 @@
 
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::collections::vectors::numbers;
+use crate::vectors::numbers;
 use roxmltree::{Document, Node};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;

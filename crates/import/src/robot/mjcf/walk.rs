@@ -8,7 +8,7 @@ use super::shade::Shades;
 use super::tree::Element;
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::robot::joints::{Joint, Kind, Link};
+use crate::joints::joint::{Joint, Kind, Link};
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{BodyId, ObjectId};
 use std::collections::BTreeMap;

@@ -3,7 +3,7 @@
 use super::{States, Track};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::robot::joints::{Joint, Link, quaternion, relative};
+use crate::joints::joint::{Joint, Link, quaternion, relative};
 use enfilade_math::{DAffine3, DMat3, DQuat, DVec3};
 use enfilade_scene::{BodyMotion, BodyStates, RigidPose};
 use std::collections::BTreeMap;

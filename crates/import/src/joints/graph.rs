@@ -1,6 +1,6 @@
 //! Links and the joints between them, as trees that hang on the world: what formats state as a list becomes bodies of the scene.
 
-use super::joints::{Joint, Link};
+use super::joint::{Joint, Link};
 use crate::assembly::{Assembly, Contents};
 use enfilade_math::DAffine3;
 use std::collections::BTreeSet;

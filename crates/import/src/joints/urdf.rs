@@ -2,7 +2,7 @@
 
 use super::elements::{child, children, name_of, origin, vector};
 use super::graph::add_bodies;
-use super::joints::{Joint, Kind, Link, Mimic};
+use super::joint::{Joint, Kind, Link, Mimic};
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DAffine3, DVec3};
