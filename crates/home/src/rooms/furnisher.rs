@@ -1,6 +1,6 @@
 //! The hand that furnishes a room: it finds a place for a thing, and builds the thing there.
 
-use super::groups::PLACED;
+use super::placed::PLACED;
 use crate::place::{Floor, Piece, Spot, scatter};
 use crate::plan::FloorPlan;
 use crate::room::{Footprint, Room, Wall};

@@ -1,6 +1,7 @@
 //! Things that belong together, and what a room of its kind may have besides.
 
 use super::Furnisher;
+use super::placed::PLACED;
 use super::wishes::{centred, cornered, tucked_away};
 use crate::place::{Floor, Piece, Spot};
 use enfilade_furniture::{Class, FAMILIES, Place};
@@ -13,42 +14,6 @@ const CHAIR: f32 = 0.22;
 const SEATED: f32 = 1.5;
 /// Hanging plants keep to corners: this far from both walls, metres.
 const CORNER: f32 = 0.6;
-/// Families that rooms place themselves, and that are not placed at random.
-pub(super) const PLACED: [&str; 33] = [
-    "kitchen_unit",
-    "kitchen_island",
-    "radiator",
-    "switch",
-    "socket",
-    "blind",
-    "tv_bench",
-    "picture",
-    "plant",
-    "fireplace",
-    "partition",
-    "binder_shelf",
-    "office_cabinet",
-    "wall_display",
-    "projection_screen",
-    "copier",
-    "water_dispenser",
-    "computer_case",
-    "fire_extinguisher",
-    "exit_sign",
-    "class_board",
-    "lockers",
-    "clothes_rail",
-    "till",
-    "espresso_machine",
-    "cake_case",
-    "treadmill",
-    "exercise_bike",
-    "weight_bench",
-    "dumbbell_rack",
-    "mirror_wall",
-    "steel_rack",
-    "tool_board",
-];
 /// Probability that a room has a family that nothing else asks for.
 const SELDOM: f32 = 0.22;
 

@@ -24,6 +24,7 @@ mod kitchen;
 mod living;
 mod meeting;
 mod office;
+mod placed;
 mod reception;
 mod shop;
 mod stations;
