@@ -245,7 +245,7 @@ mod tests {
         assert!(other.families_or("stool").contains(&"bar_stool") && other.front == Front::MinusX && other.weight == 1.0);
         assert_eq!((a.licence, other.licence_of_all), (None, Some("CC0".into())));
         let lamps = read("[models.\"a.glb\"]\nclass = \"lamp\"\nstands = \"ceiling\"\n").unwrap();
-        assert_eq!(lamps.of("a.glb").families_or(""), ["pendant", "ceiling_lamp"]);
+        assert_eq!(lamps.of("a.glb").families_or(""), ["pendant", "ceiling_lamp", "ceiling_panel", "tube_lamp"]);
     }
 
     #[test]
