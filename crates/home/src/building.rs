@@ -55,7 +55,7 @@ pub struct Row {
     pub layout: Layout,
     /// Heights of rooms: from and to, metres.
     pub height: [f32; 2],
-    /// Its light, where it differs from that of homes.
+    /// The building's light, where it differs from that of homes.
     pub light: Option<Light>,
 }
 

@@ -22,7 +22,7 @@ impl TrianglePoint {
         Self { triangle, weights: [1.0 - to_b - to_c, to_b, to_c] }
     }
 
-    /// Its place in the scene at a moment.
+    /// The point's place in the scene at a moment.
     pub(crate) fn place(&self, scene: &RenderScene<'_>) -> DVec3 {
         let corners = scene.triangles.get(self.triangle).corners;
         corners.iter().zip(self.weights).map(|(corner, weight)| corner.as_dvec3() * weight).sum()

@@ -104,7 +104,7 @@ impl RigidPose {
 }
 
 impl BodyStates {
-    /// The same joint in other states, radians of a hinge or metres of a slide; `None` of free bodies and such that deform.
+    /// This joint in other states, radians of a hinge or metres of a slide; `None` of free bodies and such that deform.
     pub fn with_values(&self, values: Vec<f64>) -> Option<Self> {
         match self {
             Self::Free { .. } | Self::Deform { .. } => None,

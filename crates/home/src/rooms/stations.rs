@@ -11,7 +11,7 @@ use enfilade_math::{DAffine3, Vec2};
 pub struct Part<'a> {
     /// The thing.
     pub thing: &'a dyn Furniture,
-    /// Its place.
+    /// The station's place.
     pub piece: Piece,
 }
 

@@ -20,7 +20,7 @@ struct Transform<'a> {
 }
 
 impl<'a> Transforms<'a> {
-    /// Those of a node.
+    /// The transforms of a node.
     ///
     /// # Errors
     /// When a transform has too few numbers, or such that make no sense.
@@ -38,12 +38,12 @@ impl<'a> Transforms<'a> {
         Ok(Self { list })
     }
 
-    /// Their product at rest.
+    /// The product of all at rest.
     pub(super) fn rest(&self) -> DAffine3 {
         self.list.iter().fold(DAffine3::IDENTITY, |all, transform| all * transform.of(&transform.numbers))
     }
 
-    /// Their product at a moment.
+    /// The product of all at a moment.
     pub(super) fn at(&self, time_s: f64, side: Side) -> DAffine3 {
         self.list.iter().fold(DAffine3::IDENTITY, |all, transform| all * transform.at(time_s, side))
     }

@@ -27,7 +27,7 @@ pub(super) struct Bound<'b> {
     pub uv_set: u32,
     /// Weights of the morph targets at rest.
     pub weights: &'b [f32],
-    /// Its place in messages.
+    /// Place of the node in messages.
     pub place: &'b str,
 }
 

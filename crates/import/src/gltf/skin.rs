@@ -121,7 +121,7 @@ type Fours = Vec<[f32; 4]>;
 pub(super) struct Bindings(Vec<(Fours, Fours)>);
 
 impl Bindings {
-    /// Those of a primitive of so many vertices.
+    /// The weights of a primitive of so many vertices.
     ///
     /// # Errors
     /// The place within the primitive and the problem, when they cannot be read.

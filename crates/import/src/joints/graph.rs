@@ -24,9 +24,9 @@ pub(crate) struct Piece {
 
 /// Trees of links, in the order of their bodies.
 pub(crate) struct Trees {
-    /// Those that move.
+    /// Joints that move.
     pub joints: Vec<Joint>,
-    /// Those around a link come before it; the first is the world.
+    /// Links; what bears a link comes before it, and the first is the world.
     pub links: Vec<Link>,
     /// The joint that moves each link, if any.
     movers: Vec<Option<usize>>,

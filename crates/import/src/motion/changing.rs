@@ -8,15 +8,15 @@ use enfilade_scene::BodyId;
 
 /// A node whose placement changes.
 pub(crate) struct Changing<'c> {
-    /// Its place in messages.
+    /// Place of the node in messages.
     pub place: &'c str,
     /// The name of its body.
     pub name: &'c str,
-    /// Its placement in its parent at rest.
+    /// Placement in the node's parent at rest.
     pub rest: DAffine3,
     /// The moments between which it moves evenly, or smoothly: seconds.
     pub moments: Vec<f64>,
-    /// Its placement in its parent at a moment.
+    /// Placement in the node's parent at a moment.
     pub local: &'c dyn Fn(f64, Side) -> DAffine3,
     /// A moment in messages.
     pub told: &'c dyn Fn(f64) -> String,

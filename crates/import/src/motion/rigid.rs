@@ -85,9 +85,9 @@ pub(crate) fn between_placements(from: &DAffine3, to: &DAffine3, share: f64) -> 
 /// A placement at rest.
 struct Axes {
     rest: DAffine3,
-    /// Its orthogonal factor, mirrored if it mirrors.
+    /// The orthogonal factor, mirrored if the placement mirrors.
     orthogonal: DMat3,
-    /// Its rotation.
+    /// The rotation.
     rotation: DQuat,
 }
 

@@ -14,7 +14,7 @@ const MOST_SHAPES: usize = 20_000;
 
 /// What becomes of a mesh whose shape may change.
 pub(crate) enum Shapes {
-    /// It has one shape.
+    /// A mesh with one shape.
     Constant,
     Timed(TimedShapes),
     /// Why it cannot be followed; a clause that begins with "it" or "its".

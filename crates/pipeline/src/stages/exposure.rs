@@ -8,7 +8,7 @@ use enfilade_scene::{Body, CameraView, Scene};
 
 /// A stretch of an exposure is so short that nothing moves farther in it, in pixels.
 const STRETCH_PX: f64 = 1.5;
-/// The same where stretches are bands of rows, whose border shows by how much things moved.
+/// A stretch that is a band of rows is shorter, since its border shows by how much things moved: pixels.
 const BAND_PX: f64 = 0.5;
 /// The most stretches of an exposure, and with a rolling shutter; the most triangles of the scenes of all.
 const STRETCHES: usize = 32;

@@ -10,7 +10,7 @@ use enfilade_scene::{Cx, Pose, Scene, StartCamera, Warning};
 pub(super) struct OwnCamera {
     /// The camera at rest.
     pub camera: StartCamera,
-    /// Its number among those of the scene; `None` of other places, which stay.
+    /// Number of the camera among those of the scene; `None` of other places, which stay.
     number: Option<usize>,
 }
 

@@ -16,7 +16,7 @@ pub struct OfficeCabinet {
     pub width: f32,
     /// Rows of binders above each other.
     pub rows: usize,
-    /// Its front.
+    /// The cabinet's front.
     pub front: CabinetFront,
     /// Finish of the sheet metal.
     pub finish: Finish,

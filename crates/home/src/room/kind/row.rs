@@ -12,7 +12,7 @@ pub struct Row {
     pub norm: Norm,
     /// How it is entered, and what is entered from it.
     pub ways: Ways,
-    /// Its windows.
+    /// Windows of the room.
     pub windows: Windows,
     /// The surfaces of its shell.
     pub shell: Shell,
@@ -56,7 +56,7 @@ pub struct Ways {
     pub open_to: &'static [(RoomKind, f32)],
     /// The smallest has the entrance.
     pub entrance: u8,
-    /// Its door swings out, so that someone who has fallen behind it can be reached.
+    /// True if the door swings out, so that someone who has fallen behind it can be reached.
     pub swings_out: bool,
 }
 
@@ -97,7 +97,7 @@ pub enum Daylight {
     Usual,
     /// A long outer wall, and more of them.
     Wide,
-    /// It leaves outer walls to others, at this cost for each metre.
+    /// The room leaves outer walls to others, at this cost for each metre.
     Shuns(f32),
 }
 
