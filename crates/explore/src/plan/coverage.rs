@@ -27,7 +27,7 @@ pub(super) fn cover(planner: &Planner, first: Pose, config: &CoverageConfig, rng
     let frames = planner.config.frames as usize;
     let mut draft = Draft::default();
     let patches = patches(planner.world, config.samples as usize);
-    let places = reachable(planner, first.position)?;
+    let places = reachable(planner, first.position, |_, _| true)?;
     let mut poses = vec![first];
     poses.extend(drawn(planner, &places, config.poses as usize, &mut draft, rng));
     let mut seen: Vec<Vec<u32>> = seen_by_each(planner, &patches, &poses, config);

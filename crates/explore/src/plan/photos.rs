@@ -5,9 +5,10 @@
 
 use super::composition::Composer;
 use super::places::Places;
-use super::planner::{Draft, Planner, by_score};
+use super::planner::{Draft, Planner};
 use super::report::Fault;
 use super::rules::turned_rad;
+use super::stills::reachable;
 use super::{PhotosConfig, TargetObject};
 use crate::ExploreError;
 use enfilade_math::{DVec3, Rng};
@@ -31,12 +32,12 @@ pub(super) fn photos(
     rng: &Rng,
 ) -> Result<Draft, ExploreError> {
     let frames = planner.config.frames as usize;
-    let places = Places::around(planner.rules, first.position, |origin, place| planner.rules.sees(origin, place));
-    if places.points.is_empty() {
-        let trajectory = planner.name.to_string();
-        return Err(ExploreError::NoPlaces { trajectory, position: first.position, clearance_m: planner.config.clearance_m });
-    }
+    let places = reachable(planner, first.position, |origin, place| planner.rules.sees(origin, place))?;
     let composer = Composer::new(planner.world, things);
+    let fault = |pose: &Pose| {
+        let void = || planner.gates.is_void(&planner.views(&[*pose])[0]).then_some(Fault::Void);
+        planner.gates.fault(pose, None).or_else(void)
+    };
     let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
     for frame in 1..frames {
         planner.progress(frame, frames);
@@ -45,9 +46,9 @@ pub(super) fn photos(
         let apart: Vec<Pose> = drawn.into_iter().filter(|pose| draft.poses.iter().all(|other| is_apart(photos, pose, other))).collect();
         let likelihood = |pose: &Pose| composer.likelihood(planner.gates.glancer, pose, &planner.gates.glancer.look(pose));
         let scores: Vec<f64> = apart.par_iter().map(likelihood).collect();
-        if let Some(pose) = chosen(planner, &apart, scores, &mut draft, &mut rng) {
-            draft.views.extend(planner.views(&[pose]));
-            draft.poses.push(pose);
+        if let Some(chosen) = planner.draw(&apart, scores, fault, &mut draft.rejected, &mut rng) {
+            draft.views.extend(planner.views(&apart[chosen..=chosen]));
+            draft.poses.push(apart[chosen]);
         }
     }
     planner.progress(frames, frames);
@@ -91,18 +92,4 @@ fn normal([mean, deviation]: [f64; 2], rng: &mut Rng) -> f64 {
 /// Whether two photos are from different places, or look in different directions.
 fn is_apart(photos: &PhotosConfig, a: &Pose, b: &Pose) -> bool {
     a.position.distance(b.position) >= photos.min_distance_m || turned_rad(a, b) >= photos.min_angle_deg.to_radians()
-}
-
-/// A view without a fault, drawn in proportion to the scores.
-fn chosen(planner: &Planner, poses: &[Pose], mut scores: Vec<f64>, draft: &mut Draft, rng: &mut Rng) -> Option<Pose> {
-    while let Some(distribution) = by_score(&scores) {
-        let index = distribution.sample(rng.next_f32()).0;
-        let pose = poses[index];
-        let void = || planner.gates.is_void(&planner.views(&[pose])[0]).then_some(Fault::Void);
-        let fault = planner.gates.fault(&pose, None).or_else(void).or_else(|| (!(planner.accepts)(&pose)).then_some(Fault::Refused));
-        let Some(fault) = fault else { return Some(pose) };
-        draft.rejected.add(fault);
-        scores[index] = 0.0;
-    }
-    None
 }

@@ -73,14 +73,26 @@ impl<'a> Planner<'a> {
     ) -> Option<usize> {
         // Views of too little have no score.
         let score = |view: &ViewStats| if self.gates.is_void(view) { 0.0 } else { self.score(view) };
-        let mut scores: Vec<f64> = views.iter().map(score).collect();
+        let scores: Vec<f64> = views.iter().map(score).collect();
         views.iter().filter(|view| self.gates.is_void(view)).for_each(|_| rejected.add(Fault::Void));
 
-        // Draw until a view has no fault.
+        let fault = |pose: &Pose| self.gates.fault(pose, before);
+        self.draw(candidates, scores, fault, rejected, rng)
+    }
+
+    /// The index of a candidate that has no `fault` and is accepted, drawn in proportion to the scores; one that fails is not drawn again.
+    pub fn draw(
+        &self,
+        candidates: &[Pose],
+        mut scores: Vec<f64>,
+        fault: impl Fn(&Pose) -> Option<Fault>,
+        rejected: &mut RejectedCounts,
+        rng: &mut Rng,
+    ) -> Option<usize> {
         while let Some(distribution) = by_score(&scores) {
             let chosen = distribution.sample(rng.next_f32()).0;
             let pose = &candidates[chosen];
-            let fault = self.gates.fault(pose, before).or_else(|| (!(self.accepts)(pose)).then_some(Fault::Refused));
+            let fault = fault(pose).or_else(|| (!(self.accepts)(pose)).then_some(Fault::Refused));
             let Some(fault) = fault else { return Some(chosen) };
             rejected.add(fault);
             scores[chosen] = 0.0;

@@ -22,7 +22,7 @@ const DRAWS_PER_CANDIDATE: usize = 3;
 /// There are fewer than `frames` when no more places are left, with a warning.
 pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng: &Rng) -> Result<Draft, ExploreError> {
     let frames = planner.config.frames as usize;
-    let places = reachable(planner, first.position)?;
+    let places = reachable(planner, first.position, |_, _| true)?;
     let mut draft = Draft { poses: vec![first], views: planner.views(&[first]), ..Draft::default() };
     for place in places.shuffled(&mut rng.fork(0)) {
         if draft.poses.len() >= frames {
@@ -64,9 +64,9 @@ pub(super) fn stills(planner: &Planner, first: Pose, stills: &StillsConfig, rng:
     Ok(draft)
 }
 
-/// All places within reach of a position.
-pub(super) fn reachable(planner: &Planner, position: DVec3) -> Result<Places, ExploreError> {
-    let places = Places::around(planner.rules, position, |_, _| true);
+/// The places within reach of a position for which `allowed(first, place)`, where the first is the one nearest to it.
+pub(super) fn reachable(planner: &Planner, position: DVec3, allowed: impl Fn(DVec3, DVec3) -> bool) -> Result<Places, ExploreError> {
+    let places = Places::around(planner.rules, position, allowed);
     if places.points.is_empty() {
         return Err(ExploreError::NoPlaces { trajectory: planner.name.to_string(), position, clearance_m: planner.config.clearance_m });
     }
