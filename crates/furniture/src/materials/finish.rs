@@ -127,7 +127,7 @@ pub enum Finish {
     Cardboard,
     /// A sheet of spines: texture coordinates choose the book, see [`enfilade_textures::BOOK_COLUMNS`].
     BookJackets,
-    /// Fronts of packages: texture coordinates choose one, see [`super::PACKAGE_COLUMNS`].
+    /// Fronts of packages: texture coordinates choose one, see `PACKAGE_COLUMNS`.
     Packages,
     /// Slate or enamel to write on with chalk: 0 green, 1 black.
     Chalkboard(u8),
