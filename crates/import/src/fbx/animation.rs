@@ -1,7 +1,7 @@
 //! Animations of nodes, as rigid motion over time.
 //!
 //! ufbx samples the local placement of every animated node, with all pivots and layers, sixty times a second where it does not change
-//! evenly, and keeps the states that matter. Nodes whose scale changes, or that take only a part of their parent's, stay at the first moment.
+//! evenly, and keeps the states that matter. Nodes whose scale changes, or that take only a part of their parent's, are no bodies: see `deform`.
 
 use super::matrix::affine;
 use crate::assembly::TimedPoses;
@@ -14,7 +14,17 @@ use ufbx::{Anim, BakeOpts, BakedNode, InheritMode, Node, Quat, Scene, Vec3};
 /// The motion of the nodes of a file, by number.
 #[derive(Default)]
 pub(super) struct Animations {
-    nodes: BTreeMap<u32, Result<TimedPoses, String>>,
+    /// States of rigid motion; `None` where it is not rigid.
+    nodes: BTreeMap<u32, Option<TimedPoses>>,
+}
+
+/// The motion of a node.
+pub(super) enum Motion {
+    Still,
+    /// The frame in the file of the node's axes at rest, and states relative to its first moment in these axes.
+    Rigid(DAffine3, TimedPoses),
+    /// The scale changes, only a part of the parent's scale is taken, or there are too many states.
+    Other,
 }
 
 impl Animations {
@@ -35,34 +45,25 @@ impl Animations {
         Ok(Self { nodes: baked.nodes.iter().filter(moves).map(|node| (node.typed_id, states(node))).collect() })
     }
 
-    /// True when nothing is animated.
-    pub(super) fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// The states of a node relative to its first moment, in its own axes, and the frame of these in the file; `None` of nodes that stay.
-    ///
-    /// # Errors
-    /// Why a node that is animated stays, as a clause.
-    pub(super) fn of(&self, node: &Node) -> Option<Result<(DAffine3, TimedPoses), String>> {
-        let states = match self.nodes.get(&node.element.typed_id)? {
-            Ok(states) => states.clone(),
-            Err(problem) => return Some(Err(problem.clone())),
-        };
-        if node.inherit_mode != InheritMode::Normal {
-            return Some(Err("it takes only a part of its parent's scale".into()));
+    /// How a node moves.
+    pub(super) fn of(&self, node: &Node) -> Motion {
+        match self.nodes.get(&node.element.typed_id) {
+            None => Motion::Still,
+            Some(Some(states)) if node.inherit_mode == InheritMode::Normal => {
+                let local = &node.local_transform;
+                let parent_from_frame = DAffine3::from_rotation_translation(rotation(&local.rotation), vector(&local.translation));
+                let file_from_parent = node.parent.as_ref().map_or(DAffine3::IDENTITY, |parent| affine(&parent.node_to_world));
+                Motion::Rigid(file_from_parent * parent_from_frame, states.clone())
+            }
+            Some(_) => Motion::Other,
         }
-        let local = &node.local_transform;
-        let parent_from_frame = DAffine3::from_rotation_translation(rotation(&local.rotation), vector(&local.translation));
-        let file_from_parent = node.parent.as_ref().map_or(DAffine3::IDENTITY, |parent| affine(&parent.node_to_world));
-        Some(Ok((file_from_parent * parent_from_frame, states)))
     }
 }
 
-/// The states of a sampled node.
-fn states(node: &BakedNode) -> Result<TimedPoses, String> {
+/// The states of a sampled node, if its motion is rigid.
+fn states(node: &BakedNode) -> Option<TimedPoses> {
     if !node.constant_scale {
-        return Err("its scale changes, which no rigid motion does".into());
+        return None;
     }
     let (translations, rotations) = (node.translation_keys.as_ref(), node.rotation_keys.as_ref());
     let moments = translations.iter().map(|key| key.time).chain(rotations.iter().map(|key| key.time)).collect();
@@ -75,8 +76,8 @@ fn states(node: &BakedNode) -> Result<TimedPoses, String> {
     let states = motion::states(moments, |time_s, _| {
         let (translation, rotation) = at(time_s);
         RigidPose { rotation: (back * rotation).normalize(), translation: back * (translation - start) }
-    })?;
-    states.ok_or_else(|| "it has no states".into())
+    });
+    states.ok().flatten()
 }
 
 fn vector(v: &Vec3) -> DVec3 {

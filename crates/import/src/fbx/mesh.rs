@@ -6,12 +6,16 @@ use enfilade_math::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use ufbx::MeshPart;
 
+/// The point from which positions of a mesh count: its own origin, or one near what is far from that.
+pub(super) fn origin(mesh: &ufbx::Mesh, meters_per_unit: f64) -> DVec3 {
+    origin_of(mesh.skinned_position.values.iter().map(dvec3), meters_per_unit)
+}
+
 /// The triangles of `part` with texture coordinates of set `uv_set`. Vertices are shared by corners that agree in everything.
-/// Faces that are holes are left out. Besides, the point from which positions count.
-pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize, meters_per_unit: f64) -> (Mesh, DVec3) {
+/// Faces that are holes are left out. Positions count from `origin`.
+pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize, origin: DVec3) -> Mesh {
     let uvs = mesh.uv_sets.get(uv_set).map(|set| &set.vertex_uv).filter(|uv| uv.exists);
     let (positions, normals) = (&mesh.skinned_position, &mesh.skinned_normal);
-    let origin = origin_of(positions.values.iter().map(dvec3), meters_per_unit);
     let mut built = Mesh::default();
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();
     let mut corners = Vec::new();
@@ -42,7 +46,7 @@ pub(super) fn of_part(mesh: &ufbx::Mesh, part: &MeshPart, uv_set: usize, meters_
             }));
         }
     }
-    (built, origin)
+    built
 }
 
 fn dvec3(v: &ufbx::Vec3) -> DVec3 {

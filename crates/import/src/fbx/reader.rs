@@ -1,12 +1,11 @@
 //! The bytes of an FBX file to its objects, by the library ufbx, within limits of memory and depth.
 
 use super::animation::Animations;
+use super::deform::Clip;
 use crate::ImportError;
 use crate::assembly::Assembly;
 use enfilade_math::{DMat3, DVec3};
-use ufbx::{
-    AllocatorOpts, BakeOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, EvaluateOpts, Exporter, FileFormat, LoadOpts, SceneRoot,
-};
+use ufbx::{AllocatorOpts, BakeOpts, CoordinateAxes, CoordinateAxis, Element, ErrorType, Exporter, FileFormat, LoadOpts, SceneRoot};
 
 /// Memory that any file may take while it is read, bytes; large ones may take [`MEMORY_PER_BYTE`] times their size more.
 const MEMORY: usize = 1 << 30;
@@ -18,10 +17,10 @@ const MEMORY_PER_BYTE: usize = 64;
 const MAX_DEPTH: u32 = 512;
 
 /// The scene of an FBX file in its own units and axes, in the pose of its first moment where it is animated, and its animation.
-pub(super) fn read(a: &mut Assembly) -> Result<(SceneRoot, Animations), ImportError> {
+pub(super) fn read(a: &mut Assembly) -> Result<(SceneRoot, Animations, Option<Clip>), ImportError> {
     let bytes = a.read_scene_file()?;
-    let limits =
-        || AllocatorOpts { memory_limit: MEMORY.saturating_add(bytes.len().saturating_mul(MEMORY_PER_BYTE)), ..AllocatorOpts::default() };
+    let memory = MEMORY.saturating_add(bytes.len().saturating_mul(MEMORY_PER_BYTE));
+    let limits = || AllocatorOpts { memory_limit: memory, ..AllocatorOpts::default() };
     let options = LoadOpts {
         temp_allocator: limits(),
         result_allocator: limits(),
@@ -37,15 +36,16 @@ pub(super) fn read(a: &mut Assembly) -> Result<(SceneRoot, Animations), ImportEr
         a.warn("whole file", format!("{} ({} times)", &*warning.description, warning.count));
     }
     report_version(&scene, a);
-    let Some(stack) = scene.anim_stacks.as_ref().iter().find(|s| s.layers.iter().any(|l| !l.anim_values.is_empty())) else {
-        return Ok((scene, Animations::default()));
+    let Some(number) = scene.anim_stacks.iter().position(|s| s.layers.iter().any(|l| !l.anim_values.is_empty())) else {
+        return Ok((scene, Animations::default(), None));
     };
+    let stack = &scene.anim_stacks[number];
     let place = format!("animation {:?}", &*stack.element.name);
     let baking = BakeOpts { temp_allocator: limits(), result_allocator: limits(), ..BakeOpts::default() };
     let animations = Animations::sample(&scene, &stack.anim, baking).map_err(|e| a.malformed(&place, problem(&e, &bytes)))?;
-    let options = EvaluateOpts { temp_allocator: limits(), result_allocator: limits(), evaluate_skinning: true, ..EvaluateOpts::default() };
-    let first = ufbx::evaluate_scene(&scene, &stack.anim, stack.time_begin, options);
-    Ok((first.map_err(|e| a.malformed(&place, problem(&e, &bytes)))?, animations))
+    let clip = Clip { stack: number, memory, scene };
+    let first = clip.at(0.0).map_err(|e| a.malformed(&place, problem(&e, &bytes)))?;
+    Ok((first, animations, Some(clip)))
 }
 
 /// The message for an error: the fault, and what to do about it.

@@ -4,7 +4,7 @@ use crate::common::fbx::*;
 use crate::common::{Folder, png, warnings};
 use enfilade_import::{ImportOptions, Imported, UpAxis};
 use enfilade_math::{Rgb, Vec2, Vec3};
-use enfilade_scene::{Alpha, Bsdf, Light, NormalMap, SpotFalloff, TextureRef, Wrap};
+use enfilade_scene::{Alpha, BodyStates, Bsdf, Light, NormalMap, SpotFalloff, TextureRef, Wrap};
 use std::f64::consts::PI;
 
 const MESH: i64 = 10;
@@ -422,38 +422,16 @@ fn damaged_files_are_errors_with_a_remedy() {
     assert!(folder.error("huge.fbx").contains("huge.fbx: whole file: "));
 }
 
-/// A curve of linear keys, seconds and values, that drives a component of a property of the node; the others stay as at rest.
-fn curve(id: i64, component: &'static str, property: &'static str, rest: [f64; 3], keys: &[(f64, f64)]) -> (Vec<Record>, Vec<Record>) {
-    const TICKS_PER_S: f64 = 46_186_158_000.0;
-    const LINEAR: i32 = 4;
-    let list = |name, values| record(name, vec![values], vec![]);
-    let children = vec![
-        record("Default", vec![Value::Real(0.0)], vec![]),
-        record("KeyVer", vec![Value::Int(4008)], vec![]),
-        list("KeyTime", Value::Longs(keys.iter().map(|(time_s, _)| (time_s * TICKS_PER_S) as i64).collect())),
-        list("KeyValueFloat", Value::Reals(keys.iter().map(|(_, value)| *value).collect())),
-        list("KeyAttrFlags", Value::Ints(vec![LINEAR])),
-        list("KeyAttrDataFloat", Value::Reals(vec![0.0; 4])),
-        list("KeyAttrRefCount", Value::Ints(vec![keys.len() as i32])),
-    ];
-    let at_rest = ["d|X", "d|Y", "d|Z"].into_iter().zip(rest).map(|(name, value)| reals(name, "Number", &[value])).collect();
-    let of_property = object("AnimationCurveNode", id, "T\0\x01AnimCurveNode", "", vec![properties(at_rest)]);
-    let objects = vec![of_property, object("AnimationCurve", id + 1, "\0\x01AnimCurve", "", children)];
-    (objects, vec![belongs(id, 41), feeds(id, NODE, property), feeds(id + 1, id, component)])
-}
-
 #[test]
 fn animated_nodes_move_from_the_first_moment_of_the_animation() {
     // From the first to the third second the node goes 50 cm along x, and turns by 180 degrees about its x.
-    let (mut more, mut links) = curve(50, "d|X", "Lcl Translation", [0.0, 0.0, 5.0], &[(1.0, 10.0), (3.0, 60.0)]);
-    let (objects, connections) = curve(60, "d|X", "Lcl Rotation", [0.0; 3], &[(1.0, 0.0), (3.0, 180.0)]);
+    let (mut more, mut links) = curve(50, (NODE, "Lcl Translation"), "d|X", [0.0, 0.0, 5.0], &[(1.0, 10.0), (3.0, 60.0)]);
+    let (objects, connections) = curve(60, (NODE, "Lcl Rotation"), "d|X", [0.0; 3], &[(1.0, 0.0), (3.0, 180.0)]);
     more.extend(objects);
     links.extend(connections);
-    let span = |name, ticks: i64| property(name, "KTime", vec![Value::Int(ticks)]);
-    let ends = vec![span("LocalStart", 46_186_158_000), span("LocalStop", 3 * 46_186_158_000)];
-    more.push(object("AnimationStack", 40, "Take\0\x01AnimStack", "", vec![properties(ends)]));
-    more.push(object("AnimationLayer", 41, "Base\0\x01AnimLayer", "", vec![]));
-    links.push(belongs(41, 40));
+    let (objects, connections) = animation([1.0, 3.0]);
+    more.extend(objects);
+    links.extend(connections);
     let of_node = vec![vector("Lcl Translation", [0.0, 0.0, 5.0]), vector("Lcl Scaling", [2.0, 2.0, 2.0])];
     let folder = Folder::new();
     let imported = load(&folder, &scene(vec![], of_node.clone(), more.clone(), links.clone()));
@@ -475,9 +453,13 @@ fn animated_nodes_move_from_the_first_moment_of_the_animation() {
         }
     }
 
-    // A scale that changes is no rigid motion.
-    let (objects, connections) = curve(70, "d|Y", "Lcl Scaling", [2.0; 3], &[(1.0, 1.0), (3.0, 2.0)]);
-    let stretched = load(&folder, &scene(vec![], of_node, [more, objects].concat(), [links, connections].concat()));
-    assert_eq!(stretched.scene.bodies, []);
-    assert!(warnings(&stretched).contains("its scale changes, which no rigid motion does; it stays"), "{}", warnings(&stretched));
+    // A scale that changes is no rigid motion: the shape changes, and has the rest of the motion too.
+    let (objects, connections) = curve(70, (NODE, "Lcl Scaling"), "d|Y", [2.0; 3], &[(1.0, 2.0), (3.0, 4.0)]);
+    let stretched = load(&folder, &scene(vec![], of_node, [more, objects].concat(), [links, connections].concat())).scene;
+    assert!(matches!(stretched.bodies[0].motion.states, BodyStates::Deform { .. }) && stretched.bodies.len() == 1);
+    for (time_s, third) in [(0.0, [10.0, 2.0, 5.0]), (1.0, [35.0, 0.0, 8.0]), (2.0, [60.0, -4.0, 5.0])] {
+        let there = stretched.at(time_s);
+        let [x, y, z] = third;
+        near(there.world_corners(&there.parts[0], 0)[2], [0.01 * x, -0.01 * z, 0.01 * y]);
+    }
 }

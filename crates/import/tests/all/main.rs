@@ -8,6 +8,7 @@ mod disguises;
 mod downloads;
 mod extensions;
 mod fbx;
+mod fbx_deforming;
 mod front3d;
 mod gltf;
 mod gltf_animations;

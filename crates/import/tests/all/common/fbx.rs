@@ -174,3 +174,43 @@ fn write_value(value: &Value, out: &mut Vec<u8>) {
         }
     }
 }
+
+const TICKS_PER_S: f64 = 46_186_158_000.0;
+
+/// A curve of linear keys, seconds and values, that drives a component of a property of an object; the others stay as at rest.
+pub fn curve(
+    id: i64,
+    (target, of): (i64, &'static str),
+    component: &'static str,
+    rest: [f64; 3],
+    keys: &[(f64, f64)],
+) -> (Vec<Record>, Vec<Record>) {
+    const LINEAR: i32 = 4;
+    let list = |name, values| record(name, vec![values], vec![]);
+    let children = vec![
+        record("Default", vec![Value::Real(0.0)], vec![]),
+        record("KeyVer", vec![Value::Int(4008)], vec![]),
+        list("KeyTime", Value::Longs(keys.iter().map(|(time_s, _)| (time_s * TICKS_PER_S) as i64).collect())),
+        list("KeyValueFloat", Value::Reals(keys.iter().map(|(_, value)| *value).collect())),
+        list("KeyAttrFlags", Value::Ints(vec![LINEAR])),
+        list("KeyAttrDataFloat", Value::Reals(vec![0.0; 4])),
+        list("KeyAttrRefCount", Value::Ints(vec![keys.len() as i32])),
+    ];
+    let names: &[&'static str] = if component.len() == 3 { &["d|X", "d|Y", "d|Z"] } else { &[component] };
+    let at_rest = names.iter().zip(rest).map(|(name, value)| reals(name, "Number", &[value])).collect();
+    let of_property = object("AnimationCurveNode", id, "T\0\x01AnimCurveNode", "", vec![properties(at_rest)]);
+    let objects = vec![of_property, object("AnimationCurve", id + 1, "\0\x01AnimCurve", "", children)];
+    (objects, vec![belongs(id, LAYER), feeds(id, target, of), feeds(id + 1, id, component)])
+}
+
+/// Number of the layer of the animation that curves belong to.
+const LAYER: i64 = 41;
+
+/// The animation that curves belong to, between two moments, seconds.
+pub fn animation(ends_s: [f64; 2]) -> (Vec<Record>, Vec<Record>) {
+    const STACK: i64 = 40;
+    let span = |(name, time_s)| property(name, "KTime", vec![Value::Int((time_s * TICKS_PER_S) as i64)]);
+    let ends = ["LocalStart", "LocalStop"].into_iter().zip(ends_s).map(span).collect();
+    let stack = object("AnimationStack", STACK, "Take\0\x01AnimStack", "", vec![properties(ends)]);
+    (vec![stack, object("AnimationLayer", LAYER, "Base\0\x01AnimLayer", "", vec![])], vec![belongs(LAYER, STACK)])
+}
