@@ -13,6 +13,8 @@ frames = 8
 [render]
 size = [96, 96]
 samples = 8
+[plan]
+mode = { kind = "walk" }
 [[scene]]
 name = "home"
 seed = 5

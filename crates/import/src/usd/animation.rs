@@ -1,17 +1,20 @@
-//! Time samples of placements, as rigid motion over time.
+//! Time samples of placements as rigid motion, and of points and skeletons as shapes over time.
 //!
 //! A prim whose `xformOp`s have samples is a body, with all that is below it; one below it that moves by itself rides on it. Time begins at
 //! `startTimeCode`.
 
 use super::camera::name;
+use super::deform::Deform;
 use super::layer::Layer;
+use super::polygons::Corner;
 use super::stage::Prim;
 use super::value::Value;
 use super::xform::Xform;
 use crate::assembly::Assembly;
-use crate::motion::Changing;
+use crate::motion::{Changing, LENGTH_M, Shapes, shapes};
 use enfilade_math::DAffine3;
-use enfilade_scene::BodyId;
+use enfilade_scene::{BodyId, PartId};
+use std::convert::Infallible;
 
 /// The motion of the prims of a stage.
 pub(super) struct Animations {
@@ -54,10 +57,38 @@ impl Animations {
         };
         let body = node.body((file_from_parent, bearer), a);
         if body.is_some() {
-            let [first, last] = self.sampled.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
-            self.sampled = Some([codes.iter().copied().fold(first, f64::min), codes.iter().copied().fold(last, f64::max)]);
+            self.note(&codes);
         }
         body.or(bearer)
+    }
+
+    /// Makes a placed part deform, borne by a body if there is one.
+    pub(super) fn deform(
+        &mut self,
+        prim: &Prim,
+        (deform, corners, mesh): (&Deform, &[Corner], u32),
+        (part, bearer, file_from_mesh): (PartId, Option<BodyId>, &DAffine3),
+        a: &mut Assembly,
+    ) {
+        let (codes, rate) = (deform.codes(), self.codes_per_second);
+        let length = LENGTH_M / (a.meters_per_unit() * file_from_mesh.matrix3.determinant().abs().cbrt());
+        let mesh = a.mesh_at(mesh).clone();
+        let shape = |time_s: f64, _| Ok::<_, Infallible>(deform.shape(Some(time_s * rate), corners, &mesh));
+        match shapes(codes.iter().map(|code| code / rate).collect(), false, length, shape) {
+            Ok(Shapes::Timed(shapes)) => {
+                if a.deform(part, bearer, shapes) {
+                    self.note(&codes);
+                }
+            }
+            Ok(Shapes::Refused(problem)) => a.warn(&prim.path, format!("its shape changes, but {problem}; it keeps that of rest")),
+            Ok(Shapes::Constant) => (),
+        }
+    }
+
+    /// Takes in the time codes at which something has a state.
+    fn note(&mut self, codes: &[f64]) {
+        let [first, last] = self.sampled.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
+        self.sampled = Some([codes.iter().copied().fold(first, f64::min), codes.iter().copied().fold(last, f64::max)]);
     }
 
     /// Makes the first moment of the stage that of the scene, and says what became of its time samples.

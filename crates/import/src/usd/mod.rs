@@ -4,11 +4,12 @@
 //! |---|---|
 //! | units and axes | `metersPerUnit` (0.01 where none is stated) and `upAxis` (y) of the scene file; [`ImportOptions::meters_per_unit`](crate::ImportOptions::meters_per_unit) multiplies the former, [`ImportOptions::up_axis`](crate::ImportOptions::up_axis) replaces the latter |
 //! | composition | sublayers, references, payloads (all are loaded), variants, inherits, specializes, over, class, `active`, list edits; references that lead back are left out with a warning; layers that are not there or on servers (`omniverse://`, `https://`) are left out with a warning; circles of sublayers and a depth of 64 are errors. Relocates, value clips and classes overridden from outside of a reference are not applied |
-//! | time | time samples of `xformOp`s move prims with all that is below them, from `startTimeCode` on (else from their first sample), with the layer's `timeCodesPerSecond` (else `framesPerSecond`, else 24) and the offsets of sublayers and references; between two samples as USD has it, but matrices turn the shortest way. Scales and shears stay those of the first sample; of all else the first sample is taken (else the value without time), each with a warning |
+//! | time | time samples of `xformOp`s move prims with all that is below them, from `startTimeCode` on (else from their first sample), with the layer's `timeCodesPerSecond` (else `framesPerSecond`, else 24) and the offsets of sublayers and references; between two samples as USD has it, but matrices turn the shortest way. Samples of the points and normals of meshes, and of skeletons, change shapes, so that no vertex is more than 0.1 mm from the file's halfway between two states, while the faces stay the same. Scales and shears stay those of the first sample; of all else the first sample is taken (else the value without time), each with a warning |
 //! | placement | every `xformOp`, `!invert!`, `!resetXformStack!` |
 //! | parts | one for each gprim and subset that binds a material, named by its path; prims of the same opinions, such as instances, share their meshes. Prims that are invisible or of the purpose `guide` or `proxy` are left out, and with a warning meshes, instancers and primvars whose numbers do not fit each other |
 //! | meshes | polygons with holes, both orientations, normals and texture coordinates of every interpolation with or without indices. Subdivision surfaces are taken as their cages, with smooth normals where none are stated |
-//! | other shapes | cubes, spheres, cylinders, cones, capsules, planes; point instancers. Points, curves, patches and volumes are left out, and so are skeletons and blend shapes: their meshes stay in the rest pose |
+//! | other shapes | cubes, spheres, cylinders, cones, capsules, planes; point instancers. Points, curves, patches and volumes are left out |
+//! | skeletons | below a `SkelRoot`, meshes are bent by blended matrices as the first samples of the animation have the joints, or their rest, and over time; blend shapes by the animation's weights, without those in between. What makes no sense is left out with a warning |
 //! | binding | direct, by purpose (`full`, all, `preview`), inherited, `strongerThanDescendants`, by collections with what they include and exclude by path. Without a material, the display colour and opacity, or their means, inherited where they are constant |
 //! | UsdPreviewSurface | as `Bsdf::Principled`. Opacity passes light straight, with the share of the reflection that remains; above `opacityThreshold` 0 it is a mask. In the specular workflow a bright specular colour is a metal. Displacement is left out, and so is occlusion, which light transport computes |
 //! | textures | UsdUVTexture with wrap modes (`black` is continued, `useMetadata` repeats), scale, bias, fallback and colour space (`auto`: sRGB for colours, raw for numbers), UsdTransform2d, UsdPrimvarReader, through node graphs and inputs of materials; of UDIMs the first tile. One set of texture coordinates a material |
@@ -25,6 +26,7 @@
 
 mod animation;
 mod archive;
+mod arrays;
 mod binary;
 mod bind;
 mod camera;
@@ -32,6 +34,7 @@ mod collection;
 mod compose;
 mod constants;
 mod curve;
+mod deform;
 mod files;
 mod foreign;
 mod inputs;
@@ -49,6 +52,8 @@ mod polygons;
 mod primvar;
 mod shader;
 mod shapes;
+mod skeleton;
+mod skin;
 mod stage;
 mod surface;
 mod text;

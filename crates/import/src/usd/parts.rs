@@ -2,8 +2,9 @@
 
 use super::bind::{self, Bindings};
 use super::camera::name;
+use super::deform::Deform;
 use super::label;
-use super::layer::{child_path, field};
+use super::layer::child_path;
 use super::light;
 use super::polygons::Polygons;
 use super::primvar::Sizes;
@@ -25,7 +26,7 @@ impl Walk<'_> {
                 let mesh = pushed(DVec3::ZERO, mesh, prim, a)?;
                 let pieces = mesh
                     .into_iter()
-                    .map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default(), semantic: None })
+                    .map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default(), semantic: None, deform: None })
                     .collect();
                 Shape { pieces, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
             }
@@ -35,9 +36,6 @@ impl Walk<'_> {
     }
 
     pub(super) fn mesh(&mut self, prim: &Rc<Prim>, state: &State, a: &mut Assembly) -> Result<(), ImportError> {
-        if prim.schemas().iter().any(|s| s == "SkelBindingAPI") || !prim.targets("skel:skeleton", field::TARGETS).is_empty() {
-            a.warn(&prim.path, "the mesh's skeleton and blend shapes were left out; it stays in its rest pose");
-        }
         // Texture coordinates are those of the material, so meshes are shared among instances of one material.
         let uv_name = self.material_of(prim, state.bindings.material(&prim.path), a)?.map_or_else(|| "st".into(), |s| s.uv_name);
         let key = format!("{} {uv_name}", prim.identity());
@@ -51,17 +49,27 @@ impl Walk<'_> {
                         return Ok(());
                     }
                 };
-                let pieces = self.split(prim, &polygons, &uv_name, a)?;
+                let deform = Deform::of(prim, &polygons, (&state.rig, &mut self.skeletons), self.stage, a)?;
+                let pieces = self.split(prim, &polygons, (&uv_name, deform.map(Rc::new).as_ref()), a)?;
                 Shape { pieces, sizes: polygons.sizes(), smooth: polygons.smooth }
             }
         };
         self.cages += usize::from(shape.smooth);
-        self.pieces.insert(key, shape.clone());
+        // Instances of what deforms may be moved by other animations.
+        if shape.pieces.iter().all(|piece| piece.deform.is_none()) {
+            self.pieces.insert(key, shape.clone());
+        }
         self.place(prim, &shape, state, a)
     }
 
     /// The meshes of a prim: one for each subset that binds a material or has a label, and one for the remaining faces.
-    fn split(&mut self, prim: &Rc<Prim>, polygons: &Polygons, uv_name: &str, a: &mut Assembly) -> Result<Vec<Piece>, ImportError> {
+    fn split(
+        &mut self,
+        prim: &Rc<Prim>,
+        polygons: &Polygons,
+        (uv_name, deform): (&str, Option<&Rc<Deform>>),
+        a: &mut Assembly,
+    ) -> Result<Vec<Piece>, ImportError> {
         let sizes = polygons.sizes();
         let mut taken = vec![false; sizes.faces];
         let mut parts: Vec<(String, Vec<usize>, Bindings, Option<i16>)> = Vec::new();
@@ -88,9 +96,14 @@ impl Walk<'_> {
                 None => None,
             };
             let uvs = uvs(prim, wanted.as_deref().unwrap_or(uv_name), sizes, a);
-            let mesh = polygons.mesh(faces.into_iter(), uvs.as_ref());
+            let (mut mesh, corners) = polygons.mesh(faces.into_iter(), uvs.as_ref());
+            if let Some(deform) = deform {
+                let rest = deform.shape(None, &corners, &mesh);
+                (mesh.positions, mesh.normals) = (rest.positions, rest.normals);
+            }
             if let Some(mesh) = pushed(polygons.origin, mesh, prim, a)? {
-                pieces.push(Piece { mesh, name, bindings, semantic });
+                let deform = deform.map(|deform| (deform.clone(), corners.into()));
+                pieces.push(Piece { mesh, name, bindings, semantic, deform });
             }
         }
         Ok(pieces)
@@ -114,6 +127,9 @@ impl Walk<'_> {
             let label = piece.semantic.map_or(state.label, |semantic| FileLabel::given(semantic, object));
             if let Some(part) = a.push_part_of(object, &part, piece.mesh, material, state.file_from_parent, label) {
                 self.things.part(state.thing, object, part);
+                if let Some((deform, corners)) = &piece.deform {
+                    self.animations.deform(prim, (deform, corners, piece.mesh), (part, state.body, &state.file_from_parent), a);
+                }
             }
         }
         Ok(())

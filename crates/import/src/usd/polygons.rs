@@ -24,9 +24,19 @@ pub(super) struct Polygons {
     left_handed: bool,
     /// True for the faces that `holeIndices` leaves out.
     holes: Vec<bool>,
-    normals: Option<Primvar<3>>,
+    /// The attribute of the normals, and their values.
+    normals: Option<(&'static str, Primvar<3>)>,
     /// True for subdivision surfaces, whose cage this is.
     pub smooth: bool,
+}
+
+/// What a vertex of a mesh was made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    /// Number of the point.
+    pub point: u32,
+    /// Number of the stated normal; 0 without any.
+    pub normal: u32,
 }
 
 impl Polygons {
@@ -67,8 +77,8 @@ impl Polygons {
             }
         }
         let sizes = Sizes { faces: faces.len(), points: points.len(), corners: corners.len() };
-        let normals =
-            Primvar::read(prim, "primvars:normals", "vertex", sizes, a).or_else(|| Primvar::read(prim, "normals", "vertex", sizes, a));
+        let mut stated = |attribute| Primvar::read(prim, attribute, "vertex", sizes, a).map(|normals| (attribute, normals));
+        let normals = stated("primvars:normals").or_else(|| stated("normals"));
         Ok(Self {
             points,
             origin,
@@ -86,10 +96,16 @@ impl Polygons {
         Sizes { faces: self.faces.len(), points: self.points.len(), corners: self.corners.len() }
     }
 
+    /// The attribute that states the normals.
+    pub(super) fn normals_attribute(&self) -> Option<&'static str> {
+        self.normals.as_ref().map(|(attribute, _)| *attribute)
+    }
+
     /// Mesh of some of the faces as triangles, with texture coordinates. Where points of one place have several normals or coordinates,
-    /// they become several vertices.
-    pub(super) fn mesh(&self, faces: impl Iterator<Item = usize>, uvs: Option<&Primvar<2>>) -> Mesh {
-        let mut mesh = Mesh::default();
+    /// they become several vertices. Besides, what each vertex was made of.
+    pub(super) fn mesh(&self, faces: impl Iterator<Item = usize>, uvs: Option<&Primvar<2>>) -> (Mesh, Vec<Corner>) {
+        let (mut mesh, mut made_of) = (Mesh::default(), Vec::new());
+        let normals = self.normals.as_ref().map(|(_, normals)| normals);
         let mut vertices: HashMap<[u32; 3], u32> = HashMap::new();
         let mut outline = Vec::new();
         for face in faces.filter(|f| !self.holes.get(*f).copied().unwrap_or(true)) {
@@ -98,11 +114,12 @@ impl Polygons {
             outline.extend((first..first + count).map(|c| self.points[self.corners[c] as usize]));
             let mut vertex = |corner: usize| {
                 let point = self.corners[corner];
-                let normal = self.normals.as_ref().map_or(0, |n| n.element(face, point as usize, corner));
+                let normal = normals.map_or(0, |n| n.element(face, point as usize, corner));
                 let uv = uvs.map_or(0, |u| u.element(face, point as usize, corner));
                 *vertices.entry([point, normal, uv]).or_insert_with(|| {
                     mesh.positions.push(self.points[point as usize]);
-                    if let Some(normals) = &self.normals {
+                    made_of.push(Corner { point, normal });
+                    if let Some(normals) = normals {
                         mesh.normals.push(Vec3::from_array(normals.get(normal).map(|c| c as f32)));
                     }
                     if let Some(uvs) = uvs {
@@ -119,6 +136,6 @@ impl Polygons {
         if self.smooth && self.normals.is_none() {
             add_smooth_normals(&mut mesh);
         }
-        mesh
+        (mesh, made_of)
     }
 }

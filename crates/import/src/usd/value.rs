@@ -45,7 +45,7 @@ pub(super) struct Numbers {
 pub(super) struct Samples {
     /// Time codes of the layer, ascending.
     pub codes: Vec<f64>,
-    /// The value at each; only the first where that is an array.
+    /// The value at each; only the first where they are arrays that are too large together.
     pub values: Vec<Value>,
 }
 
@@ -87,10 +87,8 @@ impl Samples {
         all.reverse();
         all.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         all.dedup_by(|(later, _), (code, _)| later == code);
-        let kept = if all.first()?.1.is_array() { 1 } else { all.len() };
-        let (codes, mut values): (Vec<f64>, Vec<Value>) = all.into_iter().unzip();
-        values.truncate(kept);
-        Some(Self { codes, values })
+        let (codes, values): (Vec<f64>, Vec<Value>) = all.into_iter().unzip();
+        (!codes.is_empty()).then_some(Self { codes, values })
     }
 
     /// False where all values are known to be the same.
@@ -172,11 +170,6 @@ impl Value {
             Self::Block => ListEdit { explicit: Some(Vec::new()), ..ListEdit::default() },
             _ => ListEdit::default(),
         }
-    }
-
-    /// True for arrays of anything.
-    pub(super) fn is_array(&self) -> bool {
-        matches!(self, Self::Numbers(Numbers { array: true, .. }) | Self::Texts { array: true, .. })
     }
 
     /// About how many bytes the value takes.

@@ -4,10 +4,12 @@ use super::animation::Animations;
 use super::bind::{self, Bindings};
 use super::camera;
 use super::constants::Constants;
+use super::deform::{Deform, Rig, Skeletons};
 use super::joints::Joints;
 use super::label::{self, Unknown};
 use super::light::Lamp;
 use super::material::Materials;
+use super::polygons::Corner;
 use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
@@ -38,6 +40,7 @@ pub(super) struct State {
     pub object: Option<ObjectId>,
     /// The thing that it is a piece of.
     pub thing: Option<Thing>,
+    pub rig: Rig,
 }
 
 /// A piece of a mesh: some faces as a scene mesh, the subset's name, and what it binds.
@@ -48,6 +51,8 @@ pub(super) struct Piece {
     pub bindings: Bindings,
     /// The class that the subset states.
     pub semantic: Option<i16>,
+    /// How its points change, and what its vertices were made of.
+    pub deform: Option<(Rc<Deform>, Rc<[Corner]>)>,
 }
 
 /// The pieces of a prim's mesh, and its sizes.
@@ -69,7 +74,8 @@ pub(super) struct Walk<'s> {
     pub(super) materials: Materials,
     pub(super) pieces: HashMap<String, Shape>,
     pub(super) things: Things,
-    animations: Animations,
+    pub(super) animations: Animations,
+    pub(super) skeletons: Skeletons,
     visited: usize,
     pub(super) unknown_labels: Unknown,
     /// Number of notes beyond the first of each kind.
@@ -95,6 +101,7 @@ impl<'s> Walk<'s> {
             materials: Materials::default(),
             pieces: HashMap::new(),
             things: Things::default(),
+            skeletons: Skeletons::default(),
             visited: 0,
             unknown_labels: Unknown::default(),
             hidden: 0,
@@ -120,6 +127,7 @@ impl<'s> Walk<'s> {
             prefix: String::new(),
             object: None,
             thing: None,
+            rig: Rig::default(),
         };
         let names = root.children();
         for (i, name) in names.iter().enumerate() {
@@ -192,6 +200,7 @@ impl<'s> Walk<'s> {
             prefix: state.prefix.clone(),
             object: Some(object),
             thing: Thing::at(prim, object, state.thing),
+            rig: state.rig.at(prim),
         };
         match prim.kind() {
             // Their shaders are read where they are bound.

@@ -44,6 +44,7 @@ mod survey;
 mod sweethome;
 mod usd;
 mod usd_binary;
+mod usd_deforming;
 mod usd_joints;
 mod usd_lights;
 mod usd_looks;

@@ -198,7 +198,7 @@ impl<'a> Values<'a> {
         self.nested(rep, depth + 1)
     }
 
-    /// Time samples: their times, and the values; of arrays the first is read.
+    /// Time samples: their times, and the values; of arrays only the first is read where all would take more than half of what is left.
     fn samples(&mut self, c: &mut Cursor, depth: usize) -> Checked<Value> {
         let mut times = c.jump()?;
         let times_rep = times.u64()?;
@@ -214,12 +214,22 @@ impl<'a> Values<'a> {
             return here.error(format!("found {count} time samples at {} times; the file is damaged, so export it again", codes.len()));
         }
         let mut all = Vec::with_capacity(count);
+        let mut are_read = true;
         for code in codes {
             let rep = values.u64()?;
-            let is_read = all.is_empty() || rep & IS_ARRAY == 0;
-            all.push((*code, if is_read { self.nested(rep, depth + 1)? } else { Value::texts([]) }));
+            if !are_read && rep & IS_ARRAY != 0 {
+                all.push((*code, Value::Block));
+                continue;
+            }
+            let value = self.nested(rep, depth + 1)?;
+            are_read &= value.bytes().saturating_mul(count as u64) <= self.budget / 2;
+            all.push((*code, value));
         }
-        Ok(Samples::of(all).map_or(Value::Block, |samples| Value::Samples(Rc::new(samples))))
+        let Some(mut samples) = Samples::of(all) else { return Ok(Value::Block) };
+        if !are_read {
+            samples.values.truncate(1);
+        }
+        Ok(Value::Samples(Rc::new(samples)))
     }
 
     fn list(&self, kind: u8, c: &mut Cursor) -> Checked<ListEdit> {
