@@ -3,7 +3,7 @@
 //! Control points have a time and a value. Those of Hermite's curves are tangents, of which Bézier's points are a third away (COLLADA 1.4.1,
 //! "Curve interpolation").
 
-use crate::motion::{MOST_STATES, Side, pieces};
+use crate::motion::{self, MOST_STATES, Side, pieces};
 
 /// A control point: seconds, and the value there.
 pub(super) type Control = [f64; 2];
@@ -83,8 +83,7 @@ impl Curve {
                 turned = way.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
             }
             // Curves are up to three times as fast as on average.
-            let cuts = (turned * if is_bent { 3.0 } else { 1.0 } / 60.0).ceil().clamp(1.0, 1e4) as usize;
-            moments.extend((1..cuts).map(|cut| pair[0] + (pair[1] - pair[0]) * cut as f64 / cuts as f64));
+            moments.extend(motion::turns(pair[0], pair[1], turned * if is_bent { 3.0 } else { 1.0 }));
             if is_bent {
                 moments.extend(pieces(pair[0], pair[1]));
             }

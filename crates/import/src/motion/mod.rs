@@ -36,6 +36,17 @@ pub(crate) fn pieces(from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
     (1..pieces).map(move |piece| from_s + (to_s - from_s) * piece as f64 / pieces as f64)
 }
 
+/// Greatest turn between two moments of which the shortest way is taken, degrees.
+const TURN_DEG: f64 = 60.0;
+/// Most moments that a turn is cut into.
+const MOST_TURNS: f64 = 10_000.0;
+
+/// The moments, in any unit, within an even turn by an angle, degrees, that cut it into pieces whose shortest way is theirs.
+pub(crate) fn turns(from: f64, to: f64, angle_deg: f64) -> impl Iterator<Item = f64> {
+    let pieces = (angle_deg / TURN_DEG).ceil().clamp(1.0, MOST_TURNS) as usize;
+    (1..pieces).map(move |piece| from + (to - from) * piece as f64 / pieces as f64)
+}
+
 /// The states of a node whose pose is known at all times, at moments in any order. `None` without any moment.
 ///
 /// # Errors

@@ -6,13 +6,8 @@
 use super::operation::{Kind, quaternion};
 use super::stage::OverTime;
 use super::value::Value;
-use crate::motion::{MOST_STATES, between_placements};
+use crate::motion::{MOST_STATES, between_placements, turns};
 use enfilade_math::{DAffine3, DMat3};
-
-/// Greatest turn between two moments of which the shortest way is taken, degrees.
-const TURN_DEG: f64 = 60.0;
-/// Most moments that turns between two samples are cut into.
-const MOST_TURNS: f64 = 10_000.0;
 
 /// Numbers over time; `None` where a sample says that there is no value.
 pub(super) struct Curve {
@@ -73,8 +68,7 @@ impl Curve {
             if codes.len() > MOST_STATES {
                 break;
             }
-            let pieces = (turn_deg(a, b, kind) / TURN_DEG).ceil().clamp(1.0, MOST_TURNS) as usize;
-            codes.extend((1..pieces).map(|piece| at[0] + (at[1] - at[0]) * piece as f64 / pieces as f64));
+            codes.extend(turns(at[0], at[1], turn_deg(a, b, kind)));
         }
         codes
     }

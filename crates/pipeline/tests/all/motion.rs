@@ -1,10 +1,10 @@
 //! Scenes that move, against formulas: a door that turns, a box that falls, a chain that swings, a wheel that rolls.
 
-use crate::common::{LAMP, WALL, block, write_blocks};
+use crate::common::{LAMP, WALL, assert_made, assert_related, block, write_blocks};
 use enfilade_dataset::{Dataset, FilmedBodies, FrameBodies, ViewVerdict};
 use enfilade_frame::{Layer, traits, vector};
 use enfilade_math::{DAffine3, DMat3, DVec3};
-use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, Overrides, PairsRequest, Request, Silent, make, replay, run};
+use enfilade_pipeline::{Config, FlowPairs, MakeOptions, Overrides, Request, Silent, make, replay, run};
 use enfilade_scene::{CameraView, Quiet};
 use enfilade_verify::{Law, verify_scene};
 use std::fmt::Write;
@@ -80,9 +80,7 @@ fn config(folder: &Path) -> Config {
 fn what_moves_is_where_formulas_say_and_every_law_holds() {
     let folder = tempfile::tempdir().unwrap();
     let (config, out) = (config(folder.path()), folder.path().join("out"));
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
     assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
 
     let dataset = Dataset::open(&out).unwrap();
@@ -94,17 +92,7 @@ fn what_moves_is_where_formulas_say_and_every_law_holds() {
     }
     assert!(compared > 1000, "{compared} pixels show something that moves");
 
-    // Every relation between frames agrees with stored distances, parts and poses.
-    let requests = [
-        Request::Flow { pairs: FlowPairs::Step(1), cameras: None },
-        Request::Flow { pairs: FlowPairs::Step(-1), cameras: None },
-        Request::Tracks { points: 64, seed: 0, of: FrameChoice::default() },
-        Request::Pairs(PairsRequest::default()),
-        Request::Surfaces { layers: 3, of: FrameChoice::default() },
-    ];
-    make(&dataset, &["room".into()], &requests, MakeOptions::default(), &Quiet).unwrap();
-    let report = verify_scene(&dataset, "room", &Quiet).unwrap();
-    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+    assert_related(&dataset, "room");
 
     // Poses that are not those of the frames break laws.
     let stored: Vec<FrameBodies> = bodies.frames().cloned().collect();
@@ -239,9 +227,7 @@ fn rows_of_a_rolling_shutter_see_what_moves_at_their_own_moments() {
     );
     std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
     let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
 
     let dataset = Dataset::open(&out).unwrap();
     let layers = [Layer::RenderEntityId, Layer::DiffuseReflectance];
@@ -281,16 +267,7 @@ fn rows_of_a_rolling_shutter_see_what_moves_at_their_own_moments() {
     let step_s = bands.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).fold(0.0, f64::max);
     assert!(step_s * speed * pixels_per_m < 0.5 + 1e-9, "a band is {step_s} s long");
 
-    let requests = [
-        Request::Flow { pairs: FlowPairs::Step(1), cameras: None },
-        Request::Flow { pairs: FlowPairs::Step(-1), cameras: None },
-        Request::Tracks { points: 64, seed: 0, of: FrameChoice::default() },
-        Request::Pairs(PairsRequest::default()),
-        Request::Surfaces { layers: 3, of: FrameChoice::default() },
-    ];
-    make(&dataset, &["room".into()], &requests, MakeOptions::default(), &Quiet).unwrap();
-    let report = verify_scene(&dataset, "room", &Quiet).unwrap();
-    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+    assert_related(&dataset, "room");
     assert!(replay(&dataset.layout().frame_record("room", "cam_00", 1), None, &Quiet).unwrap().is_same());
 
     // One moment for all rows, as of a global shutter, is not what these frames show.
@@ -346,9 +323,7 @@ fn cameras_on_bodies_film_as_they_ride() {
     );
     std::fs::write(folder.path().join("dataset.toml"), text).unwrap();
     let (config, out) = (Config::read(&folder.path().join("dataset.toml"), &Overrides::default()).unwrap(), folder.path().join("out"));
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
 
     let dataset = Dataset::open(&out).unwrap();
     assert!((dataset.read_frame_time("cell", "cam_00").unwrap() - 0.1).abs() < 1e-12);

@@ -1,7 +1,10 @@
 //! Rooms of boxes, and homes that several scenes share.
 
+use enfilade_dataset::Dataset;
 use enfilade_home::{HomeConfig, RoomKind, home};
-use enfilade_scene::to_bytes_with_labels;
+use enfilade_pipeline::{Config, FlowPairs, FrameChoice, MakeOptions, PairsRequest, Request, Silent, make, run};
+use enfilade_scene::{Quiet, to_bytes_with_labels};
+use enfilade_verify::{VerifyReport, verify_scene};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -54,4 +57,26 @@ pub fn write_blocks(folder: &Path, blocks: &[Block]) {
 pub fn write_home(folder: &Path, seed: u64) {
     let made = home(&HomeConfig { seed, rooms: vec![RoomKind::Living], ..HomeConfig::default() });
     std::fs::write(folder.join("home.scene"), to_bytes_with_labels(&made.scene, &made.labels)).unwrap();
+}
+
+/// Makes a dataset of which no scene fails.
+pub fn assert_made(config: &Config, out: &Path) {
+    let summary = run(config, out, None, &Silent).unwrap();
+    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| (&s.name, &f.message))).collect();
+    assert!(summary.ok(), "{failures:?}");
+}
+
+/// Makes every relation between the frames of a scene, all of which agree with its stored distances, parts and poses.
+pub fn assert_related(dataset: &Dataset, scene: &str) -> VerifyReport {
+    let requests = [
+        Request::Flow { pairs: FlowPairs::Step(1), cameras: None },
+        Request::Flow { pairs: FlowPairs::Step(-1), cameras: None },
+        Request::Tracks { points: 64, seed: 0, of: FrameChoice::default() },
+        Request::Pairs(PairsRequest::default()),
+        Request::Surfaces { layers: 3, of: FrameChoice::default() },
+    ];
+    make(dataset, &[scene.into()], &requests, MakeOptions::default(), &Quiet).unwrap();
+    let report = verify_scene(dataset, scene, &Quiet).unwrap();
+    assert_eq!(report.failures().map(|law| format!("{:?} {:?}", law.law, law.worst)).collect::<Vec<_>>(), Vec::<String>::new());
+    report
 }
