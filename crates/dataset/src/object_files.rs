@@ -57,7 +57,7 @@ impl MeshFiles {
     /// # Errors
     /// When a file is missing or damaged, or the files do not fit each other.
     pub fn read(&self) -> Result<MeshGeometry, DatasetError> {
-        let mut objects = self.names(OBJECTS, "object_name")?;
+        let mut objects = self.read_object_names()?;
         let parents = self.read_pieces()?;
         let object_of_face = read_indices(&self.file(FACES_OBJECTS), objects.len(), "objects")?;
         let whole = objects.len().saturating_sub(parents.len());
@@ -72,7 +72,7 @@ impl MeshFiles {
     /// # Errors
     /// As [`MeshFiles::read`].
     pub fn read_whole(&self, whole: usize, object_of_face: Vec<u32>) -> Result<MeshGeometry, DatasetError> {
-        let mut objects = self.names(OBJECTS, "object_name")?;
+        let mut objects = self.read_object_names()?;
         objects.truncate(whole);
         self.read_geometry(objects, object_of_face)
     }
@@ -100,6 +100,14 @@ impl MeshFiles {
         }
         let (material_of_face, materials) = self.read_materials(faces.len())?;
         Ok(MeshGeometry { vertices, faces, object_of_face, material_of_face, objects, materials })
+    }
+
+    /// Names of the objects, pieces of cut ones last.
+    ///
+    /// # Errors
+    /// When the table is missing or damaged.
+    pub fn read_object_names(&self) -> Result<Vec<String>, DatasetError> {
+        self.names(OBJECTS, "object_name")
     }
 
     /// The object of every face, cut objects by their pieces.

@@ -36,6 +36,7 @@ mod suggestions;
 mod surfaces;
 mod unsplit;
 mod viewpoint;
+mod without_log;
 mod worklog;
 
 pub use app::{App, OpenError};

@@ -1,6 +1,7 @@
 //! Files written beside the log: a table of labels or the list of classes, and Hypersim's files if no label stage writes them.
 
 use super::pieces::Pieces;
+use super::without_log::LIST;
 use enfilade_dataset::{Classes, DatasetError, LabelColors, MeshFiles, write_bytes};
 use enfilade_label::write_part_table;
 use enfilade_scene::{Labels, PartLabel};
@@ -60,7 +61,7 @@ impl Snapshot {
         if classes.are_nyu40() {
             let names: Vec<&str> = self.whole.iter().map(String::as_str).collect();
             let labels: &[PartLabel] = &self.labels.parts[..names.len()];
-            let path = files.file("labels.csv");
+            let path = files.file(LIST);
             write_bytes(&path, write_part_table(&names, labels)).map(|()| path)
         } else {
             files.write_classes(classes)

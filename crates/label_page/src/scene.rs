@@ -4,6 +4,7 @@ use super::face_colors::FaceColors;
 use super::options::AnnotateOptions;
 use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view, is_plain};
 use super::unsplit::unsplit;
+use super::without_log;
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, WORKDIR, mesh_names, quoted, scene_hash};
 use enfilade_frame::Pass;
 use enfilade_import::{Format, ImportOptions};
@@ -75,6 +76,20 @@ pub enum SceneError {
         /// The scenes there are.
         scenes: String,
     },
+    /// The labels in the folder of labels cannot be those of the scene.
+    #[error(
+        "{}: {problem}; copy annotation_log.jsonl with the tables, or name another folder with --labels: the first edit would overwrite these",
+        folder.display()
+    )]
+    Labels {
+        /// The folder.
+        folder: PathBuf,
+        /// The problem.
+        problem: String,
+    },
+    /// The table of labels in the folder of labels cannot be read.
+    #[error(transparent)]
+    Table(#[from] enfilade_label::TableError),
     /// The scene file cannot be imported.
     #[error(transparent)]
     Import(#[from] enfilade_import::ImportError),
@@ -140,15 +155,18 @@ impl AnnotatedScene {
         let mesh = WorldMesh::new(scene);
         let part_of_face: Vec<u32> = mesh.sources.iter().map(|source| source.part).collect();
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
+        let labels_folder = labels.clone().unwrap_or_else(|| path.with_added_extension("labels"));
+        let parts: Vec<String> = scene.parts.iter().map(|part| part.name.clone()).collect();
+        known = without_log::read(&labels_folder, &parts, cx)?.unwrap_or(known);
         Ok(Self {
             origin: path.display().to_string(),
-            labels_folder: labels.clone().unwrap_or_else(|| path.with_added_extension("labels")),
+            labels_folder,
             vertices: scene.parts.iter().map(|part| scene.meshes[part.mesh as usize].positions.len()).sum(),
             material_of_face: part_of_face.iter().map(|&part| scene.parts[part as usize].material).collect(),
             part_of_face,
             colors: FaceColors::of(scene, &mesh.sources),
             corners: mesh.corners,
-            parts: scene.parts.iter().map(|part| part.name.clone()).collect(),
+            parts,
             around: scene.parts.iter().map(|part| scene.lineage(part).join("/")).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
             labels: known,
@@ -168,7 +186,13 @@ impl AnnotatedScene {
         // If there are edits, the labels follow from the log and the tables are written again.
         let is_annotated = matches!(MeshFiles::new(labels_folder).annotated_scene(), Ok(Some(_)));
         let parts = mesh.objects.len();
-        let known = if is_annotated { vec![PartLabel::NONE; parts] } else { read_labels(parts, folder, home.as_ref(), cx)? };
+        // Those in another folder of labels come before those of the mesh folder.
+        let elsewhere = labels.map(|labels| without_log::read(labels, &mesh.objects, cx)).transpose()?.flatten();
+        let known = match elsewhere {
+            _ if is_annotated => vec![PartLabel::NONE; parts],
+            Some(known) => known,
+            None => read_labels(parts, folder, home.as_ref(), cx)?,
+        };
         let name = home.as_ref().map(|home| home.scene.clone());
         let has_label_stage = labels.is_none() && home.as_ref().is_some_and(SceneOfDataset::has_label_stage);
         Ok(Self {

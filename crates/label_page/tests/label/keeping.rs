@@ -290,3 +290,81 @@ async fn reviews_are_kept_beside_the_edits_and_exported() {
     let again = Page::open(&path);
     assert_eq!(again.get("progress").await["reviews"], expected);
 }
+
+/// Tables of labels in a folder without the log of the edits that made them.
+mod copied {
+    use super::*;
+    use std::path::{Path, PathBuf};
+
+    /// A scene that was labelled in a folder, and a copy of what it wrote but the log.
+    fn labelled(at: &Path, source: &Path, split: bool) -> (Vec<(i64, i64)>, PathBuf) {
+        let options = |labels: PathBuf| AnnotateOptions { path: source.into(), labels: Some(labels), ..AnnotateOptions::default() };
+        let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+        let labels = runtime.block_on(async {
+            let page = Page::with(&options(at.join("first")));
+            if split {
+                page.act(json!({ "type": "split", "piece": 5, "by": "component" })).await;
+            }
+            page.act(assign(&[0], class(1))).await;
+            page.act(assign(&[1, 2], json!({ "layer": "instance", "new": true }))).await;
+            page.post("save", "{}").await;
+            page.labels().await
+        });
+        std::fs::create_dir(at.join("copy")).unwrap();
+        for entry in std::fs::read_dir(at.join("first")).unwrap().map(Result::unwrap) {
+            if entry.file_name() != "annotation_log.jsonl" {
+                std::fs::copy(entry.path(), at.join("copy").join(entry.file_name())).unwrap();
+            }
+        }
+        (labels, at.join("copy"))
+    }
+
+    fn sources(at: &Path) -> [PathBuf; 2] {
+        let dataset = Dataset::create(&at.join("dataset")).unwrap();
+        dataset.write_scene("room", &scene()).unwrap();
+        [package(at), at.join("dataset")]
+    }
+
+    #[test]
+    fn are_where_an_annotation_begins_of_files_and_mesh_folders() {
+        for source in 0..2 {
+            let folder = tempfile::tempdir().unwrap();
+            let path = &sources(folder.path())[source];
+            let (expected, copy) = labelled(folder.path(), path, false);
+            let options = AnnotateOptions { path: path.clone(), labels: Some(copy.clone()), ..AnnotateOptions::default() };
+            let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+            runtime.block_on(async {
+                let page = Page::with(&options);
+                assert_eq!(page.labels().await, expected);
+                page.act(assign(&[3], class(5))).await;
+                page.post("save", "{}").await;
+            });
+            let kept = MeshFiles::new(&copy).read_labels().unwrap().parts;
+            assert_eq!((i64::from(kept[0].semantic), i64::from(kept[1].instance), kept[3].semantic), (expected[0].0, expected[1].1, 5));
+            // The list alone serves as well.
+            std::fs::create_dir(folder.path().join("list")).unwrap();
+            std::fs::copy(copy.join("labels.csv"), folder.path().join("list/labels.csv")).unwrap();
+            let options = AnnotateOptions { labels: Some(folder.path().join("list")), ..options };
+            runtime.block_on(async { assert_eq!(Page::with(&options).labels().await[3].0, 5) });
+        }
+    }
+
+    #[test]
+    fn are_not_overwritten_where_they_cannot_be_those_of_the_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = sources(folder.path())[0].clone();
+        let (_, copy) = labelled(folder.path(), &path, true);
+        let options = AnnotateOptions { path, labels: Some(copy.clone()), ..AnnotateOptions::default() };
+        let refused = || App::open(&options, &Quiet).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(refused().contains("pieces of parts that were cut (1)"), "{}", refused());
+        std::fs::remove_file(copy.join("metadata_object_splits.csv")).unwrap();
+        assert!(refused().contains("its tables label 7 objects of 7, but the scene has 6 parts"), "{}", refused());
+        let names: String = (0..6).map(|i| format!("part{i}\n")).collect();
+        std::fs::write(copy.join("metadata_objects.csv"), format!("object_name\n{names}")).unwrap();
+        let labels = Labels { parts: vec![PartLabel { semantic: 3, instance: 1 }; 6] };
+        let colors = enfilade_dataset::LabelColors::nyu40(&labels);
+        MeshFiles::new(&copy).write_labels(&labels, &colors).unwrap();
+        assert!(refused().contains("found \"part0\", expected \"wall\""), "{}", refused());
+        assert_eq!(MeshFiles::new(&copy).read_labels().unwrap(), labels);
+    }
+}

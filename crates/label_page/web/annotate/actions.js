@@ -29,6 +29,8 @@ export class Actions {
         this.realLook = new RealLook(state, stage, this.looking);
         /** Edits with the current label that the server has not answered yet. @type {Set<any>} */
         this.giving = new Set();
+        /** Pieces that were sent with a label, or with how far they are, and not yet answered: they are done. @type {Set<number>} */
+        this.sent = new Set();
         /** What lacks a class, and what has a class but lacks an instance; most pixels first. @type {Record<import("./state.js").Layer, Missing[]>} */
         this.missing = { semantic: [], instance: [] };
         /** What is to be done: what lacks a label, or what has this state of review. @type {import("./state.js").Layer | "done" | "question"} */
@@ -82,20 +84,42 @@ export class Actions {
     async assign() {
         if (this.state.painting) return void (await this.paint());
         const pieces = this.chosen();
-        if (pieces && (await this.give({ type: "assign", pieces })) && this.state.goesOn) this.goOn(pieces);
+        if (!pieces) return;
+        if (!this.state.apply) return this.tellNoClass();
+        await this.ahead(pieces, this.give({ type: "assign", pieces }), this.state.goesOn);
     }
 
-    /** Makes the selection one thing: the current class and a new instance in one step. Then goes on to the next unlabelled piece. */
+    /**
+     * Goes on from pieces before the server has answered, so that the next keys act on what is seen when they are pressed.
+     *
+     * @template T
+     * @param {number[]} pieces
+     * @param {Promise<T>} answer
+     * @param {boolean} goesOn
+     */
+    async ahead(pieces, answer, goesOn) {
+        for (const piece of pieces) this.sent.add(piece);
+        if (goesOn) this.goOn(pieces);
+        try {
+            return await answer;
+        } finally {
+            for (const piece of pieces) this.sent.delete(piece);
+        }
+    }
+
+    /** Makes the selection one thing: the current class and a new instance in one step. Goes on to the next unlabelled piece. */
     async makeThing() {
-        const { currentClass } = this.state;
+        const { currentClass, layer } = this.state;
         const pieces = this.chosen();
         if (!pieces) return;
         if (currentClass === null) return this.tellNoClass();
-        const change = await this.edits.send({ type: "assign", pieces, apply: { layer: "semantic", value: currentClass, new: true } });
+        const sent = this.edits.send({ type: "assign", pieces, apply: { layer: "semantic", value: currentClass, new: true } });
+        const change = await this.ahead(pieces, sent, true);
         if (!change) return;
         this.state.remember(currentClass);
         this.state.set({ fresh: null, currentInstance: change.instance[0] ?? this.state.currentInstance });
-        this.goOn(pieces);
+        // The class that is given does not show in the layer of instances.
+        if (layer === "instance") toast(`${this.state.classById.get(currentClass)?.name}: a new thing.`, "Ctrl+Z takes it back.", "good");
     }
 
     /** Goes on from these pieces, unless something else is selected. @param {number[]} pieces */
@@ -113,8 +137,7 @@ export class Actions {
         const known = pieces.filter((piece) => this.state.suggestion(piece));
         if (known.length === 0) return toast("There is no suggestion for these pieces.", "Choose a class and press Enter.");
         const semantic = known.map((piece) => this.state.suggestion(piece)?.semantic);
-        const change = await this.edits.send({ type: "assign_each", pieces: known, semantic });
-        if (change && this.state.goesOn) this.goOn(known);
+        await this.ahead(known, this.edits.send({ type: "assign_each", pieces: known, semantic }), this.state.goesOn);
     }
 
     confirmSelection() {
@@ -127,8 +150,8 @@ export class Actions {
         const pieces = this.chosen();
         if (!pieces) return;
         try {
-            this.state.takeReviews(await postJson("/api/annotate/review", { client: this.edits.client, pieces, state, note }));
-            if (this.state.goesOn) this.goOn(pieces);
+            const sent = postJson("/api/annotate/review", { client: this.edits.client, pieces, state, note });
+            this.state.takeReviews(await this.ahead(pieces, sent, this.state.goesOn));
         } catch (error) {
             toastError(error);
         }
@@ -138,10 +161,11 @@ export class Actions {
         this.state.set({ layer: "instance", fresh: newInstance(), erase: false });
     }
 
-    /** A class that was chosen by name: the selection gets it, and what is labelled next. @param {number} id */
+    /** A class that was chosen by name: the selection gets it, unless a tool draws, and what is labelled next. @param {number} id */
     chooseClass(id) {
         this.state.setClass(id);
-        if (this.state.selection.size > 0 && !this.state.painting) void this.assign();
+        const { selection, painting, drawMode } = this.state;
+        if (selection.size > 0 && !painting && !drawMode) void this.assign();
     }
 
     /** Chooses a tool, which then draws by a plain drag; the eyedropper for one use. @param {import("./state.js").Tool} tool */
@@ -242,6 +266,7 @@ export class Actions {
     /** True when a piece is still to be done. @param {number} piece */
     isMissing(piece) {
         const { semantic, instance } = this.state.pieces;
+        if (this.sent.has(piece)) return false;
         if (this.lacking === "semantic") return semantic[piece] < 1;
         if (this.lacking === "instance") return semantic[piece] >= 1 && instance[piece] < 1;
         return this.state.reviews.get(piece)?.state === this.lacking;

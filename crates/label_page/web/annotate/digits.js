@@ -1,5 +1,5 @@
 // Digits that are typed for a class. They show while they are typed; any other key, a click or a pause ends the number. A number that is no
-// class leaves no class to give, so that no label is given by mistake.
+// class leaves no class to give, so that no label is given by mistake. After a pause, Backspace still means the number and takes all of it back.
 
 /** The number that is being typed. */
 export class Digits {
@@ -7,6 +7,8 @@ export class Digits {
     constructor(state) {
         this.state = state;
         this.typed = "";
+        /** True while a pause was the last thing that happened to a number. */
+        this.paused = false;
         /** The class and layer before the number was begun. @type {Record<string, any>} */
         this.before = {};
         /** A pause of this length ends the number, milliseconds. */
@@ -33,6 +35,7 @@ export class Digits {
 
     /** The number is complete. */
     end() {
+        this.paused = false;
         clearTimeout(this.timer);
         if (this.typed === "") return;
         this.typed = "";
@@ -42,11 +45,15 @@ export class Digits {
     /** Makes the class with this number the current one, or none where there is none. @param {string} typed */
     show(typed) {
         this.typed = typed;
+        this.paused = false;
         clearTimeout(this.timer);
         if (typed === "") {
             this.state.set(this.before);
         } else {
-            this.timer = setTimeout(() => this.end(), this.pauseMs);
+            this.timer = setTimeout(() => {
+                this.end();
+                this.paused = true;
+            }, this.pauseMs);
             this.state.setClass(Number(typed));
         }
         this.state.tell("typed");
@@ -70,8 +77,8 @@ export class Digits {
             this.type(name);
             return true;
         }
-        if (this.typed !== "" && (name === "Backspace" || name === "Escape")) {
-            if (name === "Backspace") this.back();
+        if ((this.typed !== "" || this.paused) && (name === "Backspace" || name === "Escape")) {
+            if (name === "Backspace" && !this.paused) this.back();
             else this.discard();
             return true;
         }

@@ -21,6 +21,8 @@ export class PieceList {
         /** @type {number[]} */
         this.pieces = [];
         this.active = 0;
+        /** True when the active piece has left the list, so that the active row is the one that followed it. */
+        this.isPast = false;
         this.table = el("div", { class: "table" });
         this.element = el("div", { class: "scroll list", role: "listbox", tabindex: "0", "aria-label": label, "aria-multiselectable": "true", "data-empty": empty }, this.table);
         this.element.addEventListener("scroll", () => this.draw());
@@ -35,8 +37,11 @@ export class PieceList {
 
     /** @param {number[]} pieces */
     show(pieces) {
+        const active = this.pieces[this.active];
+        const at = pieces.indexOf(active);
+        this.isPast = at < 0 && active !== undefined && pieces.length > 0;
         this.pieces = pieces;
-        this.active = Math.min(this.active, Math.max(0, pieces.length - 1));
+        this.active = at < 0 ? Math.min(this.active, Math.max(0, pieces.length - 1)) : at;
         this.draw();
     }
 
@@ -45,6 +50,7 @@ export class PieceList {
         const at = this.pieces.indexOf(piece);
         if (at < 0) return;
         this.active = at;
+        this.isPast = false;
         const { row } = this;
         const { scrollTop, clientHeight } = this.element;
         if (at * row < scrollTop || (at + 1) * row > scrollTop + clientHeight) this.element.scrollTop = at * row - clientHeight / 2;
@@ -55,7 +61,9 @@ export class PieceList {
         const page = Math.max(1, Math.floor(this.element.clientHeight / this.row) - 1);
         const steps = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -1e9, End: 1e9 });
         if (event.key in steps) {
-            this.active = Math.min(this.pieces.length - 1, Math.max(0, this.active + steps[event.key]));
+            // What followed a piece that has left the list is one step below it already.
+            const step = steps[event.key] - (this.isPast && steps[event.key] > 0 ? 1 : 0);
+            this.active = Math.min(this.pieces.length - 1, Math.max(0, this.active + step));
             if (this.pieces.length > 0) this.hooks.select(this.pieces[this.active], event.shiftKey);
             this.reveal(this.pieces[this.active]);
             event.preventDefault();
@@ -89,6 +97,7 @@ export class PieceList {
                 title: label,
                 onclick: (/** @type {MouseEvent} */ event) => {
                     this.active = at;
+                    this.isPast = false;
                     this.hooks.select(piece, event.ctrlKey || event.metaKey || event.shiftKey);
                 },
                 ondblclick: () => this.hooks.open(piece),

@@ -61,8 +61,8 @@ export class State extends EventTarget {
         this.expand = "piece";
         /** @type {Record<Filter, boolean>} */
         this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
-        /** The class to give; null after a number that is no class. @type {number | null} */
-        this.currentClass = this.classes[0]?.id ?? 1;
+        /** The class to give; null before one is chosen, and after a number that is no class. @type {number | null} */
+        this.currentClass = null;
         /** Classes that were given last, the last one first. @type {number[]} */
         this.recent = [];
         /** The number that is no class. @type {number | null} */

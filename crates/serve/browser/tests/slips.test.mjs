@@ -27,6 +27,69 @@ test("digits end by any other key", async (t) => {
     assert.equal(await stateOf(page, "currentClass"), 2);
 });
 
+test("keys that come before the server's answer are for what is seen when they are pressed", async (t) => {
+    const page = await openRoom(t);
+    await page.waitForFunction(() => window.annotate.act.unlabelled.length > 2);
+    const [first, second, third] = await page.evaluate(() => window.annotate.act.unlabelled.map(({ name }) => name));
+    await page.route("**/api/annotate/edit", async (route) => {
+        await new Promise((answer) => setTimeout(answer, 300));
+        await route.continue();
+    });
+    await page.locator("#stage").focus();
+    for (const key of [".", "2", "2", "Shift+Enter", "1", "Shift+Enter", "3", "Enter"]) await page.keyboard.press(key);
+    await saved(page);
+    assert.deepEqual([(await labelOf(page, first))[0], (await labelOf(page, second))[0], (await labelOf(page, third))[0]], [22, 1, 3]);
+});
+
+test("no class is given that nobody chose", async (t) => {
+    const page = await openRoom(t);
+    await select(page, "chair_1");
+    await page.keyboard.press("Shift+Enter");
+    await page.getByText("No class is chosen.").waitFor();
+    assert.deepEqual(await labelOf(page, "chair_1"), [-1, -1]);
+    // In the layer of instances, what is given is told.
+    for (const key of ["5", "Enter", " ", "Shift+Enter"]) await page.keyboard.press(key);
+    await page.getByText("chair: a new thing.").waitFor();
+});
+
+test("a class for the pen is not given to the selection", async (t) => {
+    const page = await openRoom(t);
+    await select(page, "chair_1");
+    await page.keyboard.press("p");
+    await page.locator('[data-class="5"]').first().click();
+    await saved(page);
+    assert.deepEqual([(await labelOf(page, "chair_1"))[0], await stateOf(page, "currentClass")], [-1, 5]);
+});
+
+test("Backspace after a number and a pause takes the number back, not the label", async (t) => {
+    const page = await openRoom(t);
+    await select(page, "chair_1");
+    for (const key of ["5", "Enter"]) await page.keyboard.press(key);
+    await saved(page);
+    await page.keyboard.press("7");
+    await page.waitForTimeout(1200);
+    await page.keyboard.press("Backspace");
+    await saved(page);
+    assert.deepEqual([(await labelOf(page, "chair_1"))[0], await stateOf(page, "currentClass")], [5, 5]);
+    await page.keyboard.press("Backspace");
+    await saved(page);
+    assert.equal((await labelOf(page, "chair_1"))[0], -1);
+});
+
+test("the row below one that was labelled, and is gone, is the next one", async (t) => {
+    const page = await openRoom(t);
+    await page.getByRole("tab", { name: "To do" }).click();
+    await page.waitForFunction(() => window.annotate.act.unlabelled.length > 2);
+    const [first, second] = await page.evaluate(() => window.annotate.act.unlabelled.map(({ name }) => name));
+    await page.locator('#panel-unlabelled [role="option"]').first().click();
+    assert.deepEqual(await selected(page), [first]);
+    for (const key of ["5", "Enter"]) await page.keyboard.press(key);
+    await saved(page);
+    await page.getByRole("listbox", { name: "To do" }).focus();
+    await page.keyboard.press("ArrowDown");
+    assert.deepEqual(await selected(page), [second]);
+});
+
 test("digits show while they are typed, and can be taken back", async (t) => {
     const page = await openRoom(t);
     const shown = page.locator("#typed");
