@@ -10,7 +10,7 @@ use enfilade_geometry::Bvh;
 use enfilade_label::annotation::{Edit, runs};
 use enfilade_scene::PartLabel;
 use serde::Deserialize;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// An action of a page.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -198,7 +198,8 @@ impl Context<'_> {
         let (labels, what, next) = match (layer, value) {
             (LayerName::Semantic, Some(id)) if !unique && !new => {
                 let (semantic, what) = self.class(id)?;
-                (set(&|_, label| PartLabel { semantic, ..label }), what, self.next_instance)
+                let (labels, left) = self.out_of_shared(pieces, set(&|_, label| PartLabel { semantic, ..label }));
+                (labels, if left { format!("{what}, out of an instance of another class,") } else { what }, self.next_instance)
             }
             (LayerName::Semantic, Some(id)) if unique != new => {
                 let (semantic, class) = self.class(id)?;
@@ -262,8 +263,29 @@ impl Context<'_> {
         }
         let classes: Vec<i16> = semantic.iter().map(|&id| self.classes.check(id)).collect::<Result<_, _>>().map_err(Refusal::request)?;
         let label = |(&piece, semantic): (&u32, i16)| PartLabel { semantic, ..self.pieces.list()[piece as usize].label };
-        let labels: Vec<PartLabel> = pieces.iter().zip(classes).map(label).collect();
+        let (labels, _) = self.out_of_shared(pieces, pieces.iter().zip(classes).map(label).collect());
         Ok(self.edit("Classes".into(), pieces, &labels, self.next_instance))
+    }
+
+    /// Labels with new classes, of which those have no instance whose instance would have another class too, such as that of the piece that
+    /// they were split from. Besides, whether there are any.
+    fn out_of_shared(&self, pieces: &[u32], mut labels: Vec<PartLabel>) -> (Vec<PartLabel>, bool) {
+        let after: HashMap<u32, PartLabel> = pieces.iter().copied().zip(labels.iter().copied()).collect();
+        let mut classes: HashMap<i16, BTreeSet<i16>> = HashMap::new();
+        for (number, piece) in self.pieces.list().iter().enumerate() {
+            let label = after.get(&(number as u32)).unwrap_or(&piece.label);
+            if label.instance >= 1 && label.semantic >= 1 {
+                classes.entry(label.instance).or_default().insert(label.semantic);
+            }
+        }
+        let mut left = false;
+        for (piece, label) in pieces.iter().zip(&mut labels) {
+            let changed = label.semantic >= 1 && label.semantic != self.pieces.list()[*piece as usize].label.semantic;
+            if changed && classes.get(&label.instance).is_some_and(|classes| classes.len() > 1) {
+                (label.instance, left) = (PartLabel::NONE.instance, true);
+            }
+        }
+        (labels, left)
     }
 
     /// The edit that gives these labels to the pieces whose labels differ.

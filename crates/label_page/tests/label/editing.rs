@@ -262,3 +262,23 @@ async fn parts_are_split_in_three_ways() {
     assert_eq!((change["removed"].clone(), change["resized"][0]["faces"].as_u64()), (json!([6]), Some(24)));
     assert_eq!(page.get("pieces").await["names"], json!(PARTS));
 }
+
+#[tokio::test]
+async fn what_gets_another_class_leaves_the_instance_that_it_shares() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = Page::open(&package(folder.path()));
+    let thing = |id: i64| json!({ "layer": "semantic", "value": id, "new": true });
+    page.act(assign(&[5], thing(5))).await;
+    page.act(json!({ "type": "split", "piece": 5, "by": "component" })).await;
+    // The piece that was split off is still of the chair; with a class of its own it is not.
+    assert_eq!(page.labels().await[5..], [(5, 1), (5, 1)]);
+    let change = page.act(assign(&[6], class(7))).await;
+    assert_eq!(change["undo_description"].as_str().unwrap(), "Class table, out of an instance of another class, on pair~2", "{change}");
+    assert_eq!(page.labels().await[5..], [(5, 1), (7, -1)]);
+    // What changes as a whole keeps its instance.
+    page.act(assign(&[1, 2], thing(4))).await;
+    page.act(assign(&[1, 2], class(6))).await;
+    assert_eq!(page.labels().await[1..3], [(6, 2), (6, 2)]);
+    page.act(json!({ "type": "assign_each", "pieces": [1, 2], "semantic": [6, 9] })).await;
+    assert_eq!(page.labels().await[1..3], [(6, 2), (9, -1)]);
+}
