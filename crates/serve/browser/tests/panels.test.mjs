@@ -63,7 +63,15 @@ test("the history goes back to an edit, and forward again", async (t) => {
     }
     await page.locator("#panel-history .edit", { hasText: "floor" }).waitFor();
     assert.deepEqual(await rows(), ["Class floor on floor", "Class table on table_1", "Class chair on chair_1", "The beginning"]);
+    // Several edits are undone only when that is confirmed.
     await page.locator("#panel-history .edit", { hasText: "chair_1" }).click();
+    await page.getByText("Undo 2 edits?").waitFor();
+    await page.getByRole("button", { name: "Cancel" }).click();
+    await saved(page);
+    assert.equal((await labelOf(page, "floor"))[0], 2);
+    await page.locator("#panel-history .edit", { hasText: "chair_1" }).click();
+    await page.getByRole("dialog").getByRole("button", { name: "Undo" }).click();
+    await page.locator("#panel-history .edit.undone", { hasText: "floor" }).waitFor();
     await saved(page);
     const labels = async () => Promise.all(["chair_1", "table_1", "floor"].map(async (name) => (await labelOf(page, name))[0]));
     assert.deepEqual(await labels(), [5, -1, -1]);
