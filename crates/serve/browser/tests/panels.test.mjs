@@ -118,3 +118,19 @@ test("pieces are done, approved or in question, which is listed, kept and export
     const table = readFileSync(join(labels, "metadata_object_review.csv"), "utf8");
     assert.equal(table, 'object_name,state,note\nchair_1,approved,\ntable_1,question,"desk, or table?"\n');
 });
+
+test("long names keep every control of the side within the window", async (t) => {
+    const long = "Wall_unit_with_shelves_and_two_doors_of_the_left_neighbour_0001";
+    const folder = room(t, [[long, [[[-2.8, 2, 0], [-2.2, 2.6, 1]]]]]);
+    const page = await open(await browser(t), (await serve(t, folder.file)).url);
+    await lookFromFront(page);
+    for (const width of [1440, 1000]) {
+        await page.setViewportSize({ width, height: 900 });
+        await select(page, long);
+        for (const name of await page.getByRole("tab").allInnerTexts()) {
+            await tab(page, name.trim());
+            const outside = await page.evaluate(() => [...document.querySelectorAll("#side button, #side input")].filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.textContent));
+            assert.deepEqual(outside, [], `${name} at ${width}`);
+        }
+    }
+});
