@@ -39,6 +39,7 @@ impl Viewer {
             "layers": layers.collect::<Vec<_>>(),
             "pages": pages.collect::<Vec<_>>(),
             "verify": self.verify_summary()?,
+            "verify_problem": self.report_file()?.and_then(Result::err),
         }))
     }
 

@@ -53,11 +53,19 @@ impl Fault {
 }
 
 impl Viewer {
-    /// The report of the last verification; `None` without one, and for a report of another version.
+    /// The report of the last verification; `None` without one that can be read.
     ///
     /// # Errors
-    /// 403 if it is outside of the dataset, 500 if it cannot be read.
+    /// 403 if it is outside of the dataset, 500 if the file cannot be read.
     pub(super) fn report(&self) -> Result<Option<Arc<Report>>, ApiProblem> {
+        Ok(self.report_file()?.and_then(Result::ok))
+    }
+
+    /// The report of the last verification, or why its file is none; `None` without a file.
+    ///
+    /// # Errors
+    /// As [`Viewer::report`].
+    pub(super) fn report_file(&self) -> Result<Option<Result<Arc<Report>, String>>, ApiProblem> {
         let path = self.layout().verify_report();
         self.allow(&path)?;
         if !path.is_file() {
@@ -67,7 +75,7 @@ impl Viewer {
             let text = std::fs::read(&path).map_err(|source| problem(DatasetError::Io { action: "read", path: path.clone(), source }))?;
             Ok::<_, ApiProblem>(ReportFile(Report::of(&text).map(Arc::new)))
         })?;
-        Ok(file.0.clone())
+        Ok(Some(file.0.clone()))
     }
 
     /// The faults of a camera's frames, by frame.

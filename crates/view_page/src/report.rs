@@ -14,8 +14,8 @@ pub struct Report {
     bytes: usize,
 }
 
-/// The report in a file: nothing if another version wrote it.
-pub struct ReportFile(pub Option<Arc<Report>>);
+/// The report in a file, or why that is none: another version wrote it, or it is damaged.
+pub struct ReportFile(pub Result<Arc<Report>, String>);
 
 impl Weight for ReportFile {
     fn weight(&self) -> usize {
@@ -24,12 +24,15 @@ impl Weight for ReportFile {
 }
 
 impl Report {
-    /// From the text of its file; `None` where another version wrote it.
-    pub fn of(text: &[u8]) -> Option<Self> {
-        let report: VerifyReport = serde_json::from_slice(text).ok()?;
+    /// From the text of its file.
+    ///
+    /// # Errors
+    /// Why the text is no report.
+    pub fn of(text: &[u8]) -> Result<Self, String> {
+        let report: VerifyReport = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         let place = |v: &FrameValues| FramePlace { scene: v.scene.clone(), camera: v.camera.clone(), frame: v.frame };
         let by_place = report.frame_values.iter().enumerate().map(|(i, values)| (place(values), i)).collect();
-        Some(Self { report, by_place, bytes: text.len() })
+        Ok(Self { report, by_place, bytes: text.len() })
     }
 
     /// The values measured in a frame.

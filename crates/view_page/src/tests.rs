@@ -244,7 +244,8 @@ async fn the_gallery_tells_of_every_frame_and_rejected_view() {
     // The camera's data of the frame agree.
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     assert_eq!((&camera["frames"][0]["faults"], &camera["frames"][1]["faults"]), (&first["faults"], &second["faults"]));
-    assert_eq!(json(folder.path(), "/api/view/dataset").await["verify"]["rejected"], 1);
+    let told = json(folder.path(), "/api/view/dataset").await;
+    assert_eq!((&told["verify"]["rejected"], &told["verify_problem"]), (&1.into(), &Value::Null));
     let address = format!("/api/view/thumbnail/room/cam_00/0?v={}", first["version"].as_str().unwrap());
     let kept = async |address: &str| {
         ask(folder.path(), address, &[]).await.headers()[header::CACHE_CONTROL].to_str().unwrap().contains("immutable")
@@ -252,6 +253,21 @@ async fn the_gallery_tells_of_every_frame_and_rejected_view() {
     assert!(
         kept(&address).await && !kept("/api/view/thumbnail/room/cam_00/0?v=0").await && !kept("/api/view/thumbnail/room/cam_00/0").await
     );
+}
+
+#[tokio::test]
+async fn a_report_that_cannot_be_read_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folder.path());
+    for text in ["{}", "{\"passed\": tr", ""] {
+        std::fs::write(dataset.layout().verify_report(), text).unwrap();
+        let told = json(folder.path(), "/api/view/dataset").await;
+        assert!(
+            told["verify"].is_null() && told["verify_problem"].as_str().is_some_and(|problem| problem.contains("line 1")),
+            "{text}: {told}"
+        );
+        assert_eq!(json(folder.path(), "/api/view/gallery/room").await["frames"].as_array().unwrap().len(), 2);
+    }
 }
 
 #[tokio::test]

@@ -36,6 +36,17 @@ describe("a dataset with faults", () => {
         assert.ok(await page.locator("#message").isHidden());
     });
 
+    test("a report that cannot be read is told where its verdict would be", async (t) => {
+        const path = copy(t);
+        writeFileSync(join(path, "verify.json"), "{");
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color&frame=0`);
+        const badge = page.locator("#verdict .badge", { hasText: "Report unreadable" });
+        await badge.waitFor();
+        assert.match(String(await badge.getAttribute("title")), /verify\.json cannot be read.*Run enfilade verify again/s);
+    });
+
     test("what verification rejects is counted once, with reason, value and limit", async (t) => {
         const path = copy(t);
         const file = join(path, "verify.json");

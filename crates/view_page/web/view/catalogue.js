@@ -6,7 +6,7 @@ import { getBytes, getJson } from "../shared/api.js";
 /** @typedef {{ id: number, name: string, color: number[] }} SemanticClass */
 /** @typedef {{ title: string, path: string }} Page */
 /** @typedef {{ passed: boolean, accepted: boolean, verdict: string, gate_verdict: string, laws: number, frames: number, rejected: number, failures: { law: string, statement: string, place: string, meaning: string }[] }} Verification */
-/** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], pages: Page[], verify: Verification | null }} Dataset */
+/** @typedef {{ name: string, scenes: string[], scenes_with_other_names: string[], layers: LayerSpec[], pages: Page[], verify: Verification | null, verify_problem: string | null }} Dataset `verify_problem` says why verify.json is no report */
 /** @typedef {{ center: number[], extents: number[], orientation: number[] }} Box */
 /** @typedef {{ names: string[], semantic: number[], instance: number[] }} Objects what the pieces of the geometry are: parts, and pieces of those that people split */
 /** @typedef {{ name: string, cameras: string[], meters_per_unit: number, classes: SemanticClass[], parts: string[], objects: Objects, materials: string[], instance_colors: number[][], boxes: Record<string, (Box | null)[]>, described: Described, has_pairs: boolean, has_geometry: boolean, has_space: boolean, pages: Page[], problems: Loss[] }} Scene */

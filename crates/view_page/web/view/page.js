@@ -333,9 +333,10 @@ export class Page {
 
     /** What verification said: a link to the report, and one to the frames that were rejected. */
     #verdict() {
-        const { verify, pages } = this.session.dataset;
+        const { verify, verify_problem, pages } = this.session.dataset;
         const card = pages.find((page) => page.title === "Report card");
-        if (!verify) return byId("verdict").replaceChildren();
+        const unread = { class: "badge bad", title: `verify.json cannot be read, so that neither checks nor rejected frames show: ${verify_problem}. Run enfilade verify again.` };
+        if (!verify) return byId("verdict").replaceChildren(...(verify_problem ? [el("span", unread, "Report unreadable")] : []));
         const { failures, laws, passed, rejected } = verify;
         const text = passed ? "Checks pass" : failures.length === 1 ? "1 check fails" : `${failures.length} checks fail`;
         const title = [`${laws} checks. ${verify.verdict}`, verify.gate_verdict, ...failures.map((law) => `${law.statement}: ${law.place}`)].join("\n");
